@@ -1,0 +1,305 @@
+//! From lanelets to a network: chains, what lies beside and beyond them, entrances and exits.
+
+use thiserror::Error;
+
+use crate::chain::{Beside, Chain, ChainIndex, join};
+use crate::gate::{Gate, gates, lane_drops};
+use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+
+/// A road network; it never changes after loading.
+#[derive(Clone, Debug)]
+pub struct Network {
+    /// Lanelets that vehicles may use.
+    pub lanelets: Vec<Lanelet>,
+    /// Chains of lanelets.
+    pub chains: Vec<Chain>,
+    /// Where vehicles come onto the map.
+    pub entrances: Vec<Gate>,
+    /// Where they leave it.
+    pub exits: Vec<Gate>,
+    /// Chains that end beside a continuing one.
+    pub lane_drops: Vec<ChainIndex>,
+    /// On which side traffic drives.
+    pub driving_side: DrivingSide,
+}
+
+/// Why lanelets do not make a network.
+#[derive(Debug, Error, PartialEq)]
+pub enum NetworkError {
+    /// There are none.
+    #[error("no lanelet that vehicles may use")]
+    Empty,
+    /// A neighbour or successor does not exist.
+    #[error("lanelet {0}: refers to a lanelet that does not exist")]
+    Dangling(i64),
+    /// A speed limit is not a positive number.
+    #[error("lanelet {id}: speed limit {limit} m/s is not a positive number")]
+    SpeedLimit {
+        /// The lanelet.
+        id: i64,
+        /// Its limit [m/s].
+        limit: f64,
+    },
+}
+
+impl Network {
+    /// A chain is cut at the next lanelet beyond this length, so that few hundred vehicles stand on one [m].
+    const CHAIN_LENGTH: f64 = 1000.0;
+
+    /// Builds the network of `lanelets`.
+    ///
+    /// # Errors
+    /// If there are none, if one refers to a lanelet that does not exist, or has no positive speed limit.
+    pub fn new(lanelets: Vec<Lanelet>, driving_side: DrivingSide) -> Result<Network, NetworkError> {
+        if lanelets.is_empty() {
+            return Err(NetworkError::Empty);
+        }
+        for lanelet in &lanelets {
+            let around = [lanelet.left, lanelet.right, lanelet.adjacent_left, lanelet.adjacent_right];
+            if lanelet.following.iter().chain(around.iter().flatten()).any(|it| it.at() >= lanelets.len()) {
+                return Err(NetworkError::Dangling(lanelet.id));
+            }
+            if !(lanelet.speed_limit.is_finite() && lanelet.speed_limit > 0.0) {
+                return Err(NetworkError::SpeedLimit { id: lanelet.id, limit: lanelet.speed_limit });
+            }
+        }
+        let previous = previous(&lanelets);
+        let mut chains: Vec<Chain> =
+            runs(&lanelets, &previous).into_iter().map(|run| Chain::of(&lanelets, run)).collect();
+        let place = places(&chains, lanelets.len());
+        link(&mut chains, &lanelets, &place);
+        let chain_of: Vec<ChainIndex> = place.iter().map(|(chain, _)| *chain).collect();
+        let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty());
+        let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty());
+        let lane_drops = lane_drops(&chains, &exits);
+        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side })
+    }
+
+    /// The chain at `index`.
+    #[inline]
+    pub fn chain(&self, index: ChainIndex) -> &Chain {
+        &self.chains[index.at()]
+    }
+
+    /// The lanelet at `station` of a chain, and how far along it that is [m].
+    pub fn lanelet_at(&self, chain: ChainIndex, station: f64) -> (&Lanelet, f64) {
+        let (index, along) = self.chain(chain).lanelet(station);
+        (&self.lanelets[index.at()], along)
+    }
+
+    /// The same network with its chains stored the other way round: nothing that drives may notice.
+    pub fn with_chains_reversed(mut self) -> Network {
+        let last = self.chains.len() as u32 - 1;
+        let turn = |index: &mut ChainIndex| index.0 = last - index.0;
+        self.chains.reverse();
+        for chain in &mut self.chains {
+            chain.following.iter_mut().chain(&mut chain.previous).for_each(turn);
+            chain.left.iter_mut().chain(&mut chain.right).for_each(|it| turn(&mut it.chain));
+        }
+        self.entrances.iter_mut().chain(&mut self.exits).flat_map(|it| &mut it.chains).for_each(turn);
+        self.lane_drops.iter_mut().for_each(turn);
+        self
+    }
+}
+
+fn previous(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
+    let mut previous = vec![Vec::new(); lanelets.len()];
+    for (here, lanelet) in lanelets.iter().enumerate() {
+        for next in &lanelet.following {
+            previous[next.at()].push(LaneletIndex(here as u32));
+        }
+    }
+    previous
+}
+
+/// Maximal fork-free runs, cut beyond [`Network::CHAIN_LENGTH`].
+fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<LaneletIndex>> {
+    let only_following = |it: LaneletIndex| match lanelets[it.at()].following[..] {
+        [next] if previous[next.at()].len() == 1 => Some(next),
+        _ => None,
+    };
+    let continues_another =
+        |it: LaneletIndex| previous[it.at()].first().is_some_and(|back| only_following(*back) == Some(it));
+    let all = || (0..lanelets.len()).map(|i| LaneletIndex(i as u32));
+    let mut taken = vec![false; lanelets.len()];
+    let mut runs = Vec::new();
+    // Runs with a first lanelet, then what is left: rings, which begin anywhere.
+    for first in all().filter(|it| !continues_another(*it)).chain(all()) {
+        let mut next = (!taken[first.at()]).then_some(first);
+        while next.is_some() {
+            let (mut run, mut length) = (Vec::new(), 0.0);
+            while let Some(lanelet) = next.filter(|it| length < Network::CHAIN_LENGTH && !taken[it.at()]) {
+                taken[lanelet.at()] = true;
+                length += lanelets[lanelet.at()].length();
+                run.push(lanelet);
+                next = only_following(lanelet);
+            }
+            if run.is_empty() {
+                break;
+            }
+            runs.push(run);
+        }
+    }
+    runs
+}
+
+/// For each lanelet its chain and its number there.
+fn places(chains: &[Chain], lanelets: usize) -> Vec<(ChainIndex, usize)> {
+    let mut place = vec![(ChainIndex(0), 0); lanelets];
+    for (index, chain) in chains.iter().enumerate() {
+        for (number, lanelet) in chain.lanelets.iter().enumerate() {
+            place[lanelet.at()] = (ChainIndex(index as u32), number);
+        }
+    }
+    place
+}
+
+/// Fills in what continues each chain and what lies beside it.
+fn link(chains: &mut [Chain], lanelets: &[Lanelet], place: &[(ChainIndex, usize)]) {
+    for index in 0..chains.len() {
+        let last = chains[index].lanelets[chains[index].lanelets.len() - 1];
+        let following: Vec<ChainIndex> =
+            lanelets[last.at()].following.iter().map(|it| place[it.at()].0).collect();
+        for next in &following {
+            chains[next.at()].previous.push(ChainIndex(index as u32));
+        }
+        chains[index].following = following;
+        for side in Side::BOTH {
+            let stretches = stretches(chains, index, lanelets, place, side);
+            match side {
+                Side::Left => chains[index].left = stretches,
+                Side::Right => chains[index].right = stretches,
+            }
+        }
+    }
+    for index in 0..chains.len() {
+        let siblings: Vec<ChainIndex> = chains[index]
+            .previous
+            .iter()
+            .flat_map(|back| &chains[back.at()].following)
+            .filter(|it| it.at() != index)
+            .copied()
+            .collect();
+        let clearance =
+            siblings.iter().map(|it| clearance(&chains[index], &chains[it.at()])).fold(0.0, f64::max);
+        chains[index].fork_clearance = clearance;
+    }
+}
+
+fn stretches(
+    chains: &[Chain],
+    index: usize,
+    lanelets: &[Lanelet],
+    place: &[(ChainIndex, usize)],
+    side: Side,
+) -> Vec<Beside> {
+    let chain = &chains[index];
+    let mut stretches = Vec::new();
+    for (number, lanelet) in chain.lanelets.iter().enumerate() {
+        let Some(other) = lanelets[lanelet.at()].beside(side) else { continue };
+        let (there, number_there) = place[other.at()];
+        let (start, end) = (chain.starts[number], chain.end_of(number));
+        let other_start = chains[there.at()].starts[number_there];
+        let other_end = chains[there.at()].end_of(number_there);
+        let scale = (other_end - other_start) / (end - start);
+        join(&mut stretches, Beside { start, end, chain: there, other_start, scale });
+    }
+    stretches
+}
+
+/// Station of `chain` up to which it is closer to `sibling` than two wide vehicles side by side [m].
+fn clearance(chain: &Chain, sibling: &Chain) -> f64 {
+    const APART: f64 = 3.0;
+    const STEP: f64 = 2.0;
+    let mut station = 0.0;
+    while station < chain.length && chain.centre.at(station).distance(&sibling.centre.at(station)) < APART {
+        station += STEP;
+    }
+    station.min(chain.length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Point, Polyline};
+
+    fn lanelet(id: i64, from: f64, to: f64, lane: f64) -> Lanelet {
+        let line = |y: f64| Polyline::new([Point::new(from, y, 0.0), Point::new(to, y, 0.0)]).unwrap();
+        let (left_border, right_border) = (line(4.0 * lane + 4.0), line(4.0 * lane));
+        Lanelet {
+            id,
+            centre: Polyline::between(&left_border, &right_border).unwrap(),
+            left_border,
+            right_border,
+            speed_limit: 30.0,
+            following: Vec::new(),
+            left: None,
+            right: None,
+            adjacent_left: None,
+            adjacent_right: None,
+        }
+    }
+
+    /// Two lanes of three lanelets each; the left lane's last one is missing, so it is a lane drop.
+    fn lane_drop() -> Network {
+        let mut all: Vec<Lanelet> =
+            (0..3).map(|i| lanelet(10 + i, 100.0 * i as f64, 100.0 * (i + 1) as f64, 0.0)).collect();
+        all.extend((0..2).map(|i| lanelet(20 + i, 100.0 * i as f64, 100.0 * (i + 1) as f64, 1.0)));
+        all[0].following = vec![LaneletIndex(1)];
+        all[1].following = vec![LaneletIndex(2)];
+        all[3].following = vec![LaneletIndex(4)];
+        for i in 0..2 {
+            all[i].left = Some(LaneletIndex(3 + i as u32));
+            all[3 + i].right = Some(LaneletIndex(i as u32));
+        }
+        Network::new(all, DrivingSide::Right).unwrap()
+    }
+
+    #[test]
+    fn lanelets_join_to_chains_with_what_lies_beside() {
+        let network = lane_drop();
+        assert_eq!(network.chains.iter().map(|c| c.length).collect::<Vec<_>>(), [300.0, 200.0]);
+        let beside = network.chains[0].beside(Side::Left, 150.0).unwrap();
+        assert_eq!((beside.chain, beside.start, beside.end), (ChainIndex(1), 0.0, 200.0));
+        assert_eq!(beside.across(150.0), 150.0);
+        assert!(network.chains[0].beside(Side::Left, 250.0).is_none());
+        assert!(network.chains[0].beside(Side::Right, 50.0).is_none());
+        assert_eq!(network.chains[0].lanelet(250.0), (LaneletIndex(2), 50.0));
+    }
+
+    #[test]
+    fn a_lane_that_ends_beside_another_is_a_drop_and_no_exit() {
+        let network = lane_drop();
+        let names = |gates: &[Gate]| gates.iter().map(|g| (g.id, g.chains.len())).collect::<Vec<_>>();
+        assert_eq!(names(&network.entrances), [(10, 2)]);
+        assert_eq!(names(&network.exits), [(12, 1)]);
+        assert_eq!(network.lane_drops, [ChainIndex(1)]);
+    }
+
+    #[test]
+    fn a_ring_is_one_chain_that_continues_itself() {
+        let mut all = vec![lanelet(1, 0.0, 100.0, 0.0), lanelet(2, 100.0, 200.0, 0.0)];
+        all[0].following = vec![LaneletIndex(1)];
+        all[1].following = vec![LaneletIndex(0)];
+        let network = Network::new(all, DrivingSide::Right).unwrap();
+        assert_eq!(network.chains.len(), 1);
+        assert_eq!(network.chains[0].following, [ChainIndex(0)]);
+        assert!(network.entrances.is_empty() && network.exits.is_empty());
+    }
+
+    #[test]
+    fn reversing_the_storage_keeps_the_roads() {
+        let network = lane_drop().with_chains_reversed();
+        assert_eq!(network.chains[0].length, 200.0);
+        assert_eq!(network.chains[1].left[0].chain, ChainIndex(0));
+        assert_eq!(network.lane_drops, [ChainIndex(0)]);
+    }
+
+    #[test]
+    fn lanelets_that_make_no_network_are_refused() {
+        assert_eq!(Network::new(vec![], DrivingSide::Right).err(), Some(NetworkError::Empty));
+        let mut one = lanelet(7, 0.0, 10.0, 0.0);
+        one.following = vec![LaneletIndex(3)];
+        assert_eq!(Network::new(vec![one], DrivingSide::Right).err(), Some(NetworkError::Dangling(7)));
+    }
+}

@@ -1,0 +1,166 @@
+//! Chains: maximal fork-free runs of lanelets, the lanes of the simulation.
+
+use crate::geometry::Polyline;
+use crate::lanelet::{Lanelet, LaneletIndex, Side};
+
+/// A chain's place in [`crate::Network::chains`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ChainIndex(pub u32);
+
+impl ChainIndex {
+    /// The place as an index.
+    pub fn at(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A run of lanelets without a fork or a merge. Stations run along its centre line from its start [m].
+#[derive(Clone, Debug)]
+pub struct Chain {
+    /// Its lanelets in order.
+    pub lanelets: Vec<LaneletIndex>,
+    /// Where each lanelet starts [m].
+    pub starts: Vec<f64>,
+    /// Length [m].
+    pub length: f64,
+    /// Centre line.
+    pub centre: Polyline,
+    /// Speed limits in order of their start.
+    pub limits: Vec<Limit>,
+    /// Chains that continue this one.
+    pub following: Vec<ChainIndex>,
+    /// Chains that this one continues.
+    pub previous: Vec<ChainIndex>,
+    /// Stretches from which a change to the left is allowed, in order.
+    pub left: Vec<Beside>,
+    /// Stretches from which a change to the right is allowed, in order.
+    pub right: Vec<Beside>,
+    /// How far from its start its vehicles still touch those on chains that fork off with it [m].
+    pub fork_clearance: f64,
+}
+
+/// A speed limit from `start` on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// Where it begins [m].
+    pub start: f64,
+    /// The limit [m/s].
+    pub speed: f64,
+}
+
+/// A stretch of a chain beside another chain, with a change allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beside {
+    /// First station here [m].
+    pub start: f64,
+    /// Last station here [m].
+    pub end: f64,
+    /// The chain beside.
+    pub chain: ChainIndex,
+    /// Station there that lies beside `start` [m].
+    pub other_start: f64,
+    /// Metres there for one metre here.
+    pub scale: f64,
+}
+
+impl Beside {
+    /// The station there that lies beside `station` here [m].
+    #[inline]
+    pub fn across(&self, station: f64) -> f64 {
+        self.other_start + (station - self.start) * self.scale
+    }
+
+    /// The station here that lies beside `station` there [m].
+    pub fn back(&self, station: f64) -> f64 {
+        self.start + (station - self.other_start) / self.scale
+    }
+}
+
+impl Chain {
+    /// Stretches of lanelets are joined to one as long as that moves no station by more than this [m].
+    const STRETCH_ERROR: f64 = 0.02;
+
+    /// Stretches from which a change to `side` is allowed.
+    #[inline]
+    pub fn stretches(&self, side: Side) -> &[Beside] {
+        match side {
+            Side::Left => &self.left,
+            Side::Right => &self.right,
+        }
+    }
+
+    /// The stretch at `station` from which a change to `side` is allowed.
+    #[inline]
+    pub fn beside(&self, side: Side, station: f64) -> Option<&Beside> {
+        let stretches = self.stretches(side);
+        let after = stretches.partition_point(|it| it.start <= station);
+        stretches[..after].last().filter(|it| station <= it.end)
+    }
+
+    /// Speed limit at `station` [m/s].
+    #[inline]
+    pub fn limit(&self, station: f64) -> f64 {
+        let after = self.limits.partition_point(|it| it.start <= station).max(1);
+        self.limits[after - 1].speed
+    }
+
+    /// Which of its lanelets holds `station`, and how far along that is [m].
+    pub fn lanelet(&self, station: f64) -> (LaneletIndex, f64) {
+        let after = self.starts.partition_point(|start| *start <= station).max(1);
+        (self.lanelets[after - 1], station - self.starts[after - 1])
+    }
+
+    /// Joins `lanelets` to a chain; its surroundings are filled in when all chains are known.
+    pub(crate) fn of(all: &[Lanelet], lanelets: Vec<LaneletIndex>) -> Chain {
+        let mut centre = all[lanelets[0].at()].centre.clone();
+        let mut starts = vec![0.0];
+        for lanelet in &lanelets[1..] {
+            starts.push(centre.length());
+            centre.append(&all[lanelet.at()].centre);
+        }
+        let mut limits: Vec<Limit> = Vec::new();
+        for (lanelet, start) in lanelets.iter().zip(&starts) {
+            let speed = all[lanelet.at()].speed_limit;
+            if limits.last().is_none_or(|last| last.speed != speed) {
+                limits.push(Limit { start: *start, speed });
+            }
+        }
+        Chain {
+            length: centre.length(),
+            lanelets,
+            starts,
+            centre,
+            limits,
+            following: Vec::new(),
+            previous: Vec::new(),
+            left: Vec::new(),
+            right: Vec::new(),
+            fork_clearance: 0.0,
+        }
+    }
+
+    /// Station at which lanelet number `place` ends [m].
+    pub(crate) fn end_of(&self, place: usize) -> f64 {
+        self.starts.get(place + 1).copied().unwrap_or(self.length)
+    }
+}
+
+/// Adds `next` to `stretches`, joined to the last one where it goes on in the same way.
+pub(crate) fn join(stretches: &mut Vec<Beside>, next: Beside) {
+    if let Some(last) = stretches.last_mut() {
+        let continues = last.chain == next.chain
+            && last.end == next.start
+            && (last.across(last.end) - next.other_start).abs() < Chain::STRETCH_ERROR;
+        let end_there = next.across(next.end);
+        let joined = Beside {
+            end: next.end,
+            scale: (end_there - last.other_start) / (next.end - last.start),
+            ..*last
+        };
+        if continues && (joined.across(next.start) - next.other_start).abs() < Chain::STRETCH_ERROR {
+            *last = joined;
+            return;
+        }
+    }
+    stretches.push(next);
+}

@@ -1,0 +1,187 @@
+//! Points, lines with stations along them, and poses.
+
+/// A point of the map's local metric frame: x to the east, y to the north, z up [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// East [m].
+    pub x: f64,
+    /// North [m].
+    pub y: f64,
+    /// Up [m].
+    pub z: f64,
+}
+
+impl Point {
+    /// A point at (`x`, `y`, `z`) [m].
+    pub fn new(x: f64, y: f64, z: f64) -> Point {
+        Point { x, y, z }
+    }
+
+    /// Horizontal distance to `other` [m].
+    pub fn distance(&self, other: &Point) -> f64 {
+        let (dx, dy) = (other.x - self.x, other.y - self.y);
+        (dx * dx + dy * dy).sqrt()
+    }
+
+    /// The point at `fraction` of the way to `other`; beyond it for fractions outside 0…1.
+    pub fn towards(&self, other: &Point, fraction: f64) -> Point {
+        Point {
+            x: self.x + fraction * (other.x - self.x),
+            y: self.y + fraction * (other.y - self.y),
+            z: self.z + fraction * (other.z - self.z),
+        }
+    }
+}
+
+/// Where something is and where it points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Position [m].
+    pub at: Point,
+    /// Heading, counter-clockwise from east [rad].
+    pub heading: f64,
+}
+
+/// A line of at least two distinct points, with the station (horizontal length from the start) of each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polyline {
+    points: Vec<Point>,
+    stations: Vec<f64>,
+}
+
+impl Polyline {
+    /// Points closer than this to the one before are dropped [m].
+    const SAME: f64 = 1e-6;
+
+    /// A line through `points`; `None` if fewer than two of them differ or one is not finite.
+    pub fn new(points: impl IntoIterator<Item = Point>) -> Option<Polyline> {
+        let mut line = Polyline { points: Vec::new(), stations: Vec::new() };
+        for point in points {
+            if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
+                return None;
+            }
+            line.push(point);
+        }
+        (line.points.len() >= 2 && line.length().is_finite()).then_some(line)
+    }
+
+    fn push(&mut self, point: Point) {
+        match self.points.last() {
+            None => self.stations.push(0.0),
+            Some(last) => {
+                let step = last.distance(&point);
+                if step <= Polyline::SAME {
+                    return;
+                }
+                self.stations.push(self.length() + step);
+            }
+        }
+        self.points.push(point);
+    }
+
+    /// The line halfway between two borders, taken at equal fractions of their lengths.
+    pub fn between(left: &Polyline, right: &Polyline) -> Option<Polyline> {
+        let fractions = |line: &Polyline| line.stations.iter().map(|s| s / line.length()).collect::<Vec<_>>();
+        let mut all = fractions(left);
+        all.extend(fractions(right));
+        all.sort_by(f64::total_cmp);
+        let shorter = left.length().min(right.length());
+        all.dedup_by(|b, a| (*b - *a) * shorter < 0.01);
+        let last = all.len() - 1;
+        all[last] = 1.0;
+        Polyline::new(
+            all.iter().map(|f| left.at(f * left.length()).towards(&right.at(f * right.length()), 0.5)),
+        )
+    }
+
+    /// Its points.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Horizontal length [m].
+    pub fn length(&self) -> f64 {
+        self.stations.last().copied().unwrap_or(0.0)
+    }
+
+    /// The same line run the other way.
+    pub fn reversed(&self) -> Polyline {
+        let length = self.length();
+        Polyline {
+            points: self.points.iter().rev().copied().collect(),
+            stations: self.stations.iter().rev().map(|s| length - s).collect(),
+        }
+    }
+
+    /// The segment that holds `station`, and how far along it; the outer ones go on beyond the ends.
+    fn segment(&self, station: f64) -> (usize, f64) {
+        let after = self.stations.partition_point(|s| *s <= station).clamp(1, self.stations.len() - 1);
+        let (from, to) = (self.stations[after - 1], self.stations[after]);
+        (after - 1, (station - from) / (to - from))
+    }
+
+    /// The point at `station` [m]; outside the line its end segments are prolonged.
+    pub fn at(&self, station: f64) -> Point {
+        let (segment, fraction) = self.segment(station);
+        self.points[segment].towards(&self.points[segment + 1], fraction)
+    }
+
+    /// Direction of travel at `station`, counter-clockwise from east [rad].
+    pub fn heading(&self, station: f64) -> f64 {
+        let (segment, _) = self.segment(station);
+        let (from, to) = (self.points[segment], self.points[segment + 1]);
+        (to.y - from.y).atan2(to.x - from.x)
+    }
+
+    /// The point at `station`, moved `offset` to the left [m].
+    pub fn beside(&self, station: f64, offset: f64) -> Point {
+        let (segment, fraction) = self.segment(station);
+        let (from, to) = (self.points[segment], self.points[segment + 1]);
+        let length = self.stations[segment + 1] - self.stations[segment];
+        let mut point = from.towards(&to, fraction);
+        point.x -= offset * (to.y - from.y) / length;
+        point.y += offset * (to.x - from.x) / length;
+        point
+    }
+
+    /// This line followed by `next`; their common point is kept once.
+    pub fn append(&mut self, next: &Polyline) {
+        for point in &next.points {
+            self.push(*point);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(points: &[(f64, f64)]) -> Polyline {
+        Polyline::new(points.iter().map(|(x, y)| Point::new(*x, *y, 0.0))).unwrap()
+    }
+
+    #[test]
+    fn a_point_lies_at_its_station_and_beyond_the_ends() {
+        let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)]);
+        assert_eq!(corner.length(), 15.0);
+        assert_eq!(corner.at(12.0), Point::new(10.0, 2.0, 0.0));
+        assert_eq!(corner.at(-3.0), Point::new(-3.0, 0.0, 0.0));
+        assert_eq!(corner.at(17.0), Point::new(10.0, 7.0, 0.0));
+        assert_eq!(corner.beside(2.0, 1.5), Point::new(2.0, 1.5, 0.0));
+    }
+
+    #[test]
+    fn the_centre_lies_between_borders_of_different_density() {
+        let left = line(&[(0.0, 2.0), (5.0, 2.0), (20.0, 2.0)]);
+        let right = line(&[(0.0, -2.0), (20.0, -2.0)]);
+        let centre = Polyline::between(&left, &right).unwrap();
+        assert!(centre.points().iter().all(|p| p.y == 0.0));
+        assert_eq!(centre.length(), 20.0);
+    }
+
+    #[test]
+    fn lines_without_length_are_refused() {
+        assert!(Polyline::new([Point::new(1.0, 1.0, 0.0); 3]).is_none());
+        assert!(Polyline::new([Point::new(1.0, 1.0, 0.0), Point::new(f64::NAN, 1.0, 0.0)]).is_none());
+    }
+}

@@ -1,0 +1,16 @@
+//! Roads as a driver sees them. Knows no files and no vehicles.
+//!
+//! A map's lanelets become [`Chain`]s, the lanes of the simulation: maximal fork-free runs of lanelets.
+//! Lanelet ids appear in input and output only.
+
+mod build;
+mod chain;
+mod gate;
+mod geometry;
+mod lanelet;
+
+pub use build::{Network, NetworkError};
+pub use chain::{Beside, Chain, ChainIndex, Limit};
+pub use gate::{Gate, MINIMUM_GATE_LENGTH};
+pub use geometry::{Point, Polyline, Pose};
+pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
