@@ -1,0 +1,77 @@
+//! Emergency braking: the kinematic bound above every car-following model.
+//!
+//! A follower at gap s is *secure* when s ≥ v²/2b − v_l²/2b + v·dt: should the leader brake as hard as vehicles
+//! can, the follower, a step late, still stops behind it. b is the same for all classes: with unequal braking
+//! the argument would not hold.
+
+use crate::follow::Ahead;
+
+/// b: the hardest braking of any vehicle [m/s²].
+pub const HARDEST_BRAKING: f64 = 8.0;
+
+/// Whether a follower at `speed` [m/s] is secure behind `ahead`, with time step `dt` [s].
+#[inline]
+pub fn is_secure(speed: f64, ahead: Ahead, dt: f64) -> bool {
+    let lead = (speed * speed - ahead.speed * ahead.speed) / (2.0 * HARDEST_BRAKING);
+    ahead.gap >= lead.max(0.0) + speed * dt
+}
+
+/// What of the gap is left for the next step: `s + v_l²/2b − v·dt/2` [m].
+#[inline]
+fn room(speed: f64, ahead: Ahead, dt: f64) -> f64 {
+    ahead.gap + ahead.speed * ahead.speed / (2.0 * HARDEST_BRAKING) - 0.5 * speed * dt
+}
+
+/// Whether a driver at `speed` may be at `next_speed` one step later and still be secure, whatever the leader
+/// does: `v'²/2b + 3/2 v'·dt ≤ s + v_l²/2b − v·dt/2`, speeds changing linearly within the step.
+#[inline]
+pub fn stays_secure(speed: f64, next_speed: f64, ahead: Ahead, dt: f64) -> bool {
+    let needed = next_speed * next_speed / (2.0 * HARDEST_BRAKING) + 1.5 * next_speed * dt;
+    needed <= room(speed, ahead, dt)
+}
+
+/// The highest speed [m/s] of the next step that [`stays_secure`]; never below what braking at
+/// [`HARDEST_BRAKING`] gives.
+pub fn secure_speed(speed: f64, ahead: Ahead, dt: f64) -> f64 {
+    let reaction = 1.5 * dt;
+    let under_root = reaction * reaction + 2.0 * room(speed, ahead, dt).max(0.0) / HARDEST_BRAKING;
+    let highest = HARDEST_BRAKING * (under_root.sqrt() - reaction);
+    highest.max(speed - HARDEST_BRAKING * dt).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn who_is_secure_stays_secure_whatever_the_leader_does(
+            speed in 0.0..60.0_f64, leader in 0.0..60.0_f64, spare in 0.0..50.0_f64,
+            dt in 0.02..0.5_f64, harshness in 0.0..1.0_f64,
+        ) {
+            let lead = ((speed * speed - leader * leader) / (2.0 * HARDEST_BRAKING)).max(0.0);
+            let ahead = Ahead { gap: lead + speed * dt + spare, speed: leader };
+            prop_assert!(is_secure(speed, ahead, dt));
+            let next = secure_speed(speed, ahead, dt);
+            let leader_next = (leader - harshness * HARDEST_BRAKING * dt).max(0.0);
+            // Both move with linearly changing speeds; a leader that stops within the step stops where it must.
+            let leader_moved = if harshness == 0.0 {
+                leader * dt
+            } else {
+                (leader * leader - leader_next * leader_next) / (2.0 * harshness * HARDEST_BRAKING)
+                    .max(1e-12)
+            };
+            let gap = ahead.gap + leader_moved.min(leader * dt) - 0.5 * (speed + next) * dt;
+            prop_assert!(gap > -1e-9, "gap {gap}");
+            let needed = (next * next - leader_next * leader_next) / (2.0 * HARDEST_BRAKING) + next * dt;
+            prop_assert!(gap >= needed - 1e-6, "gap {gap} needed {needed}");
+        }
+    }
+
+    #[test]
+    fn an_empty_road_does_not_bind() {
+        assert!(stays_secure(30.0, 30.0, Ahead { gap: 200.0, speed: 30.0 }, 0.1));
+        assert!(!stays_secure(30.0, 30.0, Ahead::standing(58.0), 0.1));
+    }
+}

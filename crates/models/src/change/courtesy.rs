@@ -1,0 +1,113 @@
+//! Courtesy incentive: how much closer the vehicles concerned come to the speeds they desire.
+//!
+//! A = Σ_r (|v_r − v_r,des| − |ṽ_r − v_r,des|) / |v_r − v_r,des|
+//!
+//! over the old follower, the new follower, and a vehicle that signals a change into the own lane. Both speeds are
+//! expected one second ahead by r's own car-following model.
+//!
+//! * literal: the denominator, which vanishes for a follower at its desired speed, is floored at 1 m/s.
+//! * repaired: divided by v_r,des.
+//!
+//! Giving way to the one behind counts only while the driver is slower than its lane's mean (the paper's first
+//! case); a merging vehicle counts with 1 + d, d its urgency ("closer to the merging intersection, the greater the
+//! probability"). Nobody gives way whose own route is bound to its lane.
+
+use serde::{Deserialize, Serialize};
+
+use super::situation::{Behind, Driver, Situation};
+use super::{Chances, Incentive, Outcomes};
+use crate::Reading;
+use crate::follow::{Ahead, CarFollowing, speed_after};
+
+/// Courtesy incentive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Courtesy {
+    /// μ₄.
+    pub weight: f64,
+    /// Which reading.
+    pub reading: Reading,
+}
+
+impl Default for Courtesy {
+    fn default() -> Courtesy {
+        Courtesy { weight: 0.0, reading: Reading::Repaired }
+    }
+}
+
+/// Floor of the literal denominator [m/s].
+const LITERAL_FLOOR: f64 = 1.0;
+
+impl Courtesy {
+    /// One vehicle's share: its expected speed goes from `now` to `then`, where it would like `desired` [m/s].
+    pub fn share(&self, now: f64, then: f64, desired: f64) -> f64 {
+        let short_of = (now - desired).abs();
+        let scale = match self.reading {
+            Reading::Literal => short_of.max(LITERAL_FLOOR),
+            Reading::Repaired => desired,
+        };
+        (short_of - (then - desired).abs()) / scale
+    }
+
+    fn driver_share(&self, driver: &Driver, now: Option<Ahead>, then: Option<Ahead>) -> f64 {
+        let expected = |ahead| speed_after(driver.follow.acceleration(driver.pace, ahead), driver.pace);
+        self.share(expected(now), expected(then), driver.pace.desired)
+    }
+
+    /// The old follower, who would follow the driver's leader instead of the driver.
+    fn old_follower(&self, situation: &Situation, behind: &Behind) -> f64 {
+        let me = &situation.me;
+        let now = Ahead { gap: behind.gap, speed: me.pace.speed };
+        let then = situation
+            .here
+            .ahead
+            .map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
+        self.driver_share(&behind.driver, Some(now), then)
+    }
+
+    /// The new follower, who would follow the driver instead of the leader there.
+    fn new_follower(&self, situation: &Situation, behind: &Behind) -> f64 {
+        let me = &situation.me;
+        let now = situation
+            .there
+            .ahead
+            .map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
+        let then = Ahead { gap: behind.gap, speed: me.pace.speed };
+        self.driver_share(&behind.driver, now, Some(then))
+    }
+
+    /// A: the sum over the vehicles concerned.
+    fn gain(&self, situation: &Situation) -> f64 {
+        let Situation { me, here, there, merging, .. } = situation;
+        let harm = there.behind.as_ref().map_or(0.0, |behind| self.new_follower(situation, behind));
+        if situation.is_bound() {
+            return harm;
+        }
+        let in_the_way = me.pace.speed < here.flow.speed;
+        let relief = here
+            .behind
+            .as_ref()
+            .filter(|_| in_the_way)
+            .map_or(0.0, |behind| self.old_follower(situation, behind));
+        let room = merging
+            .as_ref()
+            .map_or(0.0, |it| (1.0 + it.urgency) * self.driver_share(&it.driver, it.blocked, it.freed));
+        harm + relief + room
+    }
+}
+
+impl Incentive for Courtesy {
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
+        let gain = self.gain(situation);
+        Outcomes { keep: 0.0, back: gain, away: gain }
+    }
+
+    /// A is a yield already.
+    fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
+        1.0
+    }
+}

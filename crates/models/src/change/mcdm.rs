@@ -1,0 +1,145 @@
+//! Multi-criteria decision-making: the rows of the table, weighted and combined, and the decision.
+//!
+//! G = Σ μᵢ Yᵢ. Threshold rule (the paper's): a change is desired iff G > θ. Stochastic rule: in one epoch of
+//! τ_d = 1 s the desire comes with h = 1/(1 + exp(−(G − θ)/σ)), of which the threshold rule is the limit σ → 0.
+//! Left and right compete in a multinomial logit of {stay, left, right}, which with one side is the same rule.
+
+use serde::{Deserialize, Serialize};
+
+use super::returning::Returning;
+use super::{Chances, Comfort, Courtesy, Incentive, Route, Situation, Speed, Urgency};
+
+/// Multi-criteria decision-making.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Mcdm {
+    /// How desire follows from G.
+    pub rule: Rule,
+    /// θ.
+    pub theta: f64,
+    /// σ: choice noise of the stochastic rule.
+    pub sigma: f64,
+    /// How the yields are combined.
+    pub combination: Combination,
+    /// Speed incentive.
+    pub speed: Speed,
+    /// Route incentive.
+    pub route: Route,
+    /// Comfort incentive.
+    pub comfort: Comfort,
+    /// Courtesy incentive.
+    pub courtesy: Courtesy,
+    /// Urgency, ours.
+    pub urgency: Urgency,
+    /// The chance of coming back.
+    pub returning: Returning,
+}
+
+/// How desire follows from G.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rule {
+    /// Iff G > θ.
+    Threshold,
+    /// With the probability of a logit.
+    #[default]
+    Logit,
+}
+
+/// How yields are combined to G.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Combination {
+    /// Σ μ Y, as the paper chooses.
+    #[default]
+    Linear,
+    /// Σ μ (1 − e^(−Y)): losses weigh more than gains. The paper names an exponential combination as the
+    /// alternative and prints none; this form is ours.
+    Exponential,
+}
+
+/// How many incentives there are.
+pub const INCENTIVES: usize = 5;
+
+/// One row of the table as it came out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Y.
+    pub earning: f64,
+    /// μ.
+    pub weight: f64,
+}
+
+/// What a driver makes of one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Appraisal {
+    /// The rows in the order of [`Mcdm::NAMES`].
+    pub rows: [Row; INCENTIVES],
+    /// G.
+    pub gain: f64,
+    /// θ.
+    pub theta: f64,
+}
+
+impl Mcdm {
+    /// The incentives, in the order of the rows.
+    pub const NAMES: [&str; INCENTIVES] = ["speed", "route", "comfort", "courtesy", "urgency"];
+
+    fn rows(&self, situation: &Situation, chances: Chances) -> [Row; INCENTIVES] {
+        fn row(incentive: &impl Incentive, situation: &Situation, chances: Chances) -> Row {
+            let weight = incentive.weight();
+            // A criterion that the style does not weigh is not looked at.
+            let earning = if weight == 0.0 { 0.0 } else { incentive.earning(situation, chances) };
+            Row { earning, weight }
+        }
+        [
+            row(&self.speed, situation, chances),
+            row(&self.route, situation, chances),
+            row(&self.comfort, situation, chances),
+            row(&self.courtesy, situation, chances),
+            row(&self.urgency, situation, chances),
+        ]
+    }
+
+    /// What the driver makes of the side in `situation`.
+    pub fn appraise(&self, situation: &Situation) -> Appraisal {
+        let rows = self.rows(situation, self.returning.chances(situation));
+        Appraisal { rows, gain: self.combine(&rows), theta: self.theta }
+    }
+
+    /// G.
+    pub fn combine(&self, rows: &[Row]) -> f64 {
+        let utility = |earning: f64| match self.combination {
+            Combination::Linear => earning,
+            Combination::Exponential => -libm::expm1(-earning),
+        };
+        rows.iter().map(|row| row.weight * utility(row.earning)).sum()
+    }
+
+    /// Chances within one epoch of the desire for either side.
+    pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
+        let excess = sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - self.theta));
+        match self.rule {
+            Rule::Threshold => match excess {
+                [first, second] if first > 0.0 && first >= second => [1.0, 0.0],
+                [_, second] if second > 0.0 => [0.0, 1.0],
+                _ => [0.0, 0.0],
+            },
+            Rule::Logit => {
+                // Scaled by the largest exponent, so that nothing overflows.
+                let exponents = excess.map(|it| it / self.sigma);
+                let largest = exponents[0].max(exponents[1]).max(0.0);
+                let [first, second] = exponents.map(|it| libm::exp(it - largest));
+                let all = libm::exp(-largest) + first + second;
+                [first / all, second / all]
+            }
+        }
+    }
+}
+
+/// Probability of at least one event within the share `epochs` of epochs, `p` the probability within one:
+/// 1 − (1 − p)^epochs.
+#[inline]
+pub fn at_least_once_in(epochs: f64, p: f64) -> f64 {
+    if epochs == 1.0 { p } else { -libm::expm1(epochs * libm::log1p(-p)) }
+}

@@ -1,0 +1,102 @@
+//! Route incentive: a lane that leads elsewhere costs the time of the detour, with the chance of missing the turn.
+//!
+//! E_i[T] = P_{n_i} T(S, V_i) + (1 − P_{n_i}) T_alt(i),  T(S, V) = S/max(V, 1 m/s) + time downstream
+//!
+//! * literal: Y = (E_here − E_there)/E_here: divided by the whole remaining trip; 0 between symmetric lanes.
+//! * repaired: Y = (E_here − E_there)/T_ref, T_ref = 60 s, within ±10: a minute lost counts the same wherever it
+//!   is lost. And who finds the other route faster does not come back:
+//!   E_there = P_n min(T, T_alt) + (1 − P_n) T_alt.
+//!
+//! The speeds of the lanes count over the section, at most as far as a driver sees (ours).
+
+use serde::{Deserialize, Serialize};
+
+use super::situation::{LaneView, Situation};
+use super::{Chances, Incentive, Outcomes};
+use crate::Reading;
+
+/// Route incentive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Route {
+    /// μ₂.
+    pub weight: f64,
+    /// Which reading.
+    pub reading: Reading,
+    /// Added to the travel time where there is no alternative route [s].
+    pub penalty: f64,
+    /// T_ref of the repaired reading [s].
+    pub reference: f64,
+}
+
+impl Default for Route {
+    fn default() -> Route {
+        Route { weight: 0.0, reading: Reading::Repaired, penalty: 600.0, reference: 60.0 }
+    }
+}
+
+/// Largest yield, either way, of the repaired reading.
+const LARGEST_YIELD: f64 = 10.0;
+/// Slowest speed of a lane in a travel time [m/s].
+const SLOWEST: f64 = 1.0;
+
+/// T(S, V) [s] over `distance` [m] at `speed` [m/s].
+pub(crate) fn travel_time(distance: f64, speed: f64) -> f64 {
+    distance / speed.max(SLOWEST)
+}
+
+/// E[T] [s]: `on_route` with `chance`, else `alternative`.
+pub fn expected_time(chance: f64, on_route: f64, alternative: f64) -> f64 {
+    chance * on_route + (1.0 - chance) * alternative
+}
+
+impl Route {
+    /// Times [s] on the route and on the alternative in `lane`, driven at `speed` [m/s] over `section` [m].
+    fn times(&self, lane: &LaneView, section: f64, speed: f64) -> (f64, f64) {
+        let on_section = travel_time(section, speed);
+        let on_route = on_section + lane.route.onward;
+        let alternative = lane.route.alternative.map_or(on_route + self.penalty, |time| on_section + time);
+        (on_route, alternative)
+    }
+}
+
+impl Incentive for Route {
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes {
+        let Situation { me, here, there, section, .. } = situation;
+        let speed = |lane: &LaneView| match self.reading {
+            Reading::Literal => crate::follow::CarFollowing::prospect(&me.follow, me.pace, lane.ahead),
+            Reading::Repaired => lane.prospect,
+        };
+        let (route_here, alternative_here) = self.times(here, *section, speed(here));
+        let (route_there, alternative_there) = self.times(there, *section, speed(there));
+        let keep = -expected_time(chances.here, route_here, alternative_here);
+        match self.reading {
+            Reading::Literal if situation.is_symmetric() => Outcomes { keep, back: keep, away: keep },
+            Reading::Literal => Outcomes { keep, back: -route_there, away: -alternative_there },
+            Reading::Repaired => {
+                Outcomes { keep, back: -route_there.min(alternative_there), away: -alternative_there }
+            }
+        }
+    }
+
+    fn scale(&self, _situation: &Situation, outcomes: &Outcomes) -> f64 {
+        match self.reading {
+            Reading::Literal => outcomes.keep.abs().max(1.0),
+            Reading::Repaired => self.reference,
+        }
+    }
+
+    fn earning(&self, situation: &Situation, chances: Chances) -> f64 {
+        let outcomes = self.outcomes(situation, chances);
+        let gain = expected_time(chances.there, outcomes.back, outcomes.away) - outcomes.keep;
+        let earning = gain / self.scale(situation, &outcomes);
+        match self.reading {
+            Reading::Literal => earning,
+            Reading::Repaired => earning.clamp(-LARGEST_YIELD, LARGEST_YIELD),
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Safety: not an incentive but a temporary condition. A driver who wants to change waits until the gap is
+//! acceptable.
+//!
+//! Accepted iff for both pairs, ego behind the new leader and the new follower behind ego: the gap is at least
+//! s_min; the time to collision at least T_th; the deceleration it forces, Δv²/(2s), at most b_safe; the follower's
+//! own model demands no more than b_safe; and the follower is secure in the sense of [`crate::braking`]. Time to
+//! collision alone, the paper's condition, is not enough: FVDM drivers collide from gaps that it accepts.
+//!
+//! A critical gap per driver that depends on the speed difference (Toledo 2003) is a lognormal `min_gap` together
+//! with `closing_growth`: G_cr = exp(μ + κ Δv + σz).
+
+use serde::{Deserialize, Serialize};
+
+use crate::braking::is_secure;
+use crate::follow::Ahead;
+
+/// Gap acceptance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Safety {
+    /// s_min [m].
+    pub min_gap: f64,
+    /// κ: growth of s_min with the closing speed [s/m]; 0: none.
+    pub closing_growth: f64,
+    /// T_th [s]; not in the paper.
+    pub min_time_to_collision: f64,
+    /// b_safe [m/s²].
+    pub max_deceleration: f64,
+}
+
+impl Default for Safety {
+    fn default() -> Safety {
+        Safety { min_gap: 2.0, closing_growth: 0.0, min_time_to_collision: 3.0, max_deceleration: 4.0 }
+    }
+}
+
+/// A follower and its leader as they would be after the change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapPair {
+    /// Net gap [m].
+    pub gap: f64,
+    /// The follower's speed [m/s].
+    pub follower: f64,
+    /// The leader's speed [m/s].
+    pub leader: f64,
+    /// Acceleration that the follower's own model demands at this gap [m/s²].
+    pub demanded: f64,
+}
+
+/// Why a gap was not accepted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// Shorter than the least gap.
+    Short,
+    /// The time to collision is too short.
+    TimeToCollision,
+    /// It would force too hard a braking.
+    Forced,
+    /// The follower's model would brake too hard.
+    Demanded,
+    /// Should the leader brake as hard as it can, the follower could not stop behind it.
+    Insecure,
+}
+
+/// Time to collision [s]; infinite where the gap does not close.
+pub fn time_to_collision(gap: f64, follower: f64, leader: f64) -> f64 {
+    if follower > leader { gap / (follower - leader) } else { f64::INFINITY }
+}
+
+/// Δv²/(2s): deceleration [m/s²] that avoids the collision; 0 where the gap does not close.
+pub fn deceleration_to_avoid(gap: f64, follower: f64, leader: f64) -> f64 {
+    let closing = (follower - leader).max(0.0);
+    closing * closing / (2.0 * gap)
+}
+
+impl Safety {
+    /// Whether `pair` may come to be, with time step `dt` [s].
+    ///
+    /// # Errors
+    /// The first condition that it does not meet.
+    pub fn accept(&self, pair: GapPair, dt: f64) -> Result<(), Refusal> {
+        let GapPair { gap, follower, leader, demanded } = pair;
+        let closing = (follower - leader).max(0.0);
+        let least = if self.closing_growth == 0.0 {
+            self.min_gap
+        } else {
+            self.min_gap * libm::exp(self.closing_growth * closing)
+        };
+        // The comparisons are written so that no number, NaN, is accepted.
+        if !(gap >= least) {
+            Err(Refusal::Short)
+        } else if !(gap >= self.min_time_to_collision * closing) {
+            Err(Refusal::TimeToCollision)
+        } else if !(deceleration_to_avoid(gap, follower, leader) <= self.max_deceleration) {
+            Err(Refusal::Forced)
+        } else if !(demanded >= -self.max_deceleration) {
+            Err(Refusal::Demanded)
+        } else if !is_secure(follower, Ahead { gap, speed: leader }, dt) {
+            Err(Refusal::Insecure)
+        } else {
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! What a driver knows when it considers one side. A test can write it down.
+
+use super::headway::Flow;
+use crate::follow::{Ahead, FollowingModel, Pace};
+
+/// x₀: how far ahead drivers anticipate [m] (Schakel, Knoop, van Arem 2012).
+pub const SIGHT: f64 = 295.0;
+
+/// A driver considers changing to the lane `there`.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation {
+    /// The driver.
+    pub me: Driver,
+    /// Its lane.
+    pub here: LaneView,
+    /// The lane it would change to.
+    pub there: LaneView,
+    /// Length over which the lanes' speeds differ for this driver [m]: to the end of the section, at most
+    /// [`SIGHT`].
+    pub section: f64,
+    /// A vehicle that signals a change into the driver's lane and that it would make room for.
+    pub merging: Option<Merging>,
+}
+
+impl Situation {
+    /// The lanes lead to the same place for this driver's route.
+    pub fn is_symmetric(&self) -> bool {
+        self.here.route.changes == 0 && self.there.route.changes == 0
+    }
+
+    /// The driver's route is bound to its lane: from the other one it would have to come back.
+    pub fn is_bound(&self) -> bool {
+        self.there.route.changes > self.here.route.changes
+    }
+}
+
+/// A driver with its vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driver {
+    /// Its motion.
+    pub pace: Pace,
+    /// How it follows.
+    pub follow: FollowingModel,
+    /// Vehicle length [m].
+    pub length: f64,
+}
+
+/// One lane as the driver sees it from its place.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneView {
+    /// The leader, or the end of the lane.
+    pub ahead: Option<Ahead>,
+    /// The follower.
+    pub behind: Option<Behind>,
+    /// Mean spacing and speed around the driver.
+    pub flow: Flow,
+    /// Anticipated lane speed over all leaders in sight [m/s], see [`super::anticipated_speed`].
+    pub prospect: f64,
+    /// What the lane means for the driver's route.
+    pub route: RouteView,
+}
+
+/// The vehicle behind in a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Behind {
+    /// Net gap from its front bumper to the own rear bumper [m].
+    pub gap: f64,
+    /// Its driver.
+    pub driver: Driver,
+}
+
+/// What a lane means for a route.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteView {
+    /// n: fewest lane changes from it to a lane that leads on.
+    pub changes: u32,
+    /// S: distance to the last place where the next of them is allowed [m]; infinite for n = 0.
+    pub remaining: f64,
+    /// Travel time beyond the section along the route [s].
+    pub onward: f64,
+    /// Travel time beyond the section along the best alternative, if there is one [s].
+    pub alternative: Option<f64>,
+}
+
+/// A vehicle that wants into the driver's lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Merging {
+    /// Its driver.
+    pub driver: Driver,
+    /// What it follows as long as the driver stays.
+    pub blocked: Option<Ahead>,
+    /// What it would follow if the driver left.
+    pub freed: Option<Ahead>,
+    /// d: its urgency, 0…1.
+    pub urgency: f64,
+}

@@ -1,0 +1,64 @@
+//! Speed incentive: the speed expected in the other lane against that in the own one.
+//!
+//! * literal: the car-following model's own prospect (1 s ahead for IDM, the optimal velocity for FVDM), and
+//!   Y = (Ṽ − V)/max(V, 1 m/s).
+//! * repaired: one prospect for every driver, the anticipated lane speed, and Y = (Ṽ − V)/v₀: the two literal
+//!   prospects are on different scales.
+
+use serde::{Deserialize, Serialize};
+
+use super::situation::{LaneView, SIGHT, Situation};
+use super::{Chances, Incentive, Outcomes};
+use crate::Reading;
+use crate::follow::{Ahead, CarFollowing};
+
+/// Speed incentive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Speed {
+    /// μ₁.
+    pub weight: f64,
+    /// Which reading.
+    pub reading: Reading,
+}
+
+impl Default for Speed {
+    fn default() -> Speed {
+        Speed { weight: 0.0, reading: Reading::Repaired }
+    }
+}
+
+/// Floor of the speed that a literal gain is divided by [m/s].
+const LITERAL_FLOOR: f64 = 1.0;
+
+/// The speed [m/s] that a driver who wants `desired` [m/s] anticipates behind one leader:
+/// (1 − s/x₀) v_l + (s/x₀) v₀ within x₀ (Schakel, Knoop, van Arem 2012, from memory). The lane's anticipated speed
+/// is the least over its leaders.
+#[inline]
+pub fn anticipated_speed(ahead: Ahead, desired: f64) -> f64 {
+    let share = (ahead.gap / SIGHT).clamp(0.0, 1.0);
+    ((1.0 - share) * ahead.speed + share * desired).min(desired)
+}
+
+impl Incentive for Speed {
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
+        let me = &situation.me;
+        let speed = |lane: &LaneView| match self.reading {
+            Reading::Literal => me.follow.prospect(me.pace, lane.ahead),
+            Reading::Repaired => lane.prospect,
+        };
+        let there = speed(&situation.there);
+        Outcomes { keep: speed(&situation.here), back: there, away: there }
+    }
+
+    fn scale(&self, situation: &Situation, outcomes: &Outcomes) -> f64 {
+        match self.reading {
+            Reading::Literal => outcomes.keep.max(LITERAL_FLOOR),
+            Reading::Repaired => situation.me.pace.desired,
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! The paper as code: pure functions on plain data. No clock, no random numbers, no world, no files.
+//!
+//! Li, Sun, Zhan and Tomizuka, *Multiple criteria decision-making for lane-change model*. Its Table I is
+//! [`change`]: the columns are [`change::Outcomes`], the rows one file each. Where the paper's formula misses
+//! its own intent, both readings exist: [`Reading::Literal`] and [`Reading::Repaired`], chosen by a style.
+
+pub mod braking;
+pub mod change;
+pub mod follow;
+mod style;
+
+pub use style::{Attention, Manner, Style};
+
+use serde::{Deserialize, Serialize};
+
+/// Which of two readings of a formula of the paper a style uses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Reading {
+    /// As printed, with the smallest guard that keeps it finite.
+    Literal,
+    /// The same form, mended where the paper's own text says that the formula misses its intent.
+    #[default]
+    Repaired,
+}

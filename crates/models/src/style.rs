@@ -1,0 +1,99 @@
+//! A style: who drives. Plain data; any car-following model with any lane-change model.
+
+use serde::{Deserialize, Serialize};
+
+use crate::change::{LaneChangeModel, Safety};
+use crate::follow::FollowingModel;
+
+/// A driver's style.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Style {
+    /// Its name.
+    pub name: String,
+    /// One sentence about it.
+    #[serde(default)]
+    pub description: String,
+    /// Desired speed as a multiple of the speed limit.
+    #[serde(default = "as_the_limit")]
+    pub speed_factor: f64,
+    /// How it follows.
+    pub follow: FollowingModel,
+    /// Why it changes lanes.
+    pub change: LaneChangeModel,
+    /// Which gaps it accepts.
+    #[serde(default)]
+    pub safety: Safety,
+    /// How often it considers lanes.
+    #[serde(default)]
+    pub attention: Attention,
+    /// How it goes about a change.
+    #[serde(default)]
+    pub manner: Manner,
+}
+
+fn as_the_limit() -> f64 {
+    1.0
+}
+
+/// How often a driver considers lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Attention {
+    /// τ_d: time between two considerations [s].
+    pub epoch: f64,
+}
+
+impl Default for Attention {
+    fn default() -> Attention {
+        Attention { epoch: 1.0 }
+    }
+}
+
+/// How a driver waits for a gap, changes and relaxes. The paper has it in words; the forms are those of Schakel,
+/// Knoop, van Arem (2012), the numbers from memory or ours.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Manner {
+    /// Time that a lane change takes [s].
+    pub change_duration: f64,
+    /// Time after which a driver gives up waiting for a gap [s].
+    pub patience: f64,
+    /// Time after a change without a new voluntary one [s].
+    pub calm: f64,
+    /// Hardest braking to fall in with the target lane [m/s²].
+    pub adjust_deceleration: f64,
+    /// Hardest braking to let another in [m/s²]; 0: does not.
+    pub yield_deceleration: f64,
+    /// Shortest share of the usual time gap accepted around a change.
+    pub tightest: f64,
+    /// τ: time in which an accepted short gap relaxes to the usual one [s].
+    pub relaxation: f64,
+}
+
+impl Default for Manner {
+    fn default() -> Manner {
+        Manner {
+            change_duration: 4.0,
+            patience: 15.0,
+            calm: 9.0,
+            adjust_deceleration: 2.0,
+            yield_deceleration: 2.0,
+            tightest: 0.56 / 1.2,
+            relaxation: 25.0,
+        }
+    }
+}
+
+impl Manner {
+    /// Share of the usual time gap that a driver with `desire` 0…1 accepts: d·T_min + (1 − d)·T_max.
+    pub fn tightness(&self, desire: f64) -> f64 {
+        1.0 - desire.clamp(0.0, 1.0) * (1.0 - self.tightest)
+    }
+
+    /// The share after `dt` [s] of relaxing: T += (T_max − T) dt/τ.
+    #[inline]
+    pub fn relaxed(&self, tightness: f64, dt: f64) -> f64 {
+        tightness + (1.0 - tightness) * (dt / self.relaxation).min(1.0)
+    }
+}
