@@ -2,7 +2,7 @@
 //!
 //! A follower at gap s is *secure* when s ≥ v²/2b − v_l²/2b + v·dt: should the leader brake as hard as vehicles
 //! can, the follower, a step late, still stops behind it. b is the same for all classes: with unequal braking
-//! the argument would not hold.
+//! the argument would not hold. Behind a faster leader s ≥ v·dt is asked for all the same.
 
 use crate::follow::Ahead;
 

@@ -43,8 +43,8 @@ pub enum NetworkError {
 }
 
 impl Network {
-    /// A chain is cut at the next lanelet beyond this length, so that few hundred vehicles stand on one [m].
-    const CHAIN_LENGTH: f64 = 1000.0;
+    /// A chain is cut at the next lanelet beyond this length, so that some hundred vehicles stand on one at most [m].
+    const CHAIN_LENGTH: f64 = 4000.0;
 
     /// Builds the network of `lanelets`.
     ///
@@ -72,6 +72,9 @@ impl Network {
         let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty());
         let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty());
         let lane_drops = lane_drops(&chains, &exits);
+        for index in &lane_drops {
+            chains[index.at()].is_lane_drop = true;
+        }
         Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side })
     }
 

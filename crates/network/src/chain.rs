@@ -35,6 +35,8 @@ pub struct Chain {
     pub left: Vec<Beside>,
     /// Stretches from which a change to the right is allowed, in order.
     pub right: Vec<Beside>,
+    /// It ends beside a continuing chain: who is on it has to change lanes.
+    pub is_lane_drop: bool,
     /// How far from its start its vehicles still touch those on chains that fork off with it [m].
     pub fork_clearance: f64,
 }
@@ -135,6 +137,7 @@ impl Chain {
             previous: Vec::new(),
             left: Vec::new(),
             right: Vec::new(),
+            is_lane_drop: false,
             fork_clearance: 0.0,
         }
     }

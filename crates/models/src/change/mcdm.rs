@@ -17,7 +17,7 @@ pub struct Mcdm {
     pub rule: Rule,
     /// θ.
     pub theta: f64,
-    /// σ: choice noise of the stochastic rule.
+    /// σ: choice noise of the stochastic rule; 0: none.
     pub sigma: f64,
     /// How the yields are combined.
     pub combination: Combination,
@@ -120,12 +120,7 @@ impl Mcdm {
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
         let excess = sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - self.theta));
         match self.rule {
-            Rule::Threshold => match excess {
-                [first, second] if first > 0.0 && first >= second => [1.0, 0.0],
-                [_, second] if second > 0.0 => [0.0, 1.0],
-                _ => [0.0, 0.0],
-            },
-            Rule::Logit => {
+            Rule::Logit if self.sigma > 0.0 => {
                 // Scaled by the largest exponent, so that nothing overflows.
                 let exponents = excess.map(|it| it / self.sigma);
                 let largest = exponents[0].max(exponents[1]).max(0.0);
@@ -133,6 +128,12 @@ impl Mcdm {
                 let all = libm::exp(-largest) + first + second;
                 [first / all, second / all]
             }
+            // Without noise the logit is the threshold rule.
+            Rule::Logit | Rule::Threshold => match excess {
+                [first, second] if first > 0.0 && first >= second => [1.0, 0.0],
+                [_, second] if second > 0.0 => [0.0, 1.0],
+                _ => [0.0, 0.0],
+            },
         }
     }
 }

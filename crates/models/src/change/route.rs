@@ -5,7 +5,8 @@
 //! * literal: Y = (E_here − E_there)/E_here: divided by the whole remaining trip; 0 between symmetric lanes.
 //! * repaired: Y = (E_here − E_there)/T_ref, T_ref = 60 s, within ±10: a minute lost counts the same wherever it
 //!   is lost. And who finds the other route faster does not come back:
-//!   E_there = P_n min(T, T_alt) + (1 − P_n) T_alt.
+//!   E_there = P_n min(T, T_alt) + (1 − P_n) T_alt. Between symmetric lanes only the speeds count: changing brings
+//!   no route nearer.
 //!
 //! The speeds of the lanes count over the section, at most as far as a driver sees (ours).
 
@@ -77,6 +78,9 @@ impl Incentive for Route {
         match self.reading {
             Reading::Literal if situation.is_symmetric() => Outcomes { keep, back: keep, away: keep },
             Reading::Literal => Outcomes { keep, back: -route_there, away: -alternative_there },
+            Reading::Repaired if situation.is_symmetric() => {
+                Outcomes { keep, back: -route_there, away: -route_there }
+            }
             Reading::Repaired => {
                 Outcomes { keep, back: -route_there.min(alternative_there), away: -alternative_there }
             }

@@ -69,8 +69,13 @@ pub fn time_to_collision(gap: f64, follower: f64, leader: f64) -> f64 {
 
 /// Δv²/(2s): deceleration [m/s²] that avoids the collision; 0 where the gap does not close.
 pub fn deceleration_to_avoid(gap: f64, follower: f64, leader: f64) -> f64 {
-    let closing = (follower - leader).max(0.0);
-    closing * closing / (2.0 * gap)
+    let closing = closing_speed(follower, leader);
+    if closing == 0.0 { 0.0 } else { closing * closing / (2.0 * gap) }
+}
+
+/// Speed [m/s] at which the gap closes; 0 where it does not. No number stays no number.
+fn closing_speed(follower: f64, leader: f64) -> f64 {
+    if follower <= leader { 0.0 } else { follower - leader }
 }
 
 impl Safety {
@@ -80,25 +85,19 @@ impl Safety {
     /// The first condition that it does not meet.
     pub fn accept(&self, pair: GapPair, dt: f64) -> Result<(), Refusal> {
         let GapPair { gap, follower, leader, demanded } = pair;
-        let closing = (follower - leader).max(0.0);
+        let closing = closing_speed(follower, leader);
         let least = if self.closing_growth == 0.0 {
             self.min_gap
         } else {
             self.min_gap * libm::exp(self.closing_growth * closing)
         };
-        // The comparisons are written so that no number, NaN, is accepted.
-        if !(gap >= least) {
-            Err(Refusal::Short)
-        } else if !(gap >= self.min_time_to_collision * closing) {
-            Err(Refusal::TimeToCollision)
-        } else if !(deceleration_to_avoid(gap, follower, leader) <= self.max_deceleration) {
-            Err(Refusal::Forced)
-        } else if !(demanded >= -self.max_deceleration) {
-            Err(Refusal::Demanded)
-        } else if !is_secure(follower, Ahead { gap, speed: leader }, dt) {
-            Err(Refusal::Insecure)
-        } else {
-            Ok(())
-        }
+        let conditions = [
+            (gap >= least, Refusal::Short),
+            (gap >= self.min_time_to_collision * closing, Refusal::TimeToCollision),
+            (deceleration_to_avoid(gap, follower, leader) <= self.max_deceleration, Refusal::Forced),
+            (demanded >= -self.max_deceleration, Refusal::Demanded),
+            (is_secure(follower, Ahead { gap, speed: leader }, dt), Refusal::Insecure),
+        ];
+        conditions.into_iter().find(|(met, _)| !met).map_or(Ok(()), |(_, refusal)| Err(refusal))
     }
 }

@@ -5,7 +5,8 @@
 //!
 //! κ [V(s) − v] + λ (v_l − v),  λ = 0 beyond the range
 //!
-//! * literal: V = clamp(V₁ + V₂ tanh(C₁ s − C₂), 0, v₀). The paper's printed line lost the minus sign.
+//! * literal: V = min(V₁ + V₂ tanh(C₁ s − C₂), v₀). The paper's printed line lost the minus sign. Below 2.32 m V is
+//!   negative: a follower that is too close brakes the harder for it. Only as an expected speed it is floored at 0.
 //! * repaired: V never exceeds V₁ + V₂ = 14.66 m/s whatever the driver wants, so the speed and the lengths are
 //!   scaled to the desired speed: V = v₀ [tanh(C₁ s·14.66/v₀ − C₂) + tanh C₂] / (1 + tanh C₂). The range of λ is
 //!   a length and scales with them, and the gap is counted beyond the jam gap (both ours).
@@ -57,18 +58,25 @@ const FITTED_SPEED: f64 = V1 + V2;
 const TANH_C2: f64 = 0.917_025_761_396_608_3;
 
 impl Fvdm {
-    /// V(s): the speed [m/s] that a driver wants at net gap `gap` [m]; the desired speed, or the literal
+    /// max(V(s), 0): the speed [m/s] that a driver wants at net gap `gap` [m]; the desired speed, or the literal
     /// function's maximum, where there is no leader.
     #[inline]
     pub fn optimal_speed(&self, pace: Pace, gap: f64) -> f64 {
+        self.signed_optimal_speed(pace, gap).max(0.0)
+    }
+
+    /// V(s), at most v₀, negative where the literal function is.
+    #[inline]
+    fn signed_optimal_speed(&self, pace: Pace, gap: f64) -> f64 {
         let gap = gap / pace.tightness;
         match self.reading {
-            Reading::Literal => (V1 + V2 * libm::tanh(C1 * gap - C2)).min(pace.desired).max(0.0),
+            Reading::Literal => (V1 + V2 * libm::tanh(C1 * gap - C2)).min(pace.desired),
             Reading::Repaired => {
                 let length_scale = FITTED_SPEED / pace.desired;
                 let beyond_jam = (gap - self.jam_gap / pace.tightness).max(0.0);
                 let rise = libm::tanh(C1 * beyond_jam * length_scale - C2) + TANH_C2;
-                (pace.desired * rise / (1.0 + TANH_C2)).max(0.0)
+                // The share is rounded to at most 1, so that nobody expects more than it desires.
+                pace.desired * (rise / (1.0 + TANH_C2)).max(0.0)
             }
         }
     }
@@ -84,7 +92,7 @@ impl Fvdm {
 impl CarFollowing for Fvdm {
     #[inline]
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        let optimal = self.prospect(pace, ahead);
+        let optimal = self.signed_optimal_speed(pace, ahead.map_or(f64::INFINITY, |ahead| ahead.gap));
         let relative = match ahead {
             Some(ahead) if ahead.gap <= self.range(pace) => ahead.speed - pace.speed,
             _ => 0.0,

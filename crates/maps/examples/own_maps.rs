@@ -1,0 +1,16 @@
+//! Writes the maps that come with the program into the folder `maps` of the repository.
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+use laneweave_maps::{generate, lanelet2};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps");
+    fs::create_dir_all(&folder)?;
+    for (name, motorway) in generate::own_maps() {
+        fs::write(folder.join(name), lanelet2::write(&generate::motorway(&motorway)?))?;
+    }
+    Ok(())
+}

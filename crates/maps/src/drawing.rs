@@ -1,0 +1,131 @@
+//! A map as it is drawn: points, borders through them, and lanes between borders.
+
+use laneweave_network::{DrivingSide, Lanelet, Network, Point, Polyline};
+
+use crate::error::MapError;
+use crate::graph;
+use crate::problem::Problem;
+use crate::shape::Shape;
+
+/// What a map file holds of roads: borders that lanes share, as yet without a graph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    pub(crate) points: Vec<Point>,
+    pub(crate) borders: Vec<Border>,
+    pub(crate) lanes: Vec<Lane>,
+    pub(crate) driving_side: DrivingSide,
+}
+
+/// A line between lanes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Border {
+    /// Places in [`Drawing::points`].
+    pub(crate) points: Vec<u32>,
+    /// Who may cross it, seen along its points.
+    pub(crate) crossing: Crossing,
+}
+
+/// In which directions a border may be crossed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Crossing {
+    pub(crate) to_left: bool,
+    pub(crate) to_right: bool,
+}
+
+impl Crossing {
+    pub(crate) const NEVER: Crossing = Crossing { to_left: false, to_right: false };
+    pub(crate) const BOTH_WAYS: Crossing = Crossing { to_left: true, to_right: true };
+
+    /// The same, seen against the direction of the points.
+    pub(crate) fn reversed(self) -> Crossing {
+        Crossing { to_left: self.to_right, to_right: self.to_left }
+    }
+}
+
+/// A border as the side of a lane: run along its points, or against them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Edge {
+    /// Place in [`Drawing::borders`].
+    pub(crate) border: u32,
+    pub(crate) reversed: bool,
+}
+
+/// A lane between two borders, both run in its direction of travel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lane {
+    pub(crate) id: i64,
+    /// Line of the file in which it stands.
+    pub(crate) line: Option<usize>,
+    pub(crate) left: Edge,
+    pub(crate) right: Edge,
+    /// Speed limit [km/h].
+    pub(crate) limit_kmh: f64,
+}
+
+/// Kilometres an hour in a metre a second.
+pub(crate) const KMH_PER_MPS: f64 = 3.6;
+
+impl Drawing {
+    /// The network of its lanes, and a problem for each lane that was left out for its shape.
+    ///
+    /// # Errors
+    /// If no lane is left.
+    pub fn network(&self) -> Result<(Network, Vec<Problem>), MapError> {
+        let mut lanes = Vec::with_capacity(self.lanes.len());
+        let mut lanelets = Vec::with_capacity(self.lanes.len());
+        let mut problems = Vec::new();
+        for lane in &self.lanes {
+            match Shape::between(self.polyline(lane.left), self.polyline(lane.right)) {
+                Ok(shape) => {
+                    lanes.push(*lane);
+                    lanelets.push(bare(lane, shape));
+                }
+                Err(flaw) => problems.push(Problem {
+                    element: format!("lanelet {}", lane.id),
+                    line: lane.line,
+                    what: format!("{}, so it is left out", flaw.what),
+                    remedy: flaw.remedy.into(),
+                }),
+            }
+        }
+        if lanelets.is_empty() {
+            return Err(MapError::NotDrivable { lanelets: self.lanes.len(), problems });
+        }
+        graph::connect(self, &lanes, &mut lanelets);
+        Ok((Network::new(lanelets, self.driving_side)?, problems))
+    }
+
+    /// First and last point of `edge` in the direction of travel.
+    pub(crate) fn ends(&self, edge: Edge) -> (u32, u32) {
+        let points = &self.borders[edge.border as usize].points;
+        let (first, last) = (points[0], points[points.len() - 1]);
+        if edge.reversed { (last, first) } else { (first, last) }
+    }
+
+    /// Who may cross `edge`, seen in the direction of travel.
+    pub(crate) fn crossing(&self, edge: Edge) -> Crossing {
+        let crossing = self.borders[edge.border as usize].crossing;
+        if edge.reversed { crossing.reversed() } else { crossing }
+    }
+
+    fn polyline(&self, edge: Edge) -> Option<Polyline> {
+        let points = self.borders[edge.border as usize].points.iter().map(|it| self.points[*it as usize]);
+        if edge.reversed { Polyline::new(points.rev()) } else { Polyline::new(points) }
+    }
+}
+
+/// The lanelet of `lane` with nothing around it yet.
+fn bare(lane: &Lane, shape: Shape) -> Lanelet {
+    Lanelet {
+        id: lane.id,
+        left_border: shape.left,
+        right_border: shape.right,
+        centre: shape.centre,
+        speed_limit: lane.limit_kmh / KMH_PER_MPS,
+        following: Vec::new(),
+        left: None,
+        right: None,
+        adjacent_left: None,
+        adjacent_right: None,
+    }
+}

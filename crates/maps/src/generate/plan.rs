@@ -1,0 +1,194 @@
+//! The plan of a motorway: what fits on it, and where its rows of lanelets are cut.
+
+use super::ramp::{Direction, Ramp};
+use super::{GenerateError, Motorway};
+
+/// Wider roads are not built.
+pub(super) const MAXIMUM_LANES: usize = 12;
+/// Ramps, lane drops and the ends of the road keep this distance, so that no row is shorter [m].
+const CLEARANCE: f64 = 10.0;
+/// Shorter roads have no ramps [m].
+const SHORTEST_WITH_RAMPS: f64 = 500.0;
+/// More lanelets than this are a mistake.
+const MAXIMUM_LANELETS: f64 = 5e6;
+
+/// Where a motorway is cut, and what it has beside it.
+#[derive(Debug)]
+pub(super) struct Plan {
+    /// Where rows begin and end, in order [m].
+    pub(super) stations: Vec<f64>,
+    /// Ramps in order along the road.
+    pub(super) ramps: Vec<Ramp>,
+    lane_drop: Option<f64>,
+}
+
+impl Plan {
+    pub(super) fn of(motorway: &Motorway) -> Result<Plan, GenerateError> {
+        check_numbers(motorway)?;
+        let ramp = |direction| move |at: &f64| Ramp { direction, at: *at };
+        let on = motorway.on_ramp_at.iter().map(ramp(Direction::On));
+        let mut ramps: Vec<Ramp> = on.chain(motorway.off_ramp_at.iter().map(ramp(Direction::Off))).collect();
+        ramps.sort_by(|a, b| a.at.total_cmp(&b.at));
+        let plan = Plan { stations: Vec::new(), ramps, lane_drop: motorway.lane_drop_at };
+        plan.check_places(motorway)?;
+        Ok(Plan { stations: plan.stations(motorway), ..plan })
+    }
+
+    /// Number of rows.
+    pub(super) fn rows(&self) -> usize {
+        self.stations.len() - 1
+    }
+
+    /// The line at the outer edge of the slow lane in `row`; line 0 is where the road begins.
+    pub(super) fn slow_line(&self, row: usize) -> i32 {
+        i32::from(self.lane_drop.is_some_and(|at| self.stations[row] >= at))
+    }
+
+    /// The outermost line of `row`: beyond the slow lane's where an acceleration or deceleration lane runs.
+    pub(super) fn outer_line(&self, row: usize) -> i32 {
+        let middle = (self.stations[row] + self.stations[row + 1]) / 2.0;
+        let has_lane = self.ramps.iter().map(Ramp::lane).any(|(from, to)| from < middle && middle < to);
+        self.slow_line(row) - i32::from(has_lane)
+    }
+
+    /// The number of the station at `x`.
+    pub(super) fn station(&self, x: f64) -> usize {
+        self.stations.partition_point(|it| *it < x)
+    }
+
+    fn check_places(&self, motorway: &Motorway) -> Result<(), GenerateError> {
+        let mut taken: Vec<(String, f64, f64)> = self
+            .ramps
+            .iter()
+            .map(|ramp| (ramp.to_string(), ramp.extent().0, ramp.extent().1))
+            .chain(self.lane_drop.map(|at| (format!("lane drop at {at} m"), at, at)))
+            .collect();
+        taken.sort_by(|a, b| a.1.total_cmp(&b.1));
+        for (what, from, to) in &taken {
+            // Written so that numbers that are none are refused.
+            if !(*from >= CLEARANCE && *to <= motorway.length_m - CLEARANCE) {
+                return Err(GenerateError::OutsideRoad {
+                    what: what.clone(),
+                    from: *from,
+                    to: *to,
+                    length: motorway.length_m,
+                });
+            }
+        }
+        match taken.windows(2).find(|pair| pair[1].1 - pair[0].2 < CLEARANCE) {
+            Some(pair) => Err(GenerateError::Overlap(pair[0].0.clone(), pair[1].0.clone())),
+            None => Ok(()),
+        }
+    }
+
+    fn stations(&self, motorway: &Motorway) -> Vec<f64> {
+        let mut cuts = vec![0.0, motorway.length_m];
+        cuts.extend(self.lane_drop);
+        cuts.extend(self.ramps.iter().flat_map(|ramp| [ramp.lane().0, ramp.lane().1]));
+        cuts.sort_by(f64::total_cmp);
+        let mut stations = vec![0.0];
+        for pair in cuts.windows(2) {
+            let (from, to) = (pair[0], pair[1]);
+            let pieces = ((to - from) / motorway.lanelet_length_m).round().max(1.0) as usize;
+            stations.extend((1..pieces).map(|i| from + (to - from) * i as f64 / pieces as f64));
+            stations.push(to);
+        }
+        stations
+    }
+}
+
+fn check_numbers(motorway: &Motorway) -> Result<(), GenerateError> {
+    if !(1..=MAXIMUM_LANES).contains(&motorway.lanes) {
+        return Err(GenerateError::Lanes(motorway.lanes));
+    }
+    let has_ramps = !(motorway.on_ramp_at.is_empty() && motorway.off_ramp_at.is_empty());
+    let shortest = if has_ramps { SHORTEST_WITH_RAMPS } else { CLEARANCE };
+    let ranges = [
+        ("a length", motorway.length_m, "m", shortest, 4e7),
+        ("a speed limit", motorway.speed_limit_kmh, "km/h", 5.0, 300.0),
+        ("a lane width", motorway.lane_width_m, "m", 2.0, 10.0),
+        ("a lanelet length", motorway.lanelet_length_m, "m", CLEARANCE, 1000.0),
+    ];
+    for (what, value, unit, from, to) in ranges {
+        if !(from..=to).contains(&value) {
+            return Err(GenerateError::OutOfRange { what, value, unit, from, to });
+        }
+    }
+    let lanelets = motorway.length_m / motorway.lanelet_length_m * motorway.lanes as f64;
+    if lanelets > MAXIMUM_LANELETS {
+        return Err(GenerateError::TooMany(lanelets));
+    }
+    if motorway.lanes == 1 && motorway.lane_drop_at.is_some() {
+        return Err(GenerateError::OnlyLaneEnds);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(change: impl Fn(&mut Motorway)) -> String {
+        let mut motorway = Motorway::default();
+        change(&mut motorway);
+        Plan::of(&motorway).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_refused_with_the_range() {
+        assert_eq!(refusal(|it| it.lanes = 0), "a motorway of 0 lanes; choose 1 to 12");
+        assert_eq!(refusal(|it| it.lanes = 13), "a motorway of 13 lanes; choose 1 to 12");
+        assert_eq!(refusal(|it| it.length_m = -1.0), "a length of -1 m; choose 10 to 40000000 m");
+        assert_eq!(
+            refusal(|it| it.speed_limit_kmh = f64::NAN),
+            "a speed limit of NaN km/h; choose 5 to 300 km/h"
+        );
+        assert!(refusal(|it| it.lane_width_m = 0.0).starts_with("a lane width of 0 m"));
+        assert!(refusal(|it| it.lanelet_length_m = f64::INFINITY).starts_with("a lanelet length of inf m"));
+        assert!(refusal(|it| (it.length_m, it.lanelet_length_m) = (4e7, 10.0)).contains("12000000 lanelets"));
+    }
+
+    #[test]
+    fn ramps_and_drops_must_fit_on_the_road() {
+        assert_eq!(
+            refusal(|it| it.on_ramp_at = vec![100.0]),
+            "the on-ramp at 100 m takes the road from -100 m to 350 m, of 5000 m; move it or lengthen the road"
+        );
+        assert!(refusal(|it| it.off_ramp_at = vec![4900.0]).starts_with("the off-ramp at 4900 m takes"));
+        assert!(refusal(|it| it.on_ramp_at = vec![f64::NAN]).starts_with("the on-ramp at NaN m takes"));
+        assert!(refusal(|it| it.lane_drop_at = Some(5000.0)).starts_with("the lane drop at 5000 m takes"));
+        assert!(
+            refusal(|it| (it.length_m, it.on_ramp_at) = (499.0, vec![240.0])).starts_with("a length of 499")
+        );
+        assert!(refusal(|it| (it.lanes, it.lane_drop_at) = (1, Some(900.0))).starts_with("the only lane"));
+    }
+
+    #[test]
+    fn ramps_and_drops_keep_apart() {
+        let both = |on, off| refusal(|it| (it.on_ramp_at, it.off_ramp_at) = (vec![on], vec![off]));
+        assert_eq!(
+            both(1000.0, 1400.0),
+            "the on-ramp at 1000 m and the off-ramp at 1400 m overlap or nearly touch; move one of them"
+        );
+        assert!(refusal(|it| it.on_ramp_at = vec![1000.0, 1000.0]).contains("overlap"));
+        assert!(
+            refusal(|it| (it.on_ramp_at, it.lane_drop_at) = (vec![1000.0], Some(1100.0))).contains("overlap")
+        );
+    }
+
+    #[test]
+    fn rows_are_cut_where_something_begins_or_ends() {
+        let motorway = Motorway {
+            length_m: 1000.0,
+            on_ramp_at: vec![300.0],
+            lane_drop_at: Some(800.0),
+            lanelet_length_m: 200.0,
+            ..Motorway::default()
+        };
+        let plan = Plan::of(&motorway).unwrap();
+        assert_eq!(plan.stations, [0.0, 150.0, 300.0, 550.0, 800.0, 1000.0]);
+        let outer: Vec<i32> = (0..plan.rows()).map(|row| plan.outer_line(row)).collect();
+        assert_eq!(outer, [0, 0, -1, 0, 1]);
+        assert_eq!(plan.station(550.0), 3);
+    }
+}

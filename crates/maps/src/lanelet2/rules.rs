@@ -1,0 +1,146 @@
+//! Traffic rules for cars: which lanelets they may use, and which borders they may cross.
+//!
+//! After the tagging guide of Lanelet2 (`LaneletAndAreaTagging`, `LinestringTagging`).
+
+use super::osm::Tags;
+use crate::drawing::Crossing;
+
+/// The tags that allow, or forbid, a lanelet to cars; the first that is given decides.
+const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle"];
+
+/// Whether cars may use a lanelet with these tags.
+///
+/// Tags `participant:…` name everybody who may; without any of them the subtype tells.
+pub(super) fn is_for_cars(lanelet: &Tags) -> bool {
+    if lanelet.any("participant:") {
+        return PARTICIPANTS.into_iter().find_map(|key| flag(lanelet, key)).unwrap_or(false);
+    }
+    matches!(lanelet.get("subtype").unwrap_or("road"), "road" | "highway" | "play_street" | "exit")
+}
+
+/// Whether cars may use a lanelet with these tags against its direction, too.
+pub(super) fn is_two_way(lanelet: &Tags) -> bool {
+    ["one_way:vehicle:car", "one_way:vehicle", "one_way"]
+        .into_iter()
+        .find_map(|key| flag(lanelet, key))
+        .is_some_and(|one_way| !one_way)
+}
+
+/// Who may cross a border with these tags, seen along its points.
+///
+/// `lane_change` comes first, then `lane_change:left` and `lane_change:right`, of which one that is left out
+/// means no, and then what is painted. The first word of `dashed_solid` is the left half of the line: it may
+/// be crossed from the left.
+pub(super) fn crossing(border: &Tags) -> Crossing {
+    if border.get("lane_change").is_some() {
+        let allowed = flag(border, "lane_change") == Some(true);
+        return Crossing { to_left: allowed, to_right: allowed };
+    }
+    if border.any("lane_change:") {
+        return Crossing {
+            to_left: flag(border, "lane_change:left") == Some(true),
+            to_right: flag(border, "lane_change:right") == Some(true),
+        };
+    }
+    if !matches!(border.get("type"), Some("line_thin" | "line_thick")) {
+        return Crossing::NEVER;
+    }
+    match border.get("subtype") {
+        Some("dashed") => Crossing::BOTH_WAYS,
+        Some("dashed_solid") => Crossing { to_left: false, to_right: true },
+        Some("solid_dashed") => Crossing { to_left: true, to_right: false },
+        _ => Crossing::NEVER,
+    }
+}
+
+/// The tag `type`'s subtype with which [`crossing`] gives this again, for a `line_thin`.
+pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
+    match (crossing.to_left, crossing.to_right) {
+        (true, true) => "dashed",
+        (true, false) => "solid_dashed",
+        (false, true) => "dashed_solid",
+        (false, false) => "solid",
+    }
+}
+
+/// Yes or no, if the tag is given and is one of them.
+fn flag(tags: &Tags, key: &str) -> Option<bool> {
+    match tags.get(key)? {
+        "yes" | "true" | "1" => Some(true),
+        "no" | "false" | "0" => Some(false),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_subtype_tells_who_may_use_a_lanelet() {
+        for subtype in ["road", "highway", "play_street", "exit"] {
+            assert!(is_for_cars(&Tags::from([("subtype", subtype)])), "{subtype}");
+        }
+        for subtype in ["walkway", "crosswalk", "bicycle_lane", "bus_lane", "emergency_lane", "stairs", "x"] {
+            assert!(!is_for_cars(&Tags::from([("subtype", subtype)])), "{subtype}");
+        }
+        assert!(is_for_cars(&Tags::default()));
+    }
+
+    #[test]
+    fn named_participants_outrank_the_subtype() {
+        assert!(is_for_cars(&Tags::from([("subtype", "walkway"), ("participant:vehicle", "yes")])));
+        assert!(is_for_cars(&Tags::from([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")])));
+        assert!(!is_for_cars(&Tags::from([("subtype", "road"), ("participant:bicycle", "yes")])));
+        assert!(!is_for_cars(&Tags::from([("subtype", "road"), ("participant:vehicle", "no")])));
+    }
+
+    #[test]
+    fn lanelets_run_one_way_unless_they_say_otherwise() {
+        assert!(!is_two_way(&Tags::default()));
+        assert!(!is_two_way(&Tags::from([("one_way:bicycle", "no")])));
+        assert!(is_two_way(&Tags::from([("one_way", "no")])));
+        assert!(is_two_way(&Tags::from([("one_way:vehicle", "no")])));
+    }
+
+    #[test]
+    fn the_painted_line_tells_who_may_cross() {
+        let line = |kind, subtype| {
+            let crossing = crossing(&Tags::from([("type", kind), ("subtype", subtype)]));
+            (crossing.to_left, crossing.to_right)
+        };
+        for kind in ["line_thin", "line_thick"] {
+            assert_eq!(line(kind, "dashed"), (true, true));
+            assert_eq!(line(kind, "solid"), (false, false));
+            assert_eq!(line(kind, "dashed_solid"), (false, true));
+            assert_eq!(line(kind, "solid_dashed"), (true, false));
+        }
+        assert_eq!(line("virtual", "dashed"), (false, false));
+        assert_eq!(line("curbstone", "low"), (false, false));
+    }
+
+    #[test]
+    fn lane_change_tags_outrank_the_line() {
+        let over = |key, value| {
+            let tags = Tags::from([("type", "line_thin"), ("subtype", "dashed"), (key, value)]);
+            (crossing(&tags).to_left, crossing(&tags).to_right)
+        };
+        assert_eq!(over("lane_change", "yes"), (true, true));
+        assert_eq!(over("lane_change", "no"), (false, false));
+        assert_eq!(over("lane_change", "perhaps"), (false, false));
+        assert_eq!(over("lane_change:left", "yes"), (true, false));
+        assert_eq!(over("lane_change:right", "yes"), (false, true));
+        assert_eq!(over("lane_change:right", "no"), (false, false));
+    }
+
+    #[test]
+    fn every_crossing_has_a_line_to_write() {
+        for to_left in [false, true] {
+            for to_right in [false, true] {
+                let wanted = Crossing { to_left, to_right };
+                let tags = Tags::from([("type", "line_thin"), ("subtype", line_subtype(wanted))]);
+                assert_eq!(crossing(&tags), wanted);
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Map files read into road networks, and maps of our own made and written.
+//!
+//! A file is read into a [`Drawing`] (points, borders, and lanes between borders), and a drawing becomes a
+//! [`Network`](laneweave_network::Network). The generator makes drawings, too, which can be written as a
+//! file.
+
+mod drawing;
+mod error;
+mod format;
+pub mod generate;
+mod graph;
+pub mod lanelet2;
+mod problem;
+mod shape;
+
+pub use drawing::Drawing;
+pub use error::MapError;
+pub use format::{FORMATS, Format, Map, ReadOptions, load};
+pub use problem::Problem;

@@ -1,0 +1,167 @@
+//! Reading Lanelet2 maps: what is left out, and what is refused.
+
+use std::fs;
+use std::path::Path;
+
+use laneweave_maps::{Map, MapError, ReadOptions, lanelet2, load};
+use laneweave_network::DrivingSide;
+
+/// Two lanes of 10 m, of which each test breaks something.
+const TWO_LANES: &str = "<osm>
+<node id='1' lat='0' lon='0' x='0' y='0'/>
+<node id='2' lat='0' lon='0' x='10' y='0'/>
+<node id='3' lat='0' lon='0' x='0' y='4'/>
+<node id='4' lat='0' lon='0' x='10' y='4'/>
+<node id='5' lat='0' lon='0' x='0' y='8'/>
+<node id='6' lat='0' lon='0' x='10' y='8'/>
+<way id='11'><nd ref='1'/><nd ref='2'/></way>
+<way id='12'><nd ref='3'/><nd ref='4'/><tag k='type' v='line_thin'/><tag k='subtype' v='dashed_solid'/></way>
+<way id='13'><nd ref='5'/><nd ref='6'/></way>
+<relation id='21'><member type='way' ref='12' role='left'/><member type='way' ref='11' role='right'/>
+<tag k='type' v='lanelet'/></relation>
+<relation id='22'><member type='way' ref='13' role='left'/><member type='way' ref='12' role='right'/>
+<tag k='type' v='lanelet'/><tag k='speed_limit' v='36'/></relation>
+</osm>";
+
+fn read(text: &str) -> Result<Map, MapError> {
+    lanelet2::read(text.as_bytes(), &ReadOptions::default())
+}
+
+/// The problems after `from` became `to`, and the ids of the lanelets that are left.
+fn broken(from: &str, to: &str) -> (Vec<String>, Vec<i64>) {
+    assert!(TWO_LANES.contains(from), "{from}");
+    let map = read(&TWO_LANES.replacen(from, to, 1)).expect("one lanelet is left");
+    let ids = map.network.lanelets.iter().map(|it| it.id).collect();
+    (map.problems.iter().map(ToString::to_string).collect(), ids)
+}
+
+fn one(from: &str, to: &str) -> String {
+    let (mut problems, ids) = broken(from, to);
+    assert_eq!((problems.len(), ids.len()), (1, 1), "{problems:?}");
+    problems.remove(0)
+}
+
+#[test]
+fn a_one_sided_line_may_be_crossed_from_one_side() {
+    let network = read(TWO_LANES).unwrap().network;
+    let [right, left] = &network.lanelets[..] else { panic!("two lanelets") };
+    assert_eq!((right.left, right.adjacent_left.map(|it| it.0)), (None, Some(1)));
+    assert_eq!((left.right.map(|it| it.0), left.adjacent_right), (Some(0), None));
+    assert_eq!((right.speed_limit, left.speed_limit), (50.0 / 3.6, 10.0));
+    assert_eq!(right.centre.points()[0].y, 2.0);
+}
+
+#[test]
+fn a_border_may_be_listed_backwards() {
+    let turned = TWO_LANES
+        .replace("<nd ref='3'/><nd ref='4'/>", "<nd ref='4'/><nd ref='3'/>")
+        .replace("dashed_solid", "solid_dashed");
+    assert_eq!(
+        format!("{:?}", read(&turned).unwrap().network),
+        format!("{:?}", read(TWO_LANES).unwrap().network)
+    );
+}
+
+#[test]
+fn lanes_with_broken_borders_are_left_out_and_listed() {
+    assert_eq!(
+        one("<member type='way' ref='13' role='left'/>", ""),
+        "lanelet 22 (line 13): left border is missing, so it is left out; add a way in the role of that side"
+    );
+    assert!(one("ref='11' role", "ref='99' role").contains("right border is way 99, which is missing"));
+    assert!(
+        one("ref='11' role", "ref='1' role").starts_with("lanelet 21 (line 11): its right border is way 1,")
+    );
+    assert!(one("role='right'/>\n", "role='left'/>\n").contains("several left borders"));
+    assert!(one("<nd ref='5'/>", "").contains("way 13, has fewer than two nodes"));
+    assert!(one("<nd ref='5'/>", "<nd ref='77'/>").contains("runs through node 77, which is missing"));
+    assert!(one("x='0' y='8'", "x='nan' y='8'").contains("node 5 (line 6) of its border has no position"));
+    assert!(one("x='10' y='8'", "x='0' y='8'").contains("left border has no length"));
+    assert!(one("x='10' y='8'", "x='21000' y='8'").contains("longer than 20 km"));
+}
+
+#[test]
+fn elements_that_share_an_id_are_listed() {
+    assert!(
+        one("relation id='22'", "relation id='21'").starts_with("relation 21 (line 13): another relation")
+    );
+    let (problems, ids) = broken("<node id='6'", "<node id='1' x='3' y='3'/>\n<node id='6'");
+    assert_eq!((problems.len(), ids), (1, vec![21, 22]));
+    assert!(problems[0].starts_with("node 1 (line 7): another node above"), "{problems:?}");
+}
+
+#[test]
+fn limits_and_directions_that_cannot_be_used_are_listed_but_the_lane_stays() {
+    let (problems, ids) = broken("v='36'", "v='-36'");
+    assert_eq!((problems.len(), ids.len()), (1, 2));
+    assert!(problems[0].starts_with("lanelet 22 (line 13): its speed_limit \"-36\" is no speed"));
+    let tag = "<tag k='speed_limit' v='36'/>";
+    let (problems, ids) = broken(tag, "<tag k='one_way' v='no'/>");
+    assert_eq!((problems.len(), ids.len()), (1, 2));
+    assert!(problems[0].contains("both directions; only the forward one is; draw a lanelet"));
+}
+
+#[test]
+fn lanelets_that_are_not_for_cars_are_no_problem() {
+    let (problems, ids) = broken("<tag k='speed_limit' v='36'/>", "<tag k='subtype' v='walkway'/>");
+    assert_eq!((problems.len(), ids), (0, vec![21]));
+}
+
+#[test]
+fn no_more_than_32_lanelets_share_a_border() {
+    let copy = |id: usize| {
+        format!(
+            "<relation id='{id}'><member type='way' ref='12' role='left'/>\
+             <member type='way' ref='11' role='right'/><tag k='type' v='lanelet'/></relation>"
+        )
+    };
+    let copies: String = (100..140).map(copy).collect();
+    let (problems, ids) = broken("</osm>", &format!("{copies}</osm>"));
+    assert_eq!((problems.len(), ids.len()), (10, 32));
+    assert!(problems[9].contains("32 others share its start"), "{problems:?}");
+}
+
+#[test]
+fn a_map_without_lanes_for_cars_is_refused() {
+    assert_eq!(
+        read("<osm/>").unwrap_err().to_string(),
+        "none of its 0 lanelets can be used by vehicles; \
+         give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes"
+    );
+    let error = read(&TWO_LANES.replace("<node", "<other")).unwrap_err();
+    let MapError::NotDrivable { lanelets: 2, problems } = &error else { panic!("{error}") };
+    assert_eq!(problems.len(), 2);
+    assert!(
+        error.to_string().contains("(the first problem is lanelet 21 (line 11): its border, way 12, runs")
+    );
+}
+
+#[test]
+fn the_driving_side_is_the_option_then_what_the_map_says_then_right() {
+    let side = |text: &str, driving_side| {
+        let options = ReadOptions { driving_side, ..ReadOptions::default() };
+        lanelet2::read(text.as_bytes(), &options).unwrap().network.driving_side
+    };
+    let left = TWO_LANES.replace("<osm>", "<osm><MetaInfo driving_side='left'/>");
+    assert_eq!(side(TWO_LANES, None), DrivingSide::Right);
+    assert_eq!(side(&left, None), DrivingSide::Left);
+    assert_eq!(side(&left, Some(DrivingSide::Right)), DrivingSide::Right);
+}
+
+#[test]
+fn files_that_cannot_be_read_say_why() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let refusal = |path: &Path| load(path, &ReadOptions::default()).unwrap_err().to_string();
+    assert_eq!(refusal(&root.join("nowhere.osm")), "there is no such file; check the path");
+    assert_eq!(refusal(root), "this is a folder; name a map file inside it");
+    assert_eq!(
+        refusal(&root.join("Cargo.toml")),
+        "no map format has the extension \"toml\"; known are Lanelet2 (.osm, .osm_xy)"
+    );
+    let file = std::env::temp_dir().join(format!("laneweave-maps-{}.OSM", std::process::id()));
+    fs::write(&file, "[package]").unwrap();
+    assert!(refusal(&file).starts_with("line 1: the outermost element is <>, not <osm>"));
+    fs::write(&file, TWO_LANES).unwrap();
+    assert_eq!(load(&file, &ReadOptions::default()).unwrap().network.lanelets.len(), 2);
+    fs::remove_file(&file).unwrap();
+}

@@ -1,0 +1,83 @@
+//! Real maps, where they are at hand: counts that agree with those of the reference library.
+
+use std::path::Path;
+
+use laneweave_maps::{Map, ReadOptions, load};
+use laneweave_network::Lanelet;
+
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
+
+fn read(file: &str) -> Option<Map> {
+    let path = Path::new(DATA).join(file);
+    if !path.exists() {
+        eprintln!("skipped: {file} is not there");
+        return None;
+    }
+    Some(load(&path, &ReadOptions::default()).expect("the map is sound"))
+}
+
+/// Lanelets for cars, pairs that follow, left and right changes, left and right neighbours without, problems.
+type Counts = [usize; 7];
+
+fn counts(map: &Map) -> Counts {
+    let lanelets = &map.network.lanelets;
+    let count = |has: fn(&Lanelet) -> bool| lanelets.iter().filter(|it| has(it)).count();
+    [
+        lanelets.len(),
+        lanelets.iter().map(|it| it.following.len()).sum(),
+        count(|it| it.left.is_some()),
+        count(|it| it.right.is_some()),
+        count(|it| it.adjacent_left.is_some()),
+        count(|it| it.adjacent_right.is_some()),
+        map.problems.len(),
+    ]
+}
+
+#[test]
+fn graphs_agree_with_the_reference_library() {
+    let expected: [(&str, Counts); 11] = [
+        ("lanelet2/crossroads_with_stoplines.osm", [79, 100, 0, 0, 0, 0, 0]),
+        ("lanelet2/four_track_highway.osm", [36, 28, 16, 16, 6, 6, 0]),
+        ("lanelet2/intersection.osm", [58, 57, 10, 10, 9, 9, 0]),
+        // The reference adds four successors that are two-way lanelets run backwards, which are problems
+        // here.
+        ("lanelet2/karlsruhe.osm", [328, 313, 57, 56, 54, 55, 60]),
+        ("lanelet2/karlsruhe_roundabout.osm", [232, 225, 53, 52, 52, 53, 1]),
+        ("lanelet2/kashiwanoha.osm", [77, 93, 3, 3, 0, 0, 0]),
+        ("lanelet2/tianjin.osm", [62, 66, 2, 2, 26, 26, 0]),
+        ("lanelet2/town10.osm", [128, 160, 27, 27, 10, 10, 0]),
+        ("lanelet2/xian.osm", [52, 48, 6, 6, 16, 16, 0]),
+        ("recordings/mona_east/map.osm", [34, 20, 12, 12, 0, 0, 0]),
+        ("recordings/mona_east/map.osm_xy", [34, 20, 12, 12, 0, 0, 0]),
+    ];
+    for (file, expected) in expected {
+        if let Some(map) = read(file) {
+            assert_eq!(counts(&map), expected, "{file}");
+        }
+    }
+}
+
+#[test]
+fn projected_and_metric_coordinates_of_one_place_agree() {
+    let (projected, metric) = (read("recordings/mona_east/map.osm"), read("recordings/mona_east/map.osm_xy"));
+    let (Some(projected), Some(metric)) = (projected, metric) else { return };
+    assert_eq!((projected.origin, metric.origin), (Some((0.0, 0.0)), None));
+    for (a, b) in projected.network.lanelets.iter().zip(&metric.network.lanelets) {
+        assert_eq!(a.id, b.id);
+        for (p, q) in a.left_border.points().iter().zip(b.left_border.points()) {
+            // The metric file is rounded to a tenth of a millimetre.
+            assert!(p.distance(q) < 1e-4, "lanelet {}: {p:?} {q:?}", a.id);
+        }
+    }
+}
+
+#[test]
+fn four_track_highway_lies_where_its_local_coordinates_say() {
+    let Some(map) = read("lanelet2/four_track_highway.osm") else { return };
+    let lanelet = &map.network.lanelets[0];
+    assert!((81_000.0..82_500.0).contains(&lanelet.centre.points()[0].x));
+    assert!(map.origin.is_none());
+    let limits: Vec<f64> = map.network.lanelets.iter().map(|it| (it.speed_limit * 3.6).round()).collect();
+    assert_eq!(limits.iter().filter(|it| **it == 50.0).count(), 24);
+    assert_eq!(limits.iter().filter(|it| **it == 60.0).count(), 12);
+}

@@ -1,0 +1,188 @@
+//! What must hold of every decision, on random situations.
+
+mod situations;
+
+use laneweave_models::Reading::{self, Literal, Repaired};
+use laneweave_models::change::{Behind, Driver, Flow, LaneView, Mcdm, Merging, RouteView, Rule, Situation};
+use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
+use proptest::option;
+use proptest::prelude::*;
+use situations::{LENGTH, behind, driver, empty_road, mcdm};
+
+/// Random cases of the three signs.
+const CASES: u32 = 100_000;
+/// What rounding may move a gain by.
+const ROUNDING: f64 = 1e-9;
+
+fn cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+fn any_reading() -> impl Strategy<Value = Reading> {
+    prop_oneof![Just(Literal), Just(Repaired)]
+}
+
+fn any_follow() -> impl Strategy<Value = FollowingModel> {
+    prop_oneof![
+        Just(FollowingModel::Idm(Idm::default())),
+        any_reading().prop_map(|reading| FollowingModel::Fvdm(Fvdm { reading, ..Fvdm::default() })),
+    ]
+}
+
+fn any_driver() -> impl Strategy<Value = Driver> {
+    (any_follow(), 0.0..40.0_f64, 5.0..45.0_f64)
+        .prop_map(|(follow, speed, desired)| driver(follow, speed, desired))
+}
+
+fn any_ahead() -> impl Strategy<Value = Ahead> {
+    (0.5..200.0_f64, 0.0..40.0_f64).prop_map(|(gap, speed)| Ahead { gap, speed })
+}
+
+fn any_behind() -> impl Strategy<Value = Behind> {
+    (0.5..150.0_f64, any_driver()).prop_map(|(gap, driver)| Behind { gap, driver })
+}
+
+fn any_route() -> impl Strategy<Value = RouteView> {
+    (0_u32..3, 0.0..500.0_f64, 0.0..1000.0_f64, option::of(0.0..2000.0_f64)).prop_map(
+        |(changes, remaining, onward, alternative)| RouteView { changes, remaining, onward, alternative },
+    )
+}
+
+fn any_lane() -> impl Strategy<Value = LaneView> {
+    let flow =
+        (6.0..300.0_f64, 0.0..40.0_f64).prop_map(|(spacing, speed)| Flow { spacing, speed, length: LENGTH });
+    (option::of(any_ahead()), option::of(any_behind()), flow, 0.0..40.0_f64, any_route())
+        .prop_map(|(ahead, behind, flow, prospect, route)| LaneView { ahead, behind, flow, prospect, route })
+}
+
+fn any_merging() -> impl Strategy<Value = Merging> {
+    (any_driver(), option::of(any_ahead()), any_ahead(), 0.0..1.0_f64).prop_map(
+        |(driver, blocked, freed, urgency)| Merging { driver, blocked, freed: Some(freed), urgency },
+    )
+}
+
+fn any_situation() -> impl Strategy<Value = Situation> {
+    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, option::of(any_merging()))
+        .prop_map(|(me, here, there, section, merging)| Situation { me, here, there, section, merging })
+}
+
+/// The paper's incentives and urgency, all weighed.
+fn any_model() -> impl Strategy<Value = Mcdm> {
+    (any_reading(), prop::array::uniform4(0.01..2.0_f64), 0.5..3.0_f64, 0.0..1.0_f64).prop_map(
+        |(reading, weights, beta, urgency)| {
+            let mut model = mcdm(reading, weights, beta);
+            model.urgency.weight = urgency;
+            model
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(cases(CASES))]
+
+    #[test]
+    fn v34_a_longer_alternative_never_raises_the_gain(
+        model in any_model(), mut situation in any_situation(), alternative in 0.0..2000.0_f64,
+        longer in 0.0..2000.0_f64,
+    ) {
+        situation.there.route.alternative = Some(alternative);
+        let before = model.appraise(&situation).gain;
+        situation.there.route.alternative = Some(alternative + longer);
+        prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
+    }
+
+    #[test]
+    fn v34_a_faster_target_never_lowers_the_gain(
+        model in any_model(), mut situation in any_situation(), faster in 0.0..20.0_f64,
+    ) {
+        // A new follower would lose the faster leader, which is a harm to it and another matter.
+        situation.there.behind = None;
+        let before = model.appraise(&situation).gain;
+        situation.there.prospect += faster;
+        if let Some(ahead) = &mut situation.there.ahead {
+            ahead.speed += faster;
+            ahead.gap += faster;
+        }
+        prop_assert!(model.appraise(&situation).gain >= before - ROUNDING);
+    }
+
+    #[test]
+    fn v34_more_harm_to_the_new_follower_never_raises_the_gain(
+        model in any_model(), mut situation in any_situation(), follower in any_driver(), gap in 0.5..30.0_f64,
+        share in 0.0..1.0_f64,
+    ) {
+        // The follower loses a free road, so that only the gap to the driver counts; short of the range of FVDM,
+        // beyond which a faster leader would not draw it on.
+        situation.there.ahead = None;
+        situation.there.behind = behind(gap, follower);
+        let before = model.appraise(&situation).gain;
+        situation.there.behind = behind(share * gap, follower);
+        prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
+    }
+
+    #[test]
+    fn v34_less_room_for_a_merging_vehicle_never_raises_the_gain(
+        model in any_model(), mut situation in any_situation(), merging in any_merging(), gap in 0.5..30.0_f64,
+        speed in 0.0..40.0_f64, share in 0.0..1.0_f64,
+    ) {
+        situation.merging = Some(Merging { freed: Some(Ahead { gap, speed }), ..merging });
+        let before = model.appraise(&situation).gain;
+        situation.merging = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
+        prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
+    }
+}
+
+fn any_extreme_speed() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), Just(1e-9), Just(14.0), Just(60.0)]
+}
+
+fn any_extreme_length() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), Just(1e-3), Just(20.0), Just(300.0), Just(1e6)]
+}
+
+fn any_extreme_ahead() -> impl Strategy<Value = Option<Ahead>> {
+    option::of((any_extreme_length(), any_extreme_speed()).prop_map(|(gap, speed)| Ahead { gap, speed }))
+}
+
+fn any_extreme_lane() -> impl Strategy<Value = LaneView> {
+    let follower = (any_extreme_length(), any_follow(), any_extreme_speed())
+        .prop_map(|(gap, follow, speed)| Behind { gap, driver: driver(follow, speed, 14.0) });
+    let spacing = prop_oneof![any_extreme_length(), Just(f64::INFINITY)];
+    let flow =
+        (spacing, any_extreme_speed()).prop_map(|(spacing, speed)| Flow { spacing, speed, length: LENGTH });
+    let route = (0_u32..4, any_extreme_length(), any_extreme_length(), option::of(any_extreme_length()))
+        .prop_map(|(changes, remaining, onward, alternative)| RouteView {
+            changes,
+            remaining: if changes == 0 { f64::INFINITY } else { remaining },
+            onward,
+            alternative,
+        });
+    (any_extreme_ahead(), option::of(follower), flow, any_extreme_speed(), route)
+        .prop_map(|(ahead, behind, flow, prospect, route)| LaneView { ahead, behind, flow, prospect, route })
+}
+
+proptest! {
+    #![proptest_config(cases(20_000))]
+
+    #[test]
+    fn v35_every_yield_and_every_chance_is_finite(
+        model in any_model(), follow in any_follow(), speed in any_extreme_speed(), here in any_extreme_lane(),
+        there in any_extreme_lane(), section in any_extreme_length(),
+        sigma in prop_oneof![Just(0.0), Just(1e-3), Just(1.0)],
+        rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], tightness in 0.4..1.0_f64,
+    ) {
+        let me = Driver { pace: Pace { speed, desired: 14.0, tightness }, follow, length: LENGTH };
+        let model = Mcdm { rule, sigma, ..model };
+        let situation = Situation { here, there, section, ..empty_road(me) };
+        let appraisal = model.appraise(&situation);
+        prop_assert!(appraisal.gain.is_finite());
+        for row in appraisal.rows {
+            prop_assert!(row.earning.is_finite());
+        }
+        for sides in [[Some(&appraisal), None], [None, Some(&appraisal)], [Some(&appraisal); 2]] {
+            let [first, second] = model.choose(sides);
+            prop_assert!((0.0..=1.0).contains(&first) && (0.0..=1.0).contains(&second));
+            prop_assert!(first + second <= 1.0 + 1e-12);
+        }
+    }
+}

@@ -1,0 +1,360 @@
+//! The rows of the paper's table, one by one, against the worked numbers.
+
+mod situations;
+
+use laneweave_models::Reading::{self, Literal, Repaired};
+use laneweave_models::change::{
+    Chances, Comfort, Courtesy, Flow, Incentive, LaneView, Merging, Returning, Route, RouteView, Situation,
+    Speed, Urgency, anticipated_speed, discomfort, expected_time, urgency,
+};
+use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace};
+use situations::{ON_ROUTE, behind, driver, empty_road, mcdm};
+
+#[track_caller]
+fn assert_near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
+}
+
+/// Chances of a driver who certainly makes its route from its lane, and with `there` from the other.
+fn chances(there: f64) -> Chances {
+    Chances { here: 1.0, there }
+}
+
+/// A driver who leaves the route by changing and has `remaining` [m] to come back.
+fn leaving_route(situation: Situation, remaining: f64) -> Situation {
+    let route = RouteView { changes: 1, remaining, ..situation.there.route };
+    Situation { there: LaneView { route, ..situation.there }, ..situation }
+}
+
+fn idm() -> FollowingModel {
+    FollowingModel::Idm(Idm {
+        acceleration: 1.0,
+        deceleration: 1.5,
+        time_gap: 1.0,
+        jam_gap: 2.0,
+        exponent: 4.0,
+    })
+}
+
+fn flow(spacing: f64, speed: f64) -> Flow {
+    Flow { spacing, speed, length: 5.0 }
+}
+
+// The chance of coming back.
+
+#[test]
+fn the_repaired_chance_looks_at_the_lane_returned_to_and_the_literal_at_the_target() {
+    let me = driver(idm(), 12.0, 14.0);
+    let mut situation = leaving_route(empty_road(me), 30.0);
+    (situation.here.flow, situation.there.flow) = (flow(20.0, 10.0), flow(12.0, 4.0));
+    let returning = |reading| Returning { reading, ..Returning::default() };
+    let of = |reading: Reading, flow: Flow| returning(reading).chance(1, 30.0, 12.0, &flow);
+    assert_eq!(returning(Literal).chances(&situation), chances(of(Literal, situation.there.flow)));
+    assert_eq!(returning(Repaired).chances(&situation), chances(of(Repaired, situation.here.flow)));
+    // In a wrong lane it is the target lane that the driver has to get into.
+    (situation.here.route, situation.there.route) = (situation.there.route, ON_ROUTE);
+    let missing = returning(Repaired).chances(&situation);
+    assert_eq!(missing, Chances { here: of(Repaired, situation.there.flow), there: 1.0 });
+}
+
+// Route.
+
+/// The paper's P_back at T_h = 2 s.
+fn literal_chance(remaining: f64) -> f64 {
+    1.0 - f64::exp(-0.058 * 2.0 * remaining)
+}
+
+#[test]
+fn the_expected_time_grows_as_the_turn_comes_near() {
+    for (remaining, time) in [(50.0, 61.816), (20.0, 118.964), (10.0, 248.092), (5.0, 395.939)] {
+        let expected = expected_time(literal_chance(remaining), 60.0, 660.0);
+        // The document cuts 61.81653 to 61.816.
+        assert_near(expected, time, 1e-3);
+    }
+}
+
+/// 40 s on a section of 400 m at 10 m/s, which the driver expects of both lanes, and 20 s beyond it.
+fn minute_to_go(reading: Reading) -> (Route, Situation) {
+    let me = driver(idm(), 10.0, 10.0);
+    let mut situation = empty_road(me);
+    situation.section = 400.0;
+    situation.here.route.onward = 20.0;
+    situation.there.route.onward = 20.0;
+    (Route { weight: 1.0, reading, ..Route::default() }, situation)
+}
+
+#[test]
+fn the_route_yields_what_the_turn_is_worth() {
+    // Without an alternative missing the turn costs 600 s; E[T] at S = 20 m is 118.964 s.
+    for (reading, scale) in [(Literal, 60.0), (Repaired, 60.0)] {
+        let (route, situation) = minute_to_go(reading);
+        let leaving = leaving_route(situation, 20.0);
+        let earning = route.earning(&leaving, chances(literal_chance(20.0)));
+        assert_near(earning, (60.0 - 118.964) / scale, 1e-5);
+    }
+    // Half an hour further on the way the literal yield of the same minute fades, the repaired one does not.
+    let yields = [Literal, Repaired].map(|reading| {
+        let (route, mut situation) = minute_to_go(reading);
+        situation.here.route.onward += 1740.0;
+        situation.there.route =
+            RouteView { onward: 1760.0, alternative: Some(1820.0), ..situation.there.route };
+        route.earning(&leaving_route(situation, 1.0), chances(0.0))
+    });
+    assert_near(yields[0], -60.0 / 1800.0, 1e-12);
+    assert_near(yields[1], -1.0, 1e-12);
+}
+
+#[test]
+fn the_way_back_to_the_route_is_worth_what_leaving_it_costs() {
+    let (route, situation) = minute_to_go(Repaired);
+    let mut wrong_lane = leaving_route(situation, 10.0);
+    (wrong_lane.here.route, wrong_lane.there.route) = (wrong_lane.there.route, wrong_lane.here.route);
+    let here = literal_chance(10.0);
+    assert_near(route.earning(&wrong_lane, Chances { here, there: 1.0 }), (248.092 - 60.0) / 60.0, 1e-5);
+}
+
+#[test]
+fn the_repaired_route_yield_is_clamped() {
+    let (route, situation) = minute_to_go(Repaired);
+    let costly = Route { penalty: 6000.0, ..route };
+    assert_eq!(costly.earning(&leaving_route(situation, 1.0), chances(0.0)), -10.0);
+    let literal = Route { reading: Literal, ..costly };
+    assert_near(literal.earning(&leaving_route(situation, 1.0), chances(0.0)), -100.0, 1e-9);
+}
+
+#[test]
+fn who_finds_the_other_route_faster_does_not_come_back() {
+    // 60 s on the route, 50 s on the alternative, p = 0.6.
+    for (reading, expected) in [(Literal, 0.6 * 60.0 + 0.4 * 50.0), (Repaired, 50.0)] {
+        let (route, mut situation) = minute_to_go(reading);
+        situation.there.route.alternative = Some(10.0);
+        let earning = route.earning(&leaving_route(situation, 20.0), chances(0.6));
+        assert_near(earning, (60.0 - expected) / 60.0, 1e-12);
+    }
+}
+
+#[test]
+fn a_symmetric_change_earns_of_the_route_only_its_speed_part() {
+    for alternative in [None, Some(0.0), Some(500.0)] {
+        let (route, mut situation) = minute_to_go(Repaired);
+        situation.here.route.alternative = alternative;
+        situation.there.route.alternative = alternative;
+        assert_eq!(route.earning(&situation, chances(1.0)), 0.0);
+        // 400 m at 8 and at 10 m/s: ten seconds.
+        situation.here.prospect = 8.0;
+        assert_near(route.earning(&situation, chances(1.0)), 10.0 / 60.0, 1e-12);
+        let literal = Route { reading: Literal, ..route };
+        situation.here.ahead = Some(Ahead { gap: 20.0, speed: 8.0 });
+        assert_eq!(literal.earning(&situation, chances(1.0)), 0.0);
+    }
+}
+
+#[test]
+fn a_travel_time_is_counted_at_a_metre_a_second_at_least() {
+    let (route, mut situation) = minute_to_go(Repaired);
+    situation.here.prospect = 0.0;
+    // 400 s against 40 s.
+    assert_near(route.earning(&situation, chances(1.0)), 6.0, 1e-12);
+}
+
+// Speed.
+
+fn literal_fvdm() -> FollowingModel {
+    FollowingModel::Fvdm(Fvdm { reading: Literal, ..Fvdm::default() })
+}
+
+/// A leader behind whom the literal optimal velocity is `speed` [m/s].
+fn leader_allowing(speed: f64) -> Option<Ahead> {
+    Some(Ahead { gap: (((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, speed: 5.0 })
+}
+
+#[test]
+fn a_literal_speed_yield_is_divided_by_the_own_speed() {
+    let speed = Speed { weight: 1.0, reading: Literal };
+    let mut situation = empty_road(driver(literal_fvdm(), 8.0, 50.0 / 3.6));
+    // 5.0 if the floor of 1 m/s were forgotten.
+    for (here, there, earning) in [(8.0, 11.0, 0.375), (0.2, 1.2, 1.0)] {
+        (situation.here.ahead, situation.there.ahead) = (leader_allowing(here), leader_allowing(there));
+        assert_near(situation.me.follow.prospect(situation.me.pace, situation.here.ahead), here, 1e-9);
+        assert_near(speed.earning(&situation, chances(0.3)), earning, 1e-9);
+    }
+}
+
+#[test]
+fn a_repaired_speed_yield_is_divided_by_the_desired_speed() {
+    let speed = Speed { weight: 1.0, reading: Repaired };
+    let mut situation = empty_road(driver(literal_fvdm(), 8.0, 50.0 / 3.6));
+    (situation.here.prospect, situation.there.prospect) = (0.2, 1.2);
+    assert_near(speed.earning(&situation, chances(0.3)), 0.072, 1e-12);
+}
+
+#[test]
+fn the_anticipated_speed_of_a_lane() {
+    let desired = 50.0 / 3.6;
+    assert_near(anticipated_speed(Ahead { gap: 60.0, speed: 8.0 }, desired), 9.197740, 1e-6);
+    assert_eq!(anticipated_speed(Ahead { gap: 0.0, speed: 8.0 }, desired), 8.0);
+    assert_eq!(anticipated_speed(Ahead { gap: -1.0, speed: 8.0 }, desired), 8.0);
+    assert_eq!(anticipated_speed(Ahead { gap: 295.0, speed: 8.0 }, desired), desired);
+    assert_eq!(anticipated_speed(Ahead { gap: 60.0, speed: 20.0 }, desired), desired);
+}
+
+// Courtesy.
+
+const READINGS: [Courtesy; 2] =
+    [Courtesy { weight: 1.0, reading: Literal }, Courtesy { weight: 1.0, reading: Repaired }];
+
+#[test]
+fn the_two_courtesies_of_the_worked_example_have_different_signs() {
+    let [literal, repaired] =
+        READINGS.map(|courtesy| courtesy.share(8.0, 11.0, 14.0) + courtesy.share(13.0, 12.0, 14.0));
+    assert_near(literal, -0.5, 1e-12);
+    assert_near(repaired, 0.142857, 1e-6);
+}
+
+#[test]
+fn a_follower_at_its_desired_speed_does_not_make_courtesy_explode() {
+    // −10 and −109 without a floor under the denominators 0.1 and 0.01 m/s.
+    for (now, unguarded) in [(13.9, -10.0), (13.99, -109.0)] {
+        let [literal, repaired] = READINGS.map(|courtesy| courtesy.share(now, 12.9, 14.0));
+        assert_near(literal / (14.0 - now), unguarded, 1e-6);
+        assert_near(repaired * 14.0, literal, 1e-12);
+    }
+}
+
+/// Where the driver, 10 m/s, leaves an old follower for a new one; all would like 14 m/s.
+fn between_followers() -> Situation {
+    let mut situation = empty_road(driver(idm(), 10.0, 14.0));
+    situation.here.ahead = Some(Ahead { gap: 30.0, speed: 9.0 });
+    situation.there.ahead = Some(Ahead { gap: 25.0, speed: 11.0 });
+    situation.here.behind = behind(8.0, driver(idm(), 10.0, 14.0));
+    situation.there.behind = behind(12.0, driver(idm(), 11.0, 14.0));
+    situation
+}
+
+/// The share of a follower at `speed` [m/s] whose leader is exchanged.
+fn share_of(courtesy: &Courtesy, speed: f64, now: Ahead, then: Ahead) -> f64 {
+    let expected = |ahead: Ahead| {
+        let pace = Pace::new(speed, 14.0);
+        (speed + idm().acceleration(pace, Some(ahead))).clamp(0.0, 14.0)
+    };
+    courtesy.share(expected(now), expected(then), 14.0)
+}
+
+#[test]
+fn courtesy_adds_the_old_and_the_new_follower() {
+    for courtesy in READINGS {
+        let mut situation = between_followers();
+        let ahead = |gap, speed| Ahead { gap, speed };
+        let relief = share_of(&courtesy, 10.0, ahead(8.0, 10.0), ahead(8.0 + 5.0 + 30.0, 9.0));
+        let harm = share_of(&courtesy, 11.0, ahead(12.0 + 5.0 + 25.0, 11.0), ahead(12.0, 10.0));
+        assert!(relief > 0.0 && harm < 0.0);
+        // Slower than its lane's mean, 14 m/s, the driver is in the way.
+        assert_near(courtesy.earning(&situation, chances(1.0)), relief + harm, 1e-12);
+        // As fast as its lane it is not.
+        situation.here.flow.speed = 10.0;
+        assert_near(courtesy.earning(&situation, chances(1.0)), harm, 1e-12);
+        // Nobody gives way whose own route is bound to its lane.
+        situation.here.flow.speed = 14.0;
+        assert_near(courtesy.earning(&leaving_route(situation, 50.0), chances(0.5)), harm, 1e-12);
+    }
+}
+
+#[test]
+fn courtesy_makes_room_for_a_merging_vehicle_the_more_the_closer_its_lane_ends() {
+    for courtesy in READINGS {
+        let mut situation = between_followers();
+        situation.here.flow.speed = 10.0;
+        let harm = courtesy.earning(&situation, chances(1.0));
+        let (blocked, freed) = (Ahead { gap: 12.0, speed: 4.0 }, Ahead { gap: 40.0, speed: 12.0 });
+        let relief = share_of(&courtesy, 8.0, blocked, freed);
+        for urgency in [0.0, 0.4, 1.0] {
+            let driver = driver(idm(), 8.0, 14.0);
+            situation.merging = Some(Merging { driver, blocked: Some(blocked), freed: Some(freed), urgency });
+            let earning = courtesy.earning(&situation, chances(1.0));
+            assert_near(earning, harm + (1.0 + urgency) * relief, 1e-12);
+        }
+        assert_near(courtesy.earning(&leaving_route(situation, 50.0), chances(0.5)), harm, 1e-12);
+    }
+}
+
+// Comfort.
+
+#[test]
+fn the_discomfort_of_a_change() {
+    for (headway, aggressive, conservative) in [(0.5, 2.143547, 4.924578), (2.0, 0.466516, 0.203063)] {
+        assert_near(discomfort(headway, 1.1), -aggressive, 1e-6);
+        assert_near(discomfort(headway, 2.3), -conservative, 1e-6);
+    }
+    for short in [0.0, 0.1, 0.3] {
+        assert_near(discomfort(short, 1.1), -(0.3_f64.powf(-1.1)), 1e-12);
+    }
+}
+
+#[test]
+fn who_will_have_to_come_back_pays_for_both_changes() {
+    let mut situation = leaving_route(empty_road(driver(idm(), 10.0, 14.0)), 10.0);
+    (situation.here.flow, situation.there.flow) = (flow(12.0, 10.0), flow(20.0, 10.0));
+    let p = literal_chance(10.0);
+    for (beta, earning) in [(1.1, -1.028275), (2.3, -0.654433)] {
+        let comfort = Comfort { weight: 1.0, reading: Literal, beta };
+        assert_near(comfort.earning(&situation, chances(p)), earning, 1e-6);
+        // A symmetric change is one change.
+        let symmetric = Situation { there: LaneView { route: ON_ROUTE, ..situation.there }, ..situation };
+        assert_near(comfort.earning(&symmetric, chances(1.0)), discomfort(2.0, beta), 1e-12);
+        // The repaired reading takes the repaired headways: 1.3 and 0.5 s.
+        let repaired = Comfort { reading: Repaired, ..comfort };
+        let both = discomfort(1.3, beta) + p * discomfort(0.5, beta);
+        assert_near(repaired.earning(&situation, chances(p)), both, 1e-12);
+    }
+}
+
+// Urgency.
+
+#[test]
+fn urgency_grows_towards_the_last_place_for_a_change() {
+    for (remaining, speed, degree) in
+        [(100.0, 20.0, 0.883721), (400.0, 10.0, 0.069767), (100.0, 1.0, 0.661017)]
+    {
+        assert_near(urgency(1, remaining, speed), degree, 1e-6);
+    }
+    // Two changes: as with half the way.
+    assert_near(urgency(2, 200.0, 20.0), 0.883721, 1e-6);
+    assert_eq!(urgency(0, 0.0, 20.0), 0.0);
+    assert_eq!(urgency(1, 5000.0, 20.0), 0.0);
+    assert_eq!(urgency(1, 0.0, 0.0), 1.0);
+    assert_eq!(urgency(1, -3.0, 20.0), 1.0);
+    assert_near(urgency(1, 100.0, 0.0), 0.661017, 1e-6);
+}
+
+#[test]
+fn a_change_earns_the_urgency_that_it_takes_away() {
+    let mut situation = empty_road(driver(idm(), 20.0, 20.0));
+    situation.here.route = RouteView { changes: 1, remaining: 100.0, ..ON_ROUTE };
+    let incentive = Urgency { weight: 0.9 };
+    assert_near(incentive.earning(&situation, chances(1.0)), 0.883721, 1e-6);
+    std::mem::swap(&mut situation.here, &mut situation.there);
+    assert_near(incentive.earning(&situation, chances(1.0)), -0.883721, 1e-6);
+}
+
+#[test]
+fn the_rows_of_an_appraisal_are_the_incentives_in_their_order() {
+    let mut model = mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1);
+    model.urgency.weight = 5.0;
+    let situation = leaving_route(between_followers(), 40.0);
+    let chances = model.returning.chances(&situation);
+    let expected = [
+        model.speed.earning(&situation, chances),
+        model.route.earning(&situation, chances),
+        model.comfort.earning(&situation, chances),
+        model.courtesy.earning(&situation, chances),
+        model.urgency.earning(&situation, chances),
+    ];
+    let appraisal = model.appraise(&situation);
+    for (row, (earning, weight)) in
+        appraisal.rows.iter().zip(expected.into_iter().zip([1.0, 2.0, 3.0, 4.0, 5.0]))
+    {
+        assert_eq!((row.earning, row.weight), (earning, weight));
+    }
+    let sum: f64 = appraisal.rows.iter().map(|row| row.earning * row.weight).sum();
+    assert_near(appraisal.gain, sum, 1e-12);
+}

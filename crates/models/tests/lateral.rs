@@ -1,0 +1,78 @@
+//! The way across, and how tight a driver is for a change's sake.
+
+use laneweave_models::Manner;
+use laneweave_models::change::{moved_share, peak_lateral_acceleration, peak_lateral_speed};
+
+#[track_caller]
+fn assert_near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
+}
+
+/// Lane width [m] and duration [s] of the worked change.
+const WIDTH: f64 = 3.5;
+const DURATION: f64 = 4.0;
+
+#[test]
+fn v46_the_peaks_of_a_quintic_change() {
+    assert_near(peak_lateral_speed(WIDTH, DURATION), 1.640625, 1e-5);
+    assert_near(peak_lateral_acceleration(WIDTH, DURATION), 1.262954, 1e-5);
+}
+
+#[test]
+fn v46_the_path_itself_has_these_peaks() {
+    const STEPS: usize = 4000;
+    let dt = DURATION / STEPS as f64;
+    let place = |step: usize| WIDTH * moved_share(step as f64 / STEPS as f64);
+    let (mut speed, mut acceleration) = (0.0_f64, 0.0_f64);
+    for step in 1..STEPS {
+        let (before, now, after) = (place(step - 1), place(step), place(step + 1));
+        speed = speed.max((after - before) / (2.0 * dt));
+        acceleration = acceleration.max(((after - now) - (now - before)).abs() / (dt * dt));
+    }
+    assert_near(speed, 1.640625, 1e-5);
+    assert_near(acceleration, 1.262954, 1e-5);
+}
+
+#[test]
+fn v46_the_path_starts_and_ends_at_rest_and_crosses_halfway() {
+    assert_eq!(moved_share(0.0), 0.0);
+    assert_eq!(moved_share(0.5), 0.5);
+    assert_eq!(moved_share(1.0), 1.0);
+    assert_eq!(moved_share(-0.2), 0.0);
+    assert_eq!(moved_share(1.2), 1.0);
+    for progress in [0.05, 0.2, 0.4] {
+        assert_near(moved_share(progress) + moved_share(1.0 - progress), 1.0, 1e-12);
+    }
+    // Neither lateral speed nor acceleration at the ends: y grows with the cube.
+    assert_near(moved_share(1e-4), 1e-11, 1e-14);
+}
+
+/// T_max of the worked example [s].
+const RELAXED: f64 = 1.2;
+
+#[test]
+fn a_desire_of_three_fifths_accepts_a_time_gap_of_0_816_s() {
+    let manner = Manner::default();
+    assert_near(RELAXED * manner.tightness(0.6), 0.816, 1e-12);
+    assert_near(RELAXED * manner.tightness(1.0), 0.56, 1e-12);
+    assert_eq!(manner.tightness(0.0), 1.0);
+    assert_eq!(manner.tightness(-2.0), 1.0);
+    assert_eq!(manner.tightness(7.0), manner.tightness(1.0));
+}
+
+#[test]
+fn an_accepted_short_gap_relaxes_exponentially() {
+    let after_25_seconds = |steps: u32| {
+        let manner = Manner::default();
+        RELAXED
+            * (0..steps)
+                .fold(manner.tightness(1.0), |share, _| manner.relaxed(share, 25.0 / f64::from(steps)))
+    };
+    assert_near(after_25_seconds(2_500_000), 0.964557, 1e-6);
+    let errors = [125, 250, 500].map(|steps| after_25_seconds(steps) - 0.964557);
+    for pair in errors.windows(2) {
+        assert_near(pair[0] / pair[1], 2.0, 0.1);
+    }
+    // A step longer than the relaxation time ends relaxed and not beyond.
+    assert_eq!(Manner::default().relaxed(0.5, 100.0), 1.0);
+}

@@ -1,0 +1,45 @@
+//! Situations to write down: a driver on an empty road, whose lanes a test then fills.
+
+use laneweave_models::Reading;
+use laneweave_models::change::{
+    Behind, Comfort, Courtesy, Driver, Flow, LaneView, Mcdm, Returning, Route, RouteView, Rule, Situation,
+    Speed,
+};
+use laneweave_models::follow::{FollowingModel, Pace};
+
+/// Net length of every vehicle [m].
+pub(crate) const LENGTH: f64 = 5.0;
+
+/// A relaxed driver.
+pub(crate) fn driver(follow: FollowingModel, speed: f64, desired: f64) -> Driver {
+    Driver { pace: Pace::new(speed, desired), follow, length: LENGTH }
+}
+
+/// A vehicle `gap` [m] behind.
+pub(crate) fn behind(gap: f64, driver: Driver) -> Option<Behind> {
+    Some(Behind { gap, driver })
+}
+
+/// A lane that the driver's route needs not leave, 60 s to go.
+pub(crate) const ON_ROUTE: RouteView =
+    RouteView { changes: 0, remaining: f64::INFINITY, onward: 60.0, alternative: None };
+
+/// Two empty lanes of equal worth.
+pub(crate) fn empty_road(me: Driver) -> Situation {
+    let flow = Flow { spacing: 300.0, speed: me.pace.desired, length: LENGTH };
+    let lane = LaneView { ahead: None, behind: None, flow, prospect: me.pace.desired, route: ON_ROUTE };
+    Situation { me, here: lane, there: lane, section: 200.0, merging: None }
+}
+
+/// The paper's model with the weights μ₁…μ₄ and β, by the threshold rule with θ = 0.
+pub(crate) fn mcdm(reading: Reading, [speed, route, comfort, courtesy]: [f64; 4], beta: f64) -> Mcdm {
+    Mcdm {
+        rule: Rule::Threshold,
+        speed: Speed { weight: speed, reading },
+        route: Route { weight: route, reading, ..Route::default() },
+        comfort: Comfort { weight: comfort, reading, beta },
+        courtesy: Courtesy { weight: courtesy, reading },
+        returning: Returning { reading, ..Returning::default() },
+        ..Mcdm::default()
+    }
+}

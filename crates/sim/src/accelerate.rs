@@ -1,0 +1,142 @@
+//! Drivers accelerate: behind their leaders, towards the ends of lanes, into and out of lanes, and above all that
+//! emergency braking.
+
+use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
+use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
+use laneweave_network::ChainIndex;
+
+use crate::plan::Plan;
+use crate::scene::{Scene, Spot};
+use crate::traffic::{Car, Mind, Phase};
+
+/// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
+const COMFORTABLE_BRAKING: f64 = 2.0;
+/// Road kept before the end of a lane [m].
+const ROOM_AT_THE_END: f64 = 2.0;
+/// Share of the desired speed at which a driver passes the last place for a change, if it must.
+const PASSING_SHARE: f64 = 0.25;
+
+/// All drivers of a lane choose their accelerations.
+pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut Plan) {
+    let cars = scene.cars(chain);
+    let lane_end = lane_end(scene, chain);
+    for (index, car) in cars.iter().enumerate() {
+        let leader = match cars.get(index + 1) {
+            Some(leader) => Some(Ahead { gap: leader.rear() - car.x, speed: leader.speed }),
+            None => scene.ahead(scene.viewpoint(Spot { chain, index })),
+        };
+        let follow = &scene.characters[car.character as usize].follow;
+        let pace = Pace {
+            speed: car.speed,
+            desired: f64::from(car.desired),
+            tightness: f64::from(car.tightness),
+        };
+        let mut obstacles = [leader, None, None];
+        let mut acceleration = follow.acceleration(pace, leader);
+        if car.phase != Phase::Cruises || car.heeds_more {
+            acceleration = acceleration.min(beyond_the_leader(scene, Spot { chain, index }, pace, &mut obstacles[1]));
+        }
+        if let Some(end) = lane_end.filter(|_| !is_leaving(scene, chain, index, car)) {
+            let room = end - ROOM_AT_THE_END - car.x;
+            acceleration = acceleration.min(approach(car.speed, room, 0.0));
+            obstacles[2] = Some(Ahead::standing(end - car.x));
+        }
+        let acceleration = acceleration.clamp(-HARDEST_BRAKING, f64::from(car.strength));
+        let bounded = bound(car.speed, acceleration, &obstacles, dt);
+        if bounded < acceleration {
+            plan.emergencies.push(index as u32);
+            if !car.in_emergency && !car.is_shadow && bounded < 0.0 {
+                plan.tally.emergency_brakings += 1;
+            }
+        }
+        if leader.is_some_and(|it| it.gap < 0.0) {
+            plan.collisions.push(index as u32);
+            plan.tally.collisions += u64::from(!car.in_collision);
+        }
+        plan.accelerations.push(bounded);
+    }
+}
+
+/// Where the lane ends for all that are on it, along the chain [m].
+fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<f64> {
+    let here = scene.network.chain(chain);
+    match here.following[..] {
+        [] => here.is_lane_drop.then_some(here.length),
+        [only] => {
+            let next = scene.network.chain(only);
+            next.is_lane_drop.then_some(here.length + next.length)
+        }
+        _ => None,
+    }
+}
+
+/// A vehicle whose centre has left the lane need not mind its end.
+fn is_leaving(scene: &Scene, chain: ChainIndex, index: usize, car: &Car) -> bool {
+    car.is_shadow && car.phase == Phase::Changes && mind(scene, Spot { chain, index }).progress >= 0.5
+}
+
+fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
+    &scene.lanes[spot.chain.at()].minds()[spot.index]
+}
+
+/// What a driver heeds beside its leader; an obstacle that it must not hit is put into `obstacle`.
+fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace, obstacle: &mut Option<Ahead>) -> f64 {
+    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let style = &scene.characters[car.character as usize];
+    let mut acceleration = f64::INFINITY;
+    match car.phase {
+        Phase::Changes | Phase::Aborts => {
+            if let Some(twin) = mind.twin {
+                *obstacle = scene.ahead(scene.viewpoint_at(twin.chain, twin.x, car.id, mind.destination));
+                acceleration = style.follow.acceleration(pace, *obstacle);
+            }
+        }
+        Phase::Wants => {
+            acceleration = fall_in(scene, spot, pace).max(-style.manner.adjust_deceleration);
+        }
+        Phase::Cruises => {}
+    }
+    if let Some((gap, speed)) = mind.lets_in {
+        let ahead = Ahead { gap: f64::from(gap).max(0.1), speed: f64::from(speed) };
+        let giving_way = style.follow.acceleration(pace, Some(ahead));
+        acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
+    }
+    if mind.last_place.is_finite() && matches!(car.phase, Phase::Cruises | Phase::Wants) {
+        let room = mind.last_place - ROOM_AT_THE_END - car.x;
+        let passing = PASSING_SHARE * pace.desired;
+        acceleration = acceleration.min(approach(car.speed, room, passing).max(-2.0 * COMFORTABLE_BRAKING));
+    }
+    acceleration
+}
+
+/// Adjusts the speed to the leader on the lane that a driver waits to change to.
+fn fall_in(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
+    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let Some(beside) = scene.network.chain(spot.chain).beside(mind.side, car.x) else { return f64::INFINITY };
+    let from = scene.viewpoint_at(beside.chain, beside.across(car.x), car.id, mind.destination);
+    let follow: &FollowingModel = &scene.characters[car.character as usize].follow;
+    follow.acceleration(pace, scene.ahead(from))
+}
+
+/// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.
+fn approach(speed: f64, room: f64, passing: f64) -> f64 {
+    if speed <= passing {
+        return if room <= 0.0 && passing == 0.0 { 0.0 } else { f64::INFINITY };
+    }
+    let needed = (speed * speed - passing * passing) / (2.0 * room.max(0.1));
+    if needed > COMFORTABLE_BRAKING { -needed } else { f64::INFINITY }
+}
+
+/// The acceleration, or what kinematics leaves of it behind `obstacles`.
+#[inline]
+fn bound(speed: f64, acceleration: f64, obstacles: &[Option<Ahead>; 3], dt: f64) -> f64 {
+    let mut bounded = acceleration;
+    for obstacle in obstacles.iter().flatten() {
+        let next = (speed + bounded * dt).max(0.0);
+        if !stays_secure(speed, next, *obstacle, dt) {
+            let slowed = (secure_speed(speed, *obstacle, dt) - speed) / dt;
+            bounded = bounded.min(slowed.max(-HARDEST_BRAKING));
+        }
+    }
+    bounded
+}

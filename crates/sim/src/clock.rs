@@ -1,0 +1,23 @@
+//! Simulated time in whole steps.
+
+/// The current step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// Number of the step.
+    pub step: u32,
+    /// Length of a step [s].
+    pub dt: f64,
+}
+
+impl Clock {
+    /// Time since the start [s].
+    pub fn time(&self) -> f64 {
+        f64::from(self.step) * self.dt
+    }
+
+    /// A duration [s] as a whole number of steps, at least one.
+    #[inline]
+    pub fn steps(&self, duration: f64) -> u32 {
+        ((duration / self.dt).round() as u32).max(1)
+    }
+}

@@ -1,0 +1,357 @@
+//! Drivers consider lanes, wait for gaps, and call changes off.
+
+use laneweave_models::change::{
+    Appraisal, GapPair, Refusal, Situation, at_least_once_in, time_to_collision, urgency,
+};
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Side};
+
+use crate::clock::Clock;
+use crate::perceive::{Outlook, driver};
+use crate::plan::{Ask, Note, Plan, Request, Want};
+use crate::random::{Purpose, Random};
+use crate::scene::{Scene, Spot};
+use crate::traffic::{Kind, Mind, Phase};
+
+/// Urgency from which a driver signals so that others let it in.
+const ASKS_FROM: f64 = 0.3;
+/// Desire that a voluntary change counts for in the time gap accepted (ours).
+const VOLUNTARY_DESIRE: f64 = 0.3;
+/// Standstill below this speed [m/s].
+const STANDSTILL: f64 = 0.1;
+
+/// What deciding needs beside the scene.
+#[derive(Clone, Copy)]
+pub(crate) struct Moment<'a> {
+    pub(crate) clock: Clock,
+    pub(crate) random: &'a Random,
+    pub(crate) overtaking: Side,
+}
+
+/// All drivers of a lane decide.
+pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan) {
+    let lane = &scene.lanes[chain.at()];
+    for (index, car) in lane.cars().iter().enumerate() {
+        if car.phase == Phase::Cruises && car.due > moment.clock.step {
+            continue;
+        }
+        if car.is_shadow {
+            continue;
+        }
+        let spot = Spot { chain, index };
+        match car.phase {
+            Phase::Changes => abort_if_it_must(scene, spot, plan),
+            Phase::Aborts => {}
+            Phase::Cruises | Phase::Wants => {
+                if car.phase == Phase::Wants {
+                    go_or_ask(scene, moment, spot, plan);
+                }
+                if car.due <= moment.clock.step {
+                    consider(scene, moment, spot, plan);
+                }
+            }
+        }
+    }
+}
+
+fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
+    &scene.lanes[spot.chain.at()].minds()[spot.index]
+}
+
+/// A driver considers both sides.
+fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
+    let car = scene.car(spot);
+    let mind = mind(scene, spot);
+    let style = &scene.characters[car.character as usize];
+    plan.tally.considerations += 1;
+    let mut note = note(scene, moment, spot, style);
+    let waypoint = scene.navigator.waypoint(mind.destination, spot.chain);
+    if !waypoint.leads_on(car.x) {
+        note.rerouted = Some(scene.navigator.nearest(spot.chain, car.x));
+        note.gives_up = true;
+        plan.tally.missed_turns += 1;
+        plan.notes.push(note);
+        return;
+    }
+    note.last_place = waypoint.last_place;
+    let outlook = Outlook::new(scene, spot);
+    let sides = [moment.overtaking, moment.overtaking.opposite()];
+    let looked = sides.map(|side| look(&outlook, moment, mind, style, side));
+    let appraisals = [&looked[0], &looked[1]].map(|it| it.as_ref().map(|(_, appraisal)| appraisal));
+    if car.phase == Phase::Wants {
+        note.gives_up = gives_up(moment, mind, style, sides, appraisals);
+    } else {
+        let epochs = (moment.clock.steps(style.attention.epoch) as f64) * moment.clock.dt / style.attention.epoch;
+        let chances = style.change.choose(appraisals).map(|p| at_least_once_in(epochs, p));
+        let draw = moment.random.uniform(car.id, Purpose::Desire, moment.clock.step);
+        let chosen = if draw < chances[0] {
+            Some(0)
+        } else if draw < chances[0] + chances[1] {
+            Some(1)
+        } else {
+            None
+        };
+        count_signs(&outlook, &looked, chosen, plan);
+        if let Some((number, (situation, appraisal))) =
+            chosen.and_then(|number| looked[number].as_ref().map(|it| (number, it)))
+        {
+            let want = want(sides[number], situation, appraisal);
+            let urgency = desire(situation) as f32;
+            plan.requests.push(Request { urgency, id: car.id, chain: spot.chain, x: car.x, ask: Ask::Want(want) });
+        }
+    }
+    plan.notes.push(note);
+}
+
+/// What the driver remembers whatever it decides.
+fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
+    let car = scene.car(spot);
+    let mind = mind(scene, spot);
+    let period = moment.clock.steps(style.attention.epoch);
+    let limit = scene.network.chain(spot.chain).limit(car.x);
+    let stands = car.speed < STANDSTILL;
+    Note {
+        index: spot.index as u32,
+        due: moment.clock.step + period,
+        limit_desired: mind.class.desired_speed(style, limit) as f32,
+        last_place: f64::INFINITY,
+        standing: if stands { mind.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
+        gives_up: false,
+        rerouted: None,
+    }
+}
+
+/// What the driver makes of `side`; soon after a change only if it helps the route.
+fn look(
+    outlook: &Outlook,
+    moment: Moment,
+    mind: &Mind,
+    style: &Style,
+    side: Side,
+) -> Option<(Situation, Appraisal)> {
+    let situation = outlook.towards(side)?;
+    let helps_the_route = situation.there.route.changes < situation.here.route.changes;
+    let is_calm = moment.clock.step < mind.calm_until;
+    (helps_the_route || !is_calm).then(|| (situation, style.change.appraise(&situation)))
+}
+
+/// A waiting driver loses patience, or the reason to change.
+fn gives_up(
+    moment: Moment,
+    mind: &Mind,
+    style: &Style,
+    sides: [Side; 2],
+    appraisals: [Option<&Appraisal>; 2],
+) -> bool {
+    let (wanted, other) = if sides[0] == mind.side { (0, 1) } else { (1, 0) };
+    let Some(appraisal) = appraisals[wanted] else { return true };
+    let waited = f64::from(moment.clock.step - mind.since) * moment.clock.dt;
+    let is_tired = mind.kind == Kind::Discretionary && waited > style.manner.patience;
+    let is_pointless = appraisal.gain < 0.0;
+    let is_better_elsewhere =
+        appraisals[other].is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());
+    is_tired || is_pointless || is_better_elsewhere
+}
+
+fn want(side: Side, situation: &Situation, appraisal: &Appraisal) -> Want {
+    let kind = if situation.is_symmetric() { Kind::Discretionary } else { Kind::Route };
+    let speed_gain = (situation.there.prospect - situation.here.prospect) as f32;
+    Want { side, kind, appraisal: *appraisal, speed_gain }
+}
+
+/// How much the driver's route presses it to change.
+fn desire(situation: &Situation) -> f64 {
+    if situation.there.route.changes < situation.here.route.changes {
+        let route = &situation.here.route;
+        urgency(route.changes, route.remaining, situation.me.pace.speed)
+    } else {
+        0.0
+    }
+}
+
+/// Counts what separates drivers from coins: how often the desire comes to those held up beside a free lane, and to
+/// those on a free road.
+fn count_signs(
+    outlook: &Outlook,
+    looked: &[Option<(Situation, Appraisal)>; 2],
+    chosen: Option<usize>,
+    plan: &mut Plan,
+) {
+    /// Share of the desired speed from which a lane is free, and below which a driver is held up.
+    const FREE: f64 = 0.95;
+    const HELD_UP: f64 = 0.9;
+    let mut symmetric = looked.iter().flatten().filter(|(situation, _)| situation.is_symmetric());
+    let Some((first, _)) = symmetric.next() else { return };
+    let desired = first.me.pace.desired;
+    let best_there = symmetric.map(|(it, _)| it.there.prospect).fold(first.there.prospect, f64::max);
+    let here = outlook.here().prospect;
+    let wants = u64::from(chosen.is_some());
+    if here >= FREE * desired {
+        plan.tally.free_considerations += 1;
+        plan.tally.free_desires += wants;
+    } else if here <= HELD_UP * desired && best_there >= FREE * desired {
+        plan.tally.held_up_considerations += 1;
+        plan.tally.held_up_desires += wants;
+    }
+}
+
+/// A waiting driver goes if the gap is acceptable, else asks to be let in.
+fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
+    let car = scene.car(spot);
+    let mind = mind(scene, spot);
+    let request =
+        |ask: Ask| Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask };
+    match gap(scene, spot, mind.side) {
+        None => {}
+        Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
+            plan.requests.push(request(Ask::Change));
+        }
+        Some(gap) => {
+            let follower = gap.follower.filter(|_| f64::from(mind.urgency) >= ASKS_FROM);
+            if let Some(found) = follower {
+                let behind = scene.car(found.spot);
+                plan.requests.push(request(Ask::LetIn {
+                    follower: behind.id,
+                    chain: found.spot.chain,
+                    x: behind.x,
+                    gap: (found.distance - f64::from(car.length)) as f32,
+                    speed: car.speed as f32,
+                }));
+            }
+        }
+    }
+}
+
+/// A gap in the lane beside, as it would be taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    /// The chain.
+    pub(crate) chain: ChainIndex,
+    /// Where the own front bumper would be on it [m].
+    pub(crate) x: f64,
+    /// Metres there for a metre here.
+    pub(crate) scale: f64,
+    /// Road on which the centre can still cross [m].
+    pub(crate) room: f64,
+    /// The new leader.
+    pub(crate) ahead: Option<Ahead>,
+    /// The new follower.
+    pub(crate) follower: Option<crate::scene::Found>,
+}
+
+/// The gap beside; `None` where a change to `side` is not allowed.
+pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
+    let car = scene.car(spot);
+    let beside = scene.network.chain(spot.chain).beside(side, car.x)?;
+    let x = beside.across(car.x);
+    let from = scene.viewpoint_at(beside.chain, x, car.id, mind(scene, spot).destination);
+    Some(Gap {
+        chain: beside.chain,
+        x,
+        scale: beside.scale,
+        room: permitted_ahead(scene, spot, side),
+        ahead: scene.ahead(from),
+        follower: scene.follower(from),
+    })
+}
+
+/// How far on a change to `side` stays allowed [m], as far as a change needs.
+fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
+    const ENOUGH: f64 = 150.0;
+    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let (mut chain, mut x, mut permitted) = (spot.chain, car.x, 0.0);
+    while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
+        permitted += stretch.end - x;
+        if permitted > ENOUGH || stretch.end < scene.network.chain(chain).length - 1e-6 {
+            // Joined stretches of one chain follow each other without a break.
+            match scene.network.chain(chain).beside(side, stretch.end + 1e-6) {
+                Some(next) if permitted <= ENOUGH && next.start > stretch.start => {
+                    x = next.start;
+                    continue;
+                }
+                _ => break,
+            }
+        }
+        match scene.next(mind.destination, chain) {
+            Some(next) => (chain, x) = (next, 0.0),
+            None => break,
+        }
+    }
+    permitted
+}
+
+impl Gap {
+    /// Whether the driver, its new leader and its new follower can live with the change.
+    ///
+    /// # Errors
+    /// Why not.
+    pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Refusal> {
+        let car = scene.car(spot);
+        let style = &scene.characters[car.character as usize];
+        let crossing = 0.5 * style.manner.change_duration * car.speed;
+        if self.room < crossing {
+            return Err(Refusal::Short);
+        }
+        let me = driver(scene, car);
+        if let Some(ahead) = self.ahead {
+            let demanded = style.follow.acceleration(self.pace(spot, scene), Some(ahead));
+            let pair = GapPair { gap: ahead.gap, follower: car.speed, leader: ahead.speed, demanded };
+            style.safety.accept(pair, dt)?;
+        }
+        if let Some(found) = self.follower {
+            let behind = driver(scene, scene.car(found.spot));
+            let gap = found.distance - me.length;
+            let demanded =
+                behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed: car.speed }));
+            let pair = GapPair { gap, follower: behind.pace.speed, leader: car.speed, demanded };
+            style.safety.accept(pair, dt)?;
+        }
+        Ok(())
+    }
+
+    /// The driver's pace with the time gap that it accepts for this change.
+    fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
+        let car = scene.car(spot);
+        let style = &scene.characters[car.character as usize];
+        let desire = f64::from(mind(scene, spot).urgency).max(VOLUNTARY_DESIRE);
+        let tightness = style.manner.tightness(desire).min(f64::from(car.tightness));
+        Pace { speed: car.speed, desired: f64::from(car.desired), tightness }
+    }
+
+    /// Share of the usual time gap that the driver accepts for this change.
+    pub(crate) fn tightness(&self, scene: &Scene, spot: Spot) -> f64 {
+        self.pace(spot, scene).tightness
+    }
+
+    /// Gaps [m] and times to collision [s] ahead and behind; infinite where there is nobody.
+    pub(crate) fn measures(&self, scene: &Scene, spot: Spot) -> [f64; 4] {
+        let car = scene.car(spot);
+        let (gap_ahead, ttc_ahead) = self.ahead.map_or((f64::INFINITY, f64::INFINITY), |it| {
+            (it.gap, time_to_collision(it.gap, car.speed, it.speed))
+        });
+        let (gap_behind, ttc_behind) = self.follower.map_or((f64::INFINITY, f64::INFINITY), |it| {
+            let gap = it.distance - f64::from(car.length);
+            (gap, time_to_collision(gap, scene.car(it.spot).speed, car.speed))
+        });
+        [gap_ahead, gap_behind, ttc_ahead, ttc_behind]
+    }
+}
+
+/// Before the crossing a driver goes back if its new leader forces it to brake much harder than its old one.
+fn abort_if_it_must(scene: &Scene, spot: Spot, plan: &mut Plan) {
+    const MUCH_HARDER: f64 = 2.0;
+    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };
+    let style = &scene.characters[car.character as usize];
+    let me = driver(scene, car);
+    let demanded = |ahead| me.follow.acceleration(me.pace, ahead);
+    let there = scene.viewpoint_at(twin.chain, twin.x, car.id, mind.destination);
+    let new = demanded(scene.ahead(there));
+    if new < -style.safety.max_deceleration
+        && new < demanded(scene.ahead(scene.viewpoint(spot))) - MUCH_HARDER
+    {
+        let ask = Ask::Abort;
+        plan.requests.push(Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask });
+    }
+}

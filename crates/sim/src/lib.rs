@@ -1,0 +1,37 @@
+//! The world and its step.
+//!
+//! perceive → decide → accelerate on one snapshot, then move, then resolve what concerns two lanes, then enter and
+//! observe. The order of vehicles and the number of threads change nothing, bit for bit.
+
+mod accelerate;
+mod advance;
+mod clock;
+mod decide;
+mod demand;
+mod events;
+mod navigate;
+mod overlap;
+mod perceive;
+mod plan;
+mod pool;
+mod pose;
+mod random;
+mod records;
+mod resolve;
+mod scene;
+mod tally;
+mod traffic;
+mod vehicle;
+mod world;
+
+pub use clock::Clock;
+pub use demand::{Demand, Share};
+pub use events::{Event, LaneChange};
+pub use navigate::{Destination, Navigator, Waypoint};
+pub use perceive::{driver, perceive};
+pub use random::{Purpose, Random};
+pub use scene::{Found, LaneSight, Scene, Spot, Viewpoint};
+pub use tally::Tally;
+pub use traffic::{Car, Kind, Lane, Mind, Phase, Twin, VehicleId};
+pub use vehicle::{Body, Class};
+pub use world::{Counts, NewVehicle, Setup, Vehicle, World, WorldError};

@@ -1,0 +1,98 @@
+//! Overlaps: vehicles in their lanes are kept apart by their gaps; every vehicle that moves sideways is tested as a
+//! rectangle against all around it.
+
+use laneweave_network::{ChainIndex, Network, Pose, Side};
+
+use crate::pose::pose;
+use crate::scene::Spot;
+use crate::traffic::{Lane, Phase};
+
+/// Rectangles that intersect less than this do not overlap [m].
+const TOLERANCE: f64 = 0.05;
+/// Vehicles further apart along the road than this cannot touch [m].
+const REACH: f64 = 30.0;
+
+/// Number of overlaps between a vehicle in a change and any other.
+pub(crate) fn overlaps(network: &Network, lanes: &[Lane]) -> u64 {
+    let mut count = 0;
+    for (index, lane) in lanes.iter().enumerate() {
+        let chain = ChainIndex(index as u32);
+        for (index, car) in lane.cars().iter().enumerate() {
+            if !car.is_shadow && moves_sideways(car.phase) {
+                count += overlaps_of(network, lanes, Spot { chain, index });
+            }
+        }
+    }
+    count
+}
+
+fn moves_sideways(phase: Phase) -> bool {
+    matches!(phase, Phase::Changes | Phase::Aborts)
+}
+
+fn overlaps_of(network: &Network, lanes: &[Lane], spot: Spot) -> u64 {
+    let lane = &lanes[spot.chain.at()];
+    let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
+    let body = Rectangle::of(network, lanes, spot);
+    let mut places = vec![(spot.chain, car.x)];
+    places.extend(mind.twin.map(|twin| (twin.chain, twin.x)));
+    for (chain, x) in places.clone() {
+        for side in Side::BOTH {
+            if let Some(beside) = network.chain(chain).beside(side, x) {
+                places.push((beside.chain, beside.across(x)));
+            }
+        }
+    }
+    places.sort_by_key(|(chain, _)| *chain);
+    places.dedup_by_key(|(chain, _)| *chain);
+    let mut count = 0;
+    for (chain, x) in places {
+        let cars = lanes[chain.at()].cars();
+        let from = cars.partition_point(|other| other.x < x - REACH);
+        for (index, other) in cars.iter().enumerate().skip(from).take_while(|(_, it)| it.x < x + REACH) {
+            // Of two that move sideways the pair is counted once.
+            let is_counted_there = moves_sideways(other.phase) && other.id < car.id;
+            if other.id != car.id && !other.is_shadow && !is_counted_there {
+                let other = Rectangle::of(network, lanes, Spot { chain, index });
+                count += u64::from(body.depth(&other) > TOLERANCE);
+            }
+        }
+    }
+    count
+}
+
+/// A vehicle seen from above.
+struct Rectangle {
+    pose: Pose,
+    length: f64,
+    width: f64,
+}
+
+impl Rectangle {
+    fn of(network: &Network, lanes: &[Lane], spot: Spot) -> Rectangle {
+        let lane = &lanes[spot.chain.at()];
+        let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
+        Rectangle {
+            pose: pose(network, lanes, spot),
+            length: f64::from(car.length),
+            width: mind.class.body().width,
+        }
+    }
+
+    /// Half its extent along the direction (`x`, `y`).
+    fn reach(&self, x: f64, y: f64) -> f64 {
+        let (sin, cos) = self.pose.heading.sin_cos();
+        0.5 * (self.length * (cos * x + sin * y).abs() + self.width * (cos * y - sin * x).abs())
+    }
+
+    /// How deep two rectangles intersect, by separating axes; not positive where they are apart.
+    fn depth(&self, other: &Rectangle) -> f64 {
+        let (dx, dy) = (other.pose.at.x - self.pose.at.x, other.pose.at.y - self.pose.at.y);
+        let axes = [self, other].into_iter().flat_map(|it| {
+            let (sin, cos) = it.pose.heading.sin_cos();
+            [(cos, sin), (-sin, cos)]
+        });
+        axes.map(|(x, y)| self.reach(x, y) + other.reach(x, y) - (dx * x + dy * y).abs())
+            .fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,133 @@
+//! Traffic as one driver sees it. The only bridge from traffic to models, for simulated and for recorded drivers.
+
+use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation};
+use laneweave_models::follow::{Ahead, Pace};
+use laneweave_network::{Beside, ChainIndex, Side};
+
+use crate::navigate::Waypoint;
+use crate::scene::{LaneSight, Scene, Spot, Viewpoint};
+use crate::traffic::{Car, Phase};
+
+/// What a driver knows when it considers the lane on `side`; `None` where it may not change to one.
+pub fn perceive(scene: &Scene, me: Spot, side: Side) -> Option<Situation> {
+    Outlook::new(scene, me).towards(side)
+}
+
+/// A driver with its vehicle.
+#[inline]
+pub fn driver(scene: &Scene, car: &Car) -> Driver {
+    Driver {
+        pace: Pace {
+            speed: car.speed,
+            desired: f64::from(car.desired),
+            tightness: f64::from(car.tightness),
+        },
+        follow: scene.characters[car.character as usize].follow,
+        length: f64::from(car.length),
+    }
+}
+
+/// A driver's view of its own lane, from which it considers both sides.
+pub struct Outlook<'a> {
+    scene: &'a Scene<'a>,
+    car: &'a Car,
+    me: Driver,
+    from: Viewpoint,
+    sight: LaneSight,
+    here: LaneView,
+}
+
+impl<'a> Outlook<'a> {
+    /// Looks along the driver's own lane.
+    pub fn new(scene: &'a Scene<'a>, spot: Spot) -> Outlook<'a> {
+        let car = scene.car(spot);
+        let me = driver(scene, car);
+        let from = scene.viewpoint(spot);
+        let sight = scene.look(from, me.pace.desired, me.length);
+        let here = lane_view(scene, &me, from, &sight);
+        Outlook { scene, car, me, from, sight, here }
+    }
+
+    /// The waypoint of the own lane.
+    pub fn waypoint(&self) -> &'a Waypoint {
+        self.scene.navigator.waypoint(self.from.destination, self.from.chain)
+    }
+
+    /// The own lane.
+    pub fn here(&self) -> &LaneView {
+        &self.here
+    }
+
+    /// The stretch beside on `side`.
+    pub fn beside(&self, side: Side) -> Option<&'a Beside> {
+        self.scene.network.chain(self.from.chain).beside(side, self.car.x)
+    }
+
+    /// What the driver knows about the lane on `side`.
+    pub fn towards(&self, side: Side) -> Option<Situation> {
+        let beside = self.beside(side)?;
+        let x = beside.across(self.car.x);
+        let from = self.scene.viewpoint_at(beside.chain, x, self.car.id, self.from.destination);
+        let sight = self.scene.look(from, self.me.pace.desired, self.me.length);
+        let there = lane_view(self.scene, &self.me, from, &sight);
+        let section = self.here.route.remaining.min(there.route.remaining).min(SIGHT);
+        let mut situation =
+            Situation { me: self.me, here: self.here, there, section, merging: self.merging(side, from, &sight) };
+        if situation.there.route.changes == Waypoint::NO_WAY {
+            situation.there.route.onward = situation.here.route.onward;
+        }
+        for lane in [&mut situation.here, &mut situation.there] {
+            let on_section = section / self.scene.network.chain(self.from.chain).limit(self.car.x);
+            lane.route.onward = (lane.route.onward - on_section).max(0.0);
+        }
+        Some(situation)
+    }
+
+    /// A neighbour on the other side than the driver would leave to cannot be seen from here; one on this side that
+    /// signals into the driver's lane can.
+    fn merging(&self, side: Side, from: Viewpoint, sight: &LaneSight) -> Option<Merging> {
+        let wants_in = |spot: Spot| {
+            let lane = &self.scene.lanes[spot.chain.at()];
+            lane.cars()[spot.index].phase == Phase::Wants
+                && lane.minds()[spot.index].side == side.opposite()
+        };
+        let behind = sight.follower.map(|it| it.spot).filter(|it| wants_in(*it));
+        let spot = behind.or(sight.leader.filter(|it| wants_in(*it)))?;
+        let car = self.scene.car(spot);
+        // Where it would be on the driver's own lane, seen from the driver.
+        let forward = if spot.chain == from.chain { car.x - from.x } else { return None };
+        let driver = driver(self.scene, car);
+        let in_own_lane = self.scene.ahead(self.scene.viewpoint(spot));
+        let me_ahead = Ahead { gap: -forward - self.me.length, speed: self.me.pace.speed };
+        let my_leader =
+            self.sight.ahead.map(|it| Ahead { gap: (it.gap - forward).max(0.1), speed: it.speed });
+        let blocked = if behind.is_some() && me_ahead.gap > 0.0 { Some(me_ahead) } else { in_own_lane };
+        let mind = &self.scene.lanes[spot.chain.at()].minds()[spot.index];
+        Some(Merging { driver, blocked, freed: my_leader, urgency: f64::from(mind.urgency) })
+    }
+
+}
+
+fn lane_view(scene: &Scene, me: &Driver, from: Viewpoint, sight: &LaneSight) -> LaneView {
+    let behind = sight.follower.map(|it| Behind {
+        gap: it.distance - me.length,
+        driver: driver(scene, scene.car(it.spot)),
+    });
+    LaneView {
+        ahead: sight.ahead,
+        behind,
+        flow: sight.flow,
+        prospect: sight.prospect,
+        route: route_view(scene, from.chain, from),
+    }
+}
+
+/// What a lane means for the driver's route; `onward` counts from the driver's place on.
+fn route_view(scene: &Scene, chain: ChainIndex, from: Viewpoint) -> RouteView {
+    let waypoint = scene.navigator.waypoint(from.destination, chain);
+    let onward = (waypoint.time - from.x / scene.network.chain(chain).limit(from.x)).max(0.0);
+    if !waypoint.leads_on(from.x) {
+        return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };
+    }
+    RouteView { changes: waypoint.changes, remaining: waypoint.last_place - from.x, onward, alternative: None }
+}

@@ -1,0 +1,32 @@
+//! Records of lane changes under way, kept in slots that are used again.
+
+use crate::events::LaneChange;
+
+/// The records.
+#[derive(Debug, Default)]
+pub(crate) struct Records {
+    kept: Vec<LaneChange>,
+    free: Vec<u32>,
+}
+
+impl Records {
+    /// Keeps a record; returns its slot.
+    pub(crate) fn keep(&mut self, record: LaneChange) -> u32 {
+        if let Some(slot) = self.free.pop() {
+            self.kept[slot as usize] = record;
+            return slot;
+        }
+        self.kept.push(record);
+        self.kept.len() as u32 - 1
+    }
+
+    /// The record in `slot`.
+    pub(crate) fn get_mut(&mut self, slot: u32) -> &mut LaneChange {
+        &mut self.kept[slot as usize]
+    }
+
+    /// The record in `slot` is no longer needed.
+    pub(crate) fn release(&mut self, slot: u32) {
+        self.free.push(slot);
+    }
+}

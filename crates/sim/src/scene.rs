@@ -1,0 +1,329 @@
+//! One instant of traffic, simulated or recorded: who is ahead and behind, on any lane, across the ends of chains.
+
+use laneweave_models::Style;
+use laneweave_models::change::{Flow, SIGHT, anticipated_speed};
+use laneweave_models::follow::Ahead;
+use laneweave_network::{ChainIndex, Network};
+
+use crate::navigate::{Destination, Navigator};
+use crate::traffic::{Car, Lane, VehicleId};
+
+/// One instant of traffic on a network.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The roads.
+    pub network: &'a Network,
+    /// The ways on them.
+    pub navigator: &'a Navigator,
+    /// The vehicles, by chain.
+    pub lanes: &'a [Lane],
+    /// The characters of the drivers.
+    pub characters: &'a [Style],
+}
+
+/// An entry in a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spot {
+    /// The chain.
+    pub chain: ChainIndex,
+    /// Its index in the lane.
+    pub index: usize,
+}
+
+/// Where one looks from: a front bumper on a chain, and whose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// The chain.
+    pub chain: ChainIndex,
+    /// Front bumper along it [m].
+    pub x: f64,
+    /// Index of the first entry ahead.
+    pub ahead: usize,
+    /// The one who looks; its own entries are not seen.
+    pub id: VehicleId,
+    /// Where it goes.
+    pub destination: Destination,
+}
+
+/// A vehicle that was found, and how far its front bumper is ahead of, or behind, one's own [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// Where it stands.
+    pub spot: Spot,
+    /// Distance between the front bumpers [m], positive.
+    pub distance: f64,
+}
+
+/// How far back a follower is looked for [m].
+const REAR_SIGHT: f64 = 250.0;
+/// T_h window ahead [m].
+const WINDOW_AHEAD: f64 = 200.0;
+/// T_h window back [m].
+const WINDOW_BACK: f64 = 100.0;
+
+/// What one sees along a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneSight {
+    /// The leader, or the end of the lane.
+    pub ahead: Option<Ahead>,
+    /// The leader's entry.
+    pub leader: Option<Spot>,
+    /// The follower.
+    pub follower: Option<Found>,
+    /// Least anticipated speed over the leaders [m/s].
+    pub prospect: f64,
+    /// Means over the window.
+    pub flow: Flow,
+}
+
+/// Sums over a window.
+#[derive(Default)]
+struct Window {
+    count: f64,
+    speeds: f64,
+    lengths: f64,
+}
+
+impl Window {
+    #[inline]
+    fn add(&mut self, car: &Car) {
+        self.count += 1.0;
+        self.speeds += car.speed;
+        self.lengths += f64::from(car.length);
+    }
+
+    /// Means over a window of `extent` [m]; an empty one looks like a road on which one drives as one likes.
+    fn flow(&self, extent: f64, desired: f64, own_length: f64) -> Flow {
+        if self.count == 0.0 {
+            return Flow { spacing: extent, speed: desired, length: own_length };
+        }
+        Flow {
+            spacing: extent / self.count,
+            speed: self.speeds / self.count,
+            length: self.lengths / self.count,
+        }
+    }
+}
+
+impl<'a> Scene<'a> {
+    /// The vehicles on `chain`.
+    #[inline]
+    pub fn cars(&self, chain: ChainIndex) -> &'a [Car] {
+        self.lanes[chain.at()].cars()
+    }
+
+    /// The entry at `spot`.
+    #[inline]
+    pub fn car(&self, spot: Spot) -> &'a Car {
+        &self.cars(spot.chain)[spot.index]
+    }
+
+    /// The viewpoint of an entry.
+    #[inline]
+    pub fn viewpoint(&self, spot: Spot) -> Viewpoint {
+        let car = self.car(spot);
+        let destination = self.lanes[spot.chain.at()].minds()[spot.index].destination;
+        Viewpoint { chain: spot.chain, x: car.x, ahead: spot.index + 1, id: car.id, destination }
+    }
+
+    /// The viewpoint from `x` on another chain.
+    #[inline]
+    pub fn viewpoint_at(&self, chain: ChainIndex, x: f64, id: VehicleId, destination: Destination) -> Viewpoint {
+        Viewpoint { chain, x, ahead: self.lanes[chain.at()].ahead_of(x), id, destination }
+    }
+
+    /// The chain on which a driver goes on.
+    #[inline]
+    pub fn next(&self, destination: Destination, chain: ChainIndex) -> Option<ChainIndex> {
+        self.navigator.waypoint(destination, chain).next
+    }
+
+    /// The leader within sight.
+    #[inline]
+    pub fn ahead(&self, from: Viewpoint) -> Option<Ahead> {
+        let cars = self.cars(from.chain);
+        match cars[from.ahead..].iter().find(|car| car.id != from.id) {
+            Some(car) => Some(Ahead { gap: car.rear() - from.x, speed: car.speed }),
+            None => self.ahead_beyond(from),
+        }
+    }
+
+    /// The leader beyond the end of the chain.
+    fn ahead_beyond(&self, from: Viewpoint) -> Option<Ahead> {
+        let mut chain = from.chain;
+        let mut base = self.network.chain(chain).length - from.x;
+        while base < SIGHT {
+            let next = self.next(from.destination, chain)?;
+            let on_way = self.cars(next).iter().find(|car| car.id != from.id);
+            let leader = on_way.map(|car| Ahead { gap: base + car.rear(), speed: car.speed });
+            let beside = self.beside_the_fork(chain, next, base, from.id);
+            if let Some(nearest) = nearer(leader, beside) {
+                return Some(nearest);
+            }
+            chain = next;
+            base += self.network.chain(chain).length;
+        }
+        None
+    }
+
+    /// A vehicle that forked off to another chain than `next` and is still in the way.
+    fn beside_the_fork(&self, chain: ChainIndex, next: ChainIndex, base: f64, id: VehicleId) -> Option<Ahead> {
+        let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
+        siblings
+            .filter_map(|it| {
+                let car = self.cars(*it).iter().find(|car| car.id != id)?;
+                let in_the_way = car.rear() < self.network.chain(*it).fork_clearance;
+                in_the_way.then(|| Ahead { gap: base + car.rear(), speed: car.speed })
+            })
+            .fold(None, |nearest, it| nearer(nearest, Some(it)))
+    }
+
+    /// The follower within sight.
+    pub fn follower(&self, from: Viewpoint) -> Option<Found> {
+        let cars = &self.cars(from.chain)[..from.ahead];
+        let here = cars.iter().enumerate().rev().find(|(_, car)| car.id != from.id);
+        if let Some((index, car)) = here {
+            let found = Found { spot: Spot { chain: from.chain, index }, distance: from.x - car.x };
+            return (found.distance < REAR_SIGHT).then_some(found);
+        }
+        let (mut chain, mut base) = (from.chain, from.x);
+        while base < REAR_SIGHT {
+            let (back, found) = self.last_on_previous(chain, base, from.id)?;
+            if let Some(found) = found {
+                return (found.distance < REAR_SIGHT).then_some(found);
+            }
+            chain = back;
+            base += self.network.chain(chain).length;
+        }
+        None
+    }
+
+    /// The foremost vehicle that comes from a previous chain onto `chain`, and the chain to look on from.
+    fn last_on_previous(
+        &self,
+        chain: ChainIndex,
+        base: f64,
+        id: VehicleId,
+    ) -> Option<(ChainIndex, Option<Found>)> {
+        let previous = &self.network.chain(chain).previous;
+        let mut nearest: Option<(ChainIndex, Option<Found>)> = previous.first().map(|it| (*it, None));
+        for back in previous {
+            let lane = &self.lanes[back.at()];
+            let foremost = lane.cars().iter().zip(lane.minds()).enumerate().rev();
+            let comes = |mind: &crate::traffic::Mind| self.next(mind.destination, *back) == Some(chain);
+            let found = foremost.into_iter().find(|(_, (car, mind))| car.id != id && comes(mind)).map(
+                |(index, (car, _))| {
+                    let distance = base + self.network.chain(*back).length - car.x;
+                    Found { spot: Spot { chain: *back, index }, distance }
+                },
+            );
+            let is_nearer = match (&nearest, &found) {
+                (Some((_, Some(old))), Some(new)) => new.distance < old.distance,
+                (_, Some(_)) => true,
+                _ => false,
+            };
+            if is_nearer {
+                nearest = Some((*back, found));
+            }
+        }
+        nearest
+    }
+
+    /// All that a driver who wants `desired` [m/s] sees along the lane it looks at.
+    pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64) -> LaneSight {
+        let mut window = Window::default();
+        let mut sight = LaneSight {
+            ahead: None,
+            leader: None,
+            follower: None,
+            prospect: desired,
+            flow: Flow { spacing: 0.0, speed: desired, length: own_length },
+        };
+        let ahead = self.look_ahead(from, desired, &mut window, &mut sight);
+        let back = self.look_back(from, &mut window, &mut sight);
+        sight.flow = window.flow(ahead + back, desired, own_length);
+        sight
+    }
+
+    /// Fills in what is ahead; returns the window's extent [m].
+    fn look_ahead(&self, from: Viewpoint, desired: f64, window: &mut Window, sight: &mut LaneSight) -> f64 {
+        let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+        loop {
+            let cars = self.cars(chain);
+            while index < cars.len() {
+                let car = &cars[index];
+                let front = base + car.x;
+                let ahead = Ahead { gap: front - f64::from(car.length), speed: car.speed };
+                if ahead.gap > SIGHT {
+                    return WINDOW_AHEAD;
+                }
+                if car.id != from.id {
+                    if sight.ahead.is_none() {
+                        sight.ahead = Some(ahead);
+                        sight.leader = Some(Spot { chain, index });
+                    }
+                    sight.prospect = sight.prospect.min(anticipated_speed(ahead, desired));
+                    if front <= WINDOW_AHEAD {
+                        window.add(car);
+                    }
+                }
+                index += 1;
+            }
+            base += self.network.chain(chain).length;
+            if base > SIGHT {
+                return WINDOW_AHEAD;
+            }
+            let Some(next) = self.next(from.destination, chain) else {
+                if self.network.chain(chain).is_lane_drop {
+                    let end = Ahead::standing(base);
+                    sight.ahead = sight.ahead.or(Some(end));
+                    sight.prospect = sight.prospect.min(anticipated_speed(end, desired));
+                }
+                return base.clamp(1.0, WINDOW_AHEAD);
+            };
+            (chain, index) = (next, 0);
+        }
+    }
+
+    /// Fills in what is behind; returns the window's extent [m].
+    fn look_back(&self, from: Viewpoint, window: &mut Window, sight: &mut LaneSight) -> f64 {
+        let cars = &self.cars(from.chain)[..from.ahead];
+        for (index, car) in cars.iter().enumerate().rev() {
+            let distance = from.x - car.x;
+            let in_window = distance <= WINDOW_BACK;
+            if !in_window && (sight.follower.is_some() || distance >= REAR_SIGHT) {
+                return WINDOW_BACK;
+            }
+            if car.id != from.id {
+                if sight.follower.is_none() {
+                    sight.follower = Some(Found { spot: Spot { chain: from.chain, index }, distance });
+                }
+                if in_window {
+                    window.add(car);
+                }
+            }
+        }
+        if sight.follower.is_none() {
+            sight.follower = self.follower(Viewpoint { ahead: 0, ..from });
+        }
+        let previous = self.network.chain(from.chain).previous.first();
+        let missing = WINDOW_BACK - from.x;
+        if let (true, Some(back)) = (missing > 0.0, previous) {
+            let length = self.network.chain(*back).length;
+            let cars = self.cars(*back).iter().rev();
+            cars.take_while(|car| length - car.x <= missing)
+                .filter(|car| car.id != from.id)
+                .for_each(|car| window.add(car));
+            return (from.x + length).min(WINDOW_BACK);
+        }
+        from.x.clamp(0.0, WINDOW_BACK)
+    }
+}
+
+/// The nearer of two.
+fn nearer(one: Option<Ahead>, other: Option<Ahead>) -> Option<Ahead> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if other.gap < one.gap { other } else { one }),
+        (one, other) => one.or(other),
+    }
+}

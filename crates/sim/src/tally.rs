@@ -1,0 +1,63 @@
+//! Counts of a run.
+
+/// What was counted. Each lane counts for itself; the counts are added up in order.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Times that a driver considered lanes.
+    pub considerations: u64,
+    /// Of them, by drivers on a free road.
+    pub free_considerations: u64,
+    /// Desires that came to them.
+    pub free_desires: u64,
+    /// Of them, by drivers held up beside a free lane.
+    pub held_up_considerations: u64,
+    /// Desires that came to them.
+    pub held_up_desires: u64,
+    /// Vehicles moved, summed over steps.
+    pub updates: u64,
+    /// Distance driven [m].
+    pub distance: f64,
+    /// Braking events that kinematics, not the model, decided.
+    pub emergency_brakings: u64,
+    /// Times that a vehicle came to touch its leader.
+    pub collisions: u64,
+    /// Vehicles that stood for 300 s.
+    pub stuck: u64,
+    /// Drivers who passed the last place for a change without reaching a lane of their route.
+    pub missed_turns: u64,
+}
+
+impl Tally {
+    /// Adds `other`.
+    pub fn add(&mut self, other: &Tally) {
+        let Tally {
+            considerations,
+            free_considerations,
+            free_desires,
+            held_up_considerations,
+            held_up_desires,
+            updates,
+            distance,
+            emergency_brakings,
+            collisions,
+            stuck,
+            missed_turns,
+        } = other;
+        self.considerations += considerations;
+        self.free_considerations += free_considerations;
+        self.free_desires += free_desires;
+        self.held_up_considerations += held_up_considerations;
+        self.held_up_desires += held_up_desires;
+        self.updates += updates;
+        self.distance += distance;
+        self.emergency_brakings += emergency_brakings;
+        self.collisions += collisions;
+        self.stuck += stuck;
+        self.missed_turns += missed_turns;
+    }
+
+    /// Takes what was counted and begins anew.
+    pub(crate) fn take(&mut self) -> Tally {
+        std::mem::take(self)
+    }
+}

@@ -1,0 +1,404 @@
+//! The world and its step.
+
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Network, Pose};
+use thiserror::Error;
+use xxhash_rust::xxh3::Xxh3;
+
+use crate::accelerate::accelerate;
+use crate::advance::advance;
+use crate::clock::Clock;
+use crate::decide::{Moment, decide};
+use crate::demand::{Arrival, Demand, Source, entry_speed};
+use crate::events::Event;
+use crate::navigate::{Destination, Navigator};
+use crate::overlap::overlaps;
+use crate::plan::{Plan, Request};
+use crate::pool::Pool;
+use crate::pose::pose;
+use crate::random::{Purpose, Random};
+use crate::records::Records;
+use crate::scene::{Scene, Spot};
+use crate::tally::Tally;
+use crate::traffic::{Car, Kind, Lane, Milestone, Mind, Phase, VehicleId};
+use crate::vehicle::Class;
+
+/// Traffic on a network, and all that moves it.
+pub struct World {
+    pub(crate) network: Network,
+    pub(crate) navigator: Navigator,
+    pub(crate) characters: Vec<Style>,
+    pub(crate) clock: Clock,
+    pub(crate) lanes: Vec<Lane>,
+    pub(crate) plans: Vec<Plan>,
+    pub(crate) records: Records,
+    pub(crate) events: Vec<Event>,
+    pub(crate) counts: Counts,
+    pub(crate) requests: Vec<Request>,
+    pub(crate) milestones: Vec<Milestone>,
+    pub(crate) leaving: Vec<(ChainIndex, Car, Mind)>,
+    demand: Demand,
+    sources: Vec<Source>,
+    random: Random,
+    pool: Pool,
+    tally: Tally,
+    next_id: VehicleId,
+}
+
+/// Counts of what the whole world, not a lane, does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counts {
+    /// Vehicles that entered.
+    pub entered: u64,
+    /// Vehicles that left.
+    pub left: u64,
+    /// Lane changes between lanes of equal worth for the route.
+    pub discretionary_changes: u64,
+    /// Lane changes for the route, or off it.
+    pub route_changes: u64,
+    /// Overlaps, looked for once a second.
+    pub overlaps: u64,
+    /// Time on the map of those that left [s].
+    pub trip_time: f64,
+}
+
+/// How a world is to run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setup {
+    /// Length of a step [s].
+    pub step: f64,
+    /// Seed of all draws.
+    pub seed: u64,
+    /// Number of threads.
+    pub threads: usize,
+}
+
+/// Why a world cannot be made.
+#[derive(Debug, Error, PartialEq)]
+pub enum WorldError {
+    /// The step is not a sensible length of time.
+    #[error("a step of {0} s: it must lie between 0.01 and 1 s")]
+    Step(f64),
+    /// There are no characters.
+    #[error("there is no style to drive with")]
+    NoCharacters,
+    /// A rate, weight or share is not a sensible number.
+    #[error("{what} is {value}: it must be a number not below 0{limit}")]
+    Demand {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its upper limit, in words.
+        limit: String,
+    },
+}
+
+/// A vehicle as it is put on the road.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewVehicle {
+    /// The chain.
+    pub chain: ChainIndex,
+    /// Front bumper along it [m].
+    pub x: f64,
+    /// Speed [m/s].
+    pub speed: f64,
+    /// Class.
+    pub class: Class,
+    /// Its driver's place in the table of characters.
+    pub character: u32,
+    /// Where it goes.
+    pub destination: Destination,
+}
+
+impl World {
+    /// An empty world on `network`, whose drivers come from `demand` with the given `characters`.
+    ///
+    /// # Errors
+    /// If the step is not between 0.01 and 1 s, there are no characters, or the demand is no demand.
+    pub fn new(network: Network, characters: Vec<Style>, demand: Demand, setup: Setup) -> Result<World, WorldError> {
+        if !(0.01..=1.0).contains(&setup.step) {
+            return Err(WorldError::Step(setup.step));
+        }
+        if characters.is_empty() {
+            return Err(WorldError::NoCharacters);
+        }
+        demand.check()?;
+        let navigator = Navigator::new(&network);
+        let random = Random::new(setup.seed);
+        let lanes = vec![Lane::default(); network.chains.len()];
+        let plans = lanes.iter().map(|_| Plan::default()).collect();
+        Ok(World {
+            sources: Source::all(&network, &navigator, &demand, &random),
+            clock: Clock { step: 0, dt: setup.step },
+            pool: Pool::new(setup.threads),
+            network,
+            navigator,
+            characters,
+            lanes,
+            plans,
+            demand,
+            random,
+            records: Records::default(),
+            events: Vec::new(),
+            counts: Counts::default(),
+            requests: Vec::new(),
+            milestones: Vec::new(),
+            leaving: Vec::new(),
+            tally: Tally::default(),
+            next_id: 0,
+        })
+    }
+
+    /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
+    /// lanes is resolved in order; vehicles enter.
+    pub fn step(&mut self) {
+        self.events.clear();
+        self.decide_and_accelerate();
+        self.advance();
+        self.clock.step += 1;
+        self.account();
+        self.transfer();
+        self.resolve();
+        self.enter();
+        self.watch();
+    }
+
+    fn decide_and_accelerate(&mut self) {
+        let scene = Scene {
+            network: &self.network,
+            navigator: &self.navigator,
+            lanes: &self.lanes,
+            characters: &self.characters,
+        };
+        let overtaking = self.network.driving_side.overtaking();
+        let moment = Moment { clock: self.clock, random: &self.random, overtaking };
+        self.pool.each(&mut self.plans, |index, plan| {
+            let chain = ChainIndex(index as u32);
+            plan.clear();
+            decide(&scene, moment, chain, plan);
+            accelerate(&scene, moment.clock.dt, chain, plan);
+        });
+    }
+
+    fn advance(&mut self) {
+        let World { network, characters, clock, lanes, plans, pool, .. } = self;
+        pool.each_pair(lanes, plans, |index, lane, plan| {
+            let chain = ChainIndex(index as u32);
+            advance(lane, chain, network.chain(chain).length, *clock, characters, plan);
+        });
+    }
+
+    /// Vehicles arrive, queue up, and enter where there is room.
+    fn enter(&mut self) {
+        let mut sources = std::mem::take(&mut self.sources);
+        let time = self.clock.time();
+        for source in &mut sources {
+            let scene = self.scene();
+            let mut next_id = self.next_id;
+            source.arrive(&scene, &self.demand, &self.random, time, &mut next_id);
+            self.next_id = next_id;
+            for queue in source.queues() {
+                while let Some(vehicle) = queue.waiting.front().and_then(|it| self.admit(queue.chain, it)) {
+                    let id = queue.waiting.pop_front().map_or(0, |it| it.id);
+                    self.put(vehicle, id);
+                    self.events.push(Event::Entered(id));
+                }
+            }
+        }
+        self.sources = sources;
+    }
+
+    /// The vehicle as it enters `chain`, if there is room for it.
+    fn admit(&self, chain: ChainIndex, arrival: &Arrival) -> Option<NewVehicle> {
+        let x = arrival.class.body().length;
+        let style = &self.characters[arrival.character as usize];
+        let desired = arrival.class.desired_speed(style, self.network.chain(chain).limit(x));
+        let scene = self.scene();
+        let from = scene.viewpoint_at(chain, 0.0, arrival.id, arrival.destination);
+        let ahead = scene.ahead(from).map(|it| laneweave_models::follow::Ahead { gap: it.gap - x, ..it });
+        let speed = entry_speed(style, desired, ahead, self.clock.dt)?;
+        let Arrival { class, character, destination, .. } = *arrival;
+        Some(NewVehicle { chain, x, speed, class, character, destination })
+    }
+
+    /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
+    pub fn place(&mut self, vehicle: NewVehicle) -> VehicleId {
+        let id = self.next_id;
+        self.next_id += 1;
+        self.put(vehicle, id);
+        id
+    }
+
+    fn put(&mut self, vehicle: NewVehicle, id: VehicleId) {
+        let NewVehicle { chain, x, speed, class, character, destination } = vehicle;
+        let style = &self.characters[character as usize];
+        let body = class.body();
+        let desired = class.desired_speed(style, self.network.chain(chain).limit(x)) as f32;
+        let period = f64::from(self.clock.steps(style.attention.epoch));
+        let delay = (self.random.uniform(id, Purpose::Epoch, 0) * period) as u32;
+        let car = Car {
+            x,
+            speed,
+            acceleration: 0.0,
+            desired,
+            limit_desired: desired,
+            strength: body.strength as f32,
+            length: body.length as f32,
+            tightness: 1.0,
+            stretch: 1.0,
+            character,
+            id,
+            due: self.clock.step + delay,
+            phase: Phase::Cruises,
+            is_shadow: false,
+            in_emergency: false,
+            in_collision: false,
+            heeds_more: false,
+        };
+        let mind = Mind {
+            destination,
+            class,
+            side: self.network.driving_side.overtaking(),
+            kind: Kind::Discretionary,
+            entered: self.clock.step,
+            since: 0,
+            calm_until: 0,
+            progress: 0.0,
+            urgency: 0.0,
+            standing: 0.0,
+            record: 0,
+            came_from: None,
+            twin: None,
+            last_place: f64::INFINITY,
+            lets_in: None,
+        };
+        self.lanes[chain.at()].insert(car, mind);
+        self.counts.entered += 1;
+    }
+
+    /// Adds up what the lanes counted, and looks for overlaps once a second.
+    fn watch(&mut self) {
+        for plan in &mut self.plans {
+            self.tally.add(&plan.tally.take());
+        }
+        if self.clock.step.is_multiple_of(self.clock.steps(1.0)) {
+            self.counts.overlaps += overlaps(&self.network, &self.lanes);
+        }
+    }
+
+    /// The current instant.
+    pub fn scene(&self) -> Scene<'_> {
+        Scene {
+            network: &self.network,
+            navigator: &self.navigator,
+            lanes: &self.lanes,
+            characters: &self.characters,
+        }
+    }
+
+    /// What happened in the last step.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// The clock.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// The roads.
+    pub fn network(&self) -> &Network {
+        &self.network
+    }
+
+    /// What the drivers did so far.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// What the world did so far.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Forgets all counts: what follows is measured, what was before is warm-up. Vehicles on the road count as entered.
+    pub fn reset_counts(&mut self) {
+        self.tally = Tally::default();
+        self.counts = Counts { entered: self.on_road() as u64, ..Counts::default() };
+    }
+
+    /// Vehicles on the road.
+    pub fn on_road(&self) -> usize {
+        self.lanes.iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
+    }
+
+    /// Vehicles that wait at the entrances.
+    pub fn waiting(&self) -> usize {
+        self.sources.iter().map(Source::waiting).sum()
+    }
+
+    /// Vehicles that have arrived at the entrances.
+    pub fn arrived(&self) -> u64 {
+        self.sources.iter().map(|source| u64::from(source.arrived())).sum()
+    }
+
+    /// All vehicles, by chain and in driving order.
+    pub fn vehicles(&self) -> impl Iterator<Item = Vehicle<'_>> {
+        self.lanes.iter().enumerate().flat_map(move |(index, lane)| {
+            let chain = ChainIndex(index as u32);
+            let entries = lane.cars().iter().zip(lane.minds()).enumerate();
+            entries.filter(|(_, (car, _))| !car.is_shadow).map(move |(index, (car, mind))| Vehicle {
+                world: self,
+                spot: Spot { chain, index },
+                car,
+                mind,
+            })
+        })
+    }
+
+    /// Hash of (id, lanelet, position, speed, state) of all vehicles in the order of their ids.
+    pub fn state_hash(&self) -> u64 {
+        let mut vehicles: Vec<Vehicle> = self.vehicles().collect();
+        vehicles.sort_by_key(|vehicle| vehicle.car.id);
+        let mut hash = Xxh3::new();
+        for vehicle in vehicles {
+            let (lanelet, along) = self.network.lanelet_at(vehicle.spot.chain, vehicle.car.x);
+            hash.update(&vehicle.car.id.to_le_bytes());
+            hash.update(&lanelet.id.to_le_bytes());
+            hash.update(&along.to_bits().to_le_bytes());
+            hash.update(&vehicle.car.speed.to_bits().to_le_bytes());
+            hash.update(&[vehicle.car.phase as u8]);
+        }
+        hash.digest()
+    }
+}
+
+/// A vehicle on the road.
+#[derive(Clone, Copy)]
+pub struct Vehicle<'a> {
+    world: &'a World,
+    /// Where its main entry stands.
+    pub spot: Spot,
+    /// Its hot part.
+    pub car: &'a Car,
+    /// Its warm part.
+    pub mind: &'a Mind,
+}
+
+impl Vehicle<'_> {
+    /// Where its body is.
+    pub fn pose(&self) -> Pose {
+        pose(&self.world.network, &self.world.lanes, self.spot)
+    }
+
+    /// How far it is to the left of the centre of its lane [m].
+    pub fn lateral_offset(&self) -> f64 {
+        crate::pose::lateral_offset(&self.world.network, self.spot.chain, self.car, self.mind)
+    }
+
+    /// Its driver's style.
+    pub fn style(&self) -> &Style {
+        &self.world.characters[self.car.character as usize]
+    }
+}

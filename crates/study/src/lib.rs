@@ -1,0 +1,15 @@
+//! From observations of traffic to evidence: statistics, Edie's density and flow, figures, tables.
+//!
+//! Knows no simulator: plain numbers come in; numbers, SVG text and files go out.
+
+mod edie;
+mod figures;
+mod rate;
+mod statistics;
+mod table;
+
+pub use edie::{EdieError, EdieGrid, EdieRow, Window};
+pub use figures::{Mark, RateSeries, Sample, rate_density, time_space};
+pub use rate::{RatePoint, rate_by_density};
+pub use statistics::{Estimate, Interval, geh, mean, poisson_interval, required_replications};
+pub use table::{Cell, Column, Format, Kind, TableError, TableWriter};

@@ -1,0 +1,255 @@
+//! Tables in files: typed columns, written row by row as CSV or Parquet.
+//!
+//! A schema is a constant array of columns, and a row the array of its cells:
+//!
+//! ```
+//! use laneweave_study::{Cell, Column, Format, TableWriter};
+//!
+//! struct Passage<'a> {
+//!     time_s: f64,
+//!     vehicle: u32,
+//!     class: &'a str,
+//!     gap_m: Option<f64>,
+//! }
+//!
+//! impl Passage<'_> {
+//!     const COLUMNS: [Column; 4] =
+//!         [Column::real("time_s"), Column::integer("vehicle"), Column::text("class"), Column::real("gap_m")];
+//!
+//!     fn cells(&self) -> [Cell<'_>; 4] {
+//!         [self.time_s.into(), self.vehicle.into(), self.class.into(), self.gap_m.into()]
+//!     }
+//! }
+//!
+//! let path = std::env::temp_dir().join("laneweave-passages.csv");
+//! let mut table = TableWriter::create(&path, Format::Csv, &Passage::COLUMNS)?;
+//! table.row(&Passage { time_s: 1.5, vehicle: 7, class: "car", gap_m: None }.cells())?;
+//! table.finish()?;
+//! # let _ = std::fs::remove_file(&path);
+//! # Ok::<(), laneweave_study::TableError>(())
+//! ```
+
+mod csv;
+mod parquet;
+mod partial;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use self::csv::CsvSink;
+use self::parquet::ParquetSink;
+use self::partial::PartialFile;
+
+/// What the cells of a column hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// 64-bit floating-point numbers.
+    F64,
+    /// 64-bit signed integers.
+    I64,
+    /// UTF-8 text.
+    Text,
+}
+
+/// A column of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name; by the house's habit with its unit: `speed_mps`.
+    pub name: &'static str,
+    /// What its cells hold.
+    pub kind: Kind,
+}
+
+impl Column {
+    /// A column of floating-point numbers.
+    pub const fn real(name: &'static str) -> Column {
+        Column { name, kind: Kind::F64 }
+    }
+
+    /// A column of integers.
+    pub const fn integer(name: &'static str) -> Column {
+        Column { name, kind: Kind::I64 }
+    }
+
+    /// A column of text.
+    pub const fn text(name: &'static str) -> Column {
+        Column { name, kind: Kind::Text }
+    }
+}
+
+/// One value of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'a> {
+    /// A number; NaN is written as missing.
+    F64(f64),
+    /// An integer.
+    I64(i64),
+    /// A text.
+    Text(&'a str),
+    /// No value: empty in CSV, null in Parquet. Fits every column.
+    Missing,
+}
+
+impl Cell<'_> {
+    fn fits(&self, kind: Kind) -> bool {
+        match self {
+            Cell::F64(_) => kind == Kind::F64,
+            Cell::I64(_) => kind == Kind::I64,
+            Cell::Text(_) => kind == Kind::Text,
+            Cell::Missing => true,
+        }
+    }
+}
+
+impl From<f64> for Cell<'_> {
+    fn from(value: f64) -> Self {
+        Cell::F64(value)
+    }
+}
+
+impl From<i64> for Cell<'_> {
+    fn from(value: i64) -> Self {
+        Cell::I64(value)
+    }
+}
+
+impl From<u32> for Cell<'_> {
+    fn from(value: u32) -> Self {
+        Cell::I64(value.into())
+    }
+}
+
+impl<'a> From<&'a str> for Cell<'a> {
+    fn from(value: &'a str) -> Self {
+        Cell::Text(value)
+    }
+}
+
+impl<'a, T: Into<Cell<'a>>> From<Option<T>> for Cell<'a> {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Cell::Missing, Into::into)
+    }
+}
+
+/// How a table is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Comma-separated values with a header; numbers in their shortest form that reads back exactly.
+    Csv,
+    /// Apache Parquet, uncompressed, repeated values by dictionary.
+    Parquet,
+}
+
+/// Why a table cannot be written.
+#[derive(Debug, Error)]
+pub enum TableError {
+    /// The file cannot be created.
+    #[error("{}: cannot be created: {source}", path.display())]
+    Create {
+        /// The table's file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Writing fails.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The table's file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A row is too short or too long.
+    #[error("{}: a row of {cells} cells for {columns} columns", path.display())]
+    Width {
+        /// The table's file.
+        path: PathBuf,
+        /// Cells of the row.
+        cells: usize,
+        /// Columns of the table.
+        columns: usize,
+    },
+    /// A cell does not hold what its column does.
+    #[error("{}: column {column} holds {kind:?}, not {cell}", path.display())]
+    Cell {
+        /// The table's file.
+        path: PathBuf,
+        /// Name of the column.
+        column: &'static str,
+        /// What the column holds.
+        kind: Kind,
+        /// The cell.
+        cell: String,
+    },
+}
+
+/// Writes one table. Until [`TableWriter::finish`] the file is called `NAME.partial`; dropped before, it is removed.
+pub struct TableWriter {
+    columns: Vec<Column>,
+    /// Stands before the file, so that it is closed when the file is removed.
+    sink: Sink,
+    file: PartialFile,
+}
+
+enum Sink {
+    Csv(CsvSink),
+    Parquet(ParquetSink),
+}
+
+impl TableWriter {
+    /// Begins a table of `columns` that will be at `path`, in place of what is there.
+    ///
+    /// # Errors
+    /// If the file cannot be created or written.
+    pub fn create(path: &Path, format: Format, columns: &[Column]) -> Result<TableWriter, TableError> {
+        let (file, output) = PartialFile::create(path)
+            .map_err(|source| TableError::Create { path: path.to_owned(), source })?;
+        let sink = match format {
+            Format::Csv => Ok(Sink::Csv(CsvSink::new(output, columns))),
+            Format::Parquet => ParquetSink::new(output, columns).map(Sink::Parquet),
+        };
+        let sink = sink.map_err(|source| TableError::Write { path: path.to_owned(), source })?;
+        Ok(TableWriter { columns: columns.to_vec(), sink, file })
+    }
+
+    /// Appends a row; it is written some thousands later.
+    ///
+    /// # Errors
+    /// If the cells do not fit the columns, which leaves the table as it was; or if the file cannot be written.
+    pub fn row(&mut self, cells: &[Cell<'_>]) -> Result<(), TableError> {
+        self.check(cells)?;
+        let written = match &mut self.sink {
+            Sink::Csv(sink) => sink.row(cells),
+            Sink::Parquet(sink) => sink.row(cells),
+        };
+        written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
+    }
+
+    /// Writes what is left and gives the file its name.
+    ///
+    /// # Errors
+    /// If the file cannot be written or renamed; it is removed then.
+    pub fn finish(self) -> Result<(), TableError> {
+        let TableWriter { sink, file, .. } = self;
+        let path = file.target().to_owned();
+        let written = match sink {
+            Sink::Csv(sink) => sink.finish(),
+            Sink::Parquet(sink) => sink.finish(),
+        };
+        written.and_then(|()| file.complete()).map_err(|source| TableError::Write { path, source })
+    }
+
+    fn check(&self, cells: &[Cell<'_>]) -> Result<(), TableError> {
+        if cells.len() != self.columns.len() {
+            let path = self.file.target().to_owned();
+            return Err(TableError::Width { path, cells: cells.len(), columns: self.columns.len() });
+        }
+        let misfit = self.columns.iter().zip(cells).find(|(column, cell)| !cell.fits(column.kind));
+        misfit.map_or(Ok(()), |(column, cell)| {
+            let path = self.file.target().to_owned();
+            Err(TableError::Cell { path, column: column.name, kind: column.kind, cell: format!("{cell:?}") })
+        })
+    }
+}

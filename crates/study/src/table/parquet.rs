@@ -1,0 +1,166 @@
+//! Apache Parquet: columns that may be null, in groups of rows, with dictionaries and without compression.
+
+use std::fs::File;
+use std::io;
+use std::sync::Arc;
+
+use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::Type;
+
+use super::{Cell, Column, Kind};
+
+/// Rows held in memory and written together.
+const ROW_GROUP: usize = 1 << 16;
+/// A column with more distinct values in a group than this holds goes on without a dictionary [bytes].
+const DICTIONARY_SIZE: usize = 1 << 16;
+/// Definition levels of an optional column: the value is there, or null.
+const PRESENT: i16 = 1;
+const NULL: i16 = 0;
+
+/// Writes rows of cells that fit the columns.
+pub(super) struct ParquetSink {
+    writer: SerializedFileWriter<File>,
+    columns: Vec<Buffer>,
+    rows: usize,
+}
+
+/// The values of one column that are not written yet.
+struct Buffer {
+    /// One a row.
+    levels: Vec<i16>,
+    /// Those present.
+    values: Values,
+}
+
+enum Values {
+    F64(Vec<f64>),
+    I64(Vec<i64>),
+    /// All texts one after the other, and where each ends.
+    Text(Vec<u8>, Vec<usize>),
+}
+
+impl ParquetSink {
+    pub(super) fn new(file: File, columns: &[Column]) -> io::Result<ParquetSink> {
+        let fields = columns.iter().map(field).collect::<Result<_, _>>().map_err(io::Error::other)?;
+        let schema =
+            Type::group_type_builder("table").with_fields(fields).build().map_err(io::Error::other)?;
+        let properties =
+            Arc::new(WriterProperties::builder().set_dictionary_page_size_limit(DICTIONARY_SIZE).build());
+        let writer =
+            SerializedFileWriter::new(file, Arc::new(schema), properties).map_err(io::Error::other)?;
+        Ok(ParquetSink { writer, columns: columns.iter().map(|it| Buffer::new(it.kind)).collect(), rows: 0 })
+    }
+
+    pub(super) fn row(&mut self, cells: &[Cell<'_>]) -> io::Result<()> {
+        for (column, cell) in self.columns.iter_mut().zip(cells) {
+            column.push(cell);
+        }
+        self.rows += 1;
+        if self.rows == ROW_GROUP { self.flush().map_err(io::Error::other) } else { Ok(()) }
+    }
+
+    pub(super) fn finish(mut self) -> io::Result<()> {
+        self.flush().map_err(io::Error::other)?;
+        self.writer.close().map_err(io::Error::other)?;
+        Ok(())
+    }
+
+    fn flush(&mut self) -> Result<(), ParquetError> {
+        if self.rows == 0 {
+            return Ok(());
+        }
+        let mut group = self.writer.next_row_group()?;
+        for column in &mut self.columns {
+            column.write(&mut group)?;
+        }
+        group.close()?;
+        self.rows = 0;
+        Ok(())
+    }
+}
+
+/// The schema of a column.
+fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
+    let (physical, logical) = match column.kind {
+        Kind::F64 => (PhysicalType::DOUBLE, None),
+        Kind::I64 => (PhysicalType::INT64, None),
+        Kind::Text => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),
+    };
+    Type::primitive_type_builder(column.name, physical)
+        .with_repetition(Repetition::OPTIONAL)
+        .with_logical_type(logical)
+        .build()
+        .map(Arc::new)
+}
+
+impl Buffer {
+    fn new(kind: Kind) -> Buffer {
+        let values = match kind {
+            Kind::F64 => Values::F64(Vec::new()),
+            Kind::I64 => Values::I64(Vec::new()),
+            Kind::Text => Values::Text(Vec::new(), Vec::new()),
+        };
+        Buffer { levels: Vec::new(), values }
+    }
+
+    fn push(&mut self, cell: &Cell<'_>) {
+        let level = match (&mut self.values, cell) {
+            (Values::F64(values), Cell::F64(value)) if !value.is_nan() => {
+                values.push(*value);
+                PRESENT
+            }
+            (Values::I64(values), Cell::I64(value)) => {
+                values.push(*value);
+                PRESENT
+            }
+            (Values::Text(bytes, ends), Cell::Text(value)) => {
+                bytes.extend(value.as_bytes());
+                ends.push(bytes.len());
+                PRESENT
+            }
+            _ => NULL,
+        };
+        self.levels.push(level);
+    }
+
+    /// Writes the next column of `group` and empties itself.
+    fn write(&mut self, group: &mut SerializedRowGroupWriter<'_, File>) -> Result<(), ParquetError> {
+        match &mut self.values {
+            Values::F64(values) => {
+                write_column::<DoubleType>(group, values, &self.levels)?;
+                values.clear();
+            }
+            Values::I64(values) => {
+                write_column::<Int64Type>(group, values, &self.levels)?;
+                values.clear();
+            }
+            Values::Text(bytes, ends) => {
+                let all = ByteArray::from(std::mem::take(bytes));
+                let begins = std::iter::once(0).chain(ends.iter().copied());
+                let values: Vec<ByteArray> =
+                    begins.zip(ends.iter()).map(|(begin, end)| all.slice(begin, end - begin)).collect();
+                write_column::<ByteArrayType>(group, &values, &self.levels)?;
+                ends.clear();
+            }
+        }
+        self.levels.clear();
+        Ok(())
+    }
+}
+
+fn write_column<T: DataType>(
+    group: &mut SerializedRowGroupWriter<'_, File>,
+    values: &[T::T],
+    levels: &[i16],
+) -> Result<(), ParquetError> {
+    // There is one writer for each column of the schema, in its order.
+    let Some(mut column) = group.next_column()? else {
+        return Ok(());
+    };
+    column.typed::<T>().write_batch(values, Some(levels), None)?;
+    column.close()
+}

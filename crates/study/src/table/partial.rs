@@ -1,0 +1,39 @@
+//! A file that is either complete or not there.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A file under a provisional name; removed when dropped before it is complete.
+pub(super) struct PartialFile {
+    target: PathBuf,
+    partial: PathBuf,
+}
+
+impl PartialFile {
+    /// Opens `NAME.partial` beside `target`.
+    pub(super) fn create(target: &Path) -> io::Result<(PartialFile, File)> {
+        let mut partial = target.as_os_str().to_owned();
+        partial.push(".partial");
+        let partial = PathBuf::from(partial);
+        let file = File::create(&partial)?;
+        Ok((PartialFile { target: target.to_owned(), partial }, file))
+    }
+
+    /// The path the file will have.
+    pub(super) fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Gives the file its name.
+    pub(super) fn complete(self) -> io::Result<()> {
+        fs::rename(&self.partial, &self.target)
+    }
+}
+
+impl Drop for PartialFile {
+    fn drop(&mut self) {
+        // Gone already when complete; a drop has nobody to tell of another failure.
+        let _ = fs::remove_file(&self.partial);
+    }
+}
