@@ -69,6 +69,31 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn the_secure_speed_is_the_highest_that_leaves_the_gap_needed_behind_a_leader_who_brakes_hardest(
+            speed in 0.0..60.0_f64, leader in 4.0..60.0_f64, spare in 0.0..50.0_f64, dt in 0.02..0.5_f64,
+        ) {
+            let lead = ((speed * speed - leader * leader) / 16.0).max(0.0);
+            let ahead = Ahead { gap: lead + speed * dt + spare, speed: leader };
+            let next = secure_speed(speed, ahead, dt);
+            prop_assert!(stays_secure(speed, next - 1e-6, ahead, dt));
+            prop_assert!(!stays_secure(speed, next + 1e-6, ahead, dt));
+            let leader_next = leader - 8.0 * dt;
+            let gap = ahead.gap + 0.5 * (leader + leader_next - speed - next) * dt;
+            let needed = (next * next - leader_next * leader_next) / 16.0 + next * dt;
+            prop_assert!((gap - needed).abs() < 1e-9, "gap {gap} needed {needed}");
+        }
+    }
+
+    #[test]
+    fn nobody_is_asked_to_brake_harder_than_a_vehicle_can_nor_to_drive_backwards() {
+        let close = Ahead::standing(1.0);
+        assert!((secure_speed(20.0, close, 0.1) - 19.2).abs() < 1e-12);
+        assert_eq!(secure_speed(0.5, Ahead::standing(0.0), 0.1), 0.0);
+        assert_eq!(secure_speed(0.0, Ahead::standing(-1.0), 0.1), 0.0);
+    }
+
     #[test]
     fn an_empty_road_does_not_bind() {
         assert!(stays_secure(30.0, 30.0, Ahead { gap: 200.0, speed: 30.0 }, 0.1));

@@ -16,9 +16,13 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
 }
 
-fn literal_fvdm() -> FollowingModel {
-    FollowingModel::Fvdm(Fvdm { reading: Literal, ..Fvdm::default() })
-}
+static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
+    sensitivity: 0.41,
+    relative_sensitivity: 0.5,
+    range: 100.0,
+    jam_gap: 0.0,
+    reading: Literal,
+});
 
 /// Weights μ₁…μ₄ and β of the paper's table.
 const AGGRESSIVE: ([f64; 4], f64) = ([1.26, 0.58, 0.03, 0.61], 1.1);
@@ -35,13 +39,13 @@ fn logit(theta: f64, sigma: f64) -> Mcdm {
 }
 
 /// The worked case: V 8 → 11 m/s, T 60/52/75 s, T_h 1.2 s here and 2 s there.
-fn worked_case() -> Situation {
+fn worked_case() -> Situation<'static> {
     const SECTION: f64 = 200.0;
     // The inverse of the literal optimal velocity.
     let leader_allowing =
         |speed: f64| Some(Ahead { gap: (((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, speed: 5.0 });
     let flow = |headway: f64| Flow { spacing: 10.0 * headway, speed: 10.0, length: LENGTH };
-    let mut situation = empty_road(driver(literal_fvdm(), 8.0, 14.0));
+    let mut situation = empty_road(driver(&LITERAL_FVDM, 8.0, 14.0));
     situation.section = SECTION;
     situation.here.ahead = leader_allowing(8.0);
     situation.there.ahead = leader_allowing(11.0);
@@ -102,7 +106,7 @@ fn v36_who_weighs_nothing_never_wants_to_change_by_the_threshold_rule() {
     for theta in [0.0, 0.1] {
         let indifferent = Mcdm { theta, ..mcdm(Literal, [0.0; 4], 1.1) };
         let appraisal = indifferent.appraise(&situation);
-        assert_eq!(appraisal.gain, 0.0);
+        assert_eq!((appraisal.rows, appraisal.gain), ([Row::default(); INCENTIVES], 0.0));
         assert_eq!(indifferent.choose([Some(&appraisal), Some(&appraisal)]), [0.0, 0.0]);
     }
 }
@@ -159,12 +163,12 @@ fn an_exponential_combination_weighs_losses_more_than_gains() {
 
 /// The vehicles of two equal lanes in equilibrium at `speed`; those there are `offset` [m] ahead of those here.
 fn equal_lanes(
-    follow: FollowingModel,
+    follow: &FollowingModel,
     speed: f64,
     desired: f64,
     offset: f64,
     alternative: Option<f64>,
-) -> Situation {
+) -> Situation<'_> {
     let vehicle = driver(follow, speed, desired);
     let gap = follow.equilibrium_gap(Pace::new(speed, desired));
     let spacing = gap + LENGTH;
@@ -183,7 +187,7 @@ fn equal_lanes(
 fn v37_identical_vehicles_in_equilibrium_do_not_want_to_change() {
     let models = [
         (FollowingModel::Idm(Idm::default()), [5.0, 15.0, 25.0], 120.0 / 3.6),
-        (literal_fvdm(), [3.0, 8.0, 13.0], 14.0),
+        (LITERAL_FVDM, [3.0, 8.0, 13.0], 14.0),
         (FollowingModel::Fvdm(Fvdm::default()), [5.0, 15.0, 25.0], 120.0 / 3.6),
     ];
     for (follow, speeds, desired) in models {
@@ -195,7 +199,7 @@ fn v37_identical_vehicles_in_equilibrium_do_not_want_to_change() {
                         [Literal, Repaired].into_iter().flat_map(|it| [(it, AGGRESSIVE), (it, CONSERVATIVE)])
                     {
                         let offset = LENGTH + share * (gap - LENGTH);
-                        let situation = equal_lanes(follow, speed, desired, offset, alternative);
+                        let situation = equal_lanes(&follow, speed, desired, offset, alternative);
                         let model = mcdm(reading, weights, beta);
                         let appraisal = model.appraise(&situation);
                         assert!(
@@ -247,12 +251,13 @@ fn a_constant_hazard_knows_the_route_and_nothing_else() {
         let [first, second] = [first, second].map(|it| it.map(|situation| model.appraise(situation)));
         model.choose([first.as_ref(), second.as_ref()])
     };
-    let equal = empty_road(driver(literal_fvdm(), 8.0, 14.0));
+    let equal = empty_road(driver(&LITERAL_FVDM, 8.0, 14.0));
     let mut slow = equal;
     slow.there.prospect = 1.0;
     let away = worked_case();
     let mut back = away;
     std::mem::swap(&mut back.here, &mut back.there);
+    assert_eq!(model.appraise(&back), side(1.0));
     assert_eq!(choose(Some(&equal), None), [0.02, 0.0]);
     assert_eq!(choose(Some(&slow), Some(&equal)), [0.01, 0.01]);
     assert_eq!(choose(Some(&away), Some(&equal)), [0.0, 0.02]);
@@ -280,5 +285,6 @@ fn the_defaults_weigh_nothing_and_are_the_repaired_reading() {
     assert_eq!(speed, Speed { weight: 0.0, reading });
     assert_eq!(comfort, Comfort { weight: 0.0, reading, beta: 1.1 });
     assert_eq!(courtesy, Courtesy { weight: 0.0, reading });
+    assert_eq!(ConstantHazard::default().hazard, 0.01);
     assert_eq!((route.weight, route.reading, route.reference, route.penalty), (0.0, reading, 60.0, 600.0));
 }

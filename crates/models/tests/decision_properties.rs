@@ -22,14 +22,28 @@ fn any_reading() -> impl Strategy<Value = Reading> {
     prop_oneof![Just(Literal), Just(Repaired)]
 }
 
-fn any_follow() -> impl Strategy<Value = FollowingModel> {
-    prop_oneof![
-        Just(FollowingModel::Idm(Idm::default())),
-        any_reading().prop_map(|reading| FollowingModel::Fvdm(Fvdm { reading, ..Fvdm::default() })),
-    ]
+/// The models of the drivers.
+static MODELS: [FollowingModel; 3] = [
+    FollowingModel::Idm(Idm {
+        acceleration: 0.73,
+        deceleration: 1.67,
+        time_gap: 1.6,
+        jam_gap: 2.0,
+        exponent: 4.0,
+    }),
+    FollowingModel::Fvdm(fvdm(Literal)),
+    FollowingModel::Fvdm(fvdm(Repaired)),
+];
+
+const fn fvdm(reading: Reading) -> Fvdm {
+    Fvdm { sensitivity: 0.41, relative_sensitivity: 0.5, range: 100.0, jam_gap: 0.0, reading }
 }
 
-fn any_driver() -> impl Strategy<Value = Driver> {
+fn any_follow() -> impl Strategy<Value = &'static FollowingModel> {
+    (0..MODELS.len()).prop_map(|at| &MODELS[at])
+}
+
+fn any_driver() -> impl Strategy<Value = Driver<'static>> {
     (any_follow(), 0.0..40.0_f64, 5.0..45.0_f64)
         .prop_map(|(follow, speed, desired)| driver(follow, speed, desired))
 }
@@ -38,7 +52,7 @@ fn any_ahead() -> impl Strategy<Value = Ahead> {
     (0.5..200.0_f64, 0.0..40.0_f64).prop_map(|(gap, speed)| Ahead { gap, speed })
 }
 
-fn any_behind() -> impl Strategy<Value = Behind> {
+fn any_behind() -> impl Strategy<Value = Behind<'static>> {
     (0.5..150.0_f64, any_driver()).prop_map(|(gap, driver)| Behind { gap, driver })
 }
 
@@ -48,20 +62,20 @@ fn any_route() -> impl Strategy<Value = RouteView> {
     )
 }
 
-fn any_lane() -> impl Strategy<Value = LaneView> {
+fn any_lane() -> impl Strategy<Value = LaneView<'static>> {
     let flow =
         (6.0..300.0_f64, 0.0..40.0_f64).prop_map(|(spacing, speed)| Flow { spacing, speed, length: LENGTH });
     (option::of(any_ahead()), option::of(any_behind()), flow, 0.0..40.0_f64, any_route())
         .prop_map(|(ahead, behind, flow, prospect, route)| LaneView { ahead, behind, flow, prospect, route })
 }
 
-fn any_merging() -> impl Strategy<Value = Merging> {
+fn any_merging() -> impl Strategy<Value = Merging<'static>> {
     (any_driver(), option::of(any_ahead()), any_ahead(), 0.0..1.0_f64).prop_map(
         |(driver, blocked, freed, urgency)| Merging { driver, blocked, freed: Some(freed), urgency },
     )
 }
 
-fn any_situation() -> impl Strategy<Value = Situation> {
+fn any_situation() -> impl Strategy<Value = Situation<'static>> {
     (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, option::of(any_merging()))
         .prop_map(|(me, here, there, section, merging)| Situation { me, here, there, section, merging })
 }
@@ -144,7 +158,7 @@ fn any_extreme_ahead() -> impl Strategy<Value = Option<Ahead>> {
     option::of((any_extreme_length(), any_extreme_speed()).prop_map(|(gap, speed)| Ahead { gap, speed }))
 }
 
-fn any_extreme_lane() -> impl Strategy<Value = LaneView> {
+fn any_extreme_lane() -> impl Strategy<Value = LaneView<'static>> {
     let follower = (any_extreme_length(), any_follow(), any_extreme_speed())
         .prop_map(|(gap, follow, speed)| Behind { gap, driver: driver(follow, speed, 14.0) });
     let spacing = prop_oneof![any_extreme_length(), Just(f64::INFINITY)];

@@ -122,6 +122,35 @@ fn v1_idm_and_v19_its_cut_in_brake_as_published() {
 }
 
 #[test]
+fn v1_idm_answers_small_deviations_as_published() {
+    const SMALL: f64 = 1e-5;
+    // The slopes in the gap, the own speed (the leader's held) and the leader's speed, at 10 m/s in equilibrium.
+    for (set, slopes) in
+        [(t2000(), [0.080128, -0.495425, 0.364333]), (k2010(), [0.162709, -0.737760, 0.488167])]
+    {
+        let gap = set.model().equilibrium_gap(Pace::new(10.0, set.desired));
+        let at = |[gap_off, speed_off, leader_off]: [f64; 3]| {
+            let pace = Pace::new(10.0 + speed_off, set.desired);
+            set.idm.acceleration(pace, behind(gap + gap_off, 10.0 + leader_off))
+        };
+        for (which, slope) in slopes.into_iter().enumerate() {
+            let off = |by: f64| std::array::from_fn(|i| if i == which { by } else { 0.0 });
+            assert_near((at(off(SMALL)) - at(off(-SMALL))) / (2.0 * SMALL), slope, 1e-6);
+        }
+    }
+}
+
+#[test]
+fn idm_takes_no_gap_below_a_tenth_of_a_metre() {
+    let (set, pace) = (urban(), Pace::new(5.0, urban().desired));
+    let at = |gap| set.idm.acceleration(pace, behind(gap, 5.0));
+    for gap in [-1.0, 0.0, 0.05] {
+        assert_eq!(at(gap), at(0.1));
+    }
+    assert!(at(0.1) < at(0.1001));
+}
+
+#[test]
 fn v1_idm_prospects_of_a_town_street() {
     let set = urban();
     let pace = Pace::new(10.0, set.desired);

@@ -21,20 +21,18 @@ fn chances(there: f64) -> Chances {
 }
 
 /// A driver who leaves the route by changing and has `remaining` [m] to come back.
-fn leaving_route(situation: Situation, remaining: f64) -> Situation {
+fn leaving_route(situation: Situation<'_>, remaining: f64) -> Situation<'_> {
     let route = RouteView { changes: 1, remaining, ..situation.there.route };
     Situation { there: LaneView { route, ..situation.there }, ..situation }
 }
 
-fn idm() -> FollowingModel {
-    FollowingModel::Idm(Idm {
-        acceleration: 1.0,
-        deceleration: 1.5,
-        time_gap: 1.0,
-        jam_gap: 2.0,
-        exponent: 4.0,
-    })
-}
+static IDM: FollowingModel = FollowingModel::Idm(Idm {
+    acceleration: 1.0,
+    deceleration: 1.5,
+    time_gap: 1.0,
+    jam_gap: 2.0,
+    exponent: 4.0,
+});
 
 fn flow(spacing: f64, speed: f64) -> Flow {
     Flow { spacing, speed, length: 5.0 }
@@ -44,7 +42,7 @@ fn flow(spacing: f64, speed: f64) -> Flow {
 
 #[test]
 fn the_repaired_chance_looks_at_the_lane_returned_to_and_the_literal_at_the_target() {
-    let me = driver(idm(), 12.0, 14.0);
+    let me = driver(&IDM, 12.0, 14.0);
     let mut situation = leaving_route(empty_road(me), 30.0);
     (situation.here.flow, situation.there.flow) = (flow(20.0, 10.0), flow(12.0, 4.0));
     let returning = |reading| Returning { reading, ..Returning::default() };
@@ -66,16 +64,14 @@ fn literal_chance(remaining: f64) -> f64 {
 
 #[test]
 fn the_expected_time_grows_as_the_turn_comes_near() {
-    for (remaining, time) in [(50.0, 61.816), (20.0, 118.964), (10.0, 248.092), (5.0, 395.939)] {
-        let expected = expected_time(literal_chance(remaining), 60.0, 660.0);
-        // The document cuts 61.81653 to 61.816.
-        assert_near(expected, time, 1e-3);
+    for (remaining, time) in [(50.0, 61.816533), (20.0, 118.964151), (10.0, 248.091709), (5.0, 395.939020)] {
+        assert_near(expected_time(literal_chance(remaining), 60.0, 660.0), time, 1e-6);
     }
 }
 
 /// 40 s on a section of 400 m at 10 m/s, which the driver expects of both lanes, and 20 s beyond it.
-fn minute_to_go(reading: Reading) -> (Route, Situation) {
-    let me = driver(idm(), 10.0, 10.0);
+fn minute_to_go(reading: Reading) -> (Route, Situation<'static>) {
+    let me = driver(&IDM, 10.0, 10.0);
     let mut situation = empty_road(me);
     situation.section = 400.0;
     situation.here.route.onward = 20.0;
@@ -123,6 +119,15 @@ fn the_repaired_route_yield_is_clamped() {
 }
 
 #[test]
+fn a_literal_route_yield_does_not_explode_at_the_destination() {
+    let (route, mut situation) = minute_to_go(Literal);
+    // Half a second to go, two more to lose: −4 without a floor of a second under the denominator.
+    (situation.section, situation.here.route.onward) = (5.0, 0.0);
+    situation.there.route.alternative = Some(2.0);
+    assert_near(route.earning(&leaving_route(situation, 1.0), chances(0.0)), -2.0, 1e-12);
+}
+
+#[test]
 fn who_finds_the_other_route_faster_does_not_come_back() {
     // 60 s on the route, 50 s on the alternative, p = 0.6.
     for (reading, expected) in [(Literal, 0.6 * 60.0 + 0.4 * 50.0), (Repaired, 50.0)] {
@@ -159,9 +164,13 @@ fn a_travel_time_is_counted_at_a_metre_a_second_at_least() {
 
 // Speed.
 
-fn literal_fvdm() -> FollowingModel {
-    FollowingModel::Fvdm(Fvdm { reading: Literal, ..Fvdm::default() })
-}
+static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
+    sensitivity: 0.41,
+    relative_sensitivity: 0.5,
+    range: 100.0,
+    jam_gap: 0.0,
+    reading: Literal,
+});
 
 /// A leader behind whom the literal optimal velocity is `speed` [m/s].
 fn leader_allowing(speed: f64) -> Option<Ahead> {
@@ -171,7 +180,7 @@ fn leader_allowing(speed: f64) -> Option<Ahead> {
 #[test]
 fn a_literal_speed_yield_is_divided_by_the_own_speed() {
     let speed = Speed { weight: 1.0, reading: Literal };
-    let mut situation = empty_road(driver(literal_fvdm(), 8.0, 50.0 / 3.6));
+    let mut situation = empty_road(driver(&LITERAL_FVDM, 8.0, 50.0 / 3.6));
     // 5.0 if the floor of 1 m/s were forgotten.
     for (here, there, earning) in [(8.0, 11.0, 0.375), (0.2, 1.2, 1.0)] {
         (situation.here.ahead, situation.there.ahead) = (leader_allowing(here), leader_allowing(there));
@@ -183,7 +192,7 @@ fn a_literal_speed_yield_is_divided_by_the_own_speed() {
 #[test]
 fn a_repaired_speed_yield_is_divided_by_the_desired_speed() {
     let speed = Speed { weight: 1.0, reading: Repaired };
-    let mut situation = empty_road(driver(literal_fvdm(), 8.0, 50.0 / 3.6));
+    let mut situation = empty_road(driver(&LITERAL_FVDM, 8.0, 50.0 / 3.6));
     (situation.here.prospect, situation.there.prospect) = (0.2, 1.2);
     assert_near(speed.earning(&situation, chances(0.3)), 0.072, 1e-12);
 }
@@ -222,12 +231,12 @@ fn a_follower_at_its_desired_speed_does_not_make_courtesy_explode() {
 }
 
 /// Where the driver, 10 m/s, leaves an old follower for a new one; all would like 14 m/s.
-fn between_followers() -> Situation {
-    let mut situation = empty_road(driver(idm(), 10.0, 14.0));
+fn between_followers() -> Situation<'static> {
+    let mut situation = empty_road(driver(&IDM, 10.0, 14.0));
     situation.here.ahead = Some(Ahead { gap: 30.0, speed: 9.0 });
     situation.there.ahead = Some(Ahead { gap: 25.0, speed: 11.0 });
-    situation.here.behind = behind(8.0, driver(idm(), 10.0, 14.0));
-    situation.there.behind = behind(12.0, driver(idm(), 11.0, 14.0));
+    situation.here.behind = behind(8.0, driver(&IDM, 10.0, 14.0));
+    situation.there.behind = behind(12.0, driver(&IDM, 11.0, 14.0));
     situation
 }
 
@@ -235,7 +244,7 @@ fn between_followers() -> Situation {
 fn share_of(courtesy: &Courtesy, speed: f64, now: Ahead, then: Ahead) -> f64 {
     let expected = |ahead: Ahead| {
         let pace = Pace::new(speed, 14.0);
-        (speed + idm().acceleration(pace, Some(ahead))).clamp(0.0, 14.0)
+        (speed + IDM.acceleration(pace, Some(ahead))).clamp(0.0, 14.0)
     };
     courtesy.share(expected(now), expected(then), 14.0)
 }
@@ -268,7 +277,7 @@ fn courtesy_makes_room_for_a_merging_vehicle_the_more_the_closer_its_lane_ends()
         let (blocked, freed) = (Ahead { gap: 12.0, speed: 4.0 }, Ahead { gap: 40.0, speed: 12.0 });
         let relief = share_of(&courtesy, 8.0, blocked, freed);
         for urgency in [0.0, 0.4, 1.0] {
-            let driver = driver(idm(), 8.0, 14.0);
+            let driver = driver(&IDM, 8.0, 14.0);
             situation.merging = Some(Merging { driver, blocked: Some(blocked), freed: Some(freed), urgency });
             let earning = courtesy.earning(&situation, chances(1.0));
             assert_near(earning, harm + (1.0 + urgency) * relief, 1e-12);
@@ -292,7 +301,7 @@ fn the_discomfort_of_a_change() {
 
 #[test]
 fn who_will_have_to_come_back_pays_for_both_changes() {
-    let mut situation = leaving_route(empty_road(driver(idm(), 10.0, 14.0)), 10.0);
+    let mut situation = leaving_route(empty_road(driver(&IDM, 10.0, 14.0)), 10.0);
     (situation.here.flow, situation.there.flow) = (flow(12.0, 10.0), flow(20.0, 10.0));
     let p = literal_chance(10.0);
     for (beta, earning) in [(1.1, -1.028275), (2.3, -0.654433)] {
@@ -328,7 +337,7 @@ fn urgency_grows_towards_the_last_place_for_a_change() {
 
 #[test]
 fn a_change_earns_the_urgency_that_it_takes_away() {
-    let mut situation = empty_road(driver(idm(), 20.0, 20.0));
+    let mut situation = empty_road(driver(&IDM, 20.0, 20.0));
     situation.here.route = RouteView { changes: 1, remaining: 100.0, ..ON_ROUTE };
     let incentive = Urgency { weight: 0.9 };
     assert_near(incentive.earning(&situation, chances(1.0)), 0.883721, 1e-6);

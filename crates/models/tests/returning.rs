@@ -100,8 +100,9 @@ fn v30_returning_into_a_standing_queue_is_hopeless_where_the_paper_says_certain(
     let jam = flow(7.0, 0.0);
     assert!(returning(Literal).chance(1, 100.0, 0.0, &jam) > 0.999);
     assert_eq!(returning(Repaired).chance(1, 100.0, 0.0, &jam), 0.0);
-    let nearly_jam = flow(7.5, 0.1);
-    assert!(returning(Repaired).chance(1, 100.0, 0.1, &nearly_jam) < 1e-5);
+    // One trial of e^(−3/0.25).
+    let nearly_jam = returning(Repaired).chance(1, 100.0, 0.1, &flow(7.5, 0.1));
+    assert_near(nearly_jam, f64::exp(-12.0), 1e-12);
 }
 
 proptest! {

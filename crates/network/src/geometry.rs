@@ -23,6 +23,11 @@ impl Point {
         (dx * dx + dy * dy).sqrt()
     }
 
+    /// The point halfway to `other`; the same seen from there, bit for bit.
+    pub fn midpoint(&self, other: &Point) -> Point {
+        Point { x: 0.5 * (self.x + other.x), y: 0.5 * (self.y + other.y), z: 0.5 * (self.z + other.z) }
+    }
+
     /// The point at `fraction` of the way to `other`; beyond it for fractions outside 0…1.
     pub fn towards(&self, other: &Point, fraction: f64) -> Point {
         Point {
@@ -90,7 +95,7 @@ impl Polyline {
         let last = all.len() - 1;
         all[last] = 1.0;
         Polyline::new(
-            all.iter().map(|f| left.at(f * left.length()).towards(&right.at(f * right.length()), 0.5)),
+            all.iter().map(|f| left.at(f * left.length()).midpoint(&right.at(f * right.length()))),
         )
     }
 

@@ -7,12 +7,12 @@ use laneweave_network::ChainIndex;
 
 use crate::plan::Plan;
 use crate::scene::{Scene, Spot};
-use crate::traffic::{Car, Mind, Phase};
+use crate::traffic::{Mind, Phase};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
-/// Road kept before the end of a lane [m].
-const ROOM_AT_THE_END: f64 = 2.0;
+/// Road kept before the end of a lane, and before the last place for a change, to steer on [m].
+const ROOM_AT_THE_END: f64 = 15.0;
 /// Share of the desired speed at which a driver passes the last place for a change, if it must.
 const PASSING_SHARE: f64 = 0.25;
 
@@ -20,29 +20,31 @@ const PASSING_SHARE: f64 = 0.25;
 pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut Plan) {
     let cars = scene.cars(chain);
     let lane_end = lane_end(scene, chain);
+    plan.accelerations.resize(cars.len(), 0.0);
     for (index, car) in cars.iter().enumerate() {
+        let spot = Spot { chain, index };
         let leader = match cars.get(index + 1) {
             Some(leader) => Some(Ahead { gap: leader.rear() - car.x, speed: leader.speed }),
-            None => scene.ahead(scene.viewpoint(Spot { chain, index })),
+            None => scene.ahead(scene.viewpoint(spot)),
         };
-        let follow = &scene.characters[car.character as usize].follow;
         let pace = Pace {
             speed: car.speed,
             desired: f64::from(car.desired),
             tightness: f64::from(car.tightness),
         };
-        let mut obstacles = [leader, None, None];
-        let mut acceleration = follow.acceleration(pace, leader);
-        if car.phase != Phase::Cruises || car.heeds_more {
-            acceleration = acceleration.min(beyond_the_leader(scene, Spot { chain, index }, pace, &mut obstacles[1]));
+        let follow = &scene.characters[car.character as usize].follow;
+        let wish = follow.acceleration(pace, leader);
+        let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
+        let (wish, obstacles) = if follows_only {
+            (wish, [None; 2])
+        } else {
+            heed(scene, spot, pace, wish, lane_end)
+        };
+        let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
+        let mut bounded = bound(car.speed, acceleration, leader, dt);
+        if !follows_only {
+            bounded = obstacles.into_iter().fold(bounded, |it, obstacle| bound(car.speed, it, obstacle, dt));
         }
-        if let Some(end) = lane_end.filter(|_| !is_leaving(scene, chain, index, car)) {
-            let room = end - ROOM_AT_THE_END - car.x;
-            acceleration = acceleration.min(approach(car.speed, room, 0.0));
-            obstacles[2] = Some(Ahead::standing(end - car.x));
-        }
-        let acceleration = acceleration.clamp(-HARDEST_BRAKING, f64::from(car.strength));
-        let bounded = bound(car.speed, acceleration, &obstacles, dt);
         if bounded < acceleration {
             plan.emergencies.push(index as u32);
             if !car.in_emergency && !car.is_shadow && bounded < 0.0 {
@@ -53,8 +55,37 @@ pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut P
             plan.collisions.push(index as u32);
             plan.tally.collisions += u64::from(!car.in_collision);
         }
-        plan.accelerations.push(bounded);
+        plan.accelerations[index] = bounded;
     }
+}
+
+/// `clamp` for bounds in order.
+#[inline]
+fn within(value: f64, low: f64, high: f64) -> f64 {
+    let value = if value < high { value } else { high };
+    if value > low { value } else { low }
+}
+
+/// What a driver accelerates who heeds more than its leader, and what it must not hit beside it.
+fn heed(
+    scene: &Scene,
+    spot: Spot,
+    pace: Pace,
+    behind_leader: f64,
+    lane_end: Option<f64>,
+) -> (f64, [Option<Ahead>; 2]) {
+    let car = scene.car(spot);
+    let (mut wish, mut obstacles) = (behind_leader, [None; 2]);
+    if car.phase != Phase::Cruises || car.heeds_more {
+        wish = wish.min(beyond_the_leader(scene, spot, pace, &mut obstacles[0]));
+    }
+    if let Some(end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
+        if matches!(car.phase, Phase::Cruises | Phase::Wants) {
+            wish = wish.min(approach(car.speed, end - ROOM_AT_THE_END - car.x, 0.0));
+        }
+        obstacles[1] = Some(Ahead::standing(end - car.x));
+    }
+    (wish, obstacles)
 }
 
 /// Where the lane ends for all that are on it, along the chain [m].
@@ -71,8 +102,9 @@ fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<f64> {
 }
 
 /// A vehicle whose centre has left the lane need not mind its end.
-fn is_leaving(scene: &Scene, chain: ChainIndex, index: usize, car: &Car) -> bool {
-    car.is_shadow && car.phase == Phase::Changes && mind(scene, Spot { chain, index }).progress >= 0.5
+fn is_leaving(scene: &Scene, spot: Spot) -> bool {
+    let car = scene.car(spot);
+    car.is_shadow && car.phase == Phase::Changes && mind(scene, spot).progress >= 0.5
 }
 
 fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
@@ -127,16 +159,16 @@ fn approach(speed: f64, room: f64, passing: f64) -> f64 {
     if needed > COMFORTABLE_BRAKING { -needed } else { f64::INFINITY }
 }
 
-/// The acceleration, or what kinematics leaves of it behind `obstacles`.
+/// The acceleration, or what kinematics leaves of it behind `obstacle`.
 #[inline]
-fn bound(speed: f64, acceleration: f64, obstacles: &[Option<Ahead>; 3], dt: f64) -> f64 {
-    let mut bounded = acceleration;
-    for obstacle in obstacles.iter().flatten() {
-        let next = (speed + bounded * dt).max(0.0);
-        if !stays_secure(speed, next, *obstacle, dt) {
-            let slowed = (secure_speed(speed, *obstacle, dt) - speed) / dt;
-            bounded = bounded.min(slowed.max(-HARDEST_BRAKING));
+fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64 {
+    let next = speed + acceleration * dt;
+    let next = if next > 0.0 { next } else { 0.0 };
+    match obstacle {
+        Some(obstacle) if !stays_secure(speed, next, obstacle, dt) => {
+            let slowed = (secure_speed(speed, obstacle, dt) - speed) / dt;
+            acceleration.min(slowed.max(-HARDEST_BRAKING))
         }
+        _ => acceleration,
     }
-    bounded
 }

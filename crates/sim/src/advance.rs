@@ -4,6 +4,7 @@ use laneweave_models::Style;
 
 use crate::clock::Clock;
 use crate::plan::Plan;
+use crate::pose::least_way;
 use crate::traffic::{Car, Lane, Milestone, Mind, Phase, Reached, Twin};
 use laneweave_network::ChainIndex;
 
@@ -11,8 +12,6 @@ use laneweave_network::ChainIndex;
 const EASING: f64 = 1.5;
 /// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
 const HEEDED_WITHIN: f64 = 400.0;
-/// Speed below which a change takes longer, since there is less way to steer on [m/s].
-const SLOW: f64 = 2.0;
 /// Share of its usual pace at which a change goes on at standstill.
 const SLOWEST_SHARE: f64 = 0.2;
 
@@ -126,7 +125,8 @@ fn milestone(car: &Car, mind: &Mind, chain: ChainIndex, what: Reached) -> Milest
 
 /// A change goes on, or back. Both entries of a vehicle come to the same. Returns whether this entry has ended.
 fn go_across(car: &mut Car, mind: &mut Mind, chain: ChainIndex, clock: Clock, duration: f64, plan: &mut Plan) -> bool {
-    let pace = (car.speed / SLOW).clamp(SLOWEST_SHARE, 1.0);
+    // A slow vehicle needs way, not time.
+    let pace = (car.speed * duration / least_way(car)).clamp(SLOWEST_SHARE, 1.0);
     let step = (pace * clock.dt / duration) as f32;
     let was = mind.progress;
     match car.phase {

@@ -1,7 +1,8 @@
 //! Drivers consider lanes, wait for gaps, and call changes off.
 
 use laneweave_models::change::{
-    Appraisal, GapPair, Refusal, Situation, at_least_once_in, time_to_collision, urgency,
+    Appraisal, GapPair, Refusal, Situation, at_least_once_in, deceleration_to_avoid,
+    time_to_collision, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_models::Style;
@@ -18,6 +19,8 @@ use crate::traffic::{Kind, Mind, Phase};
 const ASKS_FROM: f64 = 0.3;
 /// Desire that a voluntary change counts for in the time gap accepted (ours).
 const VOLUNTARY_DESIRE: f64 = 0.3;
+/// What a driver who lets another in leaves beyond its usual gap [m].
+const ROOM_TO_YIELD: f64 = 1.0;
 /// Standstill below this speed [m/s].
 const STANDSTILL: f64 = 0.1;
 
@@ -77,31 +80,73 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     note.last_place = waypoint.last_place;
     let outlook = Outlook::new(scene, spot);
     let sides = [moment.overtaking, moment.overtaking.opposite()];
-    let looked = sides.map(|side| look(&outlook, moment, mind, style, side));
-    let appraisals = [&looked[0], &looked[1]].map(|it| it.as_ref().map(|(_, appraisal)| appraisal));
+    let options = sides.map(|side| Choice::of(&outlook, moment, mind, style, side));
+    let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
         note.gives_up = gives_up(moment, mind, style, sides, appraisals);
     } else {
-        let epochs = (moment.clock.steps(style.attention.epoch) as f64) * moment.clock.dt / style.attention.epoch;
+        let period = f64::from(moment.clock.steps(style.attention.epoch)) * moment.clock.dt;
+        let epochs = period / style.attention.epoch;
         let chances = style.change.choose(appraisals).map(|p| at_least_once_in(epochs, p));
         let draw = moment.random.uniform(car.id, Purpose::Desire, moment.clock.step);
+        let [first, second] = &options;
         let chosen = if draw < chances[0] {
-            Some(0)
+            first.as_ref()
         } else if draw < chances[0] + chances[1] {
-            Some(1)
+            second.as_ref()
         } else {
             None
         };
-        count_signs(&outlook, &looked, chosen, plan);
-        if let Some((number, (situation, appraisal))) =
-            chosen.and_then(|number| looked[number].as_ref().map(|it| (number, it)))
-        {
-            let want = want(sides[number], situation, appraisal);
-            let urgency = desire(situation) as f32;
-            plan.requests.push(Request { urgency, id: car.id, chain: spot.chain, x: car.x, ask: Ask::Want(want) });
+        count_signs(outlook.here().prospect, f64::from(car.desired), &options, chosen.is_some(), plan);
+        if let Some(choice) = chosen {
+            let ask = Ask::Want(choice.want(outlook.here().prospect));
+            let urgency = choice.urgency as f32;
+            plan.requests.push(Request { urgency, id: car.id, chain: spot.chain, x: car.x, ask });
         }
     }
     plan.notes.push(note);
+}
+
+/// A side, and what the driver makes of it.
+struct Choice {
+    side: Side,
+    appraisal: Appraisal,
+    is_symmetric: bool,
+    /// How much the driver's route presses it to this side, 0…1.
+    urgency: f64,
+    /// Anticipated speed there [m/s].
+    prospect: f64,
+}
+
+impl Choice {
+    /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
+    fn of(outlook: &Outlook, moment: Moment, mind: &Mind, style: &Style, side: Side) -> Option<Choice> {
+        let situation = outlook.towards(side)?;
+        let helps_the_route = situation.there.route.changes < situation.here.route.changes;
+        let is_calm = moment.clock.step < mind.calm_until;
+        (helps_the_route || !is_calm).then(|| Choice {
+            side,
+            appraisal: style.change.appraise(&situation),
+            is_symmetric: situation.is_symmetric(),
+            urgency: if helps_the_route { pressure(&situation) } else { 0.0 },
+            prospect: situation.there.prospect,
+        })
+    }
+
+    fn want(&self, prospect_here: f64) -> Want {
+        Want {
+            side: self.side,
+            kind: if self.is_symmetric { Kind::Discretionary } else { Kind::Route },
+            appraisal: self.appraisal,
+            speed_gain: (self.prospect - prospect_here) as f32,
+        }
+    }
+}
+
+/// How much the route presses a driver out of its lane.
+fn pressure(situation: &Situation) -> f64 {
+    let route = &situation.here.route;
+    urgency(route.changes, route.remaining, situation.me.pace.speed)
 }
 
 /// What the driver remembers whatever it decides.
@@ -122,20 +167,6 @@ fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
     }
 }
 
-/// What the driver makes of `side`; soon after a change only if it helps the route.
-fn look(
-    outlook: &Outlook,
-    moment: Moment,
-    mind: &Mind,
-    style: &Style,
-    side: Side,
-) -> Option<(Situation, Appraisal)> {
-    let situation = outlook.towards(side)?;
-    let helps_the_route = situation.there.route.changes < situation.here.route.changes;
-    let is_calm = moment.clock.step < mind.calm_until;
-    (helps_the_route || !is_calm).then(|| (situation, style.change.appraise(&situation)))
-}
-
 /// A waiting driver loses patience, or the reason to change.
 fn gives_up(
     moment: Moment,
@@ -154,45 +185,21 @@ fn gives_up(
     is_tired || is_pointless || is_better_elsewhere
 }
 
-fn want(side: Side, situation: &Situation, appraisal: &Appraisal) -> Want {
-    let kind = if situation.is_symmetric() { Kind::Discretionary } else { Kind::Route };
-    let speed_gain = (situation.there.prospect - situation.here.prospect) as f32;
-    Want { side, kind, appraisal: *appraisal, speed_gain }
-}
-
-/// How much the driver's route presses it to change.
-fn desire(situation: &Situation) -> f64 {
-    if situation.there.route.changes < situation.here.route.changes {
-        let route = &situation.here.route;
-        urgency(route.changes, route.remaining, situation.me.pace.speed)
-    } else {
-        0.0
-    }
-}
-
 /// Counts what separates drivers from coins: how often the desire comes to those held up beside a free lane, and to
 /// those on a free road.
-fn count_signs(
-    outlook: &Outlook,
-    looked: &[Option<(Situation, Appraisal)>; 2],
-    chosen: Option<usize>,
-    plan: &mut Plan,
-) {
+fn count_signs(here: f64, desired: f64, options: &[Option<Choice>; 2], has_chosen: bool, plan: &mut Plan) {
     /// Share of the desired speed from which a lane is free, and below which a driver is held up.
     const FREE: f64 = 0.95;
     const HELD_UP: f64 = 0.9;
-    let mut symmetric = looked.iter().flatten().filter(|(situation, _)| situation.is_symmetric());
-    let Some((first, _)) = symmetric.next() else { return };
-    let desired = first.me.pace.desired;
-    let best_there = symmetric.map(|(it, _)| it.there.prospect).fold(first.there.prospect, f64::max);
-    let here = outlook.here().prospect;
-    let wants = u64::from(chosen.is_some());
+    let symmetric = options.iter().flatten().filter(|it| it.is_symmetric);
+    let Some(best_there) = symmetric.map(|it| it.prospect).reduce(f64::max) else { return };
+    let desires = u64::from(has_chosen);
     if here >= FREE * desired {
         plan.tally.free_considerations += 1;
-        plan.tally.free_desires += wants;
+        plan.tally.free_desires += desires;
     } else if here <= HELD_UP * desired && best_there >= FREE * desired {
         plan.tally.held_up_considerations += 1;
-        plan.tally.held_up_desires += wants;
+        plan.tally.held_up_desires += desires;
     }
 }
 
@@ -208,14 +215,18 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
             plan.requests.push(request(Ask::Change));
         }
         Some(gap) => {
-            let follower = gap.follower.filter(|_| f64::from(mind.urgency) >= ASKS_FROM);
-            if let Some(found) = follower {
+            let Some(found) = gap.follower else { return };
+            let gap_behind = found.distance - f64::from(car.length);
+            let room = scene.characters[car.character as usize].safety.min_gap + ROOM_TO_YIELD;
+            // Who stands beside or right behind a standing vehicle cannot make room for it.
+            let can_yield = gap_behind >= room || car.speed > STANDSTILL;
+            if f64::from(mind.urgency) >= ASKS_FROM && can_yield {
                 let behind = scene.car(found.spot);
                 plan.requests.push(request(Ask::LetIn {
                     follower: behind.id,
                     chain: found.spot.chain,
                     x: behind.x,
-                    gap: (found.distance - f64::from(car.length)) as f32,
+                    gap: (gap_behind - ROOM_TO_YIELD) as f32,
                     speed: car.speed as f32,
                 }));
             }
@@ -344,13 +355,11 @@ fn abort_if_it_must(scene: &Scene, spot: Spot, plan: &mut Plan) {
     let (car, mind) = (scene.car(spot), mind(scene, spot));
     let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };
     let style = &scene.characters[car.character as usize];
-    let me = driver(scene, car);
-    let demanded = |ahead| me.follow.acceleration(me.pace, ahead);
-    let there = scene.viewpoint_at(twin.chain, twin.x, car.id, mind.destination);
-    let new = demanded(scene.ahead(there));
-    if new < -style.safety.max_deceleration
-        && new < demanded(scene.ahead(scene.viewpoint(spot))) - MUCH_HARDER
-    {
+    let forced = |from| {
+        scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), car.speed, it.speed))
+    };
+    let there = forced(scene.viewpoint_at(twin.chain, twin.x, car.id, mind.destination));
+    if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
         let ask = Ask::Abort;
         plan.requests.push(Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask });
     }

@@ -185,9 +185,11 @@ impl Source {
         Arrival { id, class, character, destination }
     }
 
-    /// The lane in which a driver queues: the fewest changes from its route; then trucks on the slow side, others
-    /// where fewer wait and where there is more room.
+    /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then trucks
+    /// on the slow side, others where fewer wait and where there is more room.
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
+        /// Road per lane change within which a driver takes its lane from the start [m].
+        const SOON: f64 = 600.0;
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
             let room = scene.cars(queue.chain).first().map_or(f64::INFINITY, |car| car.rear());
@@ -195,7 +197,8 @@ impl Source {
                 Class::Truck => (0, 0.0),
                 Class::Car => (queue.waiting.len(), room),
             };
-            (waypoint.changes, queued, -room)
+            let is_pressing = waypoint.last_place < SOON * f64::from(waypoint.changes);
+            (if is_pressing { waypoint.changes } else { 0 }, queued, -room)
         };
         let order = |a: &(u32, usize, f64), b: &(u32, usize, f64)| {
             (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))

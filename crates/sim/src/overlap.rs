@@ -1,11 +1,11 @@
 //! Overlaps: vehicles in their lanes are kept apart by their gaps; every vehicle that moves sideways is tested as a
 //! rectangle against all around it.
 
-use laneweave_network::{ChainIndex, Network, Pose, Side};
+use laneweave_network::{ChainIndex, Pose, Side};
 
 use crate::pose::pose;
-use crate::scene::Spot;
-use crate::traffic::{Lane, Phase};
+use crate::scene::{Scene, Spot};
+use crate::traffic::Phase;
 
 /// Rectangles that intersect less than this do not overlap [m].
 const TOLERANCE: f64 = 0.05;
@@ -13,13 +13,13 @@ const TOLERANCE: f64 = 0.05;
 const REACH: f64 = 30.0;
 
 /// Number of overlaps between a vehicle in a change and any other.
-pub(crate) fn overlaps(network: &Network, lanes: &[Lane]) -> u64 {
+pub(crate) fn overlaps(scene: &Scene) -> u64 {
     let mut count = 0;
-    for (index, lane) in lanes.iter().enumerate() {
+    for (index, lane) in scene.lanes.iter().enumerate() {
         let chain = ChainIndex(index as u32);
         for (index, car) in lane.cars().iter().enumerate() {
             if !car.is_shadow && moves_sideways(car.phase) {
-                count += overlaps_of(network, lanes, Spot { chain, index });
+                count += overlaps_of(scene, Spot { chain, index });
             }
         }
     }
@@ -30,15 +30,15 @@ fn moves_sideways(phase: Phase) -> bool {
     matches!(phase, Phase::Changes | Phase::Aborts)
 }
 
-fn overlaps_of(network: &Network, lanes: &[Lane], spot: Spot) -> u64 {
-    let lane = &lanes[spot.chain.at()];
+fn overlaps_of(scene: &Scene, spot: Spot) -> u64 {
+    let lane = &scene.lanes[spot.chain.at()];
     let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
-    let body = Rectangle::of(network, lanes, spot);
+    let body = Rectangle::of(scene, spot);
     let mut places = vec![(spot.chain, car.x)];
     places.extend(mind.twin.map(|twin| (twin.chain, twin.x)));
     for (chain, x) in places.clone() {
         for side in Side::BOTH {
-            if let Some(beside) = network.chain(chain).beside(side, x) {
+            if let Some(beside) = scene.network.chain(chain).beside(side, x) {
                 places.push((beside.chain, beside.across(x)));
             }
         }
@@ -47,13 +47,13 @@ fn overlaps_of(network: &Network, lanes: &[Lane], spot: Spot) -> u64 {
     places.dedup_by_key(|(chain, _)| *chain);
     let mut count = 0;
     for (chain, x) in places {
-        let cars = lanes[chain.at()].cars();
+        let cars = scene.cars(chain);
         let from = cars.partition_point(|other| other.x < x - REACH);
         for (index, other) in cars.iter().enumerate().skip(from).take_while(|(_, it)| it.x < x + REACH) {
             // Of two that move sideways the pair is counted once.
             let is_counted_there = moves_sideways(other.phase) && other.id < car.id;
             if other.id != car.id && !other.is_shadow && !is_counted_there {
-                let other = Rectangle::of(network, lanes, Spot { chain, index });
+                let other = Rectangle::of(scene, Spot { chain, index });
                 count += u64::from(body.depth(&other) > TOLERANCE);
             }
         }
@@ -69,11 +69,11 @@ struct Rectangle {
 }
 
 impl Rectangle {
-    fn of(network: &Network, lanes: &[Lane], spot: Spot) -> Rectangle {
-        let lane = &lanes[spot.chain.at()];
+    fn of(scene: &Scene, spot: Spot) -> Rectangle {
+        let lane = &scene.lanes[spot.chain.at()];
         let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
         Rectangle {
-            pose: pose(network, lanes, spot),
+            pose: pose(scene, spot),
             length: f64::from(car.length),
             width: mind.class.body().width,
         }

@@ -9,37 +9,37 @@ use crate::scene::{LaneSight, Scene, Spot, Viewpoint};
 use crate::traffic::{Car, Phase};
 
 /// What a driver knows when it considers the lane on `side`; `None` where it may not change to one.
-pub fn perceive(scene: &Scene, me: Spot, side: Side) -> Option<Situation> {
+pub fn perceive<'a>(scene: &'a Scene, me: Spot, side: Side) -> Option<Situation<'a>> {
     Outlook::new(scene, me).towards(side)
 }
 
 /// A driver with its vehicle.
 #[inline]
-pub fn driver(scene: &Scene, car: &Car) -> Driver {
+pub fn driver<'a>(scene: &Scene<'a>, car: &Car) -> Driver<'a> {
     Driver {
         pace: Pace {
             speed: car.speed,
             desired: f64::from(car.desired),
             tightness: f64::from(car.tightness),
         },
-        follow: scene.characters[car.character as usize].follow,
+        follow: &scene.characters[car.character as usize].follow,
         length: f64::from(car.length),
     }
 }
 
 /// A driver's view of its own lane, from which it considers both sides.
-pub struct Outlook<'a> {
+pub(crate) struct Outlook<'a> {
     scene: &'a Scene<'a>,
     car: &'a Car,
-    me: Driver,
+    me: Driver<'a>,
     from: Viewpoint,
     sight: LaneSight,
-    here: LaneView,
+    here: LaneView<'a>,
 }
 
 impl<'a> Outlook<'a> {
     /// Looks along the driver's own lane.
-    pub fn new(scene: &'a Scene<'a>, spot: Spot) -> Outlook<'a> {
+    pub(crate) fn new(scene: &'a Scene<'a>, spot: Spot) -> Outlook<'a> {
         let car = scene.car(spot);
         let me = driver(scene, car);
         let from = scene.viewpoint(spot);
@@ -48,23 +48,18 @@ impl<'a> Outlook<'a> {
         Outlook { scene, car, me, from, sight, here }
     }
 
-    /// The waypoint of the own lane.
-    pub fn waypoint(&self) -> &'a Waypoint {
-        self.scene.navigator.waypoint(self.from.destination, self.from.chain)
-    }
-
     /// The own lane.
-    pub fn here(&self) -> &LaneView {
+    pub(crate) fn here(&self) -> &LaneView<'a> {
         &self.here
     }
 
     /// The stretch beside on `side`.
-    pub fn beside(&self, side: Side) -> Option<&'a Beside> {
+    pub(crate) fn beside(&self, side: Side) -> Option<&'a Beside> {
         self.scene.network.chain(self.from.chain).beside(side, self.car.x)
     }
 
     /// What the driver knows about the lane on `side`.
-    pub fn towards(&self, side: Side) -> Option<Situation> {
+    pub(crate) fn towards(&self, side: Side) -> Option<Situation<'a>> {
         let beside = self.beside(side)?;
         let x = beside.across(self.car.x);
         let from = self.scene.viewpoint_at(beside.chain, x, self.car.id, self.from.destination);
@@ -85,7 +80,7 @@ impl<'a> Outlook<'a> {
 
     /// A neighbour on the other side than the driver would leave to cannot be seen from here; one on this side that
     /// signals into the driver's lane can.
-    fn merging(&self, side: Side, from: Viewpoint, sight: &LaneSight) -> Option<Merging> {
+    fn merging(&self, side: Side, from: Viewpoint, sight: &LaneSight) -> Option<Merging<'a>> {
         let wants_in = |spot: Spot| {
             let lane = &self.scene.lanes[spot.chain.at()];
             lane.cars()[spot.index].phase == Phase::Wants
@@ -108,7 +103,7 @@ impl<'a> Outlook<'a> {
 
 }
 
-fn lane_view(scene: &Scene, me: &Driver, from: Viewpoint, sight: &LaneSight) -> LaneView {
+fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, from: Viewpoint, sight: &LaneSight) -> LaneView<'a> {
     let behind = sight.follower.map(|it| Behind {
         gap: it.distance - me.length,
         driver: driver(scene, scene.car(it.spot)),

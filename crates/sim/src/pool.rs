@@ -12,7 +12,7 @@ const SPINS: u32 = 50_000;
 const PORTIONS: usize = 8;
 
 /// A pool of threads, of which the caller's is one.
-pub struct Pool {
+pub(crate) struct Pool {
     shared: Arc<Shared>,
     workers: Vec<JoinHandle<()>>,
 }
@@ -54,7 +54,7 @@ impl<T> Items<T> {
 
 impl Pool {
     /// A pool of `threads` threads in all, at least one.
-    pub fn new(threads: usize) -> Pool {
+    pub(crate) fn new(threads: usize) -> Pool {
         let helpers = threads.max(1) - 1;
         let shared = Arc::new(Shared {
             job: AtomicUsize::new(0),
@@ -75,20 +75,20 @@ impl Pool {
     }
 
     /// Number of threads, the caller's included.
-    pub fn threads(&self) -> usize {
+    pub(crate) fn threads(&self) -> usize {
         self.workers.len() + 1
     }
 
     /// Calls `work` once for every item with its index; returns when all are done. Which thread takes which item is
     /// not determined, so `work` must not let it matter.
-    pub fn each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
+    pub(crate) fn each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
         // Items without a size need no memory.
         let mut nothing = vec![(); items.len()];
         self.each_pair(items, &mut nothing, |index, item, ()| work(index, item));
     }
 
     /// Calls `work` once for every item of `items` and the one at the same place of `others`.
-    pub fn each_pair<T: Send, U: Send>(
+    pub(crate) fn each_pair<T: Send, U: Send>(
         &self,
         items: &mut [T],
         others: &mut [U],

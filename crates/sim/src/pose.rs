@@ -1,69 +1,74 @@
 //! Where a vehicle's body is. Computed when somebody asks.
 
 use laneweave_models::change::moved_share;
-use laneweave_network::{ChainIndex, Network, Point, Pose};
+use laneweave_network::{ChainIndex, Point, Pose};
 
-use crate::scene::Spot;
-use crate::traffic::{Car, Lane, Mind};
-
-/// Largest angle between a vehicle and its lane in a change [rad].
-const LARGEST_YAW: f64 = 0.25;
+use crate::scene::{Scene, Spot};
+use crate::traffic::{Car, Mind};
 
 /// Pose of the centre of the vehicle whose main entry is `spot`.
-pub fn pose(network: &Network, lanes: &[Lane], spot: Spot) -> Pose {
-    let lane = &lanes[spot.chain.at()];
+///
+/// In a lane change its front and rear bumpers both lie on the path: the rear bumper follows the front one, so that a
+/// long vehicle does not swing out.
+pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
+    let lane = &scene.lanes[spot.chain.at()];
     let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
-    let offset = lateral_offset(network, spot.chain, car, mind);
-    let front = on_path(network, spot.chain, mind.came_from, car.x, offset);
-    let rear = on_path(network, spot.chain, mind.came_from, car.rear(), offset);
-    let along = (front.y - rear.y).atan2(front.x - rear.x);
-    Pose { at: rear.towards(&front, 0.5), heading: along + yaw(network, spot.chain, car, mind) }
+    let [front_offset, rear_offset] = offsets(scene, spot.chain, car, mind);
+    let front = on_path(scene, spot.chain, mind.came_from, car.x, front_offset);
+    let rear = on_path(scene, spot.chain, mind.came_from, car.rear(), rear_offset);
+    Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
 }
 
-/// How far the vehicle is to the left of the centre of its lane [m].
-pub fn lateral_offset(network: &Network, chain: ChainIndex, car: &Car, mind: &Mind) -> f64 {
-    let share = moved_share(f64::from(mind.progress));
-    if share == 0.0 {
-        return 0.0;
+/// How far the vehicle's centre is to the left of the centre of its lane [m].
+pub(crate) fn lateral_offset(scene: &Scene, spot: Spot) -> f64 {
+    let lane = &scene.lanes[spot.chain.at()];
+    let [front, rear] = offsets(scene, spot.chain, &lane.cars()[spot.index], &lane.minds()[spot.index]);
+    0.5 * (front + rear)
+}
+
+/// Offsets of the front and the rear bumper to the left [m].
+fn offsets(scene: &Scene, chain: ChainIndex, car: &Car, mind: &Mind) -> [f64; 2] {
+    let progress = f64::from(mind.progress).clamp(0.0, 1.0);
+    if progress == 0.0 {
+        return [0.0; 2];
     }
-    let from_here = if mind.progress < 0.5 { share } else { share - 1.0 };
-    mind.side.sign() * from_here * lane_spacing(network, chain, car, mind)
+    // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
+    let duration = scene.characters[car.character as usize].manner.change_duration;
+    let way = (car.speed * duration).max(least_way(car));
+    let half = 0.5 * f64::from(car.length) / way * 4.0 * progress * (1.0 - progress);
+    let crossed = if mind.progress < 0.5 { 0.0 } else { 1.0 };
+    let spacing = mind.side.sign() * lane_spacing(scene, chain, car, mind);
+    [progress + half, progress - half].map(|it| spacing * (moved_share(it) - crossed))
+}
+
+/// Shortest way on which a vehicle can change lanes [m].
+pub(crate) fn least_way(car: &Car) -> f64 {
+    const OF_A_SHORT_ONE: f64 = 25.0;
+    const LENGTHS: f64 = 3.0;
+    (LENGTHS * f64::from(car.length)).max(OF_A_SHORT_ONE)
 }
 
 /// Distance between the centre lines of the two lanes [m].
-fn lane_spacing(network: &Network, chain: ChainIndex, car: &Car, mind: &Mind) -> f64 {
+fn lane_spacing(scene: &Scene, chain: ChainIndex, car: &Car, mind: &Mind) -> f64 {
     match mind.twin {
         Some(twin) => {
-            let here = network.chain(chain).centre.at(car.x);
-            here.distance(&network.chain(twin.chain).centre.at(twin.x))
+            let here = scene.network.chain(chain).centre.at(car.x);
+            here.distance(&scene.network.chain(twin.chain).centre.at(twin.x))
         }
         None => {
-            let (lanelet, along) = network.lanelet_at(chain, car.x);
+            let (lanelet, along) = scene.network.lanelet_at(chain, car.x);
             lanelet.width(along)
         }
     }
 }
 
-/// The angle between the vehicle and its lane.
-fn yaw(network: &Network, chain: ChainIndex, car: &Car, mind: &Mind) -> f64 {
-    let p = f64::from(mind.progress).clamp(0.0, 1.0);
-    if p == 0.0 {
-        return 0.0;
-    }
-    // dy/dx of the quintic over the way that a change takes, some four seconds.
-    let slope = 30.0 * p * p * (1.0 - p) * (1.0 - p);
-    let way = (4.0 * car.speed).max(1.0);
-    let angle = (slope * lane_spacing(network, chain, car, mind) / way).atan();
-    mind.side.sign() * angle.min(LARGEST_YAW)
-}
-
 /// The point at `x` along the path that came from `previous` onto `chain`, `offset` to the left [m].
-fn on_path(network: &Network, chain: ChainIndex, previous: Option<ChainIndex>, x: f64, offset: f64) -> Point {
+fn on_path(scene: &Scene, chain: ChainIndex, previous: Option<ChainIndex>, x: f64, offset: f64) -> Point {
     match previous {
         Some(previous) if x < 0.0 => {
-            let before = network.chain(previous);
+            let before = scene.network.chain(previous);
             before.centre.beside(before.length + x, offset)
         }
-        _ => network.chain(chain).centre.beside(x, offset),
+        _ => scene.network.chain(chain).centre.beside(x, offset),
     }
 }

@@ -262,7 +262,10 @@ impl<'a> Scene<'a> {
                         sight.ahead = Some(ahead);
                         sight.leader = Some(Spot { chain, index });
                     }
-                    sight.prospect = sight.prospect.min(anticipated_speed(ahead, desired));
+                    let anticipated = anticipated_speed(ahead, desired);
+                    if anticipated < sight.prospect {
+                        sight.prospect = anticipated;
+                    }
                     if front <= WINDOW_AHEAD {
                         window.add(car);
                     }

@@ -15,7 +15,7 @@ use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
 use crate::plan::{Plan, Request};
 use crate::pool::Pool;
-use crate::pose::pose;
+use crate::pose::{lateral_offset, pose};
 use crate::random::{Purpose, Random};
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
@@ -283,7 +283,7 @@ impl World {
             self.tally.add(&plan.tally.take());
         }
         if self.clock.step.is_multiple_of(self.clock.steps(1.0)) {
-            self.counts.overlaps += overlaps(&self.network, &self.lanes);
+            self.counts.overlaps += overlaps(&self.scene());
         }
     }
 
@@ -389,12 +389,12 @@ pub struct Vehicle<'a> {
 impl Vehicle<'_> {
     /// Where its body is.
     pub fn pose(&self) -> Pose {
-        pose(&self.world.network, &self.world.lanes, self.spot)
+        pose(&self.world.scene(), self.spot)
     }
 
     /// How far it is to the left of the centre of its lane [m].
     pub fn lateral_offset(&self) -> f64 {
-        crate::pose::lateral_offset(&self.world.network, self.spot.chain, self.car, self.mind)
+        lateral_offset(&self.world.scene(), self.spot)
     }
 
     /// Its driver's style.

@@ -125,7 +125,8 @@ impl Mcdm {
                 let exponents = excess.map(|it| it / self.sigma);
                 let largest = exponents[0].max(exponents[1]).max(0.0);
                 let [first, second] = exponents.map(|it| libm::exp(it - largest));
-                let all = libm::exp(-largest) + first + second;
+                let stay = if largest == 0.0 { 1.0 } else { libm::exp(-largest) };
+                let all = stay + first + second;
                 [first / all, second / all]
             }
             // Without noise the logit is the threshold rule.

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::situation::{LaneView, Situation};
 use super::{Chances, Incentive, Outcomes};
 use crate::Reading;
+use crate::follow::CarFollowing;
 
 /// Route incentive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,6 +39,8 @@ impl Default for Route {
 
 /// Largest yield, either way, of the repaired reading.
 const LARGEST_YIELD: f64 = 10.0;
+/// Floor of the time that a literal gain is divided by [s].
+const LITERAL_FLOOR: f64 = 1.0;
 /// Slowest speed of a lane in a travel time [m/s].
 const SLOWEST: f64 = 1.0;
 
@@ -69,7 +72,7 @@ impl Incentive for Route {
     fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes {
         let Situation { me, here, there, section, .. } = situation;
         let speed = |lane: &LaneView| match self.reading {
-            Reading::Literal => crate::follow::CarFollowing::prospect(&me.follow, me.pace, lane.ahead),
+            Reading::Literal => me.follow.prospect(me.pace, lane.ahead),
             Reading::Repaired => lane.prospect,
         };
         let (route_here, alternative_here) = self.times(here, *section, speed(here));
@@ -89,7 +92,7 @@ impl Incentive for Route {
 
     fn scale(&self, _situation: &Situation, outcomes: &Outcomes) -> f64 {
         match self.reading {
-            Reading::Literal => outcomes.keep.abs().max(1.0),
+            Reading::Literal => outcomes.keep.abs().max(LITERAL_FLOOR),
             Reading::Repaired => self.reference,
         }
     }

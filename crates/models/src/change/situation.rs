@@ -8,21 +8,21 @@ pub const SIGHT: f64 = 295.0;
 
 /// A driver considers changing to the lane `there`.
 #[derive(Clone, Copy, Debug)]
-pub struct Situation {
+pub struct Situation<'a> {
     /// The driver.
-    pub me: Driver,
+    pub me: Driver<'a>,
     /// Its lane.
-    pub here: LaneView,
+    pub here: LaneView<'a>,
     /// The lane it would change to.
-    pub there: LaneView,
+    pub there: LaneView<'a>,
     /// Length over which the lanes' speeds differ for this driver [m]: to the end of the section, at most
     /// [`SIGHT`].
     pub section: f64,
     /// A vehicle that signals a change into the driver's lane and that it would make room for.
-    pub merging: Option<Merging>,
+    pub merging: Option<Merging<'a>>,
 }
 
-impl Situation {
+impl Situation<'_> {
     /// The lanes lead to the same place for this driver's route.
     pub fn is_symmetric(&self) -> bool {
         self.here.route.changes == 0 && self.there.route.changes == 0
@@ -36,22 +36,22 @@ impl Situation {
 
 /// A driver with its vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Driver {
+pub struct Driver<'a> {
     /// Its motion.
     pub pace: Pace,
     /// How it follows.
-    pub follow: FollowingModel,
+    pub follow: &'a FollowingModel,
     /// Vehicle length [m].
     pub length: f64,
 }
 
 /// One lane as the driver sees it from its place.
 #[derive(Clone, Copy, Debug)]
-pub struct LaneView {
+pub struct LaneView<'a> {
     /// The leader, or the end of the lane.
     pub ahead: Option<Ahead>,
     /// The follower.
-    pub behind: Option<Behind>,
+    pub behind: Option<Behind<'a>>,
     /// Mean spacing and speed around the driver.
     pub flow: Flow,
     /// Anticipated lane speed over all leaders in sight [m/s], see [`super::anticipated_speed`].
@@ -62,11 +62,11 @@ pub struct LaneView {
 
 /// The vehicle behind in a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Behind {
+pub struct Behind<'a> {
     /// Net gap from its front bumper to the own rear bumper [m].
     pub gap: f64,
     /// Its driver.
-    pub driver: Driver,
+    pub driver: Driver<'a>,
 }
 
 /// What a lane means for a route.
@@ -84,9 +84,9 @@ pub struct RouteView {
 
 /// A vehicle that wants into the driver's lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Merging {
+pub struct Merging<'a> {
     /// Its driver.
-    pub driver: Driver,
+    pub driver: Driver<'a>,
     /// What it follows as long as the driver stays.
     pub blocked: Option<Ahead>,
     /// What it would follow if the driver left.

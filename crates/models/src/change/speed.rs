@@ -36,8 +36,13 @@ const LITERAL_FLOOR: f64 = 1.0;
 /// is the least over its leaders.
 #[inline]
 pub fn anticipated_speed(ahead: Ahead, desired: f64) -> f64 {
-    let share = (ahead.gap / SIGHT).clamp(0.0, 1.0);
-    ((1.0 - share) * ahead.speed + share * desired).min(desired)
+    if ahead.speed >= desired {
+        return desired;
+    }
+    let share = ahead.gap * (1.0 / SIGHT);
+    let share = if share > 0.0 { share } else { 0.0 };
+    let share = if share < 1.0 { share } else { 1.0 };
+    ahead.speed + share * (desired - ahead.speed)
 }
 
 impl Incentive for Speed {

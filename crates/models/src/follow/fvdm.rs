@@ -60,7 +60,6 @@ const TANH_C2: f64 = 0.917_025_761_396_608_3;
 impl Fvdm {
     /// max(V(s), 0): the speed [m/s] that a driver wants at net gap `gap` [m]; the desired speed, or the literal
     /// function's maximum, where there is no leader.
-    #[inline]
     pub fn optimal_speed(&self, pace: Pace, gap: f64) -> f64 {
         self.signed_optimal_speed(pace, gap).max(0.0)
     }
@@ -90,7 +89,6 @@ impl Fvdm {
 }
 
 impl CarFollowing for Fvdm {
-    #[inline]
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         let optimal = self.signed_optimal_speed(pace, ahead.map_or(f64::INFINITY, |ahead| ahead.gap));
         let relative = match ahead {

@@ -38,6 +38,7 @@ impl Idm {
     /// The usual δ, for which two products serve as the power.
     const USUAL_EXPONENT: f64 = 4.0;
 
+    #[inline]
     fn free(&self, ratio: f64) -> f64 {
         if self.exponent == Idm::USUAL_EXPONENT {
             let square = ratio * ratio;

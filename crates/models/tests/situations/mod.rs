@@ -11,12 +11,12 @@ use laneweave_models::follow::{FollowingModel, Pace};
 pub(crate) const LENGTH: f64 = 5.0;
 
 /// A relaxed driver.
-pub(crate) fn driver(follow: FollowingModel, speed: f64, desired: f64) -> Driver {
+pub(crate) fn driver(follow: &FollowingModel, speed: f64, desired: f64) -> Driver<'_> {
     Driver { pace: Pace::new(speed, desired), follow, length: LENGTH }
 }
 
 /// A vehicle `gap` [m] behind.
-pub(crate) fn behind(gap: f64, driver: Driver) -> Option<Behind> {
+pub(crate) fn behind(gap: f64, driver: Driver<'_>) -> Option<Behind<'_>> {
     Some(Behind { gap, driver })
 }
 
@@ -25,7 +25,7 @@ pub(crate) const ON_ROUTE: RouteView =
     RouteView { changes: 0, remaining: f64::INFINITY, onward: 60.0, alternative: None };
 
 /// Two empty lanes of equal worth.
-pub(crate) fn empty_road(me: Driver) -> Situation {
+pub(crate) fn empty_road(me: Driver<'_>) -> Situation<'_> {
     let flow = Flow { spacing: 300.0, speed: me.pace.desired, length: LENGTH };
     let lane = LaneView { ahead: None, behind: None, flow, prospect: me.pace.desired, route: ON_ROUTE };
     Situation { me, here: lane, there: lane, section: 200.0, merging: None }

@@ -1,0 +1,128 @@
+//! The text of a TOML file, and where in it a key stands.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use toml::de::{DeTable, DeValue, Error};
+
+use crate::fault::{Fault, did_you_mean};
+
+/// The text of a TOML file and its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Its path as the user gave it.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+}
+
+impl Source {
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// If it cannot be read as text.
+    pub fn read(path: &Path) -> Result<Source, Fault> {
+        let text = std::fs::read_to_string(path).map_err(|error| Fault::refused(path, "read", &error))?;
+        Ok(Source { path: path.to_owned(), text })
+    }
+
+    /// The folder that its relative paths begin at.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// `FILE:LINE:COLUMN` of the byte at `offset`; columns count characters.
+    pub fn at(&self, offset: usize) -> String {
+        let before = self.text.get(..offset).unwrap_or(&self.text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|it| *it != '\n').count() + 1;
+        format!("{}:{line}:{column}", self.path.display())
+    }
+
+    /// Where the key at `path` stands, or else the nearest table around it that does; the file if none does.
+    pub fn place(&self, path: &[&str]) -> String {
+        let Ok(root) = DeTable::parse(&self.text) else { return self.path.display().to_string() };
+        let (mut table, mut found) = (Some(root.get_ref()), None);
+        for name in path {
+            let entry = table.and_then(|table| table.iter().find(|(key, _)| key.get_ref() == name));
+            let Some((key, value)) = entry else { break };
+            found = Some(key.span());
+            table = value.get_ref().as_table();
+        }
+        found.map_or(self.path.display().to_string(), |span| self.at(span.start))
+    }
+
+    /// Where `text` stands as a value, if it does.
+    pub(crate) fn place_of_value(&self, text: &str) -> Option<String> {
+        fn find(table: &DeTable, text: &str) -> Option<Range<usize>> {
+            table.iter().find_map(|(_, value)| match value.get_ref() {
+                DeValue::Table(inner) => find(inner, text),
+                DeValue::String(it) if it == text => Some(value.span()),
+                _ => None,
+            })
+        }
+        let root = DeTable::parse(&self.text).ok()?;
+        find(root.get_ref(), text).map(|span| self.at(span.start))
+    }
+
+    /// Reads the text as a `T`.
+    ///
+    /// # Errors
+    /// If it is no TOML, or not of that shape: with the place, and the nearest valid name.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, Fault> {
+        toml::from_str(&self.text).map_err(|error| self.fault(&error))
+    }
+
+    /// What serde or the parser say, with its place and a remedy.
+    pub(crate) fn fault(&self, error: &Error) -> Fault {
+        let message = error.message();
+        // An unknown name comes first in backticks, then the known ones.
+        let mut quoted = message.split('`').skip(1).step_by(2);
+        let (name, known): (&str, Vec<&str>) = (quoted.next().unwrap_or(""), quoted.collect());
+        let place = match error.span() {
+            Some(span) => self.at(span.start),
+            None => self.place_of_value(name).unwrap_or(self.path.display().to_string()),
+        };
+        if message.starts_with("unknown field") {
+            return Fault::new(place, format!("unknown key {name:?}"), did_you_mean(name, known));
+        }
+        if message.starts_with("unknown variant") {
+            return Fault::new(place, format!("unknown value {name:?}"), did_you_mean(name, known));
+        }
+        if message.starts_with("missing field") {
+            return Fault::new(place, format!("the key {name:?} is missing"), "add it");
+        }
+        let what = message.replace('\n', ", ");
+        Fault::new(place, what, "correct this line; the format is TOML, https://toml.io")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str) -> Source {
+        Source { path: "a.toml".into(), text: text.into() }
+    }
+
+    #[test]
+    fn a_key_has_its_line_and_column() {
+        let source = source("map = \"x\"\n\n[run]\n  seed = 1\nstep_s = 2\n");
+        assert_eq!(source.place(&["map"]), "a.toml:1:1");
+        assert_eq!(source.place(&["run", "seed"]), "a.toml:4:3");
+        assert_eq!(source.place(&["run", "threads"]), "a.toml:3:2");
+        assert_eq!(source.place(&["demand"]), "a.toml");
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        assert_eq!(source("# ü\nöö = 1").at("# ü\nöö".len()), "a.toml:2:3");
+    }
+
+    #[test]
+    fn what_is_no_toml_is_refused_at_its_place() {
+        let fault = source("a = 1\nb = = 2\n").parse::<toml::Table>().unwrap_err();
+        assert_eq!(fault.place, "a.toml:2:5");
+    }
+}

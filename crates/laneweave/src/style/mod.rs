@@ -1,0 +1,12 @@
+//! Styles as data: files in TOML of the shape of [`laneweave_models::Style`], in which any number may be a
+//! distribution over the drivers instead.
+
+mod distribution;
+mod library;
+mod normal;
+mod ranges;
+mod template;
+
+pub use distribution::Distribution;
+pub use library::{BUILT_IN, BuiltIn, DEFAULT_MIXTURE, built_in, copy, find};
+pub use template::{Parameter, StyleTemplate};

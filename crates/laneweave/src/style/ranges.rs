@@ -1,0 +1,72 @@
+//! Which numbers of a style make sense.
+
+/// The values that a number may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) unit: &'static str,
+}
+
+/// Ranges by key; what is not listed, such as a weight or a threshold, may be any finite number. The limits are ours:
+/// wide enough for every driver, too narrow for a mistaken unit.
+const RANGES: &[(&str, Range)] = &[
+    ("speed_factor", range(0.1, 3.0, "")),
+    ("follow.acceleration", range(0.1, 10.0, "m/s²")),
+    ("follow.deceleration", range(0.1, 10.0, "m/s²")),
+    ("follow.time_gap", range(0.1, 10.0, "s")),
+    ("follow.jam_gap", range(0.0, 20.0, "m")),
+    ("follow.exponent", range(1.0, 20.0, "")),
+    ("follow.sensitivity", range(0.01, 10.0, "1/s")),
+    ("follow.relative_sensitivity", range(0.0, 10.0, "1/s")),
+    ("follow.range", range(1.0, 1000.0, "m")),
+    ("change.sigma", range(0.0, f64::INFINITY, "")),
+    ("change.hazard", range(0.0, 1.0, "")),
+    ("change.route.penalty", range(0.0, 1e6, "s")),
+    ("change.route.reference", range(1.0, 1e6, "s")),
+    ("change.comfort.beta", range(0.0, 20.0, "")),
+    ("change.returning.alpha", range(0.0, 100.0, "1/(s m)")),
+    ("change.returning.needed_gap", range(0.0, 60.0, "s")),
+    ("change.returning.change_time", range(0.0, 60.0, "s")),
+    ("change.returning.trial_time", range(0.1, 60.0, "s")),
+    ("safety.min_gap", range(0.1, 50.0, "m")),
+    ("safety.closing_growth", range(0.0, 1.0, "s/m")),
+    ("safety.min_time_to_collision", range(0.0, 60.0, "s")),
+    ("safety.max_deceleration", range(0.1, 8.0, "m/s²")),
+    ("attention.epoch", range(0.1, 60.0, "s")),
+    ("manner.change_duration", range(1.0, 20.0, "s")),
+    ("manner.patience", range(0.1, 3600.0, "s")),
+    ("manner.calm", range(0.0, 3600.0, "s")),
+    ("manner.adjust_deceleration", range(0.0, 8.0, "m/s²")),
+    ("manner.yield_deceleration", range(0.0, 8.0, "m/s²")),
+    ("manner.tightest", range(0.05, 1.0, "")),
+    ("manner.relaxation", range(0.1, 3600.0, "s")),
+];
+
+const fn range(from: f64, to: f64, unit: &'static str) -> Range {
+    Range { from, to, unit }
+}
+
+impl Range {
+    /// The range of the number at `key`.
+    pub(super) fn of(key: &str) -> Range {
+        let listed = RANGES.iter().find(|(name, _)| *name == key);
+        listed.map_or(range(f64::NEG_INFINITY, f64::INFINITY, ""), |(_, range)| *range)
+    }
+
+    /// Whether all values from `least` to `largest` are inside.
+    pub(super) fn holds(&self, least: f64, largest: f64) -> bool {
+        self.from <= least && largest <= self.to
+    }
+
+    /// The range in words: what to choose.
+    pub(super) fn advice(&self) -> String {
+        let Range { from, to, unit } = self;
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        match (from.is_finite(), to.is_finite()) {
+            (true, true) => format!("choose {from} to {to}{unit}"),
+            (true, false) => format!("choose {from}{unit} or more"),
+            _ => "choose a finite number".into(),
+        }
+    }
+}

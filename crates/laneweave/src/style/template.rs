@@ -1,0 +1,208 @@
+//! A style file: a style in which numbers may be distributed over its drivers.
+//!
+//! The file is held against the complete style of the models that it names, so that an unknown key, a wrong type or
+//! a number out of range is told with its place.
+
+use laneweave_models::Style;
+use laneweave_models::change::{LaneChangeModel, Rule};
+use laneweave_sim::{Purpose, Random};
+use toml::{Table, Value};
+
+use super::distribution::Distribution;
+use super::ranges::Range;
+use crate::fault::{Fault, did_you_mean};
+use crate::source::Source;
+
+/// How many different drivers stand for a style with distributions.
+const CHARACTERS: u32 = 512;
+/// Draws that are kept apart for the parameters of one style.
+const PARAMETERS_PER_STYLE: u32 = 1 << 12;
+
+/// A style before its drivers are drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StyleTemplate {
+    table: Table,
+    parameters: Vec<Parameter>,
+    typical: Style,
+}
+
+/// A distributed number of a style.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its keys from the outermost in.
+    pub path: Vec<String>,
+    /// How it is distributed.
+    pub distribution: Distribution,
+}
+
+impl StyleTemplate {
+    /// Reads a style file.
+    ///
+    /// # Errors
+    /// If it is no TOML, has an unknown key, lacks one, or has a value that makes no sense.
+    pub fn parse(source: &Source) -> Result<StyleTemplate, Fault> {
+        let table: Table = source.parse()?;
+        let mut reader = Reader { source, path: Vec::new(), parameters: Vec::new() };
+        reader.table(&table, &complete(&table, source)?)?;
+        let parameters = reader.parameters;
+        let typical = fill(&table, &parameters, |it| it.distribution.median())
+            .map_err(|error| source.fault(&error))?;
+        if typical.name.trim().is_empty() {
+            return Err(Fault::new(source.place(&["name"]), "the name is empty", "give the style a name"));
+        }
+        if let LaneChangeModel::Mcdm(it) = &typical.change
+            && it.rule == Rule::Logit
+            && it.sigma == 0.0
+        {
+            let remedy = "give sigma a value above 0, or set rule = \"threshold\"";
+            return Err(Fault::new(source.place(&["change", "sigma"]), "a logit rule without noise", remedy));
+        }
+        Ok(StyleTemplate { table, parameters, typical })
+    }
+
+    /// Number of different drivers that stand for the style: one, or 512 where anything is distributed.
+    pub fn characters(&self) -> u32 {
+        if self.parameters.is_empty() { 1 } else { CHARACTERS }
+    }
+
+    /// Its distributed numbers in the order of their paths.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// The style whose distributed numbers have their medians.
+    pub fn typical(&self) -> &Style {
+        &self.typical
+    }
+
+    /// Driver `number` of the style, which is number `style` of the run.
+    ///
+    /// # Errors
+    /// Only if a number that is drawn does not fit where it stands, which reading the file rules out.
+    pub fn draw(&self, random: &Random, style: u32, number: u32) -> Result<Style, Fault> {
+        let mut count = style * PARAMETERS_PER_STYLE;
+        let drawn = fill(&self.table, &self.parameters, |it| {
+            let p = random.uniform(number, Purpose::Parameter, count);
+            count += 1;
+            it.distribution.value(p)
+        });
+        drawn.map_err(|error| {
+            Fault::new(&self.typical.name, error.message(), "check the distributions of the style")
+        })
+    }
+}
+
+/// The style of `table` with `value` in the place of each distribution.
+fn fill(
+    table: &Table,
+    parameters: &[Parameter],
+    mut value: impl FnMut(&Parameter) -> f64,
+) -> Result<Style, toml::de::Error> {
+    let mut table = table.clone();
+    for parameter in parameters {
+        let (last, outer) = match parameter.path.split_last() {
+            Some(parts) => parts,
+            None => continue,
+        };
+        let inner =
+            outer.iter().try_fold(&mut table, |table, name| table.get_mut(name).and_then(Value::as_table_mut));
+        if let Some(inner) = inner {
+            inner.insert(last.clone(), Value::Float(value(parameter)));
+        }
+    }
+    table.try_into()
+}
+
+/// Every key that a style with the models of `table` can have, with its default.
+fn complete(table: &Table, source: &Source) -> Result<Table, Fault> {
+    let mut bare = Table::from_iter([("name".into(), Value::String(String::new()))]);
+    for (section, example) in [("follow", "idm"), ("change", "mcdm")] {
+        let model = table.get(section).and_then(|it| it.get("model")).cloned().ok_or_else(|| {
+            let remedy = format!("add it, such as [{section}] with model = {example:?}");
+            Fault::new(source.place(&[section]), format!("the key {section}.model is missing"), remedy)
+        })?;
+        bare.insert(section.into(), Value::Table(Table::from_iter([("model".into(), model)])));
+    }
+    let complete = bare.try_into::<Style>().and_then(|style| {
+        Table::try_from(&style).map_err(|error| serde::de::Error::custom(error.to_string()))
+    });
+    complete.map_err(|error| source.fault(&error))
+}
+
+/// Walks through a style file beside the complete style.
+struct Reader<'a> {
+    source: &'a Source,
+    path: Vec<String>,
+    parameters: Vec<Parameter>,
+}
+
+impl Reader<'_> {
+    fn table(&mut self, found: &Table, complete: &Table) -> Result<(), Fault> {
+        for (key, value) in found {
+            self.path.push(key.clone());
+            match complete.get(key) {
+                Some(default) => self.value(value, default)?,
+                None => {
+                    let known = complete.keys().map(String::as_str);
+                    return Err(self.fault(format!("unknown key {key:?}"), did_you_mean(key, known)));
+                }
+            }
+            self.path.pop();
+        }
+        Ok(())
+    }
+
+    fn value(&mut self, found: &Value, default: &Value) -> Result<(), Fault> {
+        match (default, found) {
+            (Value::Table(default), Value::Table(found)) => self.table(found, default),
+            (Value::String(_), Value::String(_)) => Ok(()),
+            (Value::Float(_), Value::Float(number)) => self.number(*number),
+            (Value::Float(_), Value::Integer(number)) => self.number(*number as f64),
+            (Value::Float(_), Value::Table(found)) => self.distribution(found),
+            (Value::Float(_), _) => {
+                let remedy = "give a number, or a distribution such as \
+                              { distribution = \"normal\", mean = 1.0, sd = 0.1, min = 0.7, max = 1.3 }";
+                Err(self.fault(format!("{} is no number", self.key()), remedy))
+            }
+            (default, found) => {
+                let what = format!("{} is a {}", self.key(), found.type_str());
+                Err(self.fault(what, format!("give a {}", default.type_str())))
+            }
+        }
+    }
+
+    fn number(&self, number: f64) -> Result<(), Fault> {
+        let range = Range::of(&self.key());
+        if number.is_finite() && range.holds(number, number) {
+            return Ok(());
+        }
+        Err(self.fault(format!("{} is {number}", self.key()), range.advice()))
+    }
+
+    fn distribution(&mut self, found: &Table) -> Result<(), Fault> {
+        let distribution: Distribution = Value::Table(found.clone()).try_into().map_err(|error| {
+            let Fault { what, remedy, .. } = self.source.fault(&error);
+            self.fault(format!("{}: {what}", self.key()), remedy)
+        })?;
+        if let Some((what, remedy)) = distribution.flaw() {
+            return Err(self.fault(format!("{}: {what}", self.key()), remedy));
+        }
+        let range = Range::of(&self.key());
+        let (least, largest) = distribution.support();
+        if !range.holds(least, largest) {
+            let what = format!("{} reaches from {least} to {largest}", self.key());
+            return Err(self.fault(what, format!("set its min and max: {}", range.advice())));
+        }
+        self.parameters.push(Parameter { path: self.path.clone(), distribution });
+        Ok(())
+    }
+
+    fn key(&self) -> String {
+        self.path.join(".")
+    }
+
+    fn fault(&self, what: String, remedy: impl std::fmt::Display) -> Fault {
+        let path: Vec<&str> = self.path.iter().map(String::as_str).collect();
+        Fault::new(self.source.place(&path), what, remedy)
+    }
+}
