@@ -94,6 +94,9 @@ impl Source {
             return Fault::new(place, format!("the key {name:?} is missing"), "add it");
         }
         let what = message.replace('\n', ", ");
+        if message.starts_with("invalid type") || message.starts_with("invalid value") {
+            return Fault::new(place, what, "correct the value");
+        }
         Fault::new(place, what, "correct this line; the format is TOML, https://toml.io")
     }
 }

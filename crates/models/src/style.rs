@@ -57,6 +57,8 @@ impl Default for Attention {
 pub struct Manner {
     /// Time that a lane change takes [s].
     pub change_duration: f64,
+    /// Time that it takes when it presses most [s].
+    pub pressed_duration: f64,
     /// Time after which a driver gives up waiting for a gap [s].
     pub patience: f64,
     /// Time after a change without a new voluntary one [s].
@@ -75,6 +77,7 @@ impl Default for Manner {
     fn default() -> Manner {
         Manner {
             change_duration: 4.0,
+            pressed_duration: 3.0,
             patience: 15.0,
             calm: 9.0,
             adjust_deceleration: 2.0,
@@ -86,6 +89,12 @@ impl Default for Manner {
 }
 
 impl Manner {
+    /// Time [s] that a change takes a driver with `urgency` 0…1.
+    #[inline]
+    pub fn duration(&self, urgency: f64) -> f64 {
+        self.change_duration + urgency * (self.pressed_duration - self.change_duration)
+    }
+
     /// Share of the usual time gap that a driver with `desire` 0…1 accepts: d·T_min + (1 − d)·T_max.
     pub fn tightness(&self, desire: f64) -> f64 {
         1.0 - desire.clamp(0.0, 1.0) * (1.0 - self.tightest)

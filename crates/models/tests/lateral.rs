@@ -1,7 +1,7 @@
 //! The way across, and how tight a driver is for a change's sake.
 
-use laneweave_models::Manner;
 use laneweave_models::change::{moved_share, peak_lateral_acceleration, peak_lateral_speed};
+use laneweave_models::{Attention, Manner};
 
 #[track_caller]
 fn assert_near(value: f64, expected: f64, tolerance: f64) {
@@ -75,4 +75,13 @@ fn an_accepted_short_gap_relaxes_exponentially() {
     }
     // A step longer than the relaxation time ends relaxed and not beyond.
     assert_eq!(Manner::default().relaxed(0.5, 100.0), 1.0);
+}
+
+#[test]
+fn the_defaults_are_those_that_the_field_uses() {
+    let manner = Manner::default();
+    assert_eq!(Attention::default().epoch, 1.0);
+    assert!((3.0..=5.0).contains(&manner.change_duration));
+    assert!((8.0..=10.0).contains(&manner.calm));
+    assert_eq!((manner.adjust_deceleration, manner.yield_deceleration), (2.0, 2.0));
 }

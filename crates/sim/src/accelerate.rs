@@ -13,8 +13,9 @@ use crate::traffic::{Mind, Phase};
 const COMFORTABLE_BRAKING: f64 = 2.0;
 /// Road kept before the end of a lane, and before the last place for a change, to steer on [m].
 const ROOM_AT_THE_END: f64 = 15.0;
-/// Share of the desired speed at which a driver passes the last place for a change, if it must.
-const PASSING_SHARE: f64 = 0.25;
+/// Drivers who desire no more than this stop at the last place for a change [m/s]; the faster slow down to half of
+/// what they desire beyond it (ours: in a town one waits for a gap, on a motorway one does not stop).
+const WAITS_BELOW: f64 = 17.0;
 
 /// All drivers of a lane choose their accelerations.
 pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut Plan) {
@@ -135,7 +136,7 @@ fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace, obstacle: &mut Optio
     }
     if mind.last_place.is_finite() && matches!(car.phase, Phase::Cruises | Phase::Wants) {
         let room = mind.last_place - ROOM_AT_THE_END - car.x;
-        let passing = PASSING_SHARE * pace.desired;
+        let passing = 0.5 * (pace.desired - WAITS_BELOW).max(0.0);
         acceleration = acceleration.min(approach(car.speed, room, passing).max(-2.0 * COMFORTABLE_BRAKING));
     }
     acceleration

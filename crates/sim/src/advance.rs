@@ -41,7 +41,7 @@ pub(crate) fn advance(
             if let Some(twin) = &mut mind.twin {
                 twin.x += distance * f64::from(twin.stretch);
             }
-            let duration = characters[car.character as usize].manner.change_duration;
+            let duration = style().manner.duration(f64::from(mind.urgency));
             has_ended |= go_across(car, mind, chain, clock, duration, plan);
         }
         if car.heeds_more {
@@ -98,6 +98,7 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan) 
             plan.tally.stuck += 1;
         }
         mind.standing = note.standing;
+        mind.urgency = note.urgency;
         if let Some(destination) = note.rerouted {
             mind.destination = destination;
             car.due = clock.step + 1;

@@ -84,6 +84,8 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
         note.gives_up = gives_up(moment, mind, style, sides, appraisals);
+        let wanted = options.iter().flatten().find(|it| it.side == mind.side);
+        note.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
         let period = f64::from(moment.clock.steps(style.attention.epoch)) * moment.clock.dt;
         let epochs = period / style.attention.epoch;
@@ -162,6 +164,7 @@ fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
         limit_desired: mind.class.desired_speed(style, limit) as f32,
         last_place: f64::INFINITY,
         standing: if stands { mind.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
+        urgency: mind.urgency,
         gives_up: false,
         rerouted: None,
     }
@@ -300,7 +303,8 @@ impl Gap {
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Refusal> {
         let car = scene.car(spot);
         let style = &scene.characters[car.character as usize];
-        let crossing = 0.5 * style.manner.change_duration * car.speed;
+        let duration = style.manner.duration(f64::from(mind(scene, spot).urgency));
+        let crossing = 0.5 * duration * car.speed;
         if self.room < crossing {
             return Err(Refusal::Short);
         }

@@ -52,6 +52,8 @@ pub(crate) struct Note {
     pub(crate) last_place: f64,
     /// Time at standstill [s].
     pub(crate) standing: f32,
+    /// How much the route presses it to the change that it wants, 0…1.
+    pub(crate) urgency: f32,
     /// It no longer wants to change.
     pub(crate) gives_up: bool,
     /// It goes somewhere else from now on.

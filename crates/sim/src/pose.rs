@@ -33,7 +33,8 @@ fn offsets(scene: &Scene, chain: ChainIndex, car: &Car, mind: &Mind) -> [f64; 2]
         return [0.0; 2];
     }
     // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
-    let duration = scene.characters[car.character as usize].manner.change_duration;
+    let manner = &scene.characters[car.character as usize].manner;
+    let duration = manner.duration(f64::from(mind.urgency));
     let way = (car.speed * duration).max(least_way(car));
     let half = 0.5 * f64::from(car.length) / way * 4.0 * progress * (1.0 - progress);
     let crossed = if mind.progress < 0.5 { 0.0 } else { 1.0 };

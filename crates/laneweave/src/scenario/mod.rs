@@ -1,0 +1,159 @@
+//! Scenario files: what to simulate, in TOML. Every key but the map has a default.
+
+mod origin;
+mod prepare;
+mod traffic;
+
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::path::PathBuf;
+
+use schemars::{JsonSchema, Schema, schema_for};
+use serde::{Deserialize, Serialize};
+
+use crate::style::DEFAULT_MIXTURE;
+
+pub use origin::Origin;
+pub use prepare::{Prepared, prepare};
+
+/// A scenario of laneweave: a map, who drives on it, and what is recorded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// The map file (Lanelet2, .osm), relative to the scenario file.
+    pub map: PathBuf,
+    /// How the map is read.
+    #[serde(default)]
+    pub map_options: MapOptions,
+    /// Who comes, how many, and where they go.
+    #[serde(default)]
+    pub demand: Demand,
+    /// How long and how finely to simulate.
+    #[serde(default)]
+    pub run: Run,
+    /// The styles of the drivers with their weights: names of built-in styles, or paths of style files (FILE.toml)
+    /// relative to the scenario file.
+    #[serde(default = "default_styles")]
+    pub styles: BTreeMap<String, f64>,
+    /// What is written, and where.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// How the map is read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MapOptions {
+    /// Latitude and longitude [°] that become (0, 0); without it the place of the map's first node, rounded to 0.1°.
+    pub origin: Option<[f64; 2]>,
+    /// On which side traffic drives; without it what the map says, or else the right.
+    pub driving_side: Option<DrivingSide>,
+}
+
+/// A side of the road.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DrivingSide {
+    /// Traffic drives on the left.
+    Left,
+    /// Traffic drives on the right.
+    Right,
+}
+
+/// Who comes, how many, and where they go.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Demand {
+    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 1000 for each lane.
+    pub vehicles_per_hour: Option<f64>,
+    /// Share of trucks, 0 to 1.
+    pub trucks: f64,
+    /// Vehicles per hour at single entrances, by the smallest lanelet id there, in place of their split share.
+    pub entrances: BTreeMap<String, f64>,
+    /// Weights of the exits as destinations, by the smallest lanelet id there; 1 where nothing is said.
+    pub exits: BTreeMap<String, f64>,
+}
+
+impl Default for Demand {
+    fn default() -> Demand {
+        Demand {
+            vehicles_per_hour: None,
+            trucks: 0.1,
+            entrances: BTreeMap::new(),
+            exits: BTreeMap::new(),
+        }
+    }
+}
+
+/// How long and how finely to simulate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Run {
+    /// Simulated and measured time after the warm-up [s].
+    pub duration_s: f64,
+    /// Length of a step [s], 0.01 to 1.
+    pub step_s: f64,
+    /// Seed of all random draws.
+    pub seed: u64,
+    /// Simulated time before anything is measured or recorded [s].
+    pub warmup_s: f64,
+    /// Number of threads; results do not depend on it. Without it as many as the machine has, 2 at most.
+    pub threads: Option<NonZero<usize>>,
+}
+
+impl Default for Run {
+    fn default() -> Run {
+        Run { duration_s: 600.0, step_s: 0.1, seed: 1, warmup_s: 0.0, threads: None }
+    }
+}
+
+/// What is written, and where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Output {
+    /// The folder of all results, from the current folder on.
+    pub dir: PathBuf,
+    /// Time between two samples of a trajectory [s]; 0: no trajectories.
+    pub record_s: f64,
+    /// Format of the tables.
+    pub format: TableFormat,
+}
+
+impl Default for Output {
+    fn default() -> Output {
+        Output { dir: "out".into(), record_s: 1.0, format: TableFormat::Parquet }
+    }
+}
+
+/// A format of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum TableFormat {
+    /// Apache Parquet.
+    Parquet,
+    /// Comma-separated values.
+    Csv,
+}
+
+fn default_styles() -> BTreeMap<String, f64> {
+    DEFAULT_MIXTURE.into_iter().map(|(name, weight)| (name.into(), weight)).collect()
+}
+
+impl Scenario {
+    /// The scenario of a bare map.
+    pub fn of_map(map: PathBuf) -> Scenario {
+        Scenario {
+            map,
+            map_options: MapOptions::default(),
+            demand: Demand::default(),
+            run: Run::default(),
+            styles: default_styles(),
+            output: Output::default(),
+        }
+    }
+
+    /// The JSON schema of scenario files.
+    pub fn schema() -> Schema {
+        schema_for!(Scenario)
+    }
+}

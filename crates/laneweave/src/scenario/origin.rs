@@ -1,0 +1,82 @@
+//! Where each value of a scenario came from: its file, or an option of the command.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::Scenario;
+use crate::fault::Fault;
+use crate::source::Source;
+
+/// The demo scenario and its map, which come with the program.
+const DEMO: &str = include_str!("../../../../scenarios/demo.toml");
+const DEMO_MAP: &str = include_str!("../../../../maps/ramps.osm");
+
+/// Where the values of a scenario came from.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    source: Option<Source>,
+    /// The map's text, if it comes with the program.
+    pub(super) map: Option<&'static str>,
+    /// Options by the key that they replace.
+    options: BTreeMap<&'static str, &'static str>,
+}
+
+impl Origin {
+    /// The scenario in the file at `path`, or of the map there.
+    ///
+    /// # Errors
+    /// If the scenario file cannot be read or is no scenario. A map is not looked at yet.
+    pub fn open(path: &Path) -> Result<(Scenario, Origin), Fault> {
+        if path.extension().is_none_or(|it| it != "toml") {
+            return Ok((Scenario::of_map(path.to_owned()), Origin::default()));
+        }
+        let source = Source::read(path)?;
+        let mut scenario: Scenario = source.parse()?;
+        scenario.map = source.folder().join(&scenario.map);
+        Ok((scenario, Origin { source: Some(source), ..Origin::default() }))
+    }
+
+    /// The demo scenario.
+    ///
+    /// # Errors
+    /// None, as long as the file in the repository is a scenario.
+    pub fn demo() -> Result<(Scenario, Origin), Fault> {
+        let source = Source { path: "scenarios/demo.toml".into(), text: DEMO.into() };
+        let mut scenario: Scenario = source.parse()?;
+        scenario.map = PathBuf::from("maps/ramps.osm");
+        Ok((scenario, Origin { source: Some(source), map: Some(DEMO_MAP), ..Origin::default() }))
+    }
+
+    /// Notes that `option` has replaced the value of `key`.
+    pub fn replaced(&mut self, key: &'static str, option: &'static str) {
+        self.options.insert(key, option);
+    }
+
+    /// The place of the key at `path`: an option, a place in the scenario file, or else the key itself.
+    pub fn place(&self, path: &[&str]) -> String {
+        let option = (1..=path.len()).find_map(|n| self.options.get(path[..n].join(".").as_str()));
+        match (option, &self.source) {
+            (Some(option), _) => (*option).into(),
+            (None, Some(source)) => source.place(path),
+            (None, None) => path.join("."),
+        }
+    }
+
+    /// The folder from which the paths of style files are sought.
+    pub(super) fn style_folder(&self) -> &Path {
+        match &self.source {
+            Some(source) if !self.options.contains_key("styles") => source.folder(),
+            _ => Path::new(""),
+        }
+    }
+
+    /// A fault of the map: with its place in the scenario file, if that names it.
+    pub(super) fn map_fault(&self, fault: Fault) -> Fault {
+        match &self.source {
+            Some(source) if fault.place == fault_free(&fault.place) && self.map.is_none() => {
+                Fault { what: format!("map {}: {}", fault.place, fault.what), place: source.place(&["map"]), ..fault }
+            }
+            _ => fault,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! From a scenario to a world that can run: everything is checked before anything is written.
+
+use std::path::Path;
+use std::thread::available_parallelism;
+
+use laneweave_maps::{Map, MapError, Problem, ReadOptions, lanelet2, load};
+use laneweave_models::Style;
+use laneweave_network::DrivingSide;
+use laneweave_sim::{Setup, World};
+
+use super::traffic::{Drivers, demand};
+use super::{Origin, Scenario};
+use crate::capacity::entrance_capacity;
+use crate::fault::Fault;
+
+/// More threads than this are a mistake.
+const MOST_THREADS: usize = 256;
+/// Threads where nothing is said: what a small machine has.
+const USUAL_THREADS: usize = 2;
+/// Longest time that can be simulated [s].
+const LONGEST: f64 = 1e7;
+
+/// A scenario that is ready to run.
+pub struct Prepared {
+    /// The world at its start.
+    pub world: World,
+    /// Steps before anything is measured.
+    pub warmup_steps: u32,
+    /// Steps that are measured.
+    pub steps: u32,
+    /// Steps between two samples of a trajectory, if there are any.
+    pub record_steps: Option<u32>,
+    /// Demand over all entrances [veh/h].
+    pub demand_veh_h: f64,
+    /// Demand of each of the network's entrances [veh/h].
+    pub entrance_demand_veh_h: Vec<f64>,
+    /// See [`entrance_capacity`] [veh/h].
+    pub entrance_capacity_veh_h: f64,
+    /// Names and weights of the styles.
+    pub styles: Vec<(String, f64)>,
+    /// Number of threads.
+    pub threads: usize,
+    /// What in the map could not be used as it stands.
+    pub problems: Vec<Problem>,
+}
+
+/// Reads the map and the styles of `scenario`, and makes its world.
+///
+/// # Errors
+/// If anything is missing, not readable, or makes no sense.
+pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
+    check_numbers(scenario, origin)?;
+    let threads = threads(scenario, origin)?;
+    let record_steps = record_steps(scenario, origin)?;
+    let Drivers { characters, population, typical } = Drivers::of(scenario, origin)?;
+    let Map { network, problems, .. } = read_map(scenario, origin)?;
+    if network.entrances.is_empty() {
+        let what = "the map has no entrance: no lanelet of 10 m or more begins at its edge";
+        return Err(Fault::new(scenario.map.display(), what, "choose a map with a road that begins at its edge"));
+    }
+    let demand = demand(scenario, origin, &network, population)?;
+    let capacity = entrance_capacity(&network, &typical, demand.trucks);
+    let entrance_demand_veh_h = demand.rates.clone();
+    let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
+    let world = World::new(network, characters, demand, setup)
+        .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
+    let in_steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
+    Ok(Prepared {
+        warmup_steps: in_steps(scenario.run.warmup_s),
+        steps: in_steps(scenario.run.duration_s).max(1),
+        record_steps,
+        demand_veh_h: entrance_demand_veh_h.iter().sum(),
+        entrance_demand_veh_h,
+        entrance_capacity_veh_h: capacity,
+        styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
+        threads,
+        problems,
+        world,
+    })
+}
+
+fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
+    let Scenario { demand, run, output, .. } = scenario;
+    let numbers: [(&[&str], &str, f64, f64, f64, &str); 5] = [
+        (&["run", "duration_s"], "a duration", run.duration_s, run.step_s, LONGEST, " s"),
+        (&["run", "step_s"], "a step", run.step_s, 0.01, 1.0, " s"),
+        (&["run", "warmup_s"], "a warm-up", run.warmup_s, 0.0, LONGEST, " s"),
+        (&["demand", "trucks"], "a share of trucks", demand.trucks, 0.0, 1.0, ""),
+        (&["output", "record_s"], "a recording interval", output.record_s, 0.0, LONGEST, " s"),
+    ];
+    // The step first: the least duration depends on it.
+    for (path, what, value, from, to, unit) in [1, 0, 2, 3, 4].map(|i| numbers[i]) {
+        if !(from..=to).contains(&value) {
+            let what = format!("{what} of {value}{unit}");
+            return Err(Fault::new(origin.place(path), what, format!("choose {from} to {to}{unit}")));
+        }
+    }
+    Ok(())
+}
+
+/// The recording interval in steps; none for an interval of 0.
+fn record_steps(scenario: &Scenario, origin: &Origin) -> Result<Option<u32>, Fault> {
+    /// How far an interval may be off a whole number of steps, in steps.
+    const TOLERANCE: f64 = 1e-6;
+    let (interval, step) = (scenario.output.record_s, scenario.run.step_s);
+    let steps = interval / step;
+    if (steps - steps.round()).abs() <= TOLERANCE {
+        return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
+    }
+    let above = steps.ceil() * step;
+    let what = format!("a recording interval of {interval} s with steps of {step} s");
+    let remedy = format!("choose a multiple of the step, such as {above} s");
+    Err(Fault::new(origin.place(&["output", "record_s"]), what, remedy))
+}
+
+fn threads(scenario: &Scenario, origin: &Origin) -> Result<usize, Fault> {
+    let usual = || available_parallelism().map_or(1, |it| it.get().min(USUAL_THREADS));
+    let threads = scenario.run.threads.map_or_else(usual, |it| it.get());
+    if threads > MOST_THREADS {
+        let place = origin.place(&["run", "threads"]);
+        return Err(Fault::new(place, format!("{threads} threads"), format!("choose 1 to {MOST_THREADS}")));
+    }
+    Ok(threads)
+}
+
+fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
+    let options = ReadOptions {
+        origin: scenario.map_options.origin.map(|[latitude, longitude]| (latitude, longitude)),
+        driving_side: scenario.map_options.driving_side.map(DrivingSide::from),
+    };
+    let read = match origin.map {
+        Some(text) => lanelet2::read(text.as_bytes(), &options),
+        None => load(&scenario.map, &options),
+    };
+    read.map_err(|error| match error {
+        MapError::Origin(..) => fault_of(error, &scenario.map, origin.place(&["map_options", "origin"])),
+        MapError::Missing | MapError::Folder | MapError::Unreadable(_) | MapError::UnknownFormat { .. } => {
+            fault_of(error, &scenario.map, origin.place(&["map"]))
+        }
+        error => fault_of(error, &scenario.map, String::new()),
+    })
+}
