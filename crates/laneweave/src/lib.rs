@@ -1,1 +1,22 @@
-//! x
+//! laneweave: traffic whose drivers change lanes for human reasons. The library behind the command of this name.
+//!
+//! A [`scenario`] names a map, [`style`]s and a demand; prepared, it is a world that a [`simulation`] steps through
+//! while [`output`]s observe it.
+
+mod capacity;
+mod fault;
+pub mod output;
+pub mod scenario;
+pub mod simulation;
+mod source;
+pub mod style;
+
+pub use capacity::entrance_capacity;
+pub use fault::{Fault, did_you_mean};
+pub use source::Source;
+
+pub use laneweave_maps as maps;
+pub use laneweave_models as models;
+pub use laneweave_network as network;
+pub use laneweave_sim as sim;
+pub use laneweave_study as study;

@@ -230,6 +230,16 @@ fn a_follower_at_its_desired_speed_does_not_make_courtesy_explode() {
     }
 }
 
+#[test]
+fn courtesy_is_nothing_where_nobody_is_concerned() {
+    // Slower than its lane, but with nobody behind.
+    let alone = empty_road(driver(&IDM, 10.0, 14.0));
+    for courtesy in READINGS {
+        assert_eq!(courtesy.earning(&alone, chances(1.0)), 0.0);
+        assert_eq!(courtesy.earning(&leaving_route(alone, 50.0), chances(0.5)), 0.0);
+    }
+}
+
 /// Where the driver, 10 m/s, leaves an old follower for a new one; all would like 14 m/s.
 fn between_followers() -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 10.0, 14.0));

@@ -7,7 +7,7 @@ use laneweave_network::ChainIndex;
 
 use crate::plan::Plan;
 use crate::scene::{Scene, Spot};
-use crate::traffic::{Mind, Phase};
+use crate::traffic::{Lane, Mind, Phase};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
@@ -36,15 +36,15 @@ pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut P
         let follow = &scene.characters[car.character as usize].follow;
         let wish = follow.acceleration(pace, leader);
         let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
-        let (wish, obstacles) = if follows_only {
-            (wish, [None; 2])
-        } else {
-            heed(scene, spot, pace, wish, lane_end)
-        };
+        let (wish, lane_end) =
+            if follows_only { (wish, None) } else { heed(scene, spot, pace, wish, lane_end) };
         let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
         let mut bounded = bound(car.speed, acceleration, leader, dt);
         if !follows_only {
-            bounded = obstacles.into_iter().fold(bounded, |it, obstacle| bound(car.speed, it, obstacle, dt));
+            bounded = bound(car.speed, bounded, lane_end, dt);
+            if let Some(twin) = scene.lanes[chain.at()].minds()[index].twin.filter(|_| !car.is_shadow) {
+                plan.couples.push((index as u32, twin));
+            }
         }
         if bounded < acceleration {
             plan.emergencies.push(index as u32);
@@ -67,26 +67,26 @@ fn within(value: f64, low: f64, high: f64) -> f64 {
     if value > low { value } else { low }
 }
 
-/// What a driver accelerates who heeds more than its leader, and what it must not hit beside it.
+/// What a driver accelerates who heeds more than its leader, and the end of its lane.
 fn heed(
     scene: &Scene,
     spot: Spot,
     pace: Pace,
     behind_leader: f64,
     lane_end: Option<f64>,
-) -> (f64, [Option<Ahead>; 2]) {
+) -> (f64, Option<Ahead>) {
     let car = scene.car(spot);
-    let (mut wish, mut obstacles) = (behind_leader, [None; 2]);
-    if car.phase != Phase::Cruises || car.heeds_more {
-        wish = wish.min(beyond_the_leader(scene, spot, pace, &mut obstacles[0]));
+    let (mut wish, mut obstacle) = (behind_leader, None);
+    if car.phase == Phase::Wants || car.heeds_more {
+        wish = wish.min(beyond_the_leader(scene, spot, pace));
     }
     if let Some(end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
-        if matches!(car.phase, Phase::Cruises | Phase::Wants) {
-            wish = wish.min(approach(car.speed, end - ROOM_AT_THE_END - car.x, 0.0));
-        }
-        obstacles[1] = Some(Ahead::standing(end - car.x));
+        // Who changes already uses the road that others keep free to steer on.
+        let kept = if car.phase == Phase::Changes { 1.0 } else { ROOM_AT_THE_END };
+        wish = wish.min(approach(car.speed, end - kept - car.x, 0.0));
+        obstacle = Some(Ahead::standing(end - car.x));
     }
-    (wish, obstacles)
+    (wish, obstacle)
 }
 
 /// Where the lane ends for all that are on it, along the chain [m].
@@ -112,22 +112,13 @@ fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
     &scene.lanes[spot.chain.at()].minds()[spot.index]
 }
 
-/// What a driver heeds beside its leader; an obstacle that it must not hit is put into `obstacle`.
-fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace, obstacle: &mut Option<Ahead>) -> f64 {
+/// What a driver heeds beside its leader.
+fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
     let (car, mind) = (scene.car(spot), mind(scene, spot));
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
-    match car.phase {
-        Phase::Changes | Phase::Aborts => {
-            if let Some(twin) = mind.twin {
-                *obstacle = scene.ahead(scene.viewpoint_at(twin.chain, twin.x, car.id, mind.destination));
-                acceleration = style.follow.acceleration(pace, *obstacle);
-            }
-        }
-        Phase::Wants => {
-            acceleration = fall_in(scene, spot, pace).max(-style.manner.adjust_deceleration);
-        }
-        Phase::Cruises => {}
+    if car.phase == Phase::Wants {
+        acceleration = fall_in(scene, spot, pace).max(-style.manner.adjust_deceleration);
     }
     if let Some((gap, speed)) = mind.lets_in {
         let ahead = Ahead { gap: f64::from(gap).max(0.1), speed: f64::from(speed) };
@@ -171,5 +162,21 @@ fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64
             acceleration.min(slowed.max(-HARDEST_BRAKING))
         }
         _ => acceleration,
+    }
+}
+
+/// A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
+pub(crate) fn couple(lanes: &[Lane], plans: &mut [Plan]) {
+    for here in 0..plans.len() {
+        let couples = std::mem::take(&mut plans[here].couples);
+        for (index, twin) in &couples {
+            let index = *index as usize;
+            let id = lanes[here].cars()[index].id;
+            let Some(shadow) = lanes[twin.chain.at()].find(id, twin.x) else { continue };
+            let lower = plans[here].accelerations[index].min(plans[twin.chain.at()].accelerations[shadow]);
+            plans[here].accelerations[index] = lower;
+            plans[twin.chain.at()].accelerations[shadow] = lower;
+        }
+        plans[here].couples = couples;
     }
 }

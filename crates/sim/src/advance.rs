@@ -79,7 +79,7 @@ fn drive(car: &mut Car, acceleration: f64, dt: f64) -> f64 {
         let eased = car.desired - (EASING * dt) as f32;
         car.desired = eased.max(car.limit_desired);
     }
-    car.in_emergency = false;
+    car.in_emergency &= acceleration < 0.0;
     car.in_collision = false;
     distance
 }

@@ -5,13 +5,15 @@ use laneweave_network::{ChainIndex, Side};
 
 use crate::navigate::Destination;
 use crate::tally::Tally;
-use crate::traffic::{Car, Kind, Milestone, Mind, VehicleId};
+use crate::traffic::{Car, Kind, Milestone, Mind, Twin, VehicleId};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew.
 #[derive(Debug, Default)]
 pub(crate) struct Plan {
     /// Acceleration of each entry [m/s²].
     pub(crate) accelerations: Vec<f64>,
+    /// Main entries of vehicles in a change, with their shadows.
+    pub(crate) couples: Vec<(u32, Twin)>,
     /// Entries whose braking kinematics decided.
     pub(crate) emergencies: Vec<u32>,
     /// Entries that touch their leaders.
@@ -32,6 +34,7 @@ impl Plan {
     /// Forgets the last step.
     pub(crate) fn clear(&mut self) {
         self.accelerations.clear();
+        self.couples.clear();
         self.emergencies.clear();
         self.collisions.clear();
         self.notes.clear();

@@ -42,7 +42,7 @@ pub struct Car {
     pub phase: Phase,
     /// This entry is the shadow of one in another lane.
     pub is_shadow: bool,
-    /// Kinematics, not the model, decided the last step.
+    /// Kinematics, not the model, decided in the present braking.
     pub in_emergency: bool,
     /// It touches its leader.
     pub in_collision: bool,
@@ -190,12 +190,15 @@ impl Lane {
         self.cars.partition_point(|car| car.x <= x)
     }
 
-    /// Index of the entry of vehicle `id`, which stands near `x`: not further than it can have gone in one step.
+    /// Index of the entry of vehicle `id`, which stood at `x` at most one step ago.
     pub fn find(&self, id: VehicleId, x: f64) -> Option<usize> {
-        const NEAR: f64 = 100.0;
+        /// No vehicle moves further in a step of at most one second [m].
+        const STEP: f64 = 100.0;
+        /// Rounding [m].
+        const NEAR: f64 = 0.01;
         let from = self.cars.partition_point(|car| car.x < x - NEAR);
-        let near = self.cars[from..].iter().take_while(|car| car.x <= x + NEAR);
-        near.zip(from..).find(|(car, _)| car.id == id).map(|(_, index)| index)
+        let within = self.cars[from..].iter().take_while(|car| car.x <= x + STEP);
+        within.zip(from..).find(|(car, _)| car.id == id).map(|(_, index)| index)
     }
 
     /// Adds an entry at its place.

@@ -5,7 +5,7 @@ use laneweave_network::{ChainIndex, Network, Pose};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::accelerate::accelerate;
+use crate::accelerate::{accelerate, couple};
 use crate::advance::advance;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
@@ -179,6 +179,7 @@ impl World {
             decide(&scene, moment, chain, plan);
             accelerate(&scene, moment.clock.dt, chain, plan);
         });
+        couple(&self.lanes, &mut self.plans);
     }
 
     fn advance(&mut self) {

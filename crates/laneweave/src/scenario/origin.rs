@@ -55,11 +55,12 @@ impl Origin {
     /// The place of the key at `path`: an option, a place in the scenario file, or else the key itself.
     pub fn place(&self, path: &[&str]) -> String {
         let option = (1..=path.len()).find_map(|n| self.options.get(path[..n].join(".").as_str()));
-        match (option, &self.source) {
-            (Some(option), _) => (*option).into(),
-            (None, Some(source)) => source.place(path),
-            (None, None) => path.join("."),
-        }
+        option.map(|it| (*it).into()).or_else(|| self.in_file(path)).unwrap_or(path.join("."))
+    }
+
+    /// The place of the key at `path` in the scenario file, if there is one.
+    pub(super) fn in_file(&self, path: &[&str]) -> Option<String> {
+        self.source.as_ref().map(|source| source.place(path))
     }
 
     /// The folder from which the paths of style files are sought.
@@ -67,16 +68,6 @@ impl Origin {
         match &self.source {
             Some(source) if !self.options.contains_key("styles") => source.folder(),
             _ => Path::new(""),
-        }
-    }
-
-    /// A fault of the map: with its place in the scenario file, if that names it.
-    pub(super) fn map_fault(&self, fault: Fault) -> Fault {
-        match &self.source {
-            Some(source) if fault.place == fault_free(&fault.place) && self.map.is_none() => {
-                Fault { what: format!("map {}: {}", fault.place, fault.what), place: source.place(&["map"]), ..fault }
-            }
-            _ => fault,
         }
     }
 }

@@ -132,11 +132,36 @@ fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
         Some(text) => lanelet2::read(text.as_bytes(), &options),
         None => load(&scenario.map, &options),
     };
-    read.map_err(|error| match error {
-        MapError::Origin(..) => fault_of(error, &scenario.map, origin.place(&["map_options", "origin"])),
-        MapError::Missing | MapError::Folder | MapError::Unreadable(_) | MapError::UnknownFormat { .. } => {
-            fault_of(error, &scenario.map, origin.place(&["map"]))
+    read.map_err(|error| map_fault(&error, &scenario.map, origin))
+}
+
+/// What is wrong with the map at `path`: a wrong path has its place in the scenario file, a wrong content in the map.
+fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
+    let line = match error {
+        MapError::NotText { line } | MapError::Xml { line, .. } | MapError::NotOsm { line, .. } => Some(*line),
+        _ => None,
+    };
+    let message = error.to_string();
+    let message = line.and_then(|it| message.strip_prefix(&format!("line {it}: "))).unwrap_or(&message);
+    let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "mend the map"));
+    let file = path.display();
+    let named_at = origin.in_file(&["map"]);
+    match (error, line, named_at) {
+        (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
+        (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),
+        (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
+            Fault::new(place, format!("map {file}: {what}"), remedy)
         }
-        error => fault_of(error, &scenario.map, String::new()),
-    })
+        (MapError::UnknownFormat { .. }, ..) => Fault::new(file, what, format!("{remedy}, scenario (.toml)")),
+        _ => Fault::new(file, what, remedy),
+    }
+}
+
+impl From<super::DrivingSide> for DrivingSide {
+    fn from(side: super::DrivingSide) -> DrivingSide {
+        match side {
+            super::DrivingSide::Left => DrivingSide::Left,
+            super::DrivingSide::Right => DrivingSide::Right,
+        }
+    }
 }

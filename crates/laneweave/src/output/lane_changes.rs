@@ -1,0 +1,150 @@
+//! Every lane change with its reasons: the table `lane_changes`.
+
+use std::path::{Path, PathBuf};
+
+use laneweave_models::change::INCENTIVES;
+use laneweave_network::{Point, Side};
+use laneweave_sim::{Event, Kind, LaneChange, World};
+use laneweave_study::{Cell, Column, Format, TableWriter};
+
+use super::{Observer, table_path};
+use crate::fault::Fault;
+
+/// Columns before those of the incentives.
+const BEFORE: [Column; 14] = [
+    Column::real("time_s"),
+    Column::real("started_s"),
+    Column::real("duration_s"),
+    Column::integer("vehicle"),
+    Column::text("style"),
+    Column::text("class"),
+    Column::integer("from_lanelet"),
+    Column::integer("to_lanelet"),
+    Column::real("x_m"),
+    Column::real("y_m"),
+    Column::text("side"),
+    Column::text("kind"),
+    Column::real("speed_mps"),
+    Column::real("speed_gain_mps"),
+];
+
+/// Columns after those of the incentives.
+const AFTER: [Column; 7] = [
+    Column::real("g"),
+    Column::real("theta"),
+    Column::real("gap_ahead_m"),
+    Column::real("gap_behind_m"),
+    Column::real("ttc_ahead_s"),
+    Column::real("ttc_behind_s"),
+    Column::text("outcome"),
+];
+
+/// The columns of one incentive.
+const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
+    ["speed_yield", "speed_weight"],
+    ["route_yield", "route_weight"],
+    ["comfort_yield", "comfort_weight"],
+    ["courtesy_yield", "courtesy_weight"],
+    ["urgency_yield", "urgency_weight"],
+];
+
+/// Writes the lane changes that are completed or aborted.
+pub struct LaneChanges {
+    table: TableWriter,
+    path: PathBuf,
+    begin: f64,
+}
+
+impl LaneChanges {
+    /// Begins the table in `dir`, of changes from the time `begin` [s] on.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
+    pub fn create(dir: &Path, format: Format, begin: f64) -> Result<LaneChanges, Fault> {
+        let path = table_path(dir, "lane_changes", format);
+        let incentives = OF_INCENTIVE.as_flattened().iter().map(|name| Column::real(name));
+        let columns: Vec<Column> = BEFORE.into_iter().chain(incentives).chain(AFTER).collect();
+        Ok(LaneChanges { table: TableWriter::create(&path, format, &columns)?, path, begin })
+    }
+}
+
+impl Observer for LaneChanges {
+    fn observe(&mut self, world: &World) -> Result<(), Fault> {
+        for event in world.events() {
+            if let Event::LaneChange(change) = event
+                && change.time >= self.begin
+            {
+                self.table.row(&row(world, change))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>, _world: &World) -> Result<PathBuf, Fault> {
+        self.table.finish()?;
+        Ok(self.path)
+    }
+}
+
+fn row<'a>(world: &'a World, change: &LaneChange) -> Vec<Cell<'a>> {
+    let network = world.network();
+    let lanelet = |(chain, x)| network.lanelet_at(chain, x).0.id;
+    let Point { x, y, .. } = place(world, change);
+    let mut cells: Vec<Cell> = vec![
+        change.time.into(),
+        change.started.into(),
+        change.duration.into(),
+        change.vehicle.into(),
+        world.scene().characters[change.character as usize].name.as_str().into(),
+        change.class.body().name.into(),
+        lanelet(change.from).into(),
+        lanelet(change.to).into(),
+        x.into(),
+        y.into(),
+        match change.side {
+            Side::Left => "left",
+            Side::Right => "right",
+        }
+        .into(),
+        match change.kind {
+            Kind::Discretionary => "discretionary",
+            Kind::Route => "route",
+        }
+        .into(),
+        change.speed.into(),
+        change.speed_gain.into(),
+    ];
+    for row in change.appraisal.rows {
+        cells.extend([Cell::from(row.earning), row.weight.into()]);
+    }
+    cells.extend([Cell::from(change.appraisal.gain), change.appraisal.theta.into()]);
+    cells.extend([change.gap_ahead, change.gap_behind, change.ttc_ahead, change.ttc_behind].map(known));
+    cells.push(if change.is_completed { "completed" } else { "aborted" }.into());
+    cells
+}
+
+/// Where the vehicle's centre crossed the line between the lanes.
+fn place(world: &World, change: &LaneChange) -> Point {
+    let half = 0.5 * change.class.body().length;
+    let on = |(chain, x): (_, f64)| world.network().chain(chain).centre.at(x - half);
+    on(change.from).towards(&on(change.to), 0.5)
+}
+
+/// What is infinite, as there is nobody or no closing, is no value.
+fn known(value: f64) -> Cell<'static> {
+    if value.is_finite() { value.into() } else { Cell::Missing }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_models::change::Mcdm;
+
+    use super::*;
+
+    #[test]
+    fn every_incentive_has_its_two_columns() {
+        for (name, columns) in Mcdm::NAMES.iter().zip(OF_INCENTIVE) {
+            assert_eq!(columns, [format!("{name}_yield"), format!("{name}_weight")]);
+        }
+    }
+}
