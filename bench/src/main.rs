@@ -67,7 +67,7 @@ fn measure(name: &str, length_m: f64, threads: usize, steps: u32) -> f64 {
         world.step();
     }
     let wall = start.elapsed().as_secs_f64();
-    let tally = *world.tally();
+    let tally = world.tally();
     let rate = tally.updates as f64 / wall;
     let n = world.on_road();
     println!(
@@ -84,6 +84,10 @@ fn main() {
     let mode = std::env::args().nth(1).unwrap_or_default();
     if mode == "short" {
         measure("40 km", 40_000.0, 1, 300);
+        return;
+    }
+    if mode == "million" {
+        measure("20,000 km", 20_000_000.0, 1, 30);
         return;
     }
     if mode == "one" {

@@ -1,2 +1,24 @@
-//! x
-fn main() {}
+//! The `laneweave` command.
+
+mod command;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Parser;
+
+use command::Cli;
+
+/// Exit code for a mistake in what the user gave, as that of a wrong option.
+const MISTAKE: u8 = 2;
+
+fn main() -> ExitCode {
+    let started = Instant::now();
+    match Cli::parse().execute(started) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(fault) => {
+            eprintln!("error: {fault}");
+            ExitCode::from(MISTAKE)
+        }
+    }
+}

@@ -143,6 +143,8 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
             runs.push(run);
         }
     }
+    // In the order of the map, so that lanes side by side are stored side by side.
+    runs.sort_by_key(|run| run[0]);
     runs
 }
 

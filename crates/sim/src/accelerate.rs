@@ -7,7 +7,7 @@ use laneweave_network::ChainIndex;
 
 use crate::plan::Plan;
 use crate::scene::{Scene, Spot};
-use crate::traffic::{Lane, Mind, Phase};
+use crate::traffic::{Car, Lane, Mind, Phase};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
@@ -21,43 +21,59 @@ const WAITS_BELOW: f64 = 17.0;
 pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut Plan) {
     let cars = scene.cars(chain);
     let lane_end = lane_end(scene, chain);
-    plan.accelerations.resize(cars.len(), 0.0);
+    plan.accelerations.clear();
     for (index, car) in cars.iter().enumerate() {
-        let spot = Spot { chain, index };
-        let leader = match cars.get(index + 1) {
-            Some(leader) => Some(Ahead { gap: leader.rear() - car.x, speed: leader.speed }),
-            None => scene.ahead(scene.viewpoint(spot)),
-        };
-        let pace = Pace {
-            speed: car.speed,
-            desired: f64::from(car.desired),
-            tightness: f64::from(car.tightness),
-        };
-        let follow = &scene.characters[car.character as usize].follow;
-        let wish = follow.acceleration(pace, leader);
         let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
-        let (wish, lane_end) =
-            if follows_only { (wish, None) } else { heed(scene, spot, pace, wish, lane_end) };
-        let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
-        let mut bounded = bound(car.speed, acceleration, leader, dt);
-        if !follows_only {
-            bounded = bound(car.speed, bounded, lane_end, dt);
-            if let Some(twin) = scene.lanes[chain.at()].minds()[index].twin.filter(|_| !car.is_shadow) {
-                plan.couples.push((index as u32, twin));
-            }
-        }
-        if bounded < acceleration {
-            plan.emergencies.push(index as u32);
-            if !car.in_emergency && !car.is_shadow && bounded < 0.0 {
-                plan.tally.emergency_brakings += 1;
-            }
-        }
-        if leader.is_some_and(|it| it.gap < 0.0) {
-            plan.collisions.push(index as u32);
-            plan.tally.collisions += u64::from(!car.in_collision);
-        }
-        plan.accelerations[index] = bounded;
+        let usual = cars.get(index + 1).filter(|_| follows_only).and_then(|it| behind(scene, car, it, dt));
+        let acceleration = match usual {
+            Some(acceleration) => acceleration,
+            None => with_care(scene, dt, Spot { chain, index }, lane_end, plan),
+        };
+        plan.accelerations.push(acceleration);
     }
+}
+
+fn pace(car: &Car) -> Pace {
+    Pace { speed: car.speed, desired: f64::from(car.desired), tightness: f64::from(car.tightness) }
+}
+
+/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it.
+#[inline]
+fn behind(scene: &Scene, car: &Car, leader: &Car, dt: f64) -> Option<f64> {
+    let ahead = Ahead { gap: leader.rear() - car.x, speed: leader.speed };
+    let follow = &scene.characters[car.character as usize].follow;
+    let wish = follow.acceleration(pace(car), Some(ahead));
+    let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
+    let next = car.speed + acceleration * dt;
+    let next = if next > 0.0 { next } else { 0.0 };
+    (ahead.gap >= 0.0 && stays_secure(car.speed, next, ahead, dt)).then_some(acceleration)
+}
+
+/// Every case: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may have
+/// to decide.
+#[inline(never)]
+fn with_care(scene: &Scene, dt: f64, spot: Spot, lane_end: Option<f64>, plan: &mut Plan) -> f64 {
+    let car = scene.car(spot);
+    let leader = scene.ahead(scene.viewpoint(spot));
+    let follow = &scene.characters[car.character as usize].follow;
+    let wish = follow.acceleration(pace(car), leader);
+    let (wish, lane_end) = heed(scene, spot, pace(car), wish, lane_end);
+    let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
+    let bounded = bound(car.speed, bound(car.speed, acceleration, leader, dt), lane_end, dt);
+    if let Some(twin) = mind(scene, spot).twin.filter(|_| !car.is_shadow) {
+        plan.couples.push((spot.index as u32, twin));
+    }
+    if bounded < acceleration {
+        plan.emergencies.push(spot.index as u32);
+        if !car.in_emergency && !car.is_shadow && bounded < 0.0 {
+            plan.tally.emergency_brakings += 1;
+        }
+    }
+    if leader.is_some_and(|it| it.gap < 0.0) {
+        plan.collisions.push(spot.index as u32);
+        plan.tally.collisions += u64::from(!car.in_collision);
+    }
+    bounded
 }
 
 /// `clamp` for bounds in order.

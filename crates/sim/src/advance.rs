@@ -68,12 +68,13 @@ pub(crate) fn advance(
 fn drive(car: &mut Car, acceleration: f64, dt: f64) -> f64 {
     let next = car.speed + acceleration * dt;
     let (next, distance) = if next >= 0.0 {
+        car.acceleration = acceleration as f32;
         (next, 0.5 * (car.speed + next) * dt)
     } else {
+        car.acceleration = (-car.speed / dt) as f32;
         (0.0, -0.5 * car.speed * car.speed / acceleration)
     };
     car.x += distance * f64::from(car.stretch);
-    car.acceleration = ((next - car.speed) / dt) as f32;
     car.speed = next;
     if car.desired != car.limit_desired {
         let eased = car.desired - (EASING * dt) as f32;

@@ -18,6 +18,6 @@ impl Clock {
     /// A duration [s] as a whole number of steps, at least one.
     #[inline]
     pub fn steps(&self, duration: f64) -> u32 {
-        ((duration / self.dt).round() as u32).max(1)
+        ((duration / self.dt + 0.5) as u32).max(1)
     }
 }

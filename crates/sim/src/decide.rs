@@ -123,7 +123,7 @@ struct Choice {
 impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
     fn of(outlook: &Outlook, moment: Moment, mind: &Mind, style: &Style, side: Side) -> Option<Choice> {
-        let situation = outlook.towards(side)?;
+        let situation = outlook.situation(side, outlook.beside(side)?);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
         let is_calm = moment.clock.step < mind.calm_until;
         (helps_the_route || !is_calm).then(|| Choice {

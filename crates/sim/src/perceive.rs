@@ -10,7 +10,8 @@ use crate::traffic::{Car, Phase};
 
 /// What a driver knows when it considers the lane on `side`; `None` where it may not change to one.
 pub fn perceive<'a>(scene: &'a Scene, me: Spot, side: Side) -> Option<Situation<'a>> {
-    Outlook::new(scene, me).towards(side)
+    let outlook = Outlook::new(scene, me);
+    outlook.beside(side).map(|beside| outlook.situation(side, beside))
 }
 
 /// A driver with its vehicle.
@@ -58,24 +59,22 @@ impl<'a> Outlook<'a> {
         self.scene.network.chain(self.from.chain).beside(side, self.car.x)
     }
 
-    /// What the driver knows about the lane on `side`.
-    pub(crate) fn towards(&self, side: Side) -> Option<Situation<'a>> {
-        let beside = self.beside(side)?;
+    /// What the driver knows about the lane on `side`, along the stretch `beside`.
+    pub(crate) fn situation(&self, side: Side, beside: &Beside) -> Situation<'a> {
         let x = beside.across(self.car.x);
         let from = self.scene.viewpoint_at(beside.chain, x, self.car.id, self.from.destination);
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length);
-        let there = lane_view(self.scene, &self.me, from, &sight);
-        let section = self.here.route.remaining.min(there.route.remaining).min(SIGHT);
-        let mut situation =
-            Situation { me: self.me, here: self.here, there, section, merging: self.merging(side, from, &sight) };
-        if situation.there.route.changes == Waypoint::NO_WAY {
-            situation.there.route.onward = situation.here.route.onward;
-        }
-        for lane in [&mut situation.here, &mut situation.there] {
-            let on_section = section / self.scene.network.chain(self.from.chain).limit(self.car.x);
-            lane.route.onward = (lane.route.onward - on_section).max(0.0);
-        }
-        Some(situation)
+        let mut there = lane_view(self.scene, &self.me, from, &sight);
+        let mut here = self.here;
+        let section = here.route.remaining.min(there.route.remaining).min(SIGHT);
+        let on_section = section / self.scene.network.chain(self.from.chain).limit(self.car.x);
+        here.route.onward = (here.route.onward - on_section).max(0.0);
+        there.route.onward = if there.route.changes == Waypoint::NO_WAY {
+            here.route.onward
+        } else {
+            (there.route.onward - on_section).max(0.0)
+        };
+        Situation { me: self.me, here, there, section, merging: self.merging(side, from, &sight) }
     }
 
     /// A neighbour on the other side than the driver would leave to cannot be seen from here; one on this side that

@@ -231,46 +231,21 @@ impl<'a> Scene<'a> {
 
     /// All that a driver who wants `desired` [m/s] sees along the lane it looks at.
     pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64) -> LaneSight {
-        let mut window = Window::default();
-        let mut sight = LaneSight {
-            ahead: None,
-            leader: None,
-            follower: None,
-            prospect: desired,
-            flow: Flow { spacing: 0.0, speed: desired, length: own_length },
-        };
-        let ahead = self.look_ahead(from, desired, &mut window, &mut sight);
-        let back = self.look_back(from, &mut window, &mut sight);
-        sight.flow = window.flow(ahead + back, desired, own_length);
-        sight
+        let mut view = View { window: Window::default(), ahead: None, leader: None, prospect: desired };
+        let ahead = self.look_ahead(from, desired, &mut view);
+        let (follower, back) = self.look_back(from, &mut view.window);
+        let View { window, ahead: leader_ahead, leader, prospect } = view;
+        let flow = window.flow(ahead + back, desired, own_length);
+        LaneSight { ahead: leader_ahead, leader, follower, prospect, flow }
     }
 
-    /// Fills in what is ahead; returns the window's extent [m].
-    fn look_ahead(&self, from: Viewpoint, desired: f64, window: &mut Window, sight: &mut LaneSight) -> f64 {
+    /// Looks at what is ahead; returns the window's extent [m].
+    #[inline]
+    fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
         let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
         loop {
-            let cars = self.cars(chain);
-            while index < cars.len() {
-                let car = &cars[index];
-                let front = base + car.x;
-                let ahead = Ahead { gap: front - f64::from(car.length), speed: car.speed };
-                if ahead.gap > SIGHT {
-                    return WINDOW_AHEAD;
-                }
-                if car.id != from.id {
-                    if sight.ahead.is_none() {
-                        sight.ahead = Some(ahead);
-                        sight.leader = Some(Spot { chain, index });
-                    }
-                    let anticipated = anticipated_speed(ahead, desired);
-                    if anticipated < sight.prospect {
-                        sight.prospect = anticipated;
-                    }
-                    if front <= WINDOW_AHEAD {
-                        window.add(car);
-                    }
-                }
-                index += 1;
+            if view.pass(&self.cars(chain)[index..], chain, index, base, from.id, desired) {
+                return WINDOW_AHEAD;
             }
             base += self.network.chain(chain).length;
             if base > SIGHT {
@@ -279,8 +254,8 @@ impl<'a> Scene<'a> {
             let Some(next) = self.next(from.destination, chain) else {
                 if self.network.chain(chain).is_lane_drop {
                     let end = Ahead::standing(base);
-                    sight.ahead = sight.ahead.or(Some(end));
-                    sight.prospect = sight.prospect.min(anticipated_speed(end, desired));
+                    view.ahead = view.ahead.or(Some(end));
+                    view.prospect = view.prospect.min(anticipated_speed(end, desired));
                 }
                 return base.clamp(1.0, WINDOW_AHEAD);
             };
@@ -288,38 +263,87 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Fills in what is behind; returns the window's extent [m].
-    fn look_back(&self, from: Viewpoint, window: &mut Window, sight: &mut LaneSight) -> f64 {
+    /// Looks at what is behind; returns the follower and the window's extent [m].
+    #[inline]
+    fn look_back(&self, from: Viewpoint, window: &mut Window) -> (Option<Found>, f64) {
         let cars = &self.cars(from.chain)[..from.ahead];
+        let mut follower = None;
         for (index, car) in cars.iter().enumerate().rev() {
             let distance = from.x - car.x;
-            let in_window = distance <= WINDOW_BACK;
-            if !in_window && (sight.follower.is_some() || distance >= REAR_SIGHT) {
-                return WINDOW_BACK;
+            let is_in_window = distance <= WINDOW_BACK;
+            if !is_in_window && (follower.is_some() || distance >= REAR_SIGHT) {
+                return (follower, WINDOW_BACK);
             }
-            if car.id != from.id {
-                if sight.follower.is_none() {
-                    sight.follower = Some(Found { spot: Spot { chain: from.chain, index }, distance });
-                }
-                if in_window {
-                    window.add(car);
-                }
+            if car.id == from.id {
+                continue;
+            }
+            if follower.is_none() {
+                follower = Some(Found { spot: Spot { chain: from.chain, index }, distance });
+            }
+            if is_in_window {
+                window.add(car);
             }
         }
-        if sight.follower.is_none() {
-            sight.follower = self.follower(Viewpoint { ahead: 0, ..from });
+        if follower.is_none() {
+            follower = self.follower(Viewpoint { ahead: 0, ..from });
         }
-        let previous = self.network.chain(from.chain).previous.first();
+        (follower, self.look_back_beyond(from, window))
+    }
+
+    /// Looks at the window on the chain before; returns the window's extent [m].
+    fn look_back_beyond(&self, from: Viewpoint, window: &mut Window) -> f64 {
         let missing = WINDOW_BACK - from.x;
-        if let (true, Some(back)) = (missing > 0.0, previous) {
-            let length = self.network.chain(*back).length;
-            let cars = self.cars(*back).iter().rev();
-            cars.take_while(|car| length - car.x <= missing)
-                .filter(|car| car.id != from.id)
-                .for_each(|car| window.add(car));
-            return (from.x + length).min(WINDOW_BACK);
+        let Some(back) = self.network.chain(from.chain).previous.first().filter(|_| missing > 0.0) else {
+            return from.x.clamp(0.0, WINDOW_BACK);
+        };
+        let length = self.network.chain(*back).length;
+        let cars = self.cars(*back).iter().rev().take_while(|car| length - car.x <= missing);
+        cars.filter(|car| car.id != from.id).for_each(|car| window.add(car));
+        (from.x + length).min(WINDOW_BACK)
+    }
+}
+
+/// What is gathered while looking ahead.
+struct View {
+    window: Window,
+    ahead: Option<Ahead>,
+    leader: Option<Spot>,
+    prospect: f64,
+}
+
+impl View {
+    /// Looks along `cars`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
+    /// Returns whether the end of sight was reached.
+    #[inline]
+    fn pass(
+        &mut self,
+        cars: &[Car],
+        chain: ChainIndex,
+        first: usize,
+        base: f64,
+        id: VehicleId,
+        desired: f64,
+    ) -> bool {
+        for (index, car) in (first..).zip(cars) {
+            let front = base + car.x;
+            let ahead = Ahead { gap: front - f64::from(car.length), speed: car.speed };
+            if ahead.gap > SIGHT {
+                return true;
+            }
+            if car.id == id {
+                continue;
+            }
+            if self.leader.is_none() {
+                self.ahead = Some(ahead);
+                self.leader = Some(Spot { chain, index });
+            }
+            let anticipated = anticipated_speed(ahead, desired);
+            self.prospect = if anticipated < self.prospect { anticipated } else { self.prospect };
+            if front <= WINDOW_AHEAD {
+                self.window.add(car);
+            }
         }
-        from.x.clamp(0.0, WINDOW_BACK)
+        false
     }
 }
 

@@ -55,9 +55,4 @@ impl Tally {
         self.stuck += stuck;
         self.missed_turns += missed_turns;
     }
-
-    /// Takes what was counted and begins anew.
-    pub(crate) fn take(&mut self) -> Tally {
-        std::mem::take(self)
-    }
 }

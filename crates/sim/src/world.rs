@@ -41,7 +41,6 @@ pub struct World {
     sources: Vec<Source>,
     random: Random,
     pool: Pool,
-    tally: Tally,
     next_id: VehicleId,
 }
 
@@ -145,7 +144,6 @@ impl World {
             requests: Vec::new(),
             milestones: Vec::new(),
             leaving: Vec::new(),
-            tally: Tally::default(),
             next_id: 0,
         })
     }
@@ -278,11 +276,8 @@ impl World {
         self.counts.entered += 1;
     }
 
-    /// Adds up what the lanes counted, and looks for overlaps once a second.
+    /// Looks for overlaps once a second.
     fn watch(&mut self) {
-        for plan in &mut self.plans {
-            self.tally.add(&plan.tally.take());
-        }
         if self.clock.step.is_multiple_of(self.clock.steps(1.0)) {
             self.counts.overlaps += overlaps(&self.scene());
         }
@@ -313,9 +308,11 @@ impl World {
         &self.network
     }
 
-    /// What the drivers did so far.
-    pub fn tally(&self) -> &Tally {
-        &self.tally
+    /// What the drivers did so far, added up over the lanes.
+    pub fn tally(&self) -> Tally {
+        let mut sum = Tally::default();
+        self.plans.iter().for_each(|plan| sum.add(&plan.tally));
+        sum
     }
 
     /// What the world did so far.
@@ -325,7 +322,7 @@ impl World {
 
     /// Forgets all counts: what follows is measured, what was before is warm-up. Vehicles on the road count as entered.
     pub fn reset_counts(&mut self) {
-        self.tally = Tally::default();
+        self.plans.iter_mut().for_each(|plan| plan.tally = Tally::default());
         self.counts = Counts { entered: self.on_road() as u64, ..Counts::default() };
     }
 

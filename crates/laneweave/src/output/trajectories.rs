@@ -62,7 +62,7 @@ impl Observer for Trajectories {
     }
 }
 
-fn row<'a>(world: &World, vehicle: &Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()] {
+fn row<'a>(world: &World, vehicle: &'a Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()] {
     let Vehicle { car, mind, spot, .. } = vehicle;
     let (lanelet, position) = world.network().lanelet_at(spot.chain, car.x);
     let pose = vehicle.pose();
@@ -71,7 +71,7 @@ fn row<'a>(world: &World, vehicle: &Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()] {
         world.clock().time().into(),
         car.id.into(),
         body.name.into(),
-        style.into(),
+        vehicle.style().name.as_str().into(),
         lanelet.id.into(),
         position.into(),
         vehicle.lateral_offset().into(),

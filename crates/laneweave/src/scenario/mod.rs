@@ -76,12 +76,7 @@ pub struct Demand {
 
 impl Default for Demand {
     fn default() -> Demand {
-        Demand {
-            vehicles_per_hour: None,
-            trucks: 0.1,
-            entrances: BTreeMap::new(),
-            exits: BTreeMap::new(),
-        }
+        Demand { vehicles_per_hour: None, trucks: 0.1, entrances: BTreeMap::new(), exits: BTreeMap::new() }
     }
 }
 

@@ -56,7 +56,11 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let Map { network, problems, .. } = read_map(scenario, origin)?;
     if network.entrances.is_empty() {
         let what = "the map has no entrance: no lanelet of 10 m or more begins at its edge";
-        return Err(Fault::new(scenario.map.display(), what, "choose a map with a road that begins at its edge"));
+        return Err(Fault::new(
+            scenario.map.display(),
+            what,
+            "choose a map with a road that begins at its edge",
+        ));
     }
     let demand = demand(scenario, origin, &network, population)?;
     let capacity = entrance_capacity(&network, &typical, demand.trucks);
@@ -138,7 +142,9 @@ fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
 /// What is wrong with the map at `path`: a wrong path has its place in the scenario file, a wrong content in the map.
 fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     let line = match error {
-        MapError::NotText { line } | MapError::Xml { line, .. } | MapError::NotOsm { line, .. } => Some(*line),
+        MapError::NotText { line } | MapError::Xml { line, .. } | MapError::NotOsm { line, .. } => {
+            Some(*line)
+        }
         _ => None,
     };
     let message = error.to_string();

@@ -49,7 +49,11 @@ impl Drivers {
         let total: f64 = scenario.styles.values().sum();
         if !(total.is_finite() && total > 0.0) {
             let what = format!("the weights of the styles add up to {total}");
-            return Err(Fault::new(origin.place(&["styles"]), what, "give at least one of them a weight above 0"));
+            return Err(Fault::new(
+                origin.place(&["styles"]),
+                what,
+                "give at least one of them a weight above 0",
+            ));
         }
         Ok(drivers)
     }

@@ -153,7 +153,10 @@ mod tests {
             (Distribution::Normal { mean: 1.0, sd: -1.0, min, max }, "sd is -1"),
             (Distribution::Lognormal { mean: 0.0, sd: 1.0, min, max }, "mean is 0"),
             (Distribution::Uniform { low: 2.0, high: 1.0, min, max }, "low 2 is above high 1"),
-            (Distribution::Normal { mean: 1.0, sd: 1.0, min: Some(2.0), max: Some(1.0) }, "min 2 is above max 1"),
+            (
+                Distribution::Normal { mean: 1.0, sd: 1.0, min: Some(2.0), max: Some(1.0) },
+                "min 2 is above max 1",
+            ),
         ] {
             assert_eq!(distribution.flaw().unwrap().0, what);
         }

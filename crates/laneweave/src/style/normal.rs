@@ -87,8 +87,7 @@ pub(super) fn quantile(p: f64) -> f64 {
         return q * ratio(&MIDDLE_RATIO, MIDDLE_SQUARED - q * q);
     }
     let r = libm::sqrt(-libm::log(p.min(1.0 - p)));
-    let distance =
-        if r <= FAR { ratio(&NEAR_RATIO, r - NEAR_CENTRE) } else { ratio(&FAR_RATIO, r - FAR) };
+    let distance = if r <= FAR { ratio(&NEAR_RATIO, r - NEAR_CENTRE) } else { ratio(&FAR_RATIO, r - FAR) };
     distance.copysign(q)
 }
 

@@ -45,8 +45,8 @@ impl StyleTemplate {
         let mut reader = Reader { source, path: Vec::new(), parameters: Vec::new() };
         reader.table(&table, &complete(&table, source)?)?;
         let parameters = reader.parameters;
-        let typical = fill(&table, &parameters, |it| it.distribution.median())
-            .map_err(|error| source.fault(&error))?;
+        let typical =
+            fill(&table, &parameters, |it| it.distribution.median()).map_err(|error| source.fault(&error))?;
         if typical.name.trim().is_empty() {
             return Err(Fault::new(source.place(&["name"]), "the name is empty", "give the style a name"));
         }
@@ -104,8 +104,9 @@ fn fill(
             Some(parts) => parts,
             None => continue,
         };
-        let inner =
-            outer.iter().try_fold(&mut table, |table, name| table.get_mut(name).and_then(Value::as_table_mut));
+        let inner = outer
+            .iter()
+            .try_fold(&mut table, |table, name| table.get_mut(name).and_then(Value::as_table_mut));
         if let Some(inner) = inner {
             inner.insert(last.clone(), Value::Float(value(parameter)));
         }

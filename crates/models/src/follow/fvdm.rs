@@ -69,11 +69,11 @@ impl Fvdm {
     fn signed_optimal_speed(&self, pace: Pace, gap: f64) -> f64 {
         let gap = gap / pace.tightness;
         match self.reading {
-            Reading::Literal => (V1 + V2 * libm::tanh(C1 * gap - C2)).min(pace.desired),
+            Reading::Literal => (V1 + V2 * tanh(C1 * gap - C2)).min(pace.desired),
             Reading::Repaired => {
                 let length_scale = FITTED_SPEED / pace.desired;
                 let beyond_jam = (gap - self.jam_gap / pace.tightness).max(0.0);
-                let rise = libm::tanh(C1 * beyond_jam * length_scale - C2) + TANH_C2;
+                let rise = tanh(C1 * beyond_jam * length_scale - C2) + TANH_C2;
                 // The share is rounded to at most 1, so that nobody expects more than it desires.
                 pace.desired * (rise / (1.0 + TANH_C2)).max(0.0)
             }
@@ -86,6 +86,12 @@ impl Fvdm {
             Reading::Repaired => self.range * pace.desired / FITTED_SPEED,
         }
     }
+}
+
+/// tanh by one exponential: near zero its absolute error is that of 1, which is all that V needs, at half the cost.
+#[inline]
+fn tanh(x: f64) -> f64 {
+    1.0 - 2.0 / (libm::exp(2.0 * x) + 1.0)
 }
 
 impl CarFollowing for Fvdm {

@@ -59,7 +59,9 @@ pub trait CarFollowing {
 /// `clamp(v + a τ_p, 0, v₀)`: the speed [m/s] after [`FORESIGHT`] of a constant acceleration [m/s²].
 #[inline]
 pub fn speed_after(acceleration: f64, pace: Pace) -> f64 {
-    (pace.speed + acceleration * FORESIGHT).min(pace.desired).max(0.0)
+    let speed = pace.speed + acceleration * FORESIGHT;
+    let speed = if speed < pace.desired { speed } else { pace.desired };
+    if speed > 0.0 { speed } else { 0.0 }
 }
 
 /// The car-following models a style can name.

@@ -1,0 +1,62 @@
+//! The command line.
+
+mod generate;
+mod progress;
+mod run;
+mod styles;
+
+use std::io::{self, Write};
+use std::time::Instant;
+
+use clap::{Parser, Subcommand};
+use laneweave::Fault;
+use laneweave::scenario::{Origin, Scenario};
+
+/// Microscopic traffic whose drivers change lanes for human reasons.
+///
+/// Without a command it runs the demo scenario, ten minutes of a motorway with ramps, and writes into out/.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Simulate a scenario, or a bare map.
+    Run(run::Arguments),
+    /// Make a map.
+    #[command(subcommand)]
+    Generate(generate::Kind),
+    /// See, or begin to write, styles of drivers.
+    #[command(subcommand)]
+    Styles(styles::Deed),
+    /// Print the JSON schema of scenario files.
+    Schema,
+}
+
+impl Cli {
+    /// Does what the user asks for; `started` is when the process began.
+    pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
+        match self.command {
+            None => {
+                let (scenario, origin) = Origin::demo()?;
+                run::run(&scenario, &origin, run::Screen::default(), started)
+            }
+            Some(Command::Run(arguments)) => arguments.execute(started),
+            Some(Command::Generate(kind)) => kind.execute(),
+            Some(Command::Styles(deed)) => deed.execute(),
+            Some(Command::Schema) => {
+                say(&format!("{:#}\n", Scenario::schema().to_value()));
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Prints `text`. Whoever stops listening, as `head` does, has seen enough.
+fn say(text: &str) {
+    let mut out = io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}

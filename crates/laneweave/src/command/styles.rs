@@ -1,0 +1,73 @@
+//! `laneweave styles`.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Subcommand;
+use laneweave::style::{BUILT_IN, StyleTemplate, copy, find};
+use laneweave::{Fault, Source};
+
+use super::say;
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Deed {
+    /// List the styles that come with the program.
+    List,
+    /// Print a style file.
+    Show {
+        /// Name of a built-in style, or path of a style file (.toml).
+        name: String,
+    },
+    /// Write a style file to edit.
+    New {
+        /// Name of the new style.
+        name: String,
+        /// The style to begin from: a built-in one, or a style file (.toml).
+        #[arg(long, value_name = "STYLE", default_value = "conservative")]
+        from: String,
+        /// The file to write; none is ever replaced [default: NAME.toml].
+        #[arg(long, value_name = "FILE")]
+        file: Option<PathBuf>,
+    },
+}
+
+impl Deed {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        match self {
+            Deed::List => {
+                let widest = BUILT_IN.iter().map(|it| it.name.len()).max().unwrap_or(0);
+                for style in BUILT_IN {
+                    let template = StyleTemplate::parse(&named(style.name)?)?;
+                    say(&format!("{:widest$}  {}\n", style.name, template.typical().description));
+                }
+            }
+            Deed::Show { name } => say(&named(&name)?.text),
+            Deed::New { name, from, file } => {
+                let text = copy(&named(&from)?, &name)?;
+                let file = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+                if file.extension().is_none_or(|it| it != "toml") {
+                    let what = "this is no name of a style file";
+                    return Err(Fault::new(file.display(), what, "let it end in .toml"));
+                }
+                write_new(&file, &text)?;
+                say(&format!(
+                    "{} is written; edit it, then: laneweave run MAP --style {0}=1\n",
+                    file.display()
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn named(name: &str) -> Result<Source, Fault> {
+    find(name, Path::new(""), || "styles".into())
+}
+
+/// Writes a file that is not there yet.
+fn write_new(path: &Path, text: &str) -> Result<(), Fault> {
+    let file = OpenOptions::new().write(true).create_new(true).open(path);
+    file.and_then(|mut file| file.write_all(text.as_bytes()))
+        .map_err(|error| Fault::refused(path, "written", &error))
+}

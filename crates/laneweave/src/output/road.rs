@@ -1,0 +1,216 @@
+//! A network seen lengthwise: lanes side by side share their sections, and one lane after the other makes a road.
+
+use laneweave_network::{ChainIndex, Network, Side};
+
+/// Length of a section, about [m].
+const SECTION: f64 = 500.0;
+/// Sections with less lane than this are left out: their density would be chance [m].
+const LEAST_LANE: f64 = 200.0;
+
+/// A network cut across into sections, each with all its parallel lanes.
+#[derive(Debug)]
+pub(super) struct Sections {
+    /// Length of all lanes of each section together [m].
+    pub(super) lane_lengths: Vec<f64>,
+    /// For each chain its place along its carriageway.
+    places: Vec<Place>,
+    /// For each carriageway its cells.
+    carriageways: Vec<Carriageway>,
+}
+
+/// Where a chain lies along its carriageway.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    carriageway: usize,
+    /// Where it begins [m].
+    offset: f64,
+}
+
+/// Chains that are joined by lane changes.
+#[derive(Clone, Debug)]
+struct Carriageway {
+    from: f64,
+    to: f64,
+    /// The section of each cell, if it is not left out.
+    sections: Vec<Option<usize>>,
+}
+
+impl Carriageway {
+    fn cell_length(&self) -> f64 {
+        (self.to - self.from) / self.sections.len() as f64
+    }
+
+    fn cell(&self, station: f64) -> usize {
+        let cell = (station - self.from) / self.cell_length();
+        (cell.max(0.0) as usize).min(self.sections.len() - 1)
+    }
+}
+
+impl Sections {
+    pub(super) fn of(network: &Network) -> Sections {
+        let (places, mut carriageways) = lay_out(network);
+        let mut lane_lengths = Vec::new();
+        for (index, carriageway) in carriageways.iter_mut().enumerate() {
+            let mut lengths = vec![0.0; carriageway.sections.len()];
+            for (place, chain) in places.iter().zip(&network.chains).filter(|(it, _)| it.carriageway == index)
+            {
+                for (cell, length) in lengths.iter_mut().enumerate() {
+                    let begin = carriageway.from + cell as f64 * carriageway.cell_length();
+                    let end = begin + carriageway.cell_length();
+                    let overlap = end.min(place.offset + chain.length) - begin.max(place.offset);
+                    *length += overlap.max(0.0);
+                }
+            }
+            for (section, length) in carriageway.sections.iter_mut().zip(lengths) {
+                if length >= LEAST_LANE {
+                    *section = Some(lane_lengths.len());
+                    lane_lengths.push(length);
+                }
+            }
+        }
+        Sections { lane_lengths, places, carriageways }
+    }
+
+    /// The section at `x` [m] of `chain`, if it is not left out.
+    pub(super) fn at(&self, chain: ChainIndex, x: f64) -> Option<usize> {
+        let place = self.places[chain.at()];
+        let carriageway = &self.carriageways[place.carriageway];
+        carriageway.sections[carriageway.cell(place.offset + x)]
+    }
+}
+
+/// The place of each chain, found from its neighbours, and all carriageways with their cells.
+fn lay_out(network: &Network) -> (Vec<Place>, Vec<Carriageway>) {
+    let mut places: Vec<Option<Place>> = vec![None; network.chains.len()];
+    let mut carriageways = Vec::new();
+    for first in 0..network.chains.len() {
+        if places[first].is_some() {
+            continue;
+        }
+        let carriageway = carriageways.len();
+        places[first] = Some(Place { carriageway, offset: 0.0 });
+        let mut found = vec![(first, 0.0)];
+        let mut next = 0;
+        while let Some((here, offset)) = found.get(next).copied() {
+            next += 1;
+            let chain = &network.chains[here];
+            for beside in Side::BOTH.into_iter().flat_map(|side| chain.stretches(side)) {
+                let there = &mut places[beside.chain.at()];
+                if there.is_none() {
+                    let offset = offset + beside.start - beside.other_start;
+                    *there = Some(Place { carriageway, offset });
+                    found.push((beside.chain.at(), offset));
+                }
+            }
+        }
+        let ends = found.iter().map(|(chain, offset)| offset + network.chains[*chain].length);
+        let from = found.iter().map(|(_, offset)| *offset).fold(f64::INFINITY, f64::min);
+        let to = ends.fold(f64::NEG_INFINITY, f64::max);
+        let cells = ((to - from) / SECTION).round().max(1.0) as usize;
+        carriageways.push(Carriageway { from, to, sections: vec![None; cells] });
+    }
+    (places.into_iter().flatten().collect(), carriageways)
+}
+
+/// One lane after the other, as somebody drives who changes lanes only where a lane ends.
+#[derive(Debug)]
+pub(super) struct Road {
+    pieces: Vec<Piece>,
+}
+
+/// A chain of a road, from one station to another.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    chain: ChainIndex,
+    from: f64,
+    /// Position along the road of station 0 [m].
+    offset: f64,
+}
+
+impl Road {
+    /// The road from `start` on, at most `longest` [m] of it.
+    pub(super) fn from(network: &Network, start: ChainIndex, longest: f64) -> Road {
+        let mut pieces = vec![Piece { chain: start, from: 0.0, offset: 0.0 }];
+        while let Some(next) = pieces.last().and_then(|last| after(network, last)) {
+            if next.offset + next.from > longest || pieces.iter().any(|it| it.chain == next.chain) {
+                break;
+            }
+            pieces.push(next);
+        }
+        Road { pieces }
+    }
+
+    /// The position along the road of `x` [m] on `chain`, if that belongs to it.
+    pub(super) fn position(&self, chain: ChainIndex, x: f64) -> Option<f64> {
+        let piece = self.pieces.iter().find(|it| it.chain == chain && it.from <= x)?;
+        Some(piece.offset + x)
+    }
+}
+
+/// What a road goes on with: the longest following chain, or the one beside the end.
+fn after(network: &Network, last: &Piece) -> Option<Piece> {
+    let chain = network.chain(last.chain);
+    let length = |it: &ChainIndex| network.chain(*it).length;
+    if let Some(next) = chain.following.iter().copied().max_by(|a, b| length(a).total_cmp(&length(b))) {
+        return Some(Piece { chain: next, from: 0.0, offset: last.offset + chain.length });
+    }
+    if !chain.is_lane_drop {
+        return None;
+    }
+    let beside = Side::BOTH.into_iter().find_map(|side| chain.beside(side, chain.length))?;
+    let from = beside.across(chain.length);
+    Some(Piece { chain: beside.chain, from, offset: last.offset + chain.length - from })
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_maps::generate::{Motorway, motorway};
+
+    use super::*;
+
+    fn network(plan: &Motorway) -> Network {
+        motorway(plan).unwrap().network().unwrap().0
+    }
+
+    #[test]
+    fn parallel_lanes_share_their_sections() {
+        let network = network(&Motorway { lanes: 3, length_m: 3000.0, ..Motorway::default() });
+        let sections = Sections::of(&network);
+        assert_eq!(sections.lane_lengths, [1500.0; 6]);
+        let of = |x: f64| (0..3).map(|i| sections.at(ChainIndex(i), x)).collect::<Vec<_>>();
+        assert_eq!(of(499.0), [Some(0); 3]);
+        assert_eq!(of(501.0), [Some(1); 3]);
+        assert_eq!(of(3000.0), [Some(5); 3]);
+    }
+
+    #[test]
+    fn an_acceleration_lane_counts_for_the_sections_it_lies_in() {
+        let network = network(&Motorway {
+            lanes: 2,
+            length_m: 3000.0,
+            on_ramp_at: vec![1000.0],
+            ..Motorway::default()
+        });
+        let lengths = Sections::of(&network).lane_lengths;
+        // Two lanes of 500 m each; the ramp of 200 m and its lane of 250 m lie in the second and third section.
+        let extra: Vec<f64> = lengths.iter().map(|it| (it - 1000.0).round()).collect();
+        assert_eq!((extra[0], extra[3], extra[4], extra[5]), (0.0, 0.0, 0.0, 0.0));
+        assert!(extra[1] > 190.0 && extra[2] == 250.0, "{extra:?}");
+    }
+
+    #[test]
+    fn a_road_goes_on_beside_a_lane_that_ends() {
+        let network = network(&Motorway {
+            lanes: 2,
+            length_m: 3000.0,
+            lane_drop_at: Some(1000.0),
+            ..Motorway::default()
+        });
+        let drop = network.lane_drops[0];
+        let road = Road::from(&network, drop, 1e5);
+        assert_eq!(road.position(drop, 999.0), Some(999.0));
+        let other = network.chain(drop).beside(Side::Left, 999.0).unwrap().chain;
+        assert_eq!(road.position(other, 999.0), None);
+        assert_eq!(road.position(other, 2000.0), Some(2000.0));
+    }
+}
