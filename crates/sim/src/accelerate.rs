@@ -43,7 +43,7 @@ fn behind(scene: &Scene, car: &Car, leader: &Car, dt: f64) -> Option<f64> {
     let ahead = Ahead { gap: leader.rear() - car.x, speed: leader.speed };
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(car), Some(ahead));
-    let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
+    let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
     let next = car.speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
     (ahead.gap >= 0.0 && stays_secure(car.speed, next, ahead, dt)).then_some(acceleration)
@@ -58,7 +58,7 @@ fn with_care(scene: &Scene, dt: f64, spot: Spot, lane_end: Option<f64>, plan: &m
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(car), leader);
     let (wish, lane_end) = heed(scene, spot, pace(car), wish, lane_end);
-    let acceleration = within(wish, -HARDEST_BRAKING, f64::from(car.strength));
+    let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
     let bounded = bound(car.speed, bound(car.speed, acceleration, leader, dt), lane_end, dt);
     if let Some(twin) = mind(scene, spot).twin.filter(|_| !car.is_shadow) {
         plan.couples.push((spot.index as u32, twin));
@@ -153,7 +153,7 @@ fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
 fn fall_in(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
     let (car, mind) = (scene.car(spot), mind(scene, spot));
     let Some(beside) = scene.network.chain(spot.chain).beside(mind.side, car.x) else { return f64::INFINITY };
-    let from = scene.viewpoint_at(beside.chain, beside.across(car.x), car.id, mind.destination);
+    let from = scene.viewpoint_at(beside.chain, beside.across(car.x), car.id, car.goal.destination());
     let follow: &FollowingModel = &scene.characters[car.character as usize].follow;
     follow.acceleration(pace, scene.ahead(from))
 }

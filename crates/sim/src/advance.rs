@@ -28,7 +28,8 @@ pub(crate) fn advance(
     let (cars, minds) = lane.parts();
     let mut has_ended = false;
     for (index, (car, mind)) in cars.iter_mut().zip(minds.iter_mut()).enumerate() {
-        let distance = drive(car, plan.accelerations[index], clock.dt);
+        let stretch = if car.phase == Phase::Cruises { 1.0 } else { f64::from(mind.stretch) };
+        let distance = drive(car, plan.accelerations[index], stretch, clock.dt);
         if !car.is_shadow {
             plan.tally.distance += distance;
             plan.tally.updates += 1;
@@ -65,7 +66,7 @@ pub(crate) fn advance(
 
 /// Moves one entry; returns the distance driven [m].
 #[inline]
-fn drive(car: &mut Car, acceleration: f64, dt: f64) -> f64 {
+fn drive(car: &mut Car, acceleration: f64, stretch: f64, dt: f64) -> f64 {
     let next = car.speed + acceleration * dt;
     let (next, distance) = if next >= 0.0 {
         car.acceleration = acceleration as f32;
@@ -74,7 +75,7 @@ fn drive(car: &mut Car, acceleration: f64, dt: f64) -> f64 {
         car.acceleration = (-car.speed / dt) as f32;
         (0.0, -0.5 * car.speed * car.speed / acceleration)
     };
-    car.x += distance * f64::from(car.stretch);
+    car.x += distance * stretch;
     car.speed = next;
     if car.desired != car.limit_desired {
         let eased = car.desired - (EASING * dt) as f32;
@@ -89,21 +90,25 @@ fn drive(car: &mut Car, acceleration: f64, dt: f64) -> f64 {
 fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan) {
     let (cars, minds) = lane.parts();
     for note in plan.notes.drain(..) {
-        let (car, mind) = (&mut cars[note.index as usize], &mut minds[note.index as usize]);
+        let car = &mut cars[note.index as usize];
         car.due = note.due;
         car.limit_desired = note.limit_desired;
-        let is_near = note.last_place - car.x < HEEDED_WITHIN;
-        mind.last_place = if is_near { note.last_place } else { f64::INFINITY };
-        car.heeds_more |= is_near;
-        if mind.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
+        if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
             plan.tally.stuck += 1;
         }
-        mind.standing = note.standing;
-        mind.urgency = note.urgency;
+        car.standing = note.standing;
         if let Some(destination) = note.rerouted {
-            mind.destination = destination;
+            car.goal = destination.into();
             car.due = clock.step + 1;
         }
+        let is_near = note.last_place - car.x < HEEDED_WITHIN;
+        if car.phase == Phase::Cruises && !car.heeds_more && !is_near {
+            continue;
+        }
+        let mind = &mut minds[note.index as usize];
+        mind.last_place = if is_near { note.last_place } else { f64::INFINITY };
+        mind.urgency = note.urgency;
+        car.heeds_more |= is_near;
         if note.gives_up && car.phase == Phase::Wants {
             car.phase = Phase::Cruises;
             plan.milestones.push(milestone(car, mind, chain, Reached::Nothing));
@@ -167,10 +172,10 @@ fn go_across(car: &mut Car, mind: &mut Mind, chain: ChainIndex, clock: Clock, du
 
 /// The centre crosses the line: main entry and shadow swap their parts.
 fn cross(car: &mut Car, mind: &mut Mind) {
-    let scale = if car.is_shadow { car.stretch } else { mind.twin.map_or(1.0, |twin| twin.stretch) };
+    let scale = if car.is_shadow { mind.stretch } else { mind.twin.map_or(1.0, |twin| twin.stretch) };
     car.is_shadow = !car.is_shadow;
     let (own, other) = if car.is_shadow { (1.0 / scale, 1.0) } else { (1.0, 1.0 / scale) };
-    car.stretch = own;
+    mind.stretch = own;
     if let Some(Twin { stretch, .. }) = &mut mind.twin {
         *stretch = other;
     }

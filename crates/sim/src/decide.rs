@@ -65,11 +65,10 @@ fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
 /// A driver considers both sides.
 fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     let car = scene.car(spot);
-    let mind = mind(scene, spot);
     let style = &scene.characters[car.character as usize];
     plan.tally.considerations += 1;
     let mut note = note(scene, moment, spot, style);
-    let waypoint = scene.navigator.waypoint(mind.destination, spot.chain);
+    let waypoint = scene.navigator.waypoint(car.goal.destination(), spot.chain);
     if !waypoint.leads_on(car.x) {
         note.rerouted = Some(scene.navigator.nearest(spot.chain, car.x));
         note.gives_up = true;
@@ -80,9 +79,10 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     note.last_place = waypoint.last_place;
     let outlook = Outlook::new(scene, spot);
     let sides = [moment.overtaking, moment.overtaking.opposite()];
-    let options = sides.map(|side| Choice::of(&outlook, moment, mind, style, side));
+    let options = sides.map(|side| Choice::of(&outlook, moment, style, side));
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
+        let mind = mind(scene, spot);
         note.gives_up = gives_up(moment, mind, style, sides, appraisals);
         let wanted = options.iter().flatten().find(|it| it.side == mind.side);
         note.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
@@ -122,10 +122,10 @@ struct Choice {
 
 impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
-    fn of(outlook: &Outlook, moment: Moment, mind: &Mind, style: &Style, side: Side) -> Option<Choice> {
+    fn of(outlook: &Outlook, moment: Moment, style: &Style, side: Side) -> Option<Choice> {
         let situation = outlook.situation(side, outlook.beside(side)?);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
-        let is_calm = moment.clock.step < mind.calm_until;
+        let is_calm = moment.clock.step < outlook.car().calm_until;
         (helps_the_route || !is_calm).then(|| Choice {
             side,
             appraisal: style.change.appraise(&situation),
@@ -154,17 +154,16 @@ fn pressure(situation: &Situation) -> f64 {
 /// What the driver remembers whatever it decides.
 fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
     let car = scene.car(spot);
-    let mind = mind(scene, spot);
     let period = moment.clock.steps(style.attention.epoch);
     let limit = scene.network.chain(spot.chain).limit(car.x);
     let stands = car.speed < STANDSTILL;
     Note {
         index: spot.index as u32,
         due: moment.clock.step + period,
-        limit_desired: mind.class.desired_speed(style, limit) as f32,
+        limit_desired: car.class.desired_speed(style, limit) as f32,
         last_place: f64::INFINITY,
-        standing: if stands { mind.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
-        urgency: mind.urgency,
+        standing: if stands { car.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
+        urgency: 0.0,
         gives_up: false,
         rerouted: None,
     }
@@ -259,7 +258,7 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
     let car = scene.car(spot);
     let beside = scene.network.chain(spot.chain).beside(side, car.x)?;
     let x = beside.across(car.x);
-    let from = scene.viewpoint_at(beside.chain, x, car.id, mind(scene, spot).destination);
+    let from = scene.viewpoint_at(beside.chain, x, car.id, car.goal.destination());
     Some(Gap {
         chain: beside.chain,
         x,
@@ -273,7 +272,7 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
 /// How far on a change to `side` stays allowed [m], as far as a change needs.
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
     const ENOUGH: f64 = 150.0;
-    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let car = scene.car(spot);
     let (mut chain, mut x, mut permitted) = (spot.chain, car.x, 0.0);
     while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
         permitted += stretch.end - x;
@@ -287,7 +286,7 @@ fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
                 _ => break,
             }
         }
-        match scene.next(mind.destination, chain) {
+        match scene.next(car.goal.destination(), chain) {
             Some(next) => (chain, x) = (next, 0.0),
             None => break,
         }
@@ -362,7 +361,7 @@ fn abort_if_it_must(scene: &Scene, spot: Spot, plan: &mut Plan) {
     let forced = |from| {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), car.speed, it.speed))
     };
-    let there = forced(scene.viewpoint_at(twin.chain, twin.x, car.id, mind.destination));
+    let there = forced(scene.viewpoint_at(twin.chain, twin.x, car.id, car.goal.destination()));
     if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
         let ask = Ask::Abort;
         plan.requests.push(Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask });

@@ -27,7 +27,7 @@ mod world;
 pub use clock::Clock;
 pub use demand::{Demand, Share};
 pub use events::{Event, LaneChange};
-pub use navigate::{Destination, Navigator, Waypoint};
+pub use navigate::{Destination, Goal, Navigator, Waypoint};
 pub use perceive::{driver, perceive};
 pub use random::{Purpose, Random};
 pub use scene::{Found, LaneSight, Scene, Spot, Viewpoint};

@@ -6,6 +6,26 @@ use laneweave_network::{Chain, ChainIndex, Gate, Network, Side};
 /// A driver's exit, as a place in [`Network::exits`]; `None`: it drives on as the road leads.
 pub type Destination = Option<u16>;
 
+/// A destination in two bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Goal(u16);
+
+impl Goal {
+    const NONE: u16 = u16::MAX;
+
+    /// The destination.
+    #[inline]
+    pub fn destination(self) -> Destination {
+        (self.0 != Goal::NONE).then_some(self.0)
+    }
+}
+
+impl From<Destination> for Goal {
+    fn from(destination: Destination) -> Goal {
+        Goal(destination.unwrap_or(Goal::NONE))
+    }
+}
+
 /// What a chain means on the way to a destination.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Waypoint {

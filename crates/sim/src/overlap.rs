@@ -71,11 +71,11 @@ struct Rectangle {
 impl Rectangle {
     fn of(scene: &Scene, spot: Spot) -> Rectangle {
         let lane = &scene.lanes[spot.chain.at()];
-        let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
+        let car = &lane.cars()[spot.index];
         Rectangle {
             pose: pose(scene, spot),
             length: f64::from(car.length),
-            width: mind.class.body().width,
+            width: car.class.body().width,
         }
     }
 

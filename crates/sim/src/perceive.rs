@@ -49,6 +49,11 @@ impl<'a> Outlook<'a> {
         Outlook { scene, car, me, from, sight, here }
     }
 
+    /// The driver's own vehicle.
+    pub(crate) fn car(&self) -> &'a Car {
+        self.car
+    }
+
     /// The own lane.
     pub(crate) fn here(&self) -> &LaneView<'a> {
         &self.here

@@ -57,7 +57,7 @@ impl World {
         mind.record = self.records.keep(LaneChange {
             vehicle: car.id,
             character: car.character,
-            class: mind.class,
+            class: car.class,
             started: 0.0,
             time: 0.0,
             duration: 0.0,
@@ -96,9 +96,10 @@ impl World {
         mind.progress = 0.0;
         mind.since = self.clock.step;
         mind.twin = Some(Twin { chain: gap.chain, x: gap.x, stretch: gap.scale as f32 });
-        let shadow = Car { x: gap.x, stretch: gap.scale as f32, is_shadow: true, heeds_more: false, ..*car };
+        let shadow = Car { x: gap.x, is_shadow: true, heeds_more: false, ..*car };
         let twin = Some(Twin { chain: spot.chain, x: car.x, stretch: 1.0 });
-        let shadow_mind = Mind { twin, came_from: None, last_place: f64::INFINITY, lets_in: None, ..*mind };
+        let stretch = gap.scale as f32;
+        let shadow_mind = Mind { twin, stretch, came_from: None, last_place: f64::INFINITY, lets_in: None, ..*mind };
         self.lanes[gap.chain.at()].insert(shadow, shadow_mind);
     }
 
@@ -166,9 +167,9 @@ impl World {
         let (chain, x) = milestone.at;
         let lane = &mut self.lanes[chain.at()];
         if let Some(index) = lane.find(milestone.id, x) {
-            let (cars, minds) = lane.parts();
+            let cars = lane.parts().0;
             let manner = &self.characters[cars[index].character as usize].manner;
-            minds[index].calm_until = self.clock.step + self.clock.steps(manner.calm);
+            cars[index].calm_until = self.clock.step + self.clock.steps(manner.calm);
         }
     }
 
@@ -185,12 +186,12 @@ impl World {
         while index < leaving.len() {
             let (from, car, mut mind) = leaving[index];
             index += 1;
-            let onto = self.place_beyond(from, &car, &mind);
+            let onto = self.place_beyond(from, &car);
             if let Some((shadow_from, shadow, mut shadow_mind)) =
                 leaving.get(index).copied().filter(|(_, it, _)| it.id == car.id)
             {
                 index += 1;
-                let shadow_onto = self.place_beyond(shadow_from, &shadow, &shadow_mind);
+                let shadow_onto = self.place_beyond(shadow_from, &shadow);
                 mind.twin = relocated(mind.twin, shadow_onto);
                 shadow_mind.twin = relocated(shadow_mind.twin, onto);
                 if onto.is_some() && shadow_onto.is_some() {
@@ -204,8 +205,8 @@ impl World {
     }
 
     /// Where an entry that passed the end of its chain stands now.
-    fn place_beyond(&self, from: ChainIndex, car: &Car, mind: &Mind) -> Option<(ChainIndex, f64)> {
-        let next = self.navigator.waypoint(mind.destination, from).next?;
+    fn place_beyond(&self, from: ChainIndex, car: &Car) -> Option<(ChainIndex, f64)> {
+        let next = self.navigator.waypoint(car.goal.destination(), from).next?;
         Some((next, car.x - self.network.chain(from).length))
     }
 
@@ -223,7 +224,7 @@ impl World {
         mind.came_from = Some(from);
         let limit = self.network.chain(next).limit(car.x);
         let style = &self.characters[car.character as usize];
-        car.limit_desired = mind.class.desired_speed(style, limit) as f32;
+        car.limit_desired = car.class.desired_speed(style, limit) as f32;
         self.tell_twin(&car, &mind, Some((next, car.x)));
         self.lanes[next.at()].insert(car, mind);
     }

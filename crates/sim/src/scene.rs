@@ -122,7 +122,7 @@ impl<'a> Scene<'a> {
     #[inline]
     pub fn viewpoint(&self, spot: Spot) -> Viewpoint {
         let car = self.car(spot);
-        let destination = self.lanes[spot.chain.at()].minds()[spot.index].destination;
+        let destination = car.goal.destination();
         Viewpoint { chain: spot.chain, x: car.x, ahead: spot.index + 1, id: car.id, destination }
     }
 
@@ -208,15 +208,12 @@ impl<'a> Scene<'a> {
         let previous = &self.network.chain(chain).previous;
         let mut nearest: Option<(ChainIndex, Option<Found>)> = previous.first().map(|it| (*it, None));
         for back in previous {
-            let lane = &self.lanes[back.at()];
-            let foremost = lane.cars().iter().zip(lane.minds()).enumerate().rev();
-            let comes = |mind: &crate::traffic::Mind| self.next(mind.destination, *back) == Some(chain);
-            let found = foremost.into_iter().find(|(_, (car, mind))| car.id != id && comes(mind)).map(
-                |(index, (car, _))| {
-                    let distance = base + self.network.chain(*back).length - car.x;
-                    Found { spot: Spot { chain: *back, index }, distance }
-                },
-            );
+            let mut foremost = self.cars(*back).iter().enumerate().rev();
+            let comes = |car: &Car| self.next(car.goal.destination(), *back) == Some(chain);
+            let found = foremost.find(|(_, car)| car.id != id && comes(car)).map(|(index, car)| {
+                let distance = base + self.network.chain(*back).length - car.x;
+                Found { spot: Spot { chain: *back, index }, distance }
+            });
             let is_nearer = match (&nearest, &found) {
                 (Some((_, Some(old))), Some(new)) => new.distance < old.distance,
                 (_, Some(_)) => true,

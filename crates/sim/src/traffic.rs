@@ -1,17 +1,17 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
-//! What every step touches stands in [`Car`]; the rest, in the same order, in [`Mind`]. A vehicle that changes lanes
+//! What driving on and considering lanes need stands in [`Car`], one cache line; what only changes of lane need, in the same order, in [`Mind`]. A vehicle that changes lanes
 //! stands in both lanes: with its main entry where its centre is, with a shadow in the other.
 
 use laneweave_network::{ChainIndex, Side};
 
-use crate::navigate::Destination;
+use crate::navigate::Goal;
 use crate::vehicle::Class;
 
 /// Name of a vehicle; it never changes and is never given again.
 pub type VehicleId = u32;
 
-/// The hot part of a vehicle.
+/// The hot part of a vehicle: one cache line of 64 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Car {
     /// Front bumper along the chain [m].
@@ -24,20 +24,24 @@ pub struct Car {
     pub desired: f32,
     /// Desired speed that the current speed limit gives [m/s].
     pub limit_desired: f32,
-    /// Hardest acceleration of the vehicle [m/s²].
-    pub strength: f32,
     /// Vehicle length [m].
     pub length: f32,
     /// Share of its usual time gap that the driver accepts for now.
     pub tightness: f32,
-    /// Metres along this chain for a metre driven: 1 but for shadows in curves.
-    pub stretch: f32,
+    /// Time at standstill [s].
+    pub standing: f32,
     /// Its driver's place in the table of characters.
     pub character: u32,
     /// Who it is.
     pub id: VehicleId,
     /// Step at which its driver considers lanes next.
     pub due: u32,
+    /// Step before which there is no new voluntary change.
+    pub calm_until: u32,
+    /// Where it goes.
+    pub goal: Goal,
+    /// Its class.
+    pub class: Class,
     /// What its driver is about.
     pub phase: Phase,
     /// This entry is the shadow of one in another lane.
@@ -75,10 +79,6 @@ pub enum Phase {
 /// The warm part of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mind {
-    /// Where it goes.
-    pub destination: Destination,
-    /// Its class.
-    pub class: Class,
     /// Side of the desired or current change.
     pub side: Side,
     /// Kind of the desired or current change.
@@ -87,14 +87,12 @@ pub struct Mind {
     pub entered: u32,
     /// Step at which the desire came, or the change began.
     pub since: u32,
-    /// Step before which there is no new voluntary change.
-    pub calm_until: u32,
+    /// Metres along this chain for a metre driven: 1 but for shadows in curves.
+    pub stretch: f32,
     /// Share of the change's time that has passed.
     pub progress: f32,
     /// Urgency of the desired change, 0…1.
     pub urgency: f32,
-    /// Time at standstill [s].
-    pub standing: f32,
     /// Where the appraisal of the desired or current change is kept.
     pub record: u32,
     /// The chain it came from.

@@ -41,6 +41,12 @@ impl Class {
         }
     }
 
+    /// Hardest acceleration [m/s²].
+    #[inline]
+    pub fn strength(self) -> f64 {
+        self.body().strength
+    }
+
     /// Speed [m/s] that a driver of `style` desires under `limit` [m/s].
     #[inline]
     pub fn desired_speed(self, style: &Style, limit: f64) -> f64 {

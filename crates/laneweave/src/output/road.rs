@@ -140,6 +140,11 @@ impl Road {
         Road { pieces }
     }
 
+    /// Its chains, each with the station from which it belongs to the road, and the position there of station 0 [m].
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (ChainIndex, f64, f64)> + '_ {
+        self.pieces.iter().map(|it| (it.chain, it.from, it.offset))
+    }
+
     /// The position along the road of `x` [m] on `chain`, if that belongs to it.
     pub(super) fn position(&self, chain: ChainIndex, x: f64) -> Option<f64> {
         let piece = self.pieces.iter().find(|it| it.chain == chain && it.from <= x)?;

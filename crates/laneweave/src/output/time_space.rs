@@ -55,11 +55,13 @@ impl TimeSpace {
     fn sample(&mut self, world: &World, road: &Road) {
         let time_s = world.clock().time();
         let mut before = std::mem::take(&mut self.current);
-        for vehicle in world.vehicles() {
-            let Some(position_m) = road.position(vehicle.spot.chain, vehicle.car.x) else { continue };
-            let mut trajectory = before.remove(&vehicle.car.id).unwrap_or_default();
-            trajectory.push(Sample { time_s, position_m, speed_mps: vehicle.car.speed });
-            self.current.insert(vehicle.car.id, trajectory);
+        let scene = world.scene();
+        for (chain, from, offset) in road.pieces() {
+            for car in scene.cars(chain).iter().filter(|car| !car.is_shadow && car.x >= from) {
+                let mut trajectory = before.remove(&car.id).unwrap_or_default();
+                trajectory.push(Sample { time_s, position_m: offset + car.x, speed_mps: car.speed });
+                self.current.insert(car.id, trajectory);
+            }
         }
         self.past.extend(before.into_values());
     }

@@ -63,10 +63,10 @@ impl Observer for Trajectories {
 }
 
 fn row<'a>(world: &World, vehicle: &'a Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()] {
-    let Vehicle { car, mind, spot, .. } = vehicle;
+    let Vehicle { car, spot, .. } = vehicle;
     let (lanelet, position) = world.network().lanelet_at(spot.chain, car.x);
     let pose = vehicle.pose();
-    let body = mind.class.body();
+    let body = car.class.body();
     [
         world.clock().time().into(),
         car.id.into(),

@@ -85,15 +85,15 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
 
 fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     let Scenario { demand, run, output, .. } = scenario;
+    // The step first: the least duration depends on it.
     let numbers: [(&[&str], &str, f64, f64, f64, &str); 5] = [
-        (&["run", "duration_s"], "a duration", run.duration_s, run.step_s, LONGEST, " s"),
         (&["run", "step_s"], "a step", run.step_s, 0.01, 1.0, " s"),
+        (&["run", "duration_s"], "a duration", run.duration_s, run.step_s, LONGEST, " s"),
         (&["run", "warmup_s"], "a warm-up", run.warmup_s, 0.0, LONGEST, " s"),
         (&["demand", "trucks"], "a share of trucks", demand.trucks, 0.0, 1.0, ""),
         (&["output", "record_s"], "a recording interval", output.record_s, 0.0, LONGEST, " s"),
     ];
-    // The step first: the least duration depends on it.
-    for (path, what, value, from, to, unit) in [1, 0, 2, 3, 4].map(|i| numbers[i]) {
+    for (path, what, value, from, to, unit) in numbers {
         if !(from..=to).contains(&value) {
             let what = format!("{what} of {value}{unit}");
             return Err(Fault::new(origin.place(path), what, format!("choose {from} to {to}{unit}")));
@@ -111,7 +111,8 @@ fn record_steps(scenario: &Scenario, origin: &Origin) -> Result<Option<u32>, Fau
     if (steps - steps.round()).abs() <= TOLERANCE {
         return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
     }
-    let above = steps.ceil() * step;
+    // Rounded, as 3 × 0.1 would be shown with all its digits.
+    let above = (steps.ceil() * step * 1e6).round() / 1e6;
     let what = format!("a recording interval of {interval} s with steps of {step} s");
     let remedy = format!("choose a multiple of the step, such as {above} s");
     Err(Fault::new(origin.place(&["output", "record_s"]), what, remedy))

@@ -1,0 +1,151 @@
+//! Wrong input: an error with place and remedy, exit code 2, and nothing written.
+
+use crate::program::{Folder, maps};
+
+/// Runs what must fail; returns the message.
+fn refusal(folder: &Folder, line: &str) -> String {
+    let run = folder.laneweave(&format!("{line} --out results"));
+    assert_eq!((run.code(), run.text().as_str()), (2, ""), "{line}: {}", run.errors());
+    assert!(run.errors().starts_with("error: "), "{}", run.errors());
+    assert!(!folder.holds("results"), "{line}: something was written");
+    run.errors()["error: ".len()..].trim_end().to_owned()
+}
+
+/// Runs a scenario that must fail, with `rest` after its map in line 1.
+fn scenario(rest: &str) -> String {
+    let text = format!("map = \"{}/ramps.osm\"\n{rest}", maps().display());
+    refusal(&Folder::new().with("s.toml", &text), "run s.toml")
+}
+
+#[test]
+fn files_that_are_missing() {
+    let folder = Folder::new().with("s.toml", "# mine\nmap = \"none.osm\"\n");
+    assert_eq!(refusal(&folder, "run none.osm"), "none.osm: there is no such file; check the path");
+    assert!(refusal(&folder, "run none.toml").starts_with("none.toml: cannot be read: "));
+    assert_eq!(
+        refusal(&folder, "run s.toml"),
+        "s.toml:2:1: map none.osm: there is no such file; check the path"
+    );
+}
+
+#[test]
+fn maps_that_are_none() {
+    let folder = Folder::new()
+        .with("broken.osm", "<osm>\n<node id=\"1\"")
+        .with("empty.osm", "<osm></osm>")
+        .with("other.osm", "<gml></gml>")
+        .with("map.xodr", "");
+    assert!(refusal(&folder, "run broken.osm").starts_with("broken.osm:2: not well-formed XML"));
+    assert!(refusal(&folder, "run empty.osm").contains("can be used by vehicles; give roads the tags"));
+    assert!(refusal(&folder, "run other.osm").starts_with("other.osm:1: the outermost element is <gml>"));
+    assert!(
+        refusal(&folder, "run map.xodr").ends_with("known are Lanelet2 (.osm, .osm_xy), scenario (.toml)")
+    );
+}
+
+#[test]
+fn options_out_of_range() {
+    let folder = Folder::new();
+    for (option, message) in [
+        ("--demand NaN", "--demand: a demand of NaN veh/h; choose 0 to 40000 veh/h for the 4 lanes there"),
+        ("--demand -5", "--demand: a demand of -5 veh/h; choose 0 to 40000 veh/h for the 4 lanes there"),
+        (
+            "--demand 1e6",
+            "--demand: a demand of 1000000 veh/h; choose 0 to 40000 veh/h for the 4 lanes there",
+        ),
+        ("--duration -1", "--duration: a duration of -1 s; choose 0.1 to 10000000 s"),
+        ("--duration inf", "--duration: a duration of inf s; choose 0.1 to 10000000 s"),
+        ("--step 0", "--step: a step of 0 s; choose 0.01 to 1 s"),
+        ("--step NaN", "--step: a step of NaN s; choose 0.01 to 1 s"),
+        ("--warmup -1", "--warmup: a warm-up of -1 s; choose 0 to 10000000 s"),
+        ("--trucks 1.5", "--trucks: a share of trucks of 1.5; choose 0 to 1"),
+        ("--threads 1000", "--threads: 1000 threads; choose 1 to 256"),
+        ("--record -1", "--record: a recording interval of -1 s; choose 0 to 10000000 s"),
+        (
+            "--record 0.25",
+            "--record: a recording interval of 0.25 s with steps of 0.1 s; \
+             choose a multiple of the step, such as 0.3 s",
+        ),
+        (
+            "--style aggressive=-1",
+            "--style: the style \"aggressive\" has the weight -1; give it a finite weight of 0 or more",
+        ),
+        (
+            "--style aggressive=0",
+            "--style: the weights of the styles add up to 0; give at least one of them a weight above 0",
+        ),
+    ] {
+        assert_eq!(refusal(&folder, &format!("run MAPS/ramps.osm {option}")), message);
+    }
+}
+
+#[test]
+fn options_that_are_no_numbers_or_unknown() {
+    let folder = Folder::new();
+    assert!(refusal(&folder, "run MAPS/ramps.osm --demand many").contains("'--demand <VEH_PER_H>'"));
+    assert!(refusal(&folder, "run MAPS/ramps.osm --style fast").contains("write NAME=WEIGHT"));
+    assert!(
+        refusal(&folder, "run MAPS/ramps.osm --demnd 5").contains("'--demand' exists") || {
+            refusal(&folder, "run MAPS/ramps.osm --demnd 5").contains("a similar argument exists: '--demand'")
+        }
+    );
+}
+
+#[test]
+fn styles_that_are_unknown() {
+    let message = refusal(&Folder::new(), "run MAPS/ramps.osm --style agressive=1");
+    assert!(
+        message.starts_with("--style: unknown style \"agressive\"; did you mean \"aggressive\"?"),
+        "{message}"
+    );
+    let message = scenario("[styles]\nconservativ = 1\n");
+    assert!(
+        message.starts_with("s.toml:3:1: unknown style \"conservativ\"; did you mean \"conservative\"?"),
+        "{message}"
+    );
+    let message = refusal(&Folder::new(), "run MAPS/ramps.osm --style none.toml=1");
+    assert!(message.starts_with("--style: style file none.toml: cannot be read"), "{message}");
+}
+
+#[test]
+fn keys_of_a_scenario_that_are_unknown() {
+    let expected = "s.toml:3:1: unknown key \"duraton_s\"; did you mean \"duration_s\"?";
+    assert_eq!(scenario("[run]\nduraton_s = 5\n"), expected);
+    assert_eq!(scenario("[dmand]\n"), "s.toml:2:2: unknown key \"dmand\"; did you mean \"demand\"?");
+    assert_eq!(
+        scenario("[output]\nformat = \"parket\"\n"),
+        "s.toml:3:10: unknown value \"parket\"; did you mean \"parquet\"?"
+    );
+}
+
+#[test]
+fn values_of_a_scenario_that_make_no_sense() {
+    for (rest, message) in [
+        ("[run]\nduration_s = nan\n", "s.toml:3:1: a duration of NaN s; choose 0.1 to 10000000 s"),
+        (
+            "[run]\nduration_s = \"long\"\n",
+            "s.toml:3:14: invalid type: string \"long\", expected f64; correct the value",
+        ),
+        ("[demand]\ntrucks = -0.1\n", "s.toml:3:1: a share of trucks of -0.1; choose 0 to 1"),
+        (
+            "[demand.entrances]\n1 = 1e9\n",
+            "s.toml:3:1: a demand at the entrance 1 of 1000000000 veh/h; choose 0 to 30000 veh/h for the 3 lanes there",
+        ),
+        ("[demand.entrances]\n7 = 1\n", "s.toml:3:1: the map has no entrance \"7\"; known are 1, 95"),
+        ("[demand.exits]\n88 = -1\n", "s.toml:3:1: the map has no exit \"88\"; known are "),
+        (
+            "[run\n",
+            "s.toml:2:5: unclosed table, expected `]`; correct this line; the format is TOML, https://toml.io",
+        ),
+    ] {
+        assert!(scenario(rest).starts_with(message), "{}", scenario(rest));
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_made() {
+    let folder = Folder::new().with("taken", "");
+    let run = folder.laneweave("run MAPS/ramps.osm --out taken/results");
+    assert_eq!(run.code(), 2);
+    assert!(run.errors().starts_with("error: taken/results: cannot be made the folder of the results"));
+}
