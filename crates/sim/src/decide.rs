@@ -35,6 +35,7 @@ pub(crate) struct Moment<'a> {
 /// All drivers of a lane decide.
 pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan) {
     let lane = &scene.lanes[chain.at()];
+    let mut hints = [0; 2];
     for (index, car) in lane.cars().iter().enumerate() {
         if car.phase == Phase::Cruises && car.due > moment.clock.step {
             continue;
@@ -51,7 +52,7 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
                     go_or_ask(scene, moment, spot, plan);
                 }
                 if car.due <= moment.clock.step {
-                    consider(scene, moment, spot, plan);
+                    consider(scene, moment, spot, &mut hints, plan);
                 }
             }
         }
@@ -62,8 +63,8 @@ fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
     &scene.lanes[spot.chain.at()].minds()[spot.index]
 }
 
-/// A driver considers both sides.
-fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
+/// A driver considers both sides. `hints` are the entries beside the last driver of the lane who did.
+fn consider(scene: &Scene, moment: Moment, spot: Spot, hints: &mut [usize; 2], plan: &mut Plan) {
     let car = scene.car(spot);
     let style = &scene.characters[car.character as usize];
     plan.tally.considerations += 1;
@@ -79,7 +80,11 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     note.last_place = waypoint.last_place;
     let outlook = Outlook::new(scene, spot);
     let sides = [moment.overtaking, moment.overtaking.opposite()];
-    let options = sides.map(|side| Choice::of(&outlook, moment, style, side));
+    let [first_hint, second_hint] = hints;
+    let options = [
+        Choice::of(&outlook, moment, style, sides[0], first_hint),
+        Choice::of(&outlook, moment, style, sides[1], second_hint),
+    ];
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
         let mind = mind(scene, spot);
@@ -122,8 +127,8 @@ struct Choice {
 
 impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
-    fn of(outlook: &Outlook, moment: Moment, style: &Style, side: Side) -> Option<Choice> {
-        let situation = outlook.situation(side, outlook.beside(side)?);
+    fn of(outlook: &Outlook, moment: Moment, style: &Style, side: Side, hint: &mut usize) -> Option<Choice> {
+        let situation = outlook.situation(side, outlook.beside(side)?, hint);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
         let is_calm = moment.clock.step < outlook.car().calm_until;
         (helps_the_route || !is_calm).then(|| Choice {

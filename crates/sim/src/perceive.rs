@@ -11,7 +11,9 @@ use crate::traffic::{Car, Phase};
 /// What a driver knows when it considers the lane on `side`; `None` where it may not change to one.
 pub fn perceive<'a>(scene: &'a Scene, me: Spot, side: Side) -> Option<Situation<'a>> {
     let outlook = Outlook::new(scene, me);
-    outlook.beside(side).map(|beside| outlook.situation(side, beside))
+    let beside = outlook.beside(side)?;
+    let hint = scene.lanes[beside.chain.at()].ahead_of(beside.across(outlook.car().x));
+    Some(outlook.situation(side, beside, &mut { hint }))
 }
 
 /// A driver with its vehicle.
@@ -64,10 +66,12 @@ impl<'a> Outlook<'a> {
         self.scene.network.chain(self.from.chain).beside(side, self.car.x)
     }
 
-    /// What the driver knows about the lane on `side`, along the stretch `beside`.
-    pub(crate) fn situation(&self, side: Side, beside: &Beside) -> Situation<'a> {
+    /// What the driver knows about the lane on `side`, along the stretch `beside`. The first entry ahead there is
+    /// sought from `hint` on, and kept in it.
+    pub(crate) fn situation(&self, side: Side, beside: &Beside, hint: &mut usize) -> Situation<'a> {
         let x = beside.across(self.car.x);
-        let from = self.scene.viewpoint_at(beside.chain, x, self.car.id, self.from.destination);
+        *hint = self.scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
+        let from = Viewpoint { chain: beside.chain, x, ahead: *hint, ..self.from };
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length);
         let mut there = lane_view(self.scene, &self.me, from, &sight);
         let mut here = self.here;

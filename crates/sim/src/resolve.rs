@@ -11,10 +11,19 @@ use crate::traffic::{Car, Milestone, Mind, Phase, Reached, Twin};
 use crate::world::World;
 
 impl World {
+    /// Gathers what concerns more than one lane.
+    pub(crate) fn gather(&mut self) {
+        for (index, plan) in self.plans.iter_mut().enumerate() {
+            let from = ChainIndex(index as u32);
+            self.requests.append(&mut plan.requests);
+            self.milestones.append(&mut plan.milestones);
+            self.leaving.extend(plan.leaving.drain(..).map(|(car, mind)| (from, car, mind)));
+        }
+    }
+
     /// Grants what can be granted.
     pub(crate) fn resolve(&mut self) {
         let mut requests = std::mem::take(&mut self.requests);
-        requests.extend(self.plans.iter_mut().flat_map(|plan| plan.requests.drain(..)));
         requests.sort_unstable_by(|a, b| {
             b.urgency.total_cmp(&a.urgency).then(a.id.cmp(&b.id)).then(a.ask.rank().cmp(&b.ask.rank()))
         });
@@ -120,7 +129,6 @@ impl World {
     /// Keeps account of the lane changes.
     pub(crate) fn account(&mut self) {
         let mut milestones = std::mem::take(&mut self.milestones);
-        milestones.extend(self.plans.iter_mut().flat_map(|plan| plan.milestones.drain(..)));
         milestones.sort_unstable_by_key(|it| (it.id, it.what));
         for milestone in milestones.drain(..) {
             self.note_milestone(&milestone);
@@ -176,10 +184,6 @@ impl World {
     /// Entries that passed the ends of their chains go on, or leave the map.
     pub(crate) fn transfer(&mut self) {
         let mut leaving = std::mem::take(&mut self.leaving);
-        for (index, plan) in self.plans.iter_mut().enumerate() {
-            let from = ChainIndex(index as u32);
-            leaving.extend(plan.leaving.drain(..).map(|(car, mind)| (from, car, mind)));
-        }
         // A vehicle's main entry comes before its shadow.
         leaving.sort_unstable_by_key(|(_, car, _)| (car.id, car.is_shadow));
         let mut index = 0;

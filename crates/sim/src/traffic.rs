@@ -13,6 +13,7 @@ pub type VehicleId = u32;
 
 /// The hot part of a vehicle: one cache line of 64 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
 pub struct Car {
     /// Front bumper along the chain [m].
     pub x: f64,
@@ -53,6 +54,8 @@ pub struct Car {
     /// Its driver heeds more than the leader: the last place for a change, or a vehicle that it lets in.
     pub heeds_more: bool,
 }
+
+const _: () = assert!(size_of::<Car>() == 64, "a car fills one cache line");
 
 impl Car {
     /// Rear bumper along the chain [m].
@@ -186,6 +189,20 @@ impl Lane {
     #[inline]
     pub fn ahead_of(&self, x: f64) -> usize {
         self.cars.partition_point(|car| car.x <= x)
+    }
+
+    /// The same, sought from the index `hint` on: drivers who look across one after the other are near each other, and
+    /// a walk over neighbours meets no cold memory as a bisection does.
+    #[inline]
+    pub(crate) fn ahead_of_near(&self, x: f64, hint: usize) -> usize {
+        let mut index = hint.min(self.cars.len());
+        while index < self.cars.len() && self.cars[index].x <= x {
+            index += 1;
+        }
+        while index > 0 && self.cars[index - 1].x > x {
+            index -= 1;
+        }
+        index
     }
 
     /// Index of the entry of vehicle `id`, which stood at `x` at most one step ago.

@@ -155,6 +155,7 @@ impl World {
         self.decide_and_accelerate();
         self.advance();
         self.clock.step += 1;
+        self.gather();
         self.account();
         self.transfer();
         self.resolve();

@@ -6,7 +6,7 @@ use laneweave_models::{Attention, Manner, Style};
 use laneweave_sim::{Demand, Share};
 
 /// A conservative IDM driver with the paper's weights, repaired.
-pub fn conservative() -> Style {
+pub(crate) fn conservative() -> Style {
     Style {
         name: "conservative".into(),
         description: String::new(),
@@ -36,7 +36,7 @@ pub fn conservative() -> Style {
 }
 
 /// An aggressive FVDM driver with the paper's weights, repaired.
-pub fn aggressive() -> Style {
+pub(crate) fn aggressive() -> Style {
     let LaneChangeModel::Mcdm(mcdm) = conservative().change else { unreachable!() };
     Style {
         name: "aggressive".into(),
@@ -54,7 +54,7 @@ pub fn aggressive() -> Style {
 }
 
 /// Demand `total` [veh/h], with a share of trucks and the given weights of the first characters.
-pub fn demand(network: &laneweave_network::Network, total: f64, trucks: f64, weights: &[f64]) -> Demand {
+pub(crate) fn demand(network: &laneweave_network::Network, total: f64, trucks: f64, weights: &[f64]) -> Demand {
     let population =
         weights.iter().zip(0..).map(|(weight, first)| Share { weight: *weight, first, count: 1 }).collect();
     Demand::even(network, total, trucks, population)

@@ -1,60 +1,94 @@
-//! Straight roads for tests, drawn without a map.
+//! Roads for tests, drawn without a map.
+
+pub(crate) mod drivers;
 
 use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
 
-/// Lanelets of `lanes` parallel lanes (lane 0 is the rightmost), in rows of 500 m at most.
-pub fn straight(lanes: usize, length: f64, limit: f64) -> Network {
-    Network::new(lanelets(lanes, length, limit, 1.0), DrivingSide::Right).unwrap()
+/// Width of a lane [m].
+pub(crate) const WIDTH: f64 = 3.5;
+
+/// Parallel lanes, of which lane 0 is the slow one, drawn in rows of 500 m at most.
+#[derive(Clone, Copy)]
+pub(crate) struct Road {
+    pub(crate) lanes: usize,
+    /// Along its slow edge [m].
+    pub(crate) length: f64,
+    /// Speed limit [m/s].
+    pub(crate) limit: f64,
+    /// Radius of the slow edge in a curve to the fast side [m]; infinite: a straight road to the east.
+    pub(crate) radius: f64,
+    /// Its lanes lead back to their starts, whatever the drawing says.
+    pub(crate) is_ring: bool,
+    /// The mirror image, on which traffic drives on the left.
+    pub(crate) is_mirrored: bool,
 }
 
-/// The mirror image, on which traffic drives on the left.
-#[allow(dead_code, reason = "not every test file mirrors")]
-pub fn mirrored(lanes: usize, length: f64, limit: f64) -> Network {
-    Network::new(lanelets(lanes, length, limit, -1.0), DrivingSide::Left).unwrap()
+impl Default for Road {
+    fn default() -> Road {
+        let limit = 120.0 / 3.6;
+        Road { lanes: 1, length: 2000.0, limit, radius: f64::INFINITY, is_ring: false, is_mirrored: false }
+    }
 }
 
-/// One lane that leads back to its start.
-#[allow(dead_code, reason = "not every test file has a ring")]
-pub fn ring(length: f64, limit: f64) -> Network {
-    let mut all = lanelets(1, length, limit, 1.0);
-    let last = all.len() - 1;
-    all[last].following = vec![LaneletIndex(0)];
-    Network::new(all, DrivingSide::Right).unwrap()
-}
+impl Road {
+    const LONGEST_ROW: f64 = 500.0;
+    /// Distance between the points of a curve [m].
+    const CHORD: f64 = 2.0;
 
-fn lanelets(lanes: usize, length: f64, limit: f64, sign: f64) -> Vec<Lanelet> {
-    const WIDTH: f64 = 3.5;
-    let rows = (length / 500.0).ceil() as usize;
-    let row_length = length / rows as f64;
-    let mut all = Vec::new();
-    for row in 0..rows {
-        for lane in 0..lanes {
-            let (from, to) = (row as f64 * row_length, (row + 1) as f64 * row_length);
-            let border = |offset: f64| {
-                let y = sign * WIDTH * offset;
-                Polyline::new([Point::new(from, y, 0.0), Point::new(to, y, 0.0)]).unwrap()
-            };
-            let index = |row: usize, lane: usize| LaneletIndex((row * lanes + lane) as u32);
-            let (inner, outer) = (border(lane as f64 + 1.0), border(lane as f64));
-            let towards_fast = (lane + 1 < lanes).then(|| index(row, lane + 1));
-            let towards_slow = (lane > 0).then(|| index(row, lane - 1));
-            let is_mirrored = sign < 0.0;
-            let (left_border, right_border) = if is_mirrored { (outer, inner) } else { (inner, outer) };
-            let (left, right) =
-                if is_mirrored { (towards_slow, towards_fast) } else { (towards_fast, towards_slow) };
-            all.push(Lanelet {
-                id: index(row, lane).0 as i64 + 1,
-                centre: Polyline::between(&left_border, &right_border).unwrap(),
-                left_border,
-                right_border,
-                speed_limit: limit,
-                following: if row + 1 < rows { vec![index(row + 1, lane)] } else { vec![] },
-                left,
-                right,
-                adjacent_left: None,
-                adjacent_right: None,
-            });
+    pub(crate) fn network(self) -> Network {
+        let rows = self.rows();
+        let all = (0..rows).flat_map(|row| (0..self.lanes).map(move |lane| self.lanelet(row, lane))).collect();
+        let side = if self.is_mirrored { DrivingSide::Left } else { DrivingSide::Right };
+        Network::new(all, side).unwrap()
+    }
+
+    fn rows(&self) -> usize {
+        (self.length / Road::LONGEST_ROW).ceil() as usize
+    }
+
+    fn index(&self, row: usize, lane: usize) -> LaneletIndex {
+        LaneletIndex((row * self.lanes + lane) as u32)
+    }
+
+    fn lanelet(&self, row: usize, lane: usize) -> Lanelet {
+        let (slow, fast) = (self.border(row, lane), self.border(row, lane + 1));
+        let towards_fast = (lane + 1 < self.lanes).then(|| self.index(row, lane + 1));
+        let towards_slow = (lane > 0).then(|| self.index(row, lane - 1));
+        let (left_border, right_border) = if self.is_mirrored { (slow, fast) } else { (fast, slow) };
+        let (left, right) =
+            if self.is_mirrored { (towards_slow, towards_fast) } else { (towards_fast, towards_slow) };
+        let next_row = if self.is_ring { (row + 1) % self.rows() } else { row + 1 };
+        Lanelet {
+            id: i64::from(self.index(row, lane).0) + 1,
+            centre: Polyline::between(&left_border, &right_border).unwrap(),
+            left_border,
+            right_border,
+            speed_limit: self.limit,
+            following: if next_row < self.rows() { vec![self.index(next_row, lane)] } else { vec![] },
+            left,
+            right,
+            adjacent_left: None,
+            adjacent_right: None,
         }
     }
-    all
+
+    /// The line between lanes `line - 1` and `line`.
+    fn border(&self, row: usize, line: usize) -> Polyline {
+        let row_length = self.length / self.rows() as f64;
+        let pieces = if self.radius.is_finite() { (row_length / Road::CHORD).ceil() as usize } else { 1 };
+        let station = |piece| (row as f64 + piece as f64 / pieces as f64) * row_length;
+        Polyline::new((0..=pieces).map(|piece| self.point(station(piece), line as f64 * WIDTH))).unwrap()
+    }
+
+    /// The point at `station`, `beside` [m] to the fast side of the slow edge.
+    fn point(&self, station: f64, beside: f64) -> Point {
+        let (x, y) = if self.radius.is_finite() {
+            let (sin, cos) = (station / self.radius).sin_cos();
+            let radius = self.radius - beside;
+            (radius * sin, self.radius - radius * cos)
+        } else {
+            (station, beside)
+        };
+        Point::new(x, if self.is_mirrored { -y } else { y }, 0.0)
+    }
 }
