@@ -18,7 +18,7 @@ pub struct Ending {
 }
 
 /// Runs `prepared` through its warm-up and its measured time. `observers` see the world after each measured step;
-/// `goes_on` is asked before every step, with the time it has simulated in all [s].
+/// `goes_on` is asked before every step; `when_warm` is called once, when measuring begins.
 ///
 /// # Errors
 /// If an observer cannot write what it sees.

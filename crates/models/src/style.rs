@@ -79,7 +79,7 @@ impl Default for Manner {
             change_duration: 4.0,
             pressed_duration: 3.0,
             patience: 15.0,
-            calm: 9.0,
+            calm: 10.0,
             adjust_deceleration: 2.0,
             yield_deceleration: 2.0,
             tightest: 0.56 / 1.2,

@@ -259,7 +259,7 @@ fn destinations(navigator: &Navigator, gate: &Gate, weights: &[f64]) -> Vec<(Des
 /// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
 pub(crate) fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
     /// Braking that an entering driver puts up with [m/s²].
-    const GENTLE: f64 = 0.5;
+    const GENTLE: f64 = 1.0;
     /// Who would have to enter slower than this share of the leader's speed waits.
     const SHARE_OF_LEADER: f64 = 0.9;
     let Some(ahead) = ahead else { return Some(desired) };

@@ -25,7 +25,8 @@ pub(crate) struct Arguments {
     /// A scenario file (.toml), or a map (Lanelet2, .osm).
     #[arg(value_name = "SCENARIO.toml|MAP")]
     input: PathBuf,
-    /// Vehicles per hour in total, split over the entrances by their number of lanes [default for a map: 1000 a lane].
+    /// Vehicles per hour in total, split over the entrances by their number of lanes, whatever the scenario says of
+    /// them [default for a map: 1000 a lane].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
@@ -34,8 +35,8 @@ pub(crate) struct Arguments {
     /// Length of a step in seconds, 0.01 to 1 [default: 0.1].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     step: Option<f64>,
-    /// A style of drivers, or the path of a style file (.toml), and its weight; may be repeated.
-    /// [default: aggressive=1 conservative=7.4]
+    /// A style of drivers, or the path of a style file (.toml), and its weight; may be repeated, and goes in place of
+    /// all styles of the scenario [default: aggressive=1 conservative=7.4].
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weighted)]
     style: Vec<(String, f64)>,
     /// Seed of all random draws [default: 1].

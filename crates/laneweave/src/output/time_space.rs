@@ -67,11 +67,15 @@ impl TimeSpace {
     }
 }
 
-/// The gate's lane on the slow side.
+/// The gate's lane on the slow side; not one that ends, as long as there is another.
 fn slow_lane(network: &Network, gate: &Gate) -> Option<ChainIndex> {
     let slow = network.driving_side.overtaking().opposite();
-    let is_slowest = |chain: &ChainIndex| network.chain(*chain).beside(slow, 0.0).is_none();
-    gate.chains.iter().copied().find(is_slowest).or(gate.chains.first().copied())
+    let goes_on = |chain: ChainIndex| !network.chain(chain).is_lane_drop;
+    let is_slowest = |chain: ChainIndex| {
+        network.chain(chain).beside(slow, 0.0).is_none_or(|beside| !goes_on(beside.chain))
+    };
+    let mut lanes = gate.chains.iter().copied();
+    lanes.find(|it| goes_on(*it) && is_slowest(*it)).or(gate.chains.first().copied())
 }
 
 impl Observer for TimeSpace {

@@ -17,6 +17,8 @@ use crate::fault::Fault;
 const MOST_THREADS: usize = 256;
 /// Threads where nothing is said: what a small machine has.
 const USUAL_THREADS: usize = 2;
+/// Shortest and longest step [s].
+const STEPS: (f64, f64) = (0.01, 1.0);
 /// Longest time that can be simulated [s].
 const LONGEST: f64 = 1e7;
 
@@ -85,21 +87,18 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
 
 fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     let Scenario { demand, run, output, .. } = scenario;
-    // The step first: the least duration depends on it.
-    let numbers: [(&[&str], &str, f64, f64, f64, &str); 5] = [
-        (&["run", "step_s"], "a step", run.step_s, 0.01, 1.0, " s"),
-        (&["run", "duration_s"], "a duration", run.duration_s, run.step_s, LONGEST, " s"),
-        (&["run", "warmup_s"], "a warm-up", run.warmup_s, 0.0, LONGEST, " s"),
-        (&["demand", "trucks"], "a share of trucks", demand.trucks, 0.0, 1.0, ""),
-        (&["output", "record_s"], "a recording interval", output.record_s, 0.0, LONGEST, " s"),
-    ];
-    for (path, what, value, from, to, unit) in numbers {
-        if !(from..=to).contains(&value) {
-            let what = format!("{what} of {value}{unit}");
-            return Err(Fault::new(origin.place(path), what, format!("choose {from} to {to}{unit}")));
+    let check = |path: &[&str], what: &str, value: f64, (from, to): (f64, f64), unit: &str| {
+        if (from..=to).contains(&value) {
+            return Ok(());
         }
-    }
-    Ok(())
+        let what = format!("{what} of {value}{unit}");
+        Err(Fault::new(origin.place(path), what, format!("choose {from} to {to}{unit}")))
+    };
+    check(&["run", "step_s"], "a step", run.step_s, STEPS, " s")?;
+    check(&["run", "duration_s"], "a duration", run.duration_s, (run.step_s, LONGEST), " s")?;
+    check(&["run", "warmup_s"], "a warm-up", run.warmup_s, (0.0, LONGEST), " s")?;
+    check(&["demand", "trucks"], "a share of trucks", demand.trucks, (0.0, 1.0), "")?;
+    check(&["output", "record_s"], "a recording interval", output.record_s, (0.0, LONGEST), " s")
 }
 
 /// The recording interval in steps; none for an interval of 0.

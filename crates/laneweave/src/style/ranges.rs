@@ -35,6 +35,7 @@ const RANGES: &[(&str, Range)] = &[
     ("safety.max_deceleration", range(0.1, 8.0, "m/s²")),
     ("attention.epoch", range(0.1, 60.0, "s")),
     ("manner.change_duration", range(1.0, 20.0, "s")),
+    ("manner.pressed_duration", range(1.0, 20.0, "s")),
     ("manner.patience", range(0.1, 3600.0, "s")),
     ("manner.calm", range(0.0, 3600.0, "s")),
     ("manner.adjust_deceleration", range(0.0, 8.0, "m/s²")),

@@ -207,3 +207,113 @@ impl Reader<'_> {
         Fault::new(self.source.place(&path), what, remedy)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_models::Reading;
+    use laneweave_models::follow::FollowingModel;
+
+    use super::*;
+    use crate::style::built_in;
+
+    fn template(name: &str) -> StyleTemplate {
+        let text = built_in(name).unwrap().text.into();
+        StyleTemplate::parse(&Source { path: name.into(), text }).unwrap()
+    }
+
+    #[test]
+    fn a_style_with_a_distribution_is_512_drivers_with_its_mean_and_deviation() {
+        let template = template("aggressive");
+        assert_eq!(template.characters(), 512);
+        let draw = |number| template.draw(&Random::new(1), 0, number).unwrap().speed_factor;
+        let factors: Vec<f64> = (0..512).map(draw).collect();
+        let mean = factors.iter().sum::<f64>() / 512.0;
+        let sd = (factors.iter().map(|it| (it - mean) * (it - mean)).sum::<f64>() / 511.0).sqrt();
+        // Three standard errors of 512 draws with mean 1.12 and deviation 0.08.
+        assert!((mean - 1.12).abs() < 0.0106, "mean {mean}");
+        assert!((sd - 0.08).abs() < 0.0075, "deviation {sd}");
+        assert!(factors.iter().all(|it| (0.85..=1.4).contains(it)));
+    }
+
+    #[test]
+    fn a_style_without_distributions_is_one_driver() {
+        let template = template("paper-conservative");
+        assert_eq!(template.characters(), 1);
+        assert_eq!(template.draw(&Random::new(1), 0, 0).unwrap(), *template.typical());
+    }
+
+    #[test]
+    fn draws_depend_on_seed_style_and_number_only() {
+        let template = template("conservative");
+        let factor =
+            |seed, style, number| template.draw(&Random::new(seed), style, number).unwrap().speed_factor;
+        assert_eq!(factor(1, 0, 7), factor(1, 0, 7));
+        let all = [factor(1, 0, 7), factor(1, 0, 8), factor(1, 1, 7), factor(2, 0, 7)];
+        assert!((1..4).all(|i| all[..i].iter().all(|it| *it != all[i])), "{all:?}");
+    }
+
+    #[test]
+    fn several_parameters_are_drawn_independently_of_each_other() {
+        let text = built_in("conservative").unwrap().text.replace(
+            "time_gap = 1.2",
+            "time_gap = { distribution = \"lognormal\", mean = 1.2, sd = 0.3, min = 0.5, max = 3 }",
+        );
+        let template = StyleTemplate::parse(&Source { path: "own".into(), text }).unwrap();
+        let paths: Vec<String> = template.parameters().iter().map(|it| it.path.join(".")).collect();
+        assert_eq!(paths, ["follow.time_gap", "speed_factor"]);
+        let pairs: Vec<(f64, f64)> = (0..512)
+            .map(|number| template.draw(&Random::new(1), 0, number).unwrap())
+            .map(|style| match style.follow {
+                FollowingModel::Idm(idm) => (idm.time_gap, style.speed_factor),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        let sum = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
+        let (gap, factor) = (sum(&|it| it.0) / 512.0, sum(&|it| it.1) / 512.0);
+        let together = sum(&|it| (it.0 - gap) * (it.1 - factor));
+        let apart = sum(&|it| (it.0 - gap).powi(2)) * sum(&|it| (it.1 - factor).powi(2));
+        // Three standard errors of a correlation that is not there.
+        assert!((together / apart.sqrt()).abs() < 0.133);
+    }
+
+    #[test]
+    fn the_built_in_styles_have_the_papers_weights_in_both_readings() {
+        for (name, weights, beta, reading) in [
+            ("aggressive", [1.26, 0.58, 0.03, 0.61, 0.9], 1.1, Reading::Repaired),
+            ("conservative", [0.44, 0.41, 0.09, 1.72, 0.9], 2.3, Reading::Repaired),
+            ("paper-aggressive", [1.26, 0.58, 0.03, 0.61, 0.0], 1.1, Reading::Literal),
+            ("paper-conservative", [0.44, 0.41, 0.09, 1.72, 0.0], 2.3, Reading::Literal),
+        ] {
+            let LaneChangeModel::Mcdm(it) = template(name).typical().change.clone() else { panic!("{name}") };
+            let found =
+                [it.speed.weight, it.route.weight, it.comfort.weight, it.courtesy.weight, it.urgency.weight];
+            assert_eq!((found, it.comfort.beta), (weights, beta), "{name}");
+            let others = [it.route.reading, it.comfort.reading, it.courtesy.reading, it.returning.reading];
+            assert_eq!((it.speed.reading, others), (reading, [reading; 4]), "{name}");
+            let decision = match reading {
+                Reading::Literal => (Rule::Threshold, 0.0, 0.0),
+                Reading::Repaired => (Rule::Logit, 0.1125, 0.025),
+            };
+            assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
+        }
+    }
+
+    #[test]
+    fn every_number_of_the_models_has_a_range_but_weights_and_thresholds() {
+        fn unbounded(table: &Table, path: &str, found: &mut Vec<String>) {
+            for (key, value) in table {
+                let path = format!("{path}{key}");
+                match value {
+                    Value::Table(inner) => unbounded(inner, &format!("{path}."), found),
+                    Value::Float(_) if Range::of(&path).from.is_infinite() => found.push(path),
+                    _ => {}
+                }
+            }
+        }
+        let mut found = Vec::new();
+        for name in ["aggressive", "conservative", "constant-hazard"] {
+            unbounded(&Table::try_from(template(name).typical()).unwrap(), "", &mut found);
+        }
+        assert!(found.iter().all(|it| it.ends_with(".weight") || it == "change.theta"), "{found:?}");
+    }
+}

@@ -1,9 +1,16 @@
-//! The `laneweave` command as a user meets it.
+//! The `laneweave` command as a user meets it. Marked as tests, modules and all, so that their helpers may unwrap.
 
+#[cfg(test)]
 mod generate;
+#[cfg(test)]
 mod golden;
+#[cfg(test)]
 mod mistakes;
+#[cfg(test)]
 mod program;
+#[cfg(test)]
 mod run;
+#[cfg(test)]
 mod schema;
+#[cfg(test)]
 mod styles;

@@ -85,9 +85,7 @@ fn options_that_are_no_numbers_or_unknown() {
     assert!(refusal(&folder, "run MAPS/ramps.osm --demand many").contains("'--demand <VEH_PER_H>'"));
     assert!(refusal(&folder, "run MAPS/ramps.osm --style fast").contains("write NAME=WEIGHT"));
     assert!(
-        refusal(&folder, "run MAPS/ramps.osm --demnd 5").contains("'--demand' exists") || {
-            refusal(&folder, "run MAPS/ramps.osm --demnd 5").contains("a similar argument exists: '--demand'")
-        }
+        refusal(&folder, "run MAPS/ramps.osm --demnd 5").contains("a similar argument exists: '--demand'")
     );
 }
 

@@ -1,0 +1,169 @@
+//! Drivers, not coins: the signs that tell them apart on a two-lane motorway with 10 % trucks at 800–1,400 veh/h/lane
+//! (catalogue V50), over 20 seeds with 95 % intervals. A changer without a reason, the control, must fail them.
+
+use std::collections::HashMap;
+
+use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::models::Style;
+use laneweave::models::change::{ConstantHazard, LaneChangeModel};
+use laneweave::sim::{Demand, Event, Kind, Random, Setup, Share, VehicleId, World};
+use laneweave::study::{Estimate, Interval, mean};
+use laneweave::style::{DEFAULT_MIXTURE, StyleTemplate, find};
+
+const SEEDS: u64 = 20;
+const LANES: usize = 2;
+const LENGTH_M: f64 = 5000.0;
+const STEP_S: f64 = 0.1;
+const WARM_UP_S: f64 = 240.0;
+const MEASURED_S: f64 = 900.0;
+const VEHICLES_PER_HOUR_AND_LANE: [f64; 3] = [800.0, 1100.0, 1400.0];
+/// A discretionary change back within this time undoes the one before [s].
+const BACK_WITHIN_S: f64 = 30.0;
+
+/// What one replication shows.
+#[derive(Default)]
+struct Signs {
+    changes: f64,
+    vehicle_km: f64,
+    gaining: f64,
+    back: f64,
+    hazard_held_up: f64,
+    hazard_free: f64,
+    /// Changes and vehicle-kilometres of aggressive and of conservative drivers.
+    styles: [(f64, f64); 2],
+}
+
+impl Signs {
+    fn rate(&self) -> f64 {
+        self.changes / self.vehicle_km
+    }
+
+    fn hazard_ratio(&self) -> f64 {
+        self.hazard_held_up / self.hazard_free
+    }
+
+    fn style_rate(&self, style: usize) -> f64 {
+        self.styles[style].0 / self.styles[style].1
+    }
+}
+
+/// The drivers of the default mixture; as the control, the same drivers changing lanes without a reason.
+fn population(is_control: bool) -> (Vec<Style>, Vec<Share>) {
+    let mut characters: Vec<Style> = Vec::new();
+    let mut shares = Vec::new();
+    for ((name, weight), number) in DEFAULT_MIXTURE.iter().zip(0..) {
+        let source = find(name, std::path::Path::new(""), String::new).unwrap();
+        let template = StyleTemplate::parse(&source).unwrap();
+        let (first, count) = (characters.len() as u32, template.characters());
+        let drawn = (0..count).map(|character| template.draw(&Random::new(1), number, character).unwrap());
+        characters.extend(drawn);
+        shares.push(Share { weight: *weight, first, count });
+    }
+    if is_control {
+        let hazard = ConstantHazard::default();
+        characters.iter_mut().for_each(|it| it.change = LaneChangeModel::ConstantHazard(hazard));
+    }
+    (characters, shares)
+}
+
+fn replicate(population: &(Vec<Style>, Vec<Share>), vehicles_per_hour: f64, seed: u64) -> Signs {
+    let road = Motorway { lanes: LANES, length_m: LENGTH_M, ..Motorway::default() };
+    let network = motorway(&road).unwrap().network().unwrap().0;
+    let (characters, shares) = population.clone();
+    let conservative_from = shares[1].first;
+    let demand = Demand::even(&network, vehicles_per_hour, 0.1, shares);
+    let setup = Setup { step: STEP_S, seed, threads: 1 };
+    let mut world = World::new(network, characters, demand, setup).unwrap();
+    for _ in 0..(WARM_UP_S / STEP_S) as u32 {
+        world.step();
+    }
+    world.reset_counts();
+    let mut signs = Signs::default();
+    let mut last: HashMap<VehicleId, (f64, _)> = HashMap::new();
+    let style_of = |character: u32| usize::from(character >= conservative_from);
+    for step in 0..(MEASURED_S / STEP_S) as u32 {
+        world.step();
+        for event in world.events() {
+            let Event::LaneChange(change) = event else { continue };
+            if !change.is_completed || change.kind != Kind::Discretionary {
+                continue;
+            }
+            signs.changes += 1.0;
+            signs.gaining += f64::from(u8::from(change.speed_gain > 0.0));
+            signs.styles[style_of(change.character)].0 += 1.0;
+            if let Some((time, side)) = last.insert(change.vehicle, (change.time, change.side)) {
+                let is_back = side != change.side && change.time - time <= BACK_WITHIN_S;
+                signs.back += f64::from(u8::from(is_back));
+            }
+        }
+        if step % 10 == 0 {
+            for vehicle in world.vehicles() {
+                signs.styles[style_of(vehicle.car.character)].1 += vehicle.car.speed / 1000.0;
+            }
+        }
+    }
+    let tally = world.tally();
+    assert_eq!((tally.collisions, world.counts().overlaps, tally.stuck), (0, 0, 0));
+    signs.vehicle_km = tally.distance / 1000.0;
+    signs.hazard_held_up = tally.held_up_desires as f64 / tally.held_up_considerations as f64;
+    signs.hazard_free = tally.free_desires as f64 / tally.free_considerations as f64;
+    signs
+}
+
+fn over_seeds(signs: &[Signs], of: impl Fn(&Signs) -> f64) -> Estimate {
+    mean(&signs.iter().map(of).collect::<Vec<_>>()).unwrap()
+}
+
+/// The replications at one flow, and what they say on screen.
+fn replications(name: &str, population: &(Vec<Style>, Vec<Share>), flow: f64) -> Vec<Signs> {
+    let signs: Vec<Signs> =
+        (1..=SEEDS).map(|seed| replicate(population, flow * LANES as f64, seed)).collect();
+    let show = |of: fn(&Signs) -> f64| {
+        let estimate = over_seeds(&signs, of);
+        format!("{:.3} ±{:.3}", estimate.mean, estimate.half_width)
+    };
+    println!(
+        "{name} at {flow} veh/h/lane: {} changes/veh-km (aggressive {}, conservative {}), hazard ratio {}, gaining {}, back {}",
+        show(Signs::rate),
+        show(|it| it.style_rate(0)),
+        show(|it| it.style_rate(1)),
+        show(Signs::hazard_ratio),
+        show(|it| it.gaining / it.changes),
+        show(|it| it.back / it.changes),
+    );
+    signs
+}
+
+#[test]
+fn v50_drivers_change_lanes_for_reasons() {
+    let population = population(false);
+    for flow in VEHICLES_PER_HOUR_AND_LANE {
+        let signs = replications("drivers", &population, flow);
+        let Interval { lower: low, upper: high } = over_seeds(&signs, Signs::rate).interval();
+        assert!(low >= 0.1 && high <= 0.6, "rate {low}…{high}");
+        let low = over_seeds(&signs, Signs::hazard_ratio).interval().lower;
+        assert!(low >= 3.0, "held up beside a free lane, {low} times as likely");
+        let low = over_seeds(&signs, |it| it.gaining / it.changes).interval().lower;
+        assert!(low >= 0.7, "gaining {low}");
+        let high = over_seeds(&signs, |it| it.back / it.changes).interval().upper;
+        assert!(high <= 0.15, "back {high}");
+        let aggressive = over_seeds(&signs, |it| it.style_rate(0)).interval().lower;
+        let conservative = over_seeds(&signs, |it| it.style_rate(1)).interval().upper;
+        assert!(aggressive > conservative, "aggressive {aggressive} conservative {conservative}");
+    }
+}
+
+#[test]
+fn v50_a_changer_without_a_reason_shows_none_of_it() {
+    let population = population(true);
+    for flow in VEHICLES_PER_HOUR_AND_LANE {
+        let signs = replications("control", &population, flow);
+        let high = over_seeds(&signs, Signs::hazard_ratio).interval().upper;
+        assert!(high < 3.0, "the control is held up for a reason: {high}");
+        let high = over_seeds(&signs, |it| it.gaining / it.changes).interval().upper;
+        assert!(high < 0.7, "the control gains: {high}");
+        let aggressive = over_seeds(&signs, |it| it.style_rate(0)).interval().lower;
+        let conservative = over_seeds(&signs, |it| it.style_rate(1)).interval().upper;
+        assert!(aggressive <= conservative, "the control's styles differ: {aggressive} {conservative}");
+    }
+}

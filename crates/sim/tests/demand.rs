@@ -1,0 +1,135 @@
+//! Who arrives, and when: arrivals of a Poisson process, drawn by shares, that nothing on the road delays.
+
+mod roads;
+
+use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_models::Style;
+use laneweave_network::Network;
+use laneweave_sim::{Class, Demand, Event, Setup, World, WorldError};
+use roads::{Road, drivers};
+
+fn styles() -> Vec<Style> {
+    vec![drivers::aggressive(), drivers::conservative()]
+}
+
+fn world(network: Network, demand: Demand, step: f64) -> World {
+    World::new(network, styles(), demand, Setup { step, seed: 11, threads: 1 }).unwrap()
+}
+
+#[test]
+fn v27_arrivals_within_ten_seconds_are_poisson() {
+    const BINS: u32 = 20_000;
+    const MEAN: f64 = 2.5;
+    let network = Road { length: 60.0, ..Road::default() }.network();
+    let demand = drivers::demand(&network, 900.0, 0.0, &[0.5, 0.5]);
+    let mut world = world(network, demand, 1.0);
+    let counts: Vec<u64> = (0..BINS)
+        .map(|_| {
+            let before = world.arrived();
+            (0..10).for_each(|_| world.step());
+            world.arrived() - before
+        })
+        .collect();
+    let n = f64::from(BINS);
+    let mean = counts.iter().sum::<u64>() as f64 / n;
+    let variance = counts.iter().map(|it| (*it as f64 - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    // Mean headway 4 s, within 1.96 standard errors.
+    let headway = 10.0 / mean;
+    assert!((headway - 4.0).abs() < 1.96 * 4.0 / (n * MEAN).sqrt(), "{headway} s");
+    assert!((variance / mean - 1.0).abs() < 0.05, "dispersion {}", variance / mean);
+    for (count, probability) in [(0, 0.082085), (1, 0.205212), (2, 0.256516)] {
+        let share = counts.iter().filter(|it| **it == count).count() as f64 / n;
+        let error = (probability * (1.0 - probability) / n as f64).sqrt();
+        assert!((share - probability).abs() < 3.0 * error, "{share} of the bins hold {count}");
+    }
+    // The counts of neighbouring bins have nothing to do with each other.
+    let products = counts.windows(2).map(|it| (it[0] as f64 - mean) * (it[1] as f64 - mean)).sum::<f64>();
+    let autocorrelation = products / ((n - 1.0) * variance);
+    assert!(autocorrelation.abs() < 1.96 / n.sqrt(), "{autocorrelation}");
+}
+
+#[test]
+fn a_full_road_delays_no_arrival() {
+    let arrivals = |lanes| {
+        let network = Road { lanes, length: 1000.0, ..Road::default() }.network();
+        let demand = drivers::demand(&network, 4000.0, 0.1, &[0.5, 0.5]);
+        let mut world = world(network, demand, 0.1);
+        let arrived: Vec<u64> = (0..6000)
+            .map(|_| {
+                world.step();
+                world.arrived()
+            })
+            .collect();
+        (arrived, world.waiting())
+    };
+    let ((one, waiting_for_one), (four, waiting_for_four)) = (arrivals(1), arrivals(4));
+    assert!(waiting_for_one > 100 && waiting_for_four == 0);
+    assert_eq!(one, four);
+}
+
+#[test]
+fn classes_styles_and_destinations_come_in_their_shares() {
+    let plan = Motorway { length_m: 2000.0, off_ramp_at: vec![1000.0], ..Motorway::default() };
+    let network = motorway(&plan).unwrap().network().unwrap().0;
+    assert_eq!(network.exits.len(), 2);
+    let demand = drivers::demand(&network, 3000.0, 0.1, &[0.119, 0.881]);
+    let mut world = world(network, demand, 0.5);
+    let (mut entered, mut trucks, mut aggressive, mut to_the_ramp) = (0.0, 0.0, 0.0, 0.0);
+    for _ in 0..2 * 3600 {
+        world.step();
+        let is_new = |id| world.events().contains(&Event::Entered(id));
+        for vehicle in world.vehicles().filter(|it| it.car.x < 60.0 && is_new(it.car.id)) {
+            entered += 1.0;
+            trucks += f64::from(u8::from(vehicle.car.class == Class::Truck));
+            aggressive += f64::from(u8::from(vehicle.style().name == "aggressive"));
+            to_the_ramp += f64::from(u8::from(vehicle.car.goal.destination() == Some(1)));
+        }
+    }
+    assert_eq!(entered as u64, world.counts().entered);
+    for (count, share) in [(trucks, 0.1), (aggressive, 0.119), (to_the_ramp, 0.5)] {
+        let error = (share * (1.0 - share) / entered as f64).sqrt();
+        assert!((count / entered - share).abs() < 2.6 * error, "{} of {entered}", count / entered);
+    }
+}
+
+#[test]
+fn entrances_share_the_demand_by_their_lanes() {
+    let plan = Motorway { length_m: 2000.0, on_ramp_at: vec![1000.0], ..Motorway::default() };
+    let network = motorway(&plan).unwrap().network().unwrap().0;
+    let lanes: Vec<usize> = network.entrances.iter().map(|it| it.chains.len()).collect();
+    assert_eq!(lanes, [3, 1]);
+    let demand = drivers::demand(&network, 4000.0, 0.0, &[1.0]);
+    assert_eq!(demand.rates, [3000.0, 1000.0]);
+    assert_eq!(demand.destinations, [1.0]);
+}
+
+#[test]
+fn a_demand_or_step_without_sense_is_refused_with_its_value() {
+    let network = || Road::default().network();
+    let refusal = |change: &dyn Fn(&mut Demand), step| {
+        let mut demand = drivers::demand(&network(), 100.0, 0.1, &[0.5, 0.5]);
+        change(&mut demand);
+        World::new(network(), styles(), demand, Setup { step, seed: 1, threads: 1 }).err()
+    };
+    let message = |change: &dyn Fn(&mut Demand)| refusal(change, 0.1).unwrap().to_string();
+    assert_eq!(refusal(&|_| (), 0.1), None);
+    assert_eq!(refusal(&|_| (), 0.001), Some(WorldError::Step(0.001)));
+    assert!(matches!(refusal(&|_| (), f64::NAN), Some(WorldError::Step(_))));
+    assert_eq!(
+        message(&|it| it.rates[0] = -1.0),
+        "a demand in veh/h is -1: it must be a number not below 0 and not above 100000"
+    );
+    assert_eq!(
+        message(&|it| it.trucks = 1.5),
+        "the share of trucks is 1.5: it must be a number not below 0 and not above 1"
+    );
+    assert_eq!(
+        message(&|it| it.destinations[0] = f64::NAN),
+        "the weight of an exit is NaN: it must be a number not below 0"
+    );
+    assert_eq!(refusal(&|it| it.population.clear(), 0.1), Some(WorldError::NoCharacters));
+    assert_eq!(
+        refusal(&|it| it.population.iter_mut().for_each(|share| share.weight = 0.0), 0.1),
+        Some(WorldError::NoCharacters)
+    );
+}

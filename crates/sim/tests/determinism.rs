@@ -1,0 +1,120 @@
+//! The order of vehicles, of chains and of threads changes nothing, bit for bit; nor does a mirror.
+
+mod roads;
+
+use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_models::Style;
+use laneweave_models::change::{LaneChangeModel, Mcdm, Rule};
+use laneweave_network::{ChainIndex, Network};
+use laneweave_sim::{Class, NewVehicle, Setup, World};
+use roads::{Road, drivers};
+
+/// Three lanes of 4 km with an on-ramp and an off-ramp.
+fn ramps() -> Network {
+    let plan = Motorway {
+        length_m: 4000.0,
+        on_ramp_at: vec![1000.0],
+        off_ramp_at: vec![2500.0],
+        lanelet_length_m: 200.0,
+        ..Motorway::default()
+    };
+    motorway(&plan).unwrap().network().unwrap().0
+}
+
+fn styles() -> Vec<Style> {
+    vec![drivers::aggressive(), drivers::conservative()]
+}
+
+/// State after three minutes of dense traffic of both styles with trucks.
+fn hash(network: Network, seed: u64, threads: usize) -> u64 {
+    let demand = drivers::demand(&network, 5000.0, 0.1, &[0.3, 0.7]);
+    let mut world = World::new(network, styles(), demand, Setup { step: 0.1, seed, threads }).unwrap();
+    (0..1800).for_each(|_| world.step());
+    assert!(world.counts().discretionary_changes > 20 && world.counts().route_changes > 20);
+    world.state_hash()
+}
+
+#[test]
+fn v29_neither_threads_nor_the_storage_of_chains_nor_a_second_run_changes_a_bit() {
+    let first = hash(ramps(), 1, 1);
+    assert_eq!(hash(ramps(), 1, 1), first);
+    assert_eq!(hash(ramps(), 1, 2), first);
+    assert_eq!(hash(ramps(), 1, 4), first);
+    assert_eq!(hash(ramps().with_chains_reversed(), 1, 1), first);
+    assert_eq!(hash(ramps().with_chains_reversed(), 1, 2), first);
+}
+
+#[test]
+fn v29_another_seed_is_another_run() {
+    let hashes = [1, 2, 3].map(|seed| hash(ramps(), seed, 1));
+    assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[2] != hashes[0]);
+}
+
+/// A style without chance, that is easily moved: it wants to change when G > θ.
+fn resolute(style: Style) -> Style {
+    let LaneChangeModel::Mcdm(mcdm) = style.change else { unreachable!() };
+    Style { change: LaneChangeModel::Mcdm(Mcdm { rule: Rule::Threshold, theta: 0.02, ..mcdm }), ..style }
+}
+
+#[test]
+fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their_names() {
+    const VEHICLES: u32 = 120;
+    const STEPS: usize = 70;
+    // With a step as long as an epoch nothing is drawn when a driver begins.
+    let setup = Setup { step: 1.0, seed: 1, threads: 1 };
+    let run = |order: &mut dyn Iterator<Item = u32>| {
+        let network = Road { lanes: 3, length: 4000.0, ..Road::default() }.network();
+        let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
+        let characters = styles().into_iter().map(resolute).collect();
+        let mut world = World::new(network, characters, nobody, setup).unwrap();
+        let mut number_of = Vec::new();
+        for number in order {
+            number_of.push(number);
+            world.place(NewVehicle {
+                chain: ChainIndex(number % 3),
+                x: 20.0 + 26.0 * f64::from(number),
+                speed: 18.0 + f64::from(number * 7 % 9),
+                class: if number % 10 == 0 { Class::Truck } else { Class::Car },
+                character: u32::from(number % 4 != 0),
+                destination: Some(0),
+            });
+        }
+        (0..STEPS).for_each(|_| world.step());
+        let mut state: Vec<_> = world
+            .vehicles()
+            .map(|it| (number_of[it.car.id as usize], it.spot.chain, it.car.x.to_bits(), it.car.speed.to_bits()))
+            .collect();
+        state.sort_unstable();
+        (state, world.counts().discretionary_changes)
+    };
+    let (forward, changes) = run(&mut (0..VEHICLES));
+    assert!(changes > 10 && forward.len() > 50, "{changes} changes, {} on the road", forward.len());
+    let (backward, _) = run(&mut (0..VEHICLES).rev());
+    assert!(backward == forward, "{:?}", forward.iter().zip(&backward).find(|(a, b)| a != b));
+}
+
+#[test]
+fn v38_a_mirrored_road_mirrors_all_trajectories() {
+    const MINUTES: u32 = 4;
+    let world = |is_mirrored| {
+        let network = Road { lanes: 3, length: 3000.0, is_mirrored, ..Road::default() }.network();
+        let demand = drivers::demand(&network, 4500.0, 0.15, &[0.5, 0.5]);
+        World::new(network, styles(), demand, Setup { step: 0.1, seed: 5, threads: 1 }).unwrap()
+    };
+    let (mut original, mut image) = (world(false), world(true));
+    for _ in 0..MINUTES * 600 {
+        original.step();
+        image.step();
+        assert_eq!(original.on_road(), image.on_road());
+        for (one, other) in original.vehicles().zip(image.vehicles()) {
+            assert_eq!((one.car.id, one.spot, one.car.phase), (other.car.id, other.spot, other.car.phase));
+            assert_eq!(one.car.x.to_bits(), other.car.x.to_bits());
+            assert_eq!(one.car.speed.to_bits(), other.car.speed.to_bits());
+            assert_eq!(one.lateral_offset(), -other.lateral_offset());
+            let (pose, mirrored) = (one.pose(), other.pose());
+            assert_eq!((pose.at.x, pose.at.y), (mirrored.at.x, -mirrored.at.y));
+            assert_eq!(pose.heading, -mirrored.heading);
+        }
+    }
+    assert!(original.counts().discretionary_changes > 50);
+}
