@@ -2,32 +2,39 @@
 //! emergency braking.
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
-use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::ChainIndex;
 
+use crate::clock::Clock;
 use crate::plan::Plan;
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Car, Lane, Mind, Phase};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
-/// Road kept before the end of a lane, and before the last place for a change, to steer on [m].
-const ROOM_AT_THE_END: f64 = 15.0;
+/// Road kept before the end of a lane, and before the last place for a change, to steer on [m]: what a truck needs to
+/// get past another vehicle and into the lane.
+const ROOM_AT_THE_END: f64 = 16.0;
+/// What is left of it when it is used [m].
+const LEAST_ROOM: f64 = 1.0;
+/// Who has waited this long [s] for a gap, and hardly moves [m/s], uses that room.
+const WAITS: f64 = 8.0;
+const HARDLY_MOVES: f64 = 3.0;
 /// Drivers who desire no more than this stop at the last place for a change [m/s]; the faster slow down to half of
 /// what they desire beyond it (ours: in a town one waits for a gap, on a motorway one does not stop).
 const WAITS_BELOW: f64 = 17.0;
 
 /// All drivers of a lane choose their accelerations.
-pub(crate) fn accelerate(scene: &Scene, dt: f64, chain: ChainIndex, plan: &mut Plan) {
+pub(crate) fn accelerate(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan) {
     let cars = scene.cars(chain);
     let lane_end = lane_end(scene, chain);
     plan.accelerations.clear();
     for (index, car) in cars.iter().enumerate() {
         let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
-        let usual = cars.get(index + 1).filter(|_| follows_only).and_then(|it| behind(scene, car, it, dt));
+        let usual = cars.get(index + 1).filter(|_| follows_only).and_then(|it| behind(scene, car, it, clock.dt));
         let acceleration = match usual {
             Some(acceleration) => acceleration,
-            None => with_care(scene, dt, Spot { chain, index }, lane_end, plan),
+            None => with_care(scene, clock, Spot { chain, index }, lane_end, plan),
         };
         plan.accelerations.push(acceleration);
     }
@@ -52,14 +59,15 @@ fn behind(scene: &Scene, car: &Car, leader: &Car, dt: f64) -> Option<f64> {
 /// Every case: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may have
 /// to decide.
 #[inline(never)]
-fn with_care(scene: &Scene, dt: f64, spot: Spot, lane_end: Option<f64>, plan: &mut Plan) -> f64 {
+fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>, plan: &mut Plan) -> f64 {
     let car = scene.car(spot);
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(car), leader);
-    let (wish, lane_end) = heed(scene, spot, pace(car), wish, lane_end);
+    let (wish, lane_end) = heed(scene, clock, spot, wish, lane_end);
     let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
-    let bounded = bound(car.speed, bound(car.speed, acceleration, leader, dt), lane_end, dt);
+    let behind_leader = bound(car.speed, acceleration, leader, clock.dt);
+    let bounded = bound(car.speed, behind_leader, lane_end, clock.dt);
     if let Some(twin) = mind(scene, spot).twin.filter(|_| !car.is_shadow) {
         plan.couples.push((spot.index as u32, twin));
     }
@@ -86,19 +94,18 @@ fn within(value: f64, low: f64, high: f64) -> f64 {
 /// What a driver accelerates who heeds more than its leader, and the end of its lane.
 fn heed(
     scene: &Scene,
+    clock: Clock,
     spot: Spot,
-    pace: Pace,
     behind_leader: f64,
     lane_end: Option<f64>,
 ) -> (f64, Option<Ahead>) {
     let car = scene.car(spot);
     let (mut wish, mut obstacle) = (behind_leader, None);
     if car.phase == Phase::Wants || car.heeds_more {
-        wish = wish.min(beyond_the_leader(scene, spot, pace));
+        wish = wish.min(beyond_the_leader(scene, clock, spot));
     }
     if let Some(end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
-        // Who changes already uses the road that others keep free to steer on.
-        let kept = if car.phase == Phase::Changes { 1.0 } else { ROOM_AT_THE_END };
+        let kept = kept_room(scene, clock, spot);
         wish = wish.min(approach(car.speed, end - kept - car.x, 0.0));
         obstacle = Some(Ahead::standing(end - car.x));
     }
@@ -128,13 +135,34 @@ fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
     &scene.lanes[spot.chain.at()].minds()[spot.index]
 }
 
-/// What a driver heeds beside its leader.
-fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
+/// Road that a driver keeps before the place where it has to have left its lane [m]. Who changes already uses it; so
+/// does who has waited there in vain, if only the vehicle behind is in the way: of two drivers side by side who want
+/// each other's lane the one ahead moves on, and both can go.
+fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let moves_up = match car.phase {
+        Phase::Changes => true,
+        Phase::Wants => {
+            let waited = f64::from(clock.step - mind.since) * clock.dt;
+            let least = scene.characters[car.character as usize].safety.min_gap;
+            waited > WAITS
+                && car.speed < HARDLY_MOVES
+                && leader_beside(scene, spot).is_none_or(|it| it.gap >= least)
+        }
+        Phase::Cruises | Phase::Aborts => false,
+    };
+    if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
+}
+
+/// What a driver heeds beside its leader.
+fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let pace = pace(car);
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
     if car.phase == Phase::Wants {
-        acceleration = fall_in(scene, spot, pace).max(-style.manner.adjust_deceleration);
+        let falling_in = style.follow.acceleration(pace, leader_beside(scene, spot));
+        acceleration = falling_in.max(-style.manner.adjust_deceleration);
     }
     if let Some((gap, speed)) = mind.lets_in {
         let ahead = Ahead { gap: f64::from(gap).max(0.1), speed: f64::from(speed) };
@@ -142,20 +170,19 @@ fn beyond_the_leader(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }
     if mind.last_place.is_finite() && matches!(car.phase, Phase::Cruises | Phase::Wants) {
-        let room = mind.last_place - ROOM_AT_THE_END - car.x;
+        let room = mind.last_place - kept_room(scene, clock, spot) - car.x;
         let passing = 0.5 * (pace.desired - WAITS_BELOW).max(0.0);
         acceleration = acceleration.min(approach(car.speed, room, passing).max(-2.0 * COMFORTABLE_BRAKING));
     }
     acceleration
 }
 
-/// Adjusts the speed to the leader on the lane that a driver waits to change to.
-fn fall_in(scene: &Scene, spot: Spot, pace: Pace) -> f64 {
-    let (car, mind) = (scene.car(spot), mind(scene, spot));
-    let Some(beside) = scene.network.chain(spot.chain).beside(mind.side, car.x) else { return f64::INFINITY };
-    let from = scene.viewpoint_at(beside.chain, beside.across(car.x), car.id, car.goal.destination());
-    let follow: &FollowingModel = &scene.characters[car.character as usize].follow;
-    follow.acceleration(pace, scene.ahead(from))
+/// The leader on the lane that a driver waits to change to.
+fn leader_beside(scene: &Scene, spot: Spot) -> Option<Ahead> {
+    let car = scene.car(spot);
+    let beside = scene.network.chain(spot.chain).beside(mind(scene, spot).side, car.x)?;
+    let x = beside.across(car.x);
+    scene.ahead(scene.viewpoint_at(beside.chain, x, car.id, car.goal.destination()))
 }
 
 /// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.

@@ -21,6 +21,9 @@ const ASKS_FROM: f64 = 0.3;
 const VOLUNTARY_DESIRE: f64 = 0.3;
 /// What a driver who lets another in leaves beyond its usual gap [m].
 const ROOM_TO_YIELD: f64 = 1.0;
+/// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
+const STANDS_IN_VAIN: f32 = 60.0;
+const AT_THE_PLACE: f64 = 20.0;
 /// Standstill below this speed [m/s].
 const STANDSTILL: f64 = 0.1;
 
@@ -70,8 +73,13 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, hints: &mut [usize; 2], p
     plan.tally.considerations += 1;
     let mut note = note(scene, moment, spot, style);
     let waypoint = scene.navigator.waypoint(car.goal.destination(), spot.chain);
-    if !waypoint.leads_on(car.x) {
-        note.rerouted = Some(scene.navigator.nearest(spot.chain, car.x));
+    // Where it stands in vain, the driver takes another way if there is one.
+    let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - car.x < AT_THE_PLACE;
+    let beyond = waypoint.last_place + 1.0;
+    let has_another_way = stands_in_vain && scene.navigator.reachable(spot.chain, beyond).next().is_some();
+    if !waypoint.leads_on(car.x) || has_another_way {
+        let from = if has_another_way { beyond } else { car.x };
+        note.rerouted = Some(scene.navigator.nearest(spot.chain, from));
         note.gives_up = true;
         plan.tally.missed_turns += 1;
         plan.notes.push(note);

@@ -259,9 +259,9 @@ fn destinations(navigator: &Navigator, gate: &Gate, weights: &[f64]) -> Vec<(Des
 /// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
 pub(crate) fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
     /// Braking that an entering driver puts up with [m/s²].
-    const GENTLE: f64 = 1.0;
+    const GENTLE: f64 = 0.5;
     /// Who would have to enter slower than this share of the leader's speed waits.
-    const SHARE_OF_LEADER: f64 = 0.9;
+    const SHARE_OF_LEADER: f64 = 1.0;
     let Some(ahead) = ahead else { return Some(desired) };
     let fits = |speed: f64| {
         let demanded = style.follow.acceleration(Pace::new(speed, desired), Some(ahead));

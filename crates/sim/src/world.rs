@@ -176,7 +176,7 @@ impl World {
             let chain = ChainIndex(index as u32);
             plan.clear();
             decide(&scene, moment, chain, plan);
-            accelerate(&scene, moment.clock.dt, chain, plan);
+            accelerate(&scene, moment.clock, chain, plan);
         });
         couple(&self.lanes, &mut self.plans);
     }

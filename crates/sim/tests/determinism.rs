@@ -58,12 +58,13 @@ fn resolute(style: Style) -> Style {
 
 #[test]
 fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their_names() {
-    const VEHICLES: u32 = 120;
+    // So far apart that no two of them ever ask for one gap in the same step, which their names would decide.
+    const VEHICLES: u32 = 90;
     const STEPS: usize = 70;
-    // With a step as long as an epoch nothing is drawn when a driver begins.
+    // With a step as long as an epoch, nothing is drawn when a driver begins.
     let setup = Setup { step: 1.0, seed: 1, threads: 1 };
     let run = |order: &mut dyn Iterator<Item = u32>| {
-        let network = Road { lanes: 3, length: 4000.0, ..Road::default() }.network();
+        let network = Road { lanes: 2, length: 4000.0, ..Road::default() }.network();
         let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
         let characters = styles().into_iter().map(resolute).collect();
         let mut world = World::new(network, characters, nobody, setup).unwrap();
@@ -71,8 +72,8 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
         for number in order {
             number_of.push(number);
             world.place(NewVehicle {
-                chain: ChainIndex(number % 3),
-                x: 20.0 + 26.0 * f64::from(number),
+                chain: ChainIndex(number % 2),
+                x: 20.0 + 40.0 * f64::from(number),
                 speed: 18.0 + f64::from(number * 7 % 9),
                 class: if number % 10 == 0 { Class::Truck } else { Class::Car },
                 character: u32::from(number % 4 != 0),
@@ -90,7 +91,7 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
     let (forward, changes) = run(&mut (0..VEHICLES));
     assert!(changes > 10 && forward.len() > 50, "{changes} changes, {} on the road", forward.len());
     let (backward, _) = run(&mut (0..VEHICLES).rev());
-    assert!(backward == forward, "{:?}", forward.iter().zip(&backward).find(|(a, b)| a != b));
+    assert!(backward == forward, "{changes} changes went another way");
 }
 
 #[test]

@@ -1,0 +1,111 @@
+//! No vehicle appears or vanishes, and traffic is the same whatever the step.
+
+mod roads;
+
+use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_network::Network;
+use laneweave_sim::{Event, Setup, World};
+use roads::{Road, drivers};
+
+fn world(network: Network, total: f64, step: f64, seed: u64) -> World {
+    let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
+    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, characters, demand, Setup { step, seed, threads: 1 }).unwrap()
+}
+
+#[test]
+fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_the_road() {
+    let plan = Motorway {
+        lanes: 2,
+        length_m: 3000.0,
+        on_ramp_at: vec![1000.0],
+        off_ramp_at: vec![2000.0],
+        ..Motorway::default()
+    };
+    // More than the road can take, so that queues grow.
+    let mut world = world(motorway(&plan).unwrap().network().unwrap().0, 7500.0, 0.1, 3);
+    let (mut entered, mut left, mut ids) = (0, 0, std::collections::BTreeSet::new());
+    for _ in 0..6000 {
+        world.step();
+        let counts = world.counts();
+        assert_eq!(world.arrived(), counts.entered + world.waiting() as u64);
+        assert_eq!(counts.entered, counts.left + world.on_road() as u64);
+        for event in world.events() {
+            match event {
+                Event::Entered(vehicle) => {
+                    entered += 1;
+                    assert!(ids.insert(*vehicle), "{vehicle} entered twice");
+                }
+                Event::Left { vehicle, duration } => {
+                    left += 1;
+                    assert!(*duration > 0.0 && ids.remove(vehicle), "{vehicle} left twice");
+                }
+                Event::LaneChange(_) => {}
+            }
+        }
+        assert_eq!((entered, left), (counts.entered, counts.left));
+        assert_eq!(ids.len(), world.on_road());
+        assert!(world.vehicles().all(|it| ids.contains(&it.car.id)));
+    }
+    assert!(world.waiting() > 50 && left > 300);
+}
+
+#[test]
+fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
+    const LENGTH: f64 = 1500.0;
+    let mut world = world(Road { lanes: 2, length: LENGTH, ..Road::default() }.network(), 1500.0, 0.1, 4);
+    let (mut updates, mut distance, mut durations) = (0, 0.0, 0.0);
+    for _ in 0..3000 {
+        let before: std::collections::BTreeMap<u32, f64> =
+            world.vehicles().map(|it| (it.car.id, it.car.x)).collect();
+        updates += before.len() as u64;
+        world.step();
+        let after: std::collections::BTreeMap<u32, f64> =
+            world.vehicles().map(|it| (it.car.id, it.car.x)).collect();
+        distance += before.iter().filter_map(|(id, x)| after.get(id).map(|it| it - x)).sum::<f64>();
+        durations += world.events().iter().map(|it| if let Event::Left { duration, .. } = it { *duration } else { 0.0 }).sum::<f64>();
+    }
+    let tally = world.tally();
+    assert_eq!(tally.updates, updates);
+    // The last step of those who left ended beyond the road.
+    let last_steps = tally.distance - distance;
+    assert!(last_steps > 0.0 && last_steps < 5.0 * world.counts().left as f64, "{last_steps} m");
+    assert_eq!(world.counts().trip_time, durations);
+}
+
+/// Flow [veh/h] and the numbers of lane changes of saturated roads of two lanes, one for each seed.
+fn saturated(step: f64) -> (f64, Vec<f64>) {
+    const SEEDS: u64 = 6;
+    const WARM_UP: f64 = 300.0;
+    const HOURS: f64 = 0.3;
+    let mut left = 0;
+    let mut rates = Vec::new();
+    for seed in 0..SEEDS {
+        let mut world = world(Road { lanes: 2, length: 3000.0, ..Road::default() }.network(), 6000.0, step, seed);
+        (0..(WARM_UP / step) as u32).for_each(|_| world.step());
+        world.reset_counts();
+        (0..(3600.0 * HOURS / step) as u32).for_each(|_| world.step());
+        left += world.counts().left;
+        rates.push(1000.0 * world.counts().discretionary_changes as f64 / world.tally().distance);
+        assert!(world.waiting() > 0);
+    }
+    (left as f64 / (HOURS * SEEDS as f64), rates)
+}
+
+/// Mean, and the half-width of its 95 % confidence interval (Student, 5 degrees of freedom).
+fn mean_of_six(values: &[f64]) -> (f64, f64) {
+    const STUDENT: f64 = 2.571;
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    (mean, STUDENT * (variance / n).sqrt())
+}
+
+#[test]
+fn v25_half_the_step_changes_neither_flow_nor_lane_change_rate() {
+    let ((coarse, coarse_rates), (fine, fine_rates)) = (saturated(0.1), saturated(0.05));
+    eprintln!("flow {coarse} {fine} rates {:?} {:?}", mean_of_six(&coarse_rates), mean_of_six(&fine_rates));
+    assert!((coarse - fine).abs() < 0.01 * fine, "flows {coarse} and {fine} veh/h");
+    let ((one, width), (other, other_width)) = (mean_of_six(&coarse_rates), mean_of_six(&fine_rates));
+    assert!((one - other).abs() < width.hypot(other_width), "{one} ± {width} and {other} ± {other_width}");
+}

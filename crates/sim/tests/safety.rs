@@ -1,0 +1,95 @@
+//! Nobody collides, overlaps, gets stuck or drives backwards, on random roads and at ramps.
+
+mod roads;
+
+use std::collections::BTreeMap;
+
+use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_network::Network;
+use laneweave_sim::{Setup, World};
+use proptest::prelude::*;
+use roads::{Road, drivers};
+
+/// Hardest braking of any vehicle [m/s²].
+const HARDEST_BRAKING: f32 = 8.0;
+
+fn world(network: Network, total: f64, trucks: f64, aggressive: f64, setup: Setup) -> World {
+    let demand = drivers::demand(&network, total, trucks, &[aggressive, 1.0 - aggressive]);
+    World::new(network, vec![drivers::aggressive(), drivers::conservative()], demand, setup).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn v18_in_random_traffic_everybody_moves_as_vehicles_can(
+        lanes in 1_usize..5, limit in 8.0..45.0_f64, load in 200.0..3000.0_f64, trucks in 0.0..0.5_f64,
+        aggressive in 0.0..1.0_f64, step in 0.05..0.5_f64, seed in 0..u64::MAX,
+    ) {
+        let network = Road { lanes, length: 1500.0, limit, ..Road::default() }.network();
+        let total = load * lanes as f64;
+        let mut world = world(network, total, trucks, aggressive, Setup { step, seed, threads: 1 });
+        let mut places: BTreeMap<u32, f64> = BTreeMap::new();
+        for _ in 0..(240.0 / step) as u32 {
+            world.step();
+            let scene = world.scene();
+            for lane in scene.lanes {
+                for pair in lane.cars().windows(2) {
+                    prop_assert!(pair[1].rear() > pair[0].x, "{} touches {}", pair[0].id, pair[1].id);
+                }
+            }
+            let mut now = BTreeMap::new();
+            for vehicle in world.vehicles() {
+                let car = vehicle.car;
+                prop_assert!(car.x.is_finite() && car.speed.is_finite() && car.acceleration.is_finite());
+                prop_assert!(car.speed >= 0.0);
+                prop_assert!(car.acceleration >= -HARDEST_BRAKING - 1e-4, "{} m/s²", car.acceleration);
+                prop_assert!(f64::from(car.acceleration) <= car.class.body().strength);
+                if let Some(before) = places.get(&car.id) {
+                    prop_assert!(car.x >= *before, "{} went back", car.id);
+                    prop_assert!(car.x - before <= (car.speed + 8.0 * step) * step + 1e-9);
+                }
+                now.insert(car.id, car.x);
+            }
+            places = now;
+        }
+        prop_assert_eq!((world.tally().collisions, world.counts().overlaps, world.tally().stuck), (0, 0, 0));
+        prop_assert!(world.counts().left > 0);
+    }
+}
+
+/// Ten minutes at a bottleneck: nothing bad happens, hardly anybody misses a turn or brakes in an emergency.
+fn ten_minutes(plan: &Motorway, total: f64) {
+    for aggressive in [0.12, 1.0] {
+        let network = motorway(plan).unwrap().network().unwrap().0;
+        let mut world = world(network, total, 0.1, aggressive, Setup { step: 0.1, seed: 1, threads: 1 });
+        (0..6000).for_each(|_| world.step());
+        let (tally, counts) = (world.tally(), world.counts());
+        let hundreds_of_km = tally.distance / 1e5;
+        eprintln!("{aggressive}: {counts:?} {tally:?}");
+        assert!(counts.left > 100 && counts.route_changes > 20);
+        assert_eq!((tally.collisions, counts.overlaps, tally.stuck), (0, 0, 0), "share of FVDM {aggressive}");
+        assert!(tally.missed_turns as f64 <= 0.02 * counts.entered as f64, "{} missed", tally.missed_turns);
+        let emergencies = tally.emergency_brakings as f64 / hundreds_of_km;
+        assert!(emergencies <= 1.0, "{emergencies} emergencies on 100 veh-km");
+    }
+}
+
+fn four_km() -> Motorway {
+    Motorway { length_m: 4000.0, lanelet_length_m: 200.0, ..Motorway::default() }
+}
+
+#[test]
+fn traffic_merges_at_an_on_ramp() {
+    ten_minutes(&Motorway { on_ramp_at: vec![1500.0], ..four_km() }, 4000.0);
+}
+
+#[test]
+fn traffic_leaves_at_an_off_ramp() {
+    ten_minutes(&Motorway { off_ramp_at: vec![2500.0], ..four_km() }, 4000.0);
+}
+
+#[test]
+fn traffic_leaves_a_lane_that_ends() {
+    ten_minutes(&Motorway { lane_drop_at: Some(2500.0), ..four_km() }, 3000.0);
+}
