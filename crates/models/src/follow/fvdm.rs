@@ -94,8 +94,24 @@ fn tanh(x: f64) -> f64 {
     1.0 - 2.0 / (libm::exp(2.0 * x) + 1.0)
 }
 
+/// Who closes in takes no liberties with the gap: without a time gap of its own, this model would brake too late
+/// behind the leader of a tight lane change (ours).
+#[inline]
+fn wary(pace: Pace, ahead: Option<Ahead>) -> Pace {
+    /// Closing speed from which the usual gap counts in full [m/s].
+    const CLOSING: f64 = 5.0;
+    match ahead {
+        Some(ahead) if pace.tightness < 1.0 && pace.speed > ahead.speed => {
+            let share = ((pace.speed - ahead.speed) / CLOSING).min(1.0);
+            Pace { tightness: pace.tightness + (1.0 - pace.tightness) * share, ..pace }
+        }
+        _ => pace,
+    }
+}
+
 impl CarFollowing for Fvdm {
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
+        let pace = wary(pace, ahead);
         let optimal = self.signed_optimal_speed(pace, ahead.map_or(f64::INFINITY, |ahead| ahead.gap));
         let relative = match ahead {
             Some(ahead) if ahead.gap <= self.range(pace) => ahead.speed - pace.speed,
