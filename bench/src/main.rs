@@ -1,107 +1,177 @@
-//! Updates per second on a motorway of 40 km and four lanes, and how the cost grows from a thousand vehicles to a
-//! million at equal density.
-#[path = "../../crates/sim/tests/roads/drivers.rs"]
-mod drivers;
+//! How fast the step is, and how its cost grows.
+//!
+//! `cargo run --release -p laneweave-bench` measures a motorway of 40 km and four lanes with some 2,000 vehicles at
+//! steps of 0.1 s, every driver not in a change considering lanes once a second, on one core and on two; then the
+//! same density on longer roads, up to a million vehicles; then the memory that a vehicle needs.
+//! `… -- short` runs 300 steps of the first on one core only, to count instructions under callgrind.
 
+use std::error::Error;
+use std::path::Path;
 use std::time::Instant;
 
-use laneweave_maps::generate::{Motorway, motorway};
-use laneweave_network::Network;
-use laneweave_sim::{Class, NewVehicle, Random, Purpose, Setup, World};
+use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::models::Style;
+use laneweave::network::{ChainIndex, Network};
+use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, Share, World};
+use laneweave::style::{DEFAULT_MIXTURE, StyleTemplate, find};
 
+const LANES: usize = 4;
 /// Vehicles per kilometre and lane.
 const DENSITY: f64 = 12.5;
-const LANES: usize = 4;
+/// Mean speed that goes with it [m/s]; what drives out at the end comes in at the start.
+const SPEED: f64 = 26.0;
+const TRUCKS: f64 = 0.1;
+const STEP_S: f64 = 0.1;
+/// Steps before measuring, in which changes of lane set in.
+const WARM_UP: u32 = 100;
 
-fn network(length_m: f64) -> Network {
-    let plan = Motorway { lanes: LANES, length_m, lanelet_length_m: 500.0, ..Motorway::default() };
-    motorway(&plan).unwrap().network().unwrap().0
+fn main() -> Result<(), Box<dyn Error>> {
+    if std::env::args().nth(1).as_deref() == Some("short") {
+        return Measurement::of(40.0, 1, 300).map(|it| it.print("40 km"));
+    }
+    let one = Measurement::of(40.0, 1, 6000)?;
+    one.print("40 km");
+    let two = Measurement::of(40.0, 2, 6000)?;
+    two.print("40 km");
+    say(&format!("two threads are {:.2} times one", two.rate() / one.rate()));
+    let small = Measurement::of(20.0, 1, 6000)?;
+    small.print("20 km");
+    Measurement::of(200.0, 1, 600)?.print("200 km");
+    Measurement::of(2_000.0, 1, 60)?.print("2,000 km");
+    let large = Measurement::of(20_000.0, 1, 30)?;
+    large.print("20,000 km");
+    say(&format!("from a thousand to a million, an update costs {:.2} times", small.rate() / large.rate()));
+    Measurement::of(20_000.0, 2, 30)?.print("20,000 km");
+    Ok(())
 }
 
-/// A motorway with traffic on it, driven in.
-fn world(length_m: f64, threads: usize, warm_up: u32) -> World {
-    let network = network(length_m);
-    let flow = DENSITY * 26.0 * 3.6 * LANES as f64;
-    let demand = drivers::demand(&network, flow, 0.1, &[0.119, 0.881]);
-    let setup = Setup { step: 0.1, seed: 1, threads };
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
-    let chains: Vec<(u32, f64)> = network.chains.iter().zip(0..).map(|(c, i)| (i, c.length)).collect();
-    let mut world = World::new(network, characters, demand, setup).unwrap();
-    let random = Random::new(7);
-    let mut number = 0;
-    for (chain, length) in chains {
+/// One measured run.
+struct Measurement {
+    vehicles: usize,
+    threads: usize,
+    updates: u64,
+    considerations: u64,
+    steps: u32,
+    wall_s: f64,
+    bytes_per_vehicle: f64,
+    hash: u64,
+}
+
+impl Measurement {
+    /// Runs `steps` steps of a motorway of `length_km`.
+    fn of(length_km: f64, threads: usize, steps: u32) -> Result<Measurement, Box<dyn Error>> {
+        let mut world = empty_motorway(1000.0 * length_km, threads)?;
+        let empty_mb = resident_mb();
+        fill(&mut world);
+        for _ in 0..WARM_UP {
+            world.step();
+        }
+        world.reset_counts();
+        let start = Instant::now();
+        for _ in 0..steps {
+            world.step();
+        }
+        let wall_s = start.elapsed().as_secs_f64();
+        let vehicles = world.on_road();
+        let tally = world.tally();
+        Ok(Measurement {
+            vehicles,
+            threads,
+            updates: tally.updates,
+            considerations: tally.considerations,
+            steps,
+            wall_s,
+            bytes_per_vehicle: (resident_mb() - empty_mb) * 1024.0 * 1024.0 / vehicles as f64,
+            hash: world.state_hash(),
+        })
+    }
+
+    /// Updates per second.
+    fn rate(&self) -> f64 {
+        self.updates as f64 / self.wall_s
+    }
+
+    fn print(&self, road: &str) {
+        let considered_every = self.updates as f64 * STEP_S / self.considerations as f64;
+        let simulated_s = f64::from(self.steps) * STEP_S;
+        say(&format!(
+            "{road:>9}: {:7} vehicles, {} thread(s): {:5.1} million updates/s, {:5.1} ns each, {:5.1} times real time, considered every {considered_every:.2} s, {:4.0} B/vehicle, hash {:016x}",
+            self.vehicles,
+            self.threads,
+            self.rate() / 1e6,
+            1e9 / self.rate(),
+            simulated_s / self.wall_s,
+            self.bytes_per_vehicle,
+            self.hash,
+        ));
+    }
+}
+
+fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {
+    let road = Motorway { lanes: LANES, length_m, lanelet_length_m: 500.0, ..Motorway::default() };
+    let network = motorway(&road)?.network()?.0;
+    let (characters, shares) = population()?;
+    let demand = Demand::even(&network, DENSITY * SPEED * 3.6 * LANES as f64, TRUCKS, shares);
+    Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)
+}
+
+/// The drivers that come where nothing is said.
+fn population() -> Result<(Vec<Style>, Vec<Share>), Box<dyn Error>> {
+    let (mut characters, mut shares) = (Vec::new(), Vec::new());
+    for ((name, weight), number) in DEFAULT_MIXTURE.iter().zip(0..) {
+        let source = find(name, Path::new(""), String::new).map_err(|fault| fault.to_string())?;
+        let template = StyleTemplate::parse(&source).map_err(|fault| fault.to_string())?;
+        let (first, count) = (characters.len() as u32, template.characters());
+        for character in 0..count {
+            let drawn = template.draw(&Random::new(1), number, character);
+            characters.push(drawn.map_err(|fault| fault.to_string())?);
+        }
+        shares.push(Share { weight: *weight, first, count });
+    }
+    Ok((characters, shares))
+}
+
+/// Puts vehicles on the road, some closer together than others.
+fn fill(world: &mut World) {
+    let random = Random::new(1);
+    let places: Vec<(ChainIndex, f64)> = free_places(world.network(), &random);
+    for ((chain, x), number) in places.into_iter().zip(0..) {
+        let draw = |purpose| random.uniform(number, purpose, 0);
+        let character = (draw(Purpose::Character) * 512.0) as u32;
+        let is_aggressive = draw(Purpose::Style) < 1.0 / 8.4;
+        world.place(NewVehicle {
+            chain,
+            x,
+            speed: SPEED,
+            class: if draw(Purpose::Class) < TRUCKS { Class::Truck } else { Class::Car },
+            character: if is_aggressive { character } else { 512 + character },
+            destination: Some(0),
+        });
+    }
+}
+
+fn free_places(network: &Network, random: &Random) -> Vec<(ChainIndex, f64)> {
+    let mut places = Vec::new();
+    for (chain, index) in network.chains.iter().zip(0..) {
         let mut x = 40.0;
-        while x < length {
-            let draw = |purpose| random.uniform(number, purpose, 0);
-            let class = if draw(Purpose::Class) < 0.1 { Class::Truck } else { Class::Car };
-            world.place(NewVehicle {
-                chain: laneweave_network::ChainIndex(chain),
-                x,
-                speed: 25.0,
-                class,
-                character: u32::from(draw(Purpose::Style) > 0.119),
-                destination: Some(0),
-            });
-            x += 1000.0 / DENSITY * (0.7 + 0.6 * draw(Purpose::Arrival));
-            number += 1;
+        while x < chain.length {
+            places.push((ChainIndex(index), x));
+            let share = 0.7 + 0.6 * random.uniform(places.len() as u32, Purpose::Arrival, 0);
+            x += 1000.0 / DENSITY * share;
         }
     }
-    for _ in 0..warm_up {
-        world.step();
-    }
-    world
+    places
 }
 
+/// Resident memory of the process [MB]; 0 where the system does not tell.
 fn resident_mb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find(|line| line.starts_with("VmRSS")).unwrap_or("VmRSS: 0 kB");
-    line.split_whitespace().nth(1).and_then(|it| it.parse::<f64>().ok()).unwrap_or(0.0) / 1024.0
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    let kilobytes = line.and_then(|it| it.trim().trim_end_matches(" kB").parse::<f64>().ok());
+    kilobytes.unwrap_or(0.0) / 1024.0
 }
 
-fn measure(name: &str, length_m: f64, threads: usize, steps: u32) -> f64 {
-    let before = resident_mb();
-    let mut world = world(length_m, threads, 300);
-    world.reset_counts();
-    let start = Instant::now();
-    for _ in 0..steps {
-        world.step();
-    }
-    let wall = start.elapsed().as_secs_f64();
-    let tally = world.tally();
-    let rate = tally.updates as f64 / wall;
-    let n = world.on_road();
-    println!(
-        "{name}: {n} vehicles, {threads} threads: {:.2} M updates/s, {:.1} ns/update, step {:.0} us, considered every {:.2} s, {:.0} B/vehicle, hash {:016x}",
-        rate / 1e6, 1e9 / rate, wall / f64::from(steps) * 1e6,
-        tally.updates as f64 * 0.1 / tally.considerations as f64,
-        (resident_mb() - before) * 1048576.0 / n as f64,
-        world.state_hash()
-    );
-    rate
-}
-
-fn main() {
-    let mode = std::env::args().nth(1).unwrap_or_default();
-    if mode == "short" {
-        measure("40 km", 40_000.0, 1, 300);
-        return;
-    }
-    if mode == "million" {
-        measure("20,000 km", 20_000_000.0, 1, 30);
-        return;
-    }
-    if mode == "one" {
-        measure("40 km", 40_000.0, 1, 3000);
-        return;
-    }
-    let one = measure("40 km", 40_000.0, 1, 3000);
-    let two = measure("40 km", 40_000.0, 2, 3000);
-    println!("two threads: {:.2} times", two / one);
-    if mode == "scale" {
-        measure("20 km", 20_000.0, 1, 3000);
-        measure("200 km", 200_000.0, 1, 1000);
-        measure("2,000 km", 2_000_000.0, 1, 100);
-        measure("20,000 km", 20_000_000.0, 1, 50);
-        measure("20,000 km", 20_000_000.0, 2, 50);
-    }
+#[expect(clippy::print_stdout, reason = "this is what it is for")]
+fn say(line: &str) {
+    println!("{line}");
 }

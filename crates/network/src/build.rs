@@ -44,7 +44,7 @@ pub enum NetworkError {
 
 impl Network {
     /// A chain is cut at the next lanelet beyond this length, so that some hundred vehicles stand on one at most [m].
-    const CHAIN_LENGTH: f64 = 4000.0;
+    const CHAIN_LENGTH: f64 = 5000.0;
 
     /// Builds the network of `lanelets`.
     ///

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle, Thread};
 
 /// How often an idle worker looks for work before it parks.
-const SPINS: u32 = 50_000;
+const SPINS: u32 = 20_000;
 /// Into how many portions per thread the items are cut, so that an uneven load evens out.
 const PORTIONS: usize = 8;
 
@@ -139,8 +139,11 @@ struct Finish<'a>(&'a Shared);
 
 impl Drop for Finish<'_> {
     fn drop(&mut self) {
+        let mut spins = 0;
         while self.0.busy.load(Ordering::Acquire) > 0 {
-            std::hint::spin_loop();
+            spins += 1;
+            // A worker that has lost its core needs it back.
+            if spins > SPINS { thread::yield_now() } else { std::hint::spin_loop() }
         }
     }
 }
