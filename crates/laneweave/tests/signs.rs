@@ -52,10 +52,11 @@ fn population(is_control: bool) -> (Vec<Style>, Vec<Share>) {
     let mut characters: Vec<Style> = Vec::new();
     let mut shares = Vec::new();
     for ((name, weight), number) in DEFAULT_MIXTURE.iter().zip(0..) {
-        let source = find(name, std::path::Path::new(""), String::new).unwrap();
-        let template = StyleTemplate::parse(&source).unwrap();
+        let source = find(name, std::path::Path::new(""), String::new).expect("a built-in style");
+        let template = StyleTemplate::parse(&source).expect("a valid style");
         let (first, count) = (characters.len() as u32, template.characters());
-        let drawn = (0..count).map(|character| template.draw(&Random::new(1), number, character).unwrap());
+        let drawn =
+            (0..count).map(|character| template.draw(&Random::new(1), number, character).expect("a driver"));
         characters.extend(drawn);
         shares.push(Share { weight: *weight, first, count });
     }
@@ -68,12 +69,12 @@ fn population(is_control: bool) -> (Vec<Style>, Vec<Share>) {
 
 fn replicate(population: &(Vec<Style>, Vec<Share>), vehicles_per_hour: f64, seed: u64) -> Signs {
     let road = Motorway { lanes: LANES, length_m: LENGTH_M, ..Motorway::default() };
-    let network = motorway(&road).unwrap().network().unwrap().0;
+    let network = motorway(&road).expect("a road").network().expect("a network").0;
     let (characters, shares) = population.clone();
     let conservative_from = shares[1].first;
     let demand = Demand::even(&network, vehicles_per_hour, 0.1, shares);
     let setup = Setup { step: STEP_S, seed, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).unwrap();
+    let mut world = World::new(network, characters, demand, setup).expect("a world");
     for _ in 0..(WARM_UP_S / STEP_S) as u32 {
         world.step();
     }
@@ -111,7 +112,7 @@ fn replicate(population: &(Vec<Style>, Vec<Share>), vehicles_per_hour: f64, seed
 }
 
 fn over_seeds(signs: &[Signs], of: impl Fn(&Signs) -> f64) -> Estimate {
-    mean(&signs.iter().map(of).collect::<Vec<_>>()).unwrap()
+    mean(&signs.iter().map(of).collect::<Vec<_>>()).expect("replications")
 }
 
 /// The replications at one flow, and what they say on screen.
@@ -122,7 +123,7 @@ fn replications(name: &str, population: &(Vec<Style>, Vec<Share>), flow: f64) ->
         let estimate = over_seeds(&signs, of);
         format!("{:.3} ±{:.3}", estimate.mean, estimate.half_width)
     };
-    println!(
+    eprintln!(
         "{name} at {flow} veh/h/lane: {} changes/veh-km (aggressive {}, conservative {}), hazard ratio {}, gaining {}, back {}",
         show(Signs::rate),
         show(|it| it.style_rate(0)),

@@ -94,9 +94,7 @@ impl Polyline {
         all.dedup_by(|b, a| (*b - *a) * shorter < 0.01);
         let last = all.len() - 1;
         all[last] = 1.0;
-        Polyline::new(
-            all.iter().map(|f| left.at(f * left.length()).midpoint(&right.at(f * right.length()))),
-        )
+        Polyline::new(all.iter().map(|f| left.at(f * left.length()).midpoint(&right.at(f * right.length()))))
     }
 
     /// Its points.

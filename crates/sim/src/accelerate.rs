@@ -31,7 +31,8 @@ pub(crate) fn accelerate(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &
     plan.accelerations.clear();
     for (index, car) in cars.iter().enumerate() {
         let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
-        let usual = cars.get(index + 1).filter(|_| follows_only).and_then(|it| behind(scene, car, it, clock.dt));
+        let usual =
+            cars.get(index + 1).filter(|_| follows_only).and_then(|it| behind(scene, car, it, clock.dt));
         let acceleration = match usual {
             Some(acceleration) => acceleration,
             None => with_care(scene, clock, Spot { chain, index }, lane_end, plan),

@@ -131,7 +131,14 @@ fn milestone(car: &Car, mind: &Mind, chain: ChainIndex, what: Reached) -> Milest
 }
 
 /// A change goes on, or back. Both entries of a vehicle come to the same. Returns whether this entry has ended.
-fn go_across(car: &mut Car, mind: &mut Mind, chain: ChainIndex, clock: Clock, duration: f64, plan: &mut Plan) -> bool {
+fn go_across(
+    car: &mut Car,
+    mind: &mut Mind,
+    chain: ChainIndex,
+    clock: Clock,
+    duration: f64,
+    plan: &mut Plan,
+) -> bool {
     // A slow vehicle needs way, not time.
     let pace = (car.speed * duration / least_way(car)).clamp(SLOWEST_SHARE, 1.0);
     let step = (pace * clock.dt / duration) as f32;

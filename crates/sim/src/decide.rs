@@ -1,11 +1,11 @@
 //! Drivers consider lanes, wait for gaps, and call changes off.
 
+use laneweave_models::Style;
 use laneweave_models::change::{
-    Appraisal, GapPair, Refusal, Situation, at_least_once_in, deceleration_to_avoid,
-    time_to_collision, urgency,
+    Appraisal, GapPair, Refusal, Situation, at_least_once_in, deceleration_to_avoid, time_to_collision,
+    urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
-use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Side};
 
 use crate::clock::Clock;
@@ -222,8 +222,7 @@ fn count_signs(here: f64, desired: f64, options: &[Option<Choice>; 2], has_chose
 fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     let car = scene.car(spot);
     let mind = mind(scene, spot);
-    let request =
-        |ask: Ask| Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask };
+    let request = |ask: Ask| Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask };
     match gap(scene, spot, mind.side) {
         None => {}
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
@@ -329,8 +328,7 @@ impl Gap {
         if let Some(found) = self.follower {
             let behind = driver(scene, scene.car(found.spot));
             let gap = found.distance - me.length;
-            let demanded =
-                behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed: car.speed }));
+            let demanded = behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed: car.speed }));
             let pair = GapPair { gap, follower: behind.pace.speed, leader: car.speed, demanded };
             style.safety.accept(pair, dt)?;
         }

@@ -67,7 +67,8 @@ impl Demand {
         let trucks = std::iter::once(("the share of trucks", self.trucks, 1.0));
         for (what, value, largest) in rates.chain(exits).chain(styles).chain(trucks) {
             if !(0.0..=largest).contains(&value) {
-                let limit = if largest == f64::MAX { String::new() } else { format!(" and not above {largest}") };
+                let limit =
+                    if largest == f64::MAX { String::new() } else { format!(" and not above {largest}") };
                 return Err(WorldError::Demand { what, value, limit });
             }
         }
@@ -245,9 +246,7 @@ fn destinations(navigator: &Navigator, gate: &Gate, weights: &[f64]) -> Vec<(Des
     let mut reachable = Vec::new();
     for (exit, weight) in weights.iter().enumerate() {
         let destination = Some(exit as u16);
-        let leads = |chain: &ChainIndex| {
-            navigator.waypoint(destination, *chain).changes < Waypoint::NO_WAY
-        };
+        let leads = |chain: &ChainIndex| navigator.waypoint(destination, *chain).changes < Waypoint::NO_WAY;
         if *weight > 0.0 && gate.chains.iter().any(leads) {
             sum += weight;
             reachable.push((destination, sum));

@@ -7,7 +7,10 @@ use crate::traffic::{Kind, VehicleId};
 
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "there are few events in a step, and a box would be allocated in it")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there are few events in a step, and a box would be allocated in it"
+)]
 pub enum Event {
     /// A vehicle entered.
     Entered(VehicleId),

@@ -140,7 +140,8 @@ fn plan(network: &Network, exit: &Gate) -> Vec<Waypoint> {
             let chain = network.chain(*from);
             let stretch = &chain.stretches(*side)[*number];
             let until = here.last_place - Navigator::ROOM_FOR_A_CHANGE;
-            let last_place = if until.is_finite() { stretch.end.min(stretch.back(until)) } else { stretch.end };
+            let last_place =
+                if until.is_finite() { stretch.end.min(stretch.back(until)) } else { stretch.end };
             if last_place > stretch.start {
                 let time = here.time - stretch.across(0.0) / chains[index.at()].limit(0.0);
                 let next = chain.following.first().copied();
@@ -150,9 +151,10 @@ fn plan(network: &Network, exit: &Gate) -> Vec<Waypoint> {
     }
     for index in 0..chains.len() {
         if table[index].changes > 0 {
-            let best = chains[index].following.iter().min_by(|a, b| {
-                table[a.at()].cost().total_cmp(&table[b.at()].cost())
-            });
+            let best = chains[index]
+                .following
+                .iter()
+                .min_by(|a, b| table[a.at()].cost().total_cmp(&table[b.at()].cost()));
             table[index].next = best.copied();
         }
     }

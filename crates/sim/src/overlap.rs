@@ -34,19 +34,19 @@ fn overlaps_of(scene: &Scene, spot: Spot) -> u64 {
     let lane = &scene.lanes[spot.chain.at()];
     let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
     let body = Rectangle::of(scene, spot);
-    let mut places = vec![(spot.chain, car.x)];
-    places.extend(mind.twin.map(|twin| (twin.chain, twin.x)));
-    for (chain, x) in places.clone() {
-        for side in Side::BOTH {
-            if let Some(beside) = scene.network.chain(chain).beside(side, x) {
-                places.push((beside.chain, beside.across(x)));
-            }
-        }
-    }
-    places.sort_by_key(|(chain, _)| *chain);
-    places.dedup_by_key(|(chain, _)| *chain);
+    let own = [Some((spot.chain, car.x)), mind.twin.map(|twin| (twin.chain, twin.x))];
+    let beside = |side, place: Option<(ChainIndex, f64)>| {
+        let (chain, x) = place?;
+        scene.network.chain(chain).beside(side, x).map(|it| (it.chain, it.across(x)))
+    };
+    let [left, right] = Side::BOTH.map(|side| own.map(|place| beside(side, place)));
+    let places = [own[0], own[1], left[0], left[1], right[0], right[1]];
     let mut count = 0;
-    for (chain, x) in places {
+    for (number, place) in places.iter().enumerate() {
+        let Some((chain, x)) = *place else { continue };
+        if places[..number].iter().flatten().any(|(earlier, _)| *earlier == chain) {
+            continue;
+        }
         let cars = scene.cars(chain);
         let from = cars.partition_point(|other| other.x < x - REACH);
         for (index, other) in cars.iter().enumerate().skip(from).take_while(|(_, it)| it.x < x + REACH) {
@@ -72,11 +72,7 @@ impl Rectangle {
     fn of(scene: &Scene, spot: Spot) -> Rectangle {
         let lane = &scene.lanes[spot.chain.at()];
         let car = &lane.cars()[spot.index];
-        Rectangle {
-            pose: pose(scene, spot),
-            length: f64::from(car.length),
-            width: car.class.body().width,
-        }
+        Rectangle { pose: pose(scene, spot), length: f64::from(car.length), width: car.class.body().width }
     }
 
     /// Half its extent along the direction (`x`, `y`).

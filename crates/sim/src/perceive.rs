@@ -20,11 +20,7 @@ pub fn perceive<'a>(scene: &'a Scene, me: Spot, side: Side) -> Option<Situation<
 #[inline]
 pub fn driver<'a>(scene: &Scene<'a>, car: &Car) -> Driver<'a> {
     Driver {
-        pace: Pace {
-            speed: car.speed,
-            desired: f64::from(car.desired),
-            tightness: f64::from(car.tightness),
-        },
+        pace: Pace { speed: car.speed, desired: f64::from(car.desired), tightness: f64::from(car.tightness) },
         follow: &scene.characters[car.character as usize].follow,
         length: f64::from(car.length),
     }
@@ -91,8 +87,7 @@ impl<'a> Outlook<'a> {
     fn merging(&self, side: Side, from: Viewpoint, sight: &LaneSight) -> Option<Merging<'a>> {
         let wants_in = |spot: Spot| {
             let lane = &self.scene.lanes[spot.chain.at()];
-            lane.cars()[spot.index].phase == Phase::Wants
-                && lane.minds()[spot.index].side == side.opposite()
+            lane.cars()[spot.index].phase == Phase::Wants && lane.minds()[spot.index].side == side.opposite()
         };
         let behind = sight.follower.map(|it| it.spot).filter(|it| wants_in(*it));
         let spot = behind.or(sight.leader.filter(|it| wants_in(*it)))?;
@@ -108,14 +103,12 @@ impl<'a> Outlook<'a> {
         let mind = &self.scene.lanes[spot.chain.at()].minds()[spot.index];
         Some(Merging { driver, blocked, freed: my_leader, urgency: f64::from(mind.urgency) })
     }
-
 }
 
 fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, from: Viewpoint, sight: &LaneSight) -> LaneView<'a> {
-    let behind = sight.follower.map(|it| Behind {
-        gap: it.distance - me.length,
-        driver: driver(scene, scene.car(it.spot)),
-    });
+    let behind = sight
+        .follower
+        .map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, scene.car(it.spot)) });
     LaneView {
         ahead: sight.ahead,
         behind,
@@ -132,5 +125,10 @@ fn route_view(scene: &Scene, chain: ChainIndex, from: Viewpoint) -> RouteView {
     if !waypoint.leads_on(from.x) {
         return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };
     }
-    RouteView { changes: waypoint.changes, remaining: waypoint.last_place - from.x, onward, alternative: None }
+    RouteView {
+        changes: waypoint.changes,
+        remaining: waypoint.last_place - from.x,
+        onward,
+        alternative: None,
+    }
 }

@@ -111,7 +111,9 @@ impl Pool {
         let work: *const (dyn Fn(usize) + Sync + '_) = &raw const call;
         // SAFETY: only the lifetime changes; `call` outlives every use, since this function returns only when all
         // workers are done with it.
-        let work = unsafe { std::mem::transmute::<*const (dyn Fn(usize) + Sync + '_), *const (dyn Fn(usize) + Sync)>(work) };
+        let work = unsafe {
+            std::mem::transmute::<*const (dyn Fn(usize) + Sync + '_), *const (dyn Fn(usize) + Sync)>(work)
+        };
         let task = Task { work, items: items.len(), portion };
         self.start(task);
         let finish = Finish(&self.shared);

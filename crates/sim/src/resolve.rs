@@ -108,7 +108,8 @@ impl World {
         let shadow = Car { x: gap.x, is_shadow: true, heeds_more: false, ..*car };
         let twin = Some(Twin { chain: spot.chain, x: car.x, stretch: 1.0 });
         let stretch = gap.scale as f32;
-        let shadow_mind = Mind { twin, stretch, came_from: None, last_place: f64::INFINITY, lets_in: None, ..*mind };
+        let shadow_mind =
+            Mind { twin, stretch, came_from: None, last_place: f64::INFINITY, lets_in: None, ..*mind };
         self.lanes[gap.chain.at()].insert(shadow, shadow_mind);
     }
 
@@ -249,7 +250,11 @@ impl World {
             self.note_milestone(&Milestone {
                 id: car.id,
                 record: mind.record,
-                what: if car.phase == Phase::Changes && mind.progress >= 0.5 { Reached::End } else { Reached::Nothing },
+                what: if car.phase == Phase::Changes && mind.progress >= 0.5 {
+                    Reached::End
+                } else {
+                    Reached::Nothing
+                },
                 at: (from, car.x),
                 shadow: None,
                 speed: car.speed,

@@ -128,7 +128,13 @@ impl<'a> Scene<'a> {
 
     /// The viewpoint from `x` on another chain.
     #[inline]
-    pub fn viewpoint_at(&self, chain: ChainIndex, x: f64, id: VehicleId, destination: Destination) -> Viewpoint {
+    pub fn viewpoint_at(
+        &self,
+        chain: ChainIndex,
+        x: f64,
+        id: VehicleId,
+        destination: Destination,
+    ) -> Viewpoint {
         Viewpoint { chain, x, ahead: self.lanes[chain.at()].ahead_of(x), id, destination }
     }
 
@@ -167,7 +173,13 @@ impl<'a> Scene<'a> {
     }
 
     /// A vehicle that forked off to another chain than `next` and is still in the way.
-    fn beside_the_fork(&self, chain: ChainIndex, next: ChainIndex, base: f64, id: VehicleId) -> Option<Ahead> {
+    fn beside_the_fork(
+        &self,
+        chain: ChainIndex,
+        next: ChainIndex,
+        base: f64,
+        id: VehicleId,
+    ) -> Option<Ahead> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
         siblings
             .filter_map(|it| {

@@ -115,7 +115,12 @@ impl World {
     ///
     /// # Errors
     /// If the step is not between 0.01 and 1 s, there are no characters, or the demand is no demand.
-    pub fn new(network: Network, characters: Vec<Style>, demand: Demand, setup: Setup) -> Result<World, WorldError> {
+    pub fn new(
+        network: Network,
+        characters: Vec<Style>,
+        demand: Demand,
+        setup: Setup,
+    ) -> Result<World, WorldError> {
         if !(0.01..=1.0).contains(&setup.step) {
             return Err(WorldError::Step(setup.step));
         }

@@ -10,7 +10,7 @@ use roads::{Road, drivers};
 fn world(network: Network, total: f64, step: f64, seed: u64) -> World {
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
     let characters = vec![drivers::aggressive(), drivers::conservative()];
-    World::new(network, characters, demand, Setup { step, seed, threads: 1 }).unwrap()
+    World::new(network, characters, demand, Setup { step, seed, threads: 1 }).expect("the set-up makes sense")
 }
 
 #[test]
@@ -63,7 +63,11 @@ fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
         let after: std::collections::BTreeMap<u32, f64> =
             world.vehicles().map(|it| (it.car.id, it.car.x)).collect();
         distance += before.iter().filter_map(|(id, x)| after.get(id).map(|it| it - x)).sum::<f64>();
-        durations += world.events().iter().map(|it| if let Event::Left { duration, .. } = it { *duration } else { 0.0 }).sum::<f64>();
+        durations += world
+            .events()
+            .iter()
+            .map(|it| if let Event::Left { duration, .. } = it { *duration } else { 0.0 })
+            .sum::<f64>();
     }
     let tally = world.tally();
     assert_eq!(tally.updates, updates);
@@ -75,13 +79,14 @@ fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
 
 /// Flow [veh/h] and the numbers of lane changes of saturated roads of two lanes, one for each seed.
 fn saturated(step: f64) -> (f64, Vec<f64>) {
-    const SEEDS: u64 = 6;
+    const SEEDS: u64 = 10;
     const WARM_UP: f64 = 300.0;
-    const HOURS: f64 = 0.3;
+    const HOURS: f64 = 0.5;
     let mut left = 0;
     let mut rates = Vec::new();
     for seed in 0..SEEDS {
-        let mut world = world(Road { lanes: 2, length: 3000.0, ..Road::default() }.network(), 6000.0, step, seed);
+        let mut world =
+            world(Road { lanes: 2, length: 3000.0, ..Road::default() }.network(), 6000.0, step, seed);
         (0..(WARM_UP / step) as u32).for_each(|_| world.step());
         world.reset_counts();
         (0..(3600.0 * HOURS / step) as u32).for_each(|_| world.step());
@@ -92,9 +97,9 @@ fn saturated(step: f64) -> (f64, Vec<f64>) {
     (left as f64 / (HOURS * SEEDS as f64), rates)
 }
 
-/// Mean, and the half-width of its 95 % confidence interval (Student, 5 degrees of freedom).
-fn mean_of_six(values: &[f64]) -> (f64, f64) {
-    const STUDENT: f64 = 2.571;
+/// Mean, and the half-width of its 95 % confidence interval (Student, 9 degrees of freedom).
+fn mean_of_ten(values: &[f64]) -> (f64, f64) {
+    const STUDENT: f64 = 2.262;
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let variance = values.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / (n - 1.0);
@@ -104,8 +109,7 @@ fn mean_of_six(values: &[f64]) -> (f64, f64) {
 #[test]
 fn v25_half_the_step_changes_neither_flow_nor_lane_change_rate() {
     let ((coarse, coarse_rates), (fine, fine_rates)) = (saturated(0.1), saturated(0.05));
-    eprintln!("flow {coarse} {fine} rates {:?} {:?}", mean_of_six(&coarse_rates), mean_of_six(&fine_rates));
     assert!((coarse - fine).abs() < 0.01 * fine, "flows {coarse} and {fine} veh/h");
-    let ((one, width), (other, other_width)) = (mean_of_six(&coarse_rates), mean_of_six(&fine_rates));
+    let ((one, width), (other, other_width)) = (mean_of_ten(&coarse_rates), mean_of_ten(&fine_rates));
     assert!((one - other).abs() < width.hypot(other_width), "{one} ± {width} and {other} ± {other_width}");
 }

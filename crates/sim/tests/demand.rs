@@ -13,7 +13,8 @@ fn styles() -> Vec<Style> {
 }
 
 fn world(network: Network, demand: Demand, step: f64) -> World {
-    World::new(network, styles(), demand, Setup { step, seed: 11, threads: 1 }).unwrap()
+    World::new(network, styles(), demand, Setup { step, seed: 11, threads: 1 })
+        .expect("the set-up makes sense")
 }
 
 #[test]
@@ -39,7 +40,7 @@ fn v27_arrivals_within_ten_seconds_are_poisson() {
     assert!((variance / mean - 1.0).abs() < 0.05, "dispersion {}", variance / mean);
     for (count, probability) in [(0, 0.082085), (1, 0.205212), (2, 0.256516)] {
         let share = counts.iter().filter(|it| **it == count).count() as f64 / n;
-        let error = (probability * (1.0 - probability) / n as f64).sqrt();
+        let error = (probability * (1.0 - probability) / n).sqrt();
         assert!((share - probability).abs() < 3.0 * error, "{share} of the bins hold {count}");
     }
     // The counts of neighbouring bins have nothing to do with each other.
@@ -74,7 +75,7 @@ fn classes_styles_and_destinations_come_in_their_shares() {
     assert_eq!(network.exits.len(), 2);
     let demand = drivers::demand(&network, 3000.0, 0.1, &[0.119, 0.881]);
     let mut world = world(network, demand, 0.5);
-    let (mut entered, mut trucks, mut aggressive, mut to_the_ramp) = (0.0, 0.0, 0.0, 0.0);
+    let (mut entered, mut trucks, mut aggressive, mut to_the_ramp) = (0.0_f64, 0.0, 0.0, 0.0);
     for _ in 0..2 * 3600 {
         world.step();
         let is_new = |id| world.events().contains(&Event::Entered(id));
@@ -87,7 +88,7 @@ fn classes_styles_and_destinations_come_in_their_shares() {
     }
     assert_eq!(entered as u64, world.counts().entered);
     for (count, share) in [(trucks, 0.1), (aggressive, 0.119), (to_the_ramp, 0.5)] {
-        let error = (share * (1.0 - share) / entered as f64).sqrt();
+        let error = (share * (1.0 - share) / entered).sqrt();
         assert!((count / entered - share).abs() < 2.6 * error, "{} of {entered}", count / entered);
     }
 }

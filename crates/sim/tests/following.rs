@@ -79,7 +79,7 @@ fn one_lane(sets: &[Published], length: f64, is_ring: bool, step: f64) -> World 
     let network = Road { length, limit, is_ring, ..Road::default() }.network();
     let styles = sets.iter().map(|set| set.style(limit)).collect();
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
-    World::new(network, styles, nobody, Setup { step, seed: 1, threads: 1 }).unwrap()
+    World::new(network, styles, nobody, Setup { step, seed: 1, threads: 1 }).expect("the set-up makes sense")
 }
 
 /// Puts a car that drives on as the road leads at `x` [m] of the whole road.
@@ -93,7 +93,7 @@ fn place(world: &mut World, x: f64, speed: f64, character: u32) {
 }
 
 fn car(world: &World, id: u32) -> Car {
-    *world.vehicles().find(|vehicle| vehicle.car.id == id).unwrap().car
+    *world.vehicles().find(|vehicle| vehicle.car.id == id).expect("it is on the road").car
 }
 
 /// Time [s] and way [m] in which a car from rest reaches `share` of its desired speed.

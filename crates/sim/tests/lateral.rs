@@ -6,7 +6,7 @@ use laneweave_models::Style;
 use laneweave_models::change::{ConstantHazard, LaneChangeModel};
 use laneweave_models::follow::{FollowingModel, Fvdm};
 use laneweave_models::{Attention, Manner};
-use laneweave_network::{ChainIndex, Network, Pose};
+use laneweave_network::{ChainIndex, Network, Pose, Side};
 use laneweave_sim::{Class, Destination, Event, LaneChange, NewVehicle, Phase, Setup, World};
 use roads::{Road, WIDTH, drivers};
 
@@ -32,7 +32,8 @@ fn heedless(style: Style) -> Style {
 
 fn world(network: Network, styles: Vec<Style>, threads: usize) -> World {
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
-    World::new(network, styles, nobody, Setup { step: STEP, seed: 1, threads }).unwrap()
+    World::new(network, styles, nobody, Setup { step: STEP, seed: 1, threads })
+        .expect("the set-up makes sense")
 }
 
 fn put(world: &mut World, lane: u32, x: f64, speed: f64, class: Class, character: u32) {
@@ -55,16 +56,17 @@ struct Way {
     duration: f64,
 }
 
-/// One change of a lonely vehicle at `speed` [m/s] from lane `from` of two, up to a second after its end.
-fn lonely_change(road: Road, from: u32, class: Class, speed: f64) -> Way {
+/// One change of a lonely vehicle at `speed` [m/s] from `x` on lane `from` of two, up to a second after its end.
+fn lonely_change(road: Road, from: u32, x: f64, class: Class, speed: f64) -> Way {
     let style = heedless(eager(drivers::conservative()));
     let mut world = world(road.network(), vec![style], 1);
-    put(&mut world, from, 30.0, speed, class, 0);
+    put(&mut world, from, x, speed, class, 0);
     let (mut poses, mut offsets, mut duration, mut after) = (Vec::new(), Vec::new(), 0.0, 0);
     while after < 10 {
-        let vehicle = world.vehicles().next().unwrap();
+        let vehicle = world.vehicles().next().expect("it is on the road");
         let fast_side = if road.is_mirrored { -1.0 } else { 1.0 };
-        let lanes_moved = f64::from(vehicle.spot.chain.0) - f64::from(from);
+        // Chains are numbered row by row.
+        let lanes_moved = f64::from(vehicle.spot.chain.0 % 2) - f64::from(from);
         poses.push(vehicle.pose());
         offsets.push(vehicle.lateral_offset() + fast_side * WIDTH * lanes_moved);
         world.step();
@@ -78,10 +80,16 @@ fn lonely_change(road: Road, from: u32, class: Class, speed: f64) -> Way {
 fn v46_a_change_leads_smoothly_across_one_lane_and_back_to_its_heading() {
     for (from, side) in [(0, 1.0), (1, -1.0)] {
         for (class, speed) in [(Class::Car, 30.0), (Class::Car, 8.0), (Class::Truck, 22.0)] {
-            for is_mirrored in [false, true] {
-                let road = Road { lanes: 2, is_mirrored, ..Road::default() };
+            for (is_mirrored, crosses_a_chain_end) in
+                [(false, false), (true, false), (false, true), (true, true)]
+            {
+                // So long that its lanes are cut into several chains.
+                let road = Road { lanes: 2, length: 60_000.0, is_mirrored, ..Road::default() };
+                let chain_end = road.network().chains[0].length;
+                assert!(chain_end < road.length);
+                let x = if crosses_a_chain_end { chain_end - 2.0 * speed } else { 30.0 };
                 let side = if is_mirrored { -side } else { side };
-                let way = lonely_change(road, from, class, speed);
+                let way = lonely_change(road, from, x, class, speed);
                 let (first, last) = (way.poses[0], way.poses[way.poses.len() - 1]);
                 assert!((side * (last.at.y - first.at.y) - WIDTH).abs() < 1e-9);
                 assert_eq!((first.heading, last.heading), (0.0, 0.0));
@@ -102,7 +110,7 @@ fn v46_a_change_leads_smoothly_across_one_lane_and_back_to_its_heading() {
 #[test]
 fn v46_a_fast_change_takes_four_seconds_and_a_slow_one_as_long_as_it_needs_way() {
     let road = Road { lanes: 2, ..Road::default() };
-    let duration = |class, speed| lonely_change(road, 0, class, speed).duration;
+    let duration = |class, speed| lonely_change(road, 0, 30.0, class, speed).duration;
     assert!((duration(Class::Car, 30.0) - Manner::default().change_duration).abs() < 0.11);
     assert!((duration(Class::Car, 5.0) - 5.0).abs() < 0.11);
     assert!((duration(Class::Truck, 6.0) - 6.0).abs() < 0.11);
@@ -117,7 +125,7 @@ fn v46_in_a_curve_a_change_leads_just_as_smoothly_onto_a_shorter_or_longer_lane(
                 let road = Road { lanes: 2, length: 500.0, radius: RADIUS, is_mirrored, ..Road::default() };
                 let network = road.network();
                 assert!(network.chains[0].length > network.chains[1].length + 10.0);
-                let way = lonely_change(road, from, class, 15.0);
+                let way = lonely_change(road, from, 30.0, class, 15.0);
                 let centre_y = if is_mirrored { -RADIUS } else { RADIUS };
                 let radii: Vec<f64> = way.poses.iter().map(|it| it.at.x.hypot(it.at.y - centre_y)).collect();
                 let moved = inwards * (radii[0] - radii[radii.len() - 1]);
@@ -135,14 +143,34 @@ fn v46_in_a_curve_a_change_leads_just_as_smoothly_onto_a_shorter_or_longer_lane(
     }
 }
 
+#[test]
+fn v46_both_entries_of_a_vehicle_that_changes_drive_side_by_side() {
+    for radius in [f64::INFINITY, 120.0] {
+        let network = Road { lanes: 2, length: 500.0, radius, ..Road::default() }.network();
+        let mut world = world(network, vec![eager(drivers::aggressive())], 1);
+        put(&mut world, 0, 30.0, 15.0, Class::Car, 0);
+        let mut steps = 0;
+        for _ in 0..100 {
+            world.step();
+            let scene = world.scene();
+            let entries = [0, 1].map(|chain| scene.lanes[chain].cars().first());
+            if let [Some(slow), Some(fast)] = entries {
+                steps += 1;
+                assert_eq!(slow.speed.to_bits(), fast.speed.to_bits());
+                assert_ne!(slow.is_shadow, fast.is_shadow);
+                let beside = scene.network.chains[0].beside(Side::Left, slow.x).unwrap();
+                assert!((beside.across(slow.x) - fast.x).abs() < 0.02);
+            }
+        }
+        assert!((35..=45).contains(&steps), "{steps} steps");
+    }
+}
+
 /// Three lanes with a gap in the middle one, and at its height a vehicle on either side that wants into it.
 fn rivals(network: Network, first_lane: u32, threads: usize) -> World {
     let styles = vec![heedless(eager(drivers::conservative())), steadfast(heedless(drivers::aggressive()))];
-    let lane = |number: u32| {
-        let slow_side = network.chains.iter().zip(0..).filter(|(it, _)| it.right.is_empty());
-        let lowest = slow_side.map(|(_, index)| index).next().unwrap();
-        if lowest == 0 { number } else { 2 - number }
-    };
+    let is_reversed = !network.chains[0].right.is_empty();
+    let lane = |number: u32| if is_reversed { 2 - number } else { number };
     let (one, other, middle) = (lane(first_lane), lane(2 - first_lane), lane(1));
     let mut world = world(network, styles, threads);
     for chain in [one, other] {
@@ -200,7 +228,6 @@ fn v47_a_change_is_called_off_when_the_new_leader_brakes_hard_and_the_driver_ret
         }
         called_off.extend(changes(&world).copied());
     }
-    eprintln!("{called_off:?} {furthest}");
     assert_eq!(called_off.len(), 1);
     assert!(!called_off[0].is_completed);
     assert!(furthest > 0.1 && furthest < 0.5 * WIDTH, "{furthest} m");

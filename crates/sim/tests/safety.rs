@@ -15,7 +15,8 @@ const HARDEST_BRAKING: f32 = 8.0;
 
 fn world(network: Network, total: f64, trucks: f64, aggressive: f64, setup: Setup) -> World {
     let demand = drivers::demand(&network, total, trucks, &[aggressive, 1.0 - aggressive]);
-    World::new(network, vec![drivers::aggressive(), drivers::conservative()], demand, setup).unwrap()
+    World::new(network, vec![drivers::aggressive(), drivers::conservative()], demand, setup)
+        .expect("the set-up makes sense")
 }
 
 /// A random straight road, or a motorway with random ramps and an end of a lane.
@@ -27,16 +28,23 @@ fn any_road() -> impl Strategy<Value = Network> {
         |(lanes, speed_limit_kmh, on, off, lane_drop_at)| {
             let (on_ramp_at, off_ramp_at) = (on.into_iter().collect(), off.into_iter().collect());
             let length_m = 2000.0;
-            let plan =
-                Motorway { lanes, length_m, speed_limit_kmh, on_ramp_at, off_ramp_at, lane_drop_at, ..Motorway::default() };
-            motorway(&plan).unwrap().network().unwrap().0
+            let plan = Motorway {
+                lanes,
+                length_m,
+                speed_limit_kmh,
+                on_ramp_at,
+                off_ramp_at,
+                lane_drop_at,
+                ..Motorway::default()
+            };
+            motorway(&plan).expect("the motorway is possible").network().expect("the drawing is sound").0
         },
     );
     prop_oneof![straight, with_ramps]
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn v18_in_random_traffic_everybody_moves_as_vehicles_can(
@@ -77,12 +85,12 @@ proptest! {
 /// Ten minutes at a bottleneck: nothing bad happens, hardly anybody misses a turn or brakes in an emergency.
 fn ten_minutes(plan: &Motorway, total: f64) {
     for aggressive in [0.12, 1.0] {
-        let network = motorway(plan).unwrap().network().unwrap().0;
+        let network =
+            motorway(plan).expect("the motorway is possible").network().expect("the drawing is sound").0;
         let mut world = world(network, total, 0.1, aggressive, Setup { step: 0.1, seed: 1, threads: 1 });
         (0..6000).for_each(|_| world.step());
         let (tally, counts) = (world.tally(), world.counts());
         let hundreds_of_km = tally.distance / 1e5;
-        eprintln!("{aggressive}: {counts:?} {tally:?}");
         assert!(counts.left > 100 && counts.route_changes > 20);
         assert_eq!((tally.collisions, counts.overlaps, tally.stuck), (0, 0, 0), "share of FVDM {aggressive}");
         assert!(tally.missed_turns as f64 <= 0.02 * counts.entered as f64, "{} missed", tally.missed_turns);

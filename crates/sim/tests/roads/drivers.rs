@@ -54,7 +54,12 @@ pub(crate) fn aggressive() -> Style {
 }
 
 /// Demand `total` [veh/h], with a share of trucks and the given weights of the first characters.
-pub(crate) fn demand(network: &laneweave_network::Network, total: f64, trucks: f64, weights: &[f64]) -> Demand {
+pub(crate) fn demand(
+    network: &laneweave_network::Network,
+    total: f64,
+    trucks: f64,
+    weights: &[f64],
+) -> Demand {
     let population =
         weights.iter().zip(0..).map(|(weight, first)| Share { weight: *weight, first, count: 1 }).collect();
     Demand::even(network, total, trucks, population)

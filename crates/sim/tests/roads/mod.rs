@@ -37,9 +37,10 @@ impl Road {
 
     pub(crate) fn network(self) -> Network {
         let rows = self.rows();
-        let all = (0..rows).flat_map(|row| (0..self.lanes).map(move |lane| self.lanelet(row, lane))).collect();
+        let all =
+            (0..rows).flat_map(|row| (0..self.lanes).map(move |lane| self.lanelet(row, lane))).collect();
         let side = if self.is_mirrored { DrivingSide::Left } else { DrivingSide::Right };
-        Network::new(all, side).unwrap()
+        Network::new(all, side).expect("the lanelets fit")
     }
 
     fn rows(&self) -> usize {
@@ -60,7 +61,7 @@ impl Road {
         let next_row = if self.is_ring { (row + 1) % self.rows() } else { row + 1 };
         Lanelet {
             id: i64::from(self.index(row, lane).0) + 1,
-            centre: Polyline::between(&left_border, &right_border).unwrap(),
+            centre: Polyline::between(&left_border, &right_border).expect("the line has a length"),
             left_border,
             right_border,
             speed_limit: self.limit,
@@ -77,7 +78,8 @@ impl Road {
         let row_length = self.length / self.rows() as f64;
         let pieces = if self.radius.is_finite() { (row_length / Road::CHORD).ceil() as usize } else { 1 };
         let station = |piece| (row as f64 + piece as f64 / pieces as f64) * row_length;
-        Polyline::new((0..=pieces).map(|piece| self.point(station(piece), line as f64 * WIDTH))).unwrap()
+        Polyline::new((0..=pieces).map(|piece| self.point(station(piece), line as f64 * WIDTH)))
+            .expect("the line has a length")
     }
 
     /// The point at `station`, `beside` [m] to the fast side of the slow edge.

@@ -1,0 +1,87 @@
+//! A step of driven-in traffic takes no memory from the system.
+#![expect(unsafe_code, reason = "an allocator that counts can only be written so")]
+
+mod roads;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use laneweave_network::ChainIndex;
+use laneweave_sim::{Class, NewVehicle, Setup, World};
+use roads::{Road, drivers};
+
+/// The system's allocator, which counts what this thread asks for.
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+}
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `realloc`.
+        unsafe { System.realloc(block, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(block, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Number of allocations in one step.
+fn allocations_of_a_step(world: &mut World) -> u64 {
+    let before = ALLOCATIONS.get();
+    world.step();
+    ALLOCATIONS.get() - before
+}
+
+fn world(road: Road, total: f64) -> World {
+    let network = road.network();
+    let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
+    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, characters, demand, Setup { step: 0.1, seed: 1, threads: 1 })
+        .expect("the set-up makes sense")
+}
+
+#[test]
+fn steps_of_traffic_that_stays_in_its_lanes_allocate_nothing() {
+    let mut world = world(Road { length: 3000.0, is_ring: true, ..Road::default() }, 0.0);
+    for number in 0..100 {
+        let x = 30.0 * f64::from(number) + 10.0;
+        let (chain, character) = (ChainIndex(0), number % 2);
+        let class = if number % 10 == 0 { Class::Truck } else { Class::Car };
+        world.place(NewVehicle { chain, x, speed: 15.0, class, character, destination: None });
+    }
+    (0..600).for_each(|_| world.step());
+    assert_eq!((0..3000).map(|_| allocations_of_a_step(&mut world)).sum::<u64>(), 0);
+}
+
+#[test]
+fn steps_of_traffic_that_enters_changes_lanes_and_leaves_allocate_only_while_a_lane_is_fuller_than_ever() {
+    const STEPS: u64 = 3000;
+    let mut world = world(Road { lanes: 3, length: 9000.0, ..Road::default() }, 4000.0);
+    (0..12_000).for_each(|_| world.step());
+    let changes_before = world.counts().discretionary_changes;
+    let mut steps_that_allocate = 0;
+    for _ in 0..STEPS {
+        steps_that_allocate += u64::from(allocations_of_a_step(&mut world) > 0);
+    }
+    assert!(world.counts().discretionary_changes > changes_before + 100);
+    assert!(steps_that_allocate <= STEPS / 500, "{steps_that_allocate} of {STEPS} steps");
+}
