@@ -292,7 +292,7 @@ mod tests {
             assert_eq!((it.speed.reading, others), (reading, [reading; 4]), "{name}");
             let decision = match reading {
                 Reading::Literal => (Rule::Threshold, 0.0, 0.0),
-                Reading::Repaired => (Rule::Logit, 0.1125, 0.025),
+                Reading::Repaired => (Rule::Logit, 0.112, 0.014),
             };
             assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
         }

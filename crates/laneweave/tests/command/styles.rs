@@ -98,7 +98,7 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
         .ends_with("unknown value \"norma\"; did you mean \"normal\"?")
     );
     assert!(
-        refusal(|text| text.replace("sigma = 0.025", "sigma = 0")).contains("a logit rule without noise")
+        refusal(|text| text.replace("sigma = 0.014", "sigma = 0")).contains("a logit rule without noise")
     );
     assert!(refusal(|text| text.replace("model = \"idm\"", "")).contains("the key follow.model is missing"));
 }

@@ -20,8 +20,8 @@ pub(crate) fn conservative() -> Style {
         }),
         change: LaneChangeModel::Mcdm(Mcdm {
             rule: Rule::Logit,
-            theta: 0.1125,
-            sigma: 0.025,
+            theta: 0.112,
+            sigma: 0.014,
             speed: Speed { weight: 0.44, ..Speed::default() },
             route: Route { weight: 0.41, ..Route::default() },
             comfort: Comfort { weight: 0.09, beta: 2.3, ..Comfort::default() },
