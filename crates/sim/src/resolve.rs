@@ -261,6 +261,7 @@ impl World {
             });
         }
         self.counts.left += 1;
+        self.crowd -= 1;
         let duration = f64::from(self.clock.step - mind.entered) * self.clock.dt;
         self.counts.trip_time += duration;
         self.events.push(Event::Left { vehicle: car.id, duration });

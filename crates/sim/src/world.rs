@@ -40,7 +40,9 @@ pub struct World {
     demand: Demand,
     sources: Vec<Source>,
     random: Random,
-    pool: Pool,
+    /// All threads, and one alone for steps too short to share.
+    pools: [Pool; 2],
+    pub(crate) crowd: usize,
     next_id: VehicleId,
 }
 
@@ -135,7 +137,8 @@ impl World {
         Ok(World {
             sources: Source::all(&network, &navigator, &demand, &random),
             clock: Clock { step: 0, dt: setup.step },
-            pool: Pool::new(setup.threads),
+            pools: [Pool::new(setup.threads), Pool::new(1)],
+            crowd: 0,
             network,
             navigator,
             characters,
@@ -177,7 +180,7 @@ impl World {
         };
         let overtaking = self.network.driving_side.overtaking();
         let moment = Moment { clock: self.clock, random: &self.random, overtaking };
-        self.pool.each(&mut self.plans, |index, plan| {
+        self.pools[pool_for(self.crowd)].each(&mut self.plans, |index, plan| {
             let chain = ChainIndex(index as u32);
             plan.clear();
             decide(&scene, moment, chain, plan);
@@ -187,8 +190,8 @@ impl World {
     }
 
     fn advance(&mut self) {
-        let World { network, characters, clock, lanes, plans, pool, .. } = self;
-        pool.each_pair(lanes, plans, |index, lane, plan| {
+        let World { network, characters, clock, lanes, plans, pools, crowd, .. } = self;
+        pools[pool_for(*crowd)].each_pair(lanes, plans, |index, lane, plan| {
             let chain = ChainIndex(index as u32);
             advance(lane, chain, network.chain(chain).length, *clock, characters, plan);
         });
@@ -279,6 +282,7 @@ impl World {
         };
         self.lanes[chain.at()].insert(car, mind);
         self.counts.entered += 1;
+        self.crowd += 1;
     }
 
     /// Looks for overlaps once a second.
@@ -375,6 +379,12 @@ impl World {
         }
         hash.digest()
     }
+}
+
+/// Which pool moves so many vehicles: a step of fewer is over before another thread has begun.
+fn pool_for(crowd: usize) -> usize {
+    const WORTH_SHARING: usize = 300;
+    usize::from(crowd < WORTH_SHARING)
 }
 
 /// A vehicle on the road.
