@@ -9,10 +9,10 @@ use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
 
-/// Three lanes of 4 km with an on-ramp and an off-ramp.
+/// Three lanes of 10 km with an on-ramp and an off-ramp.
 fn ramps() -> Network {
     let plan = Motorway {
-        length_m: 4000.0,
+        length_m: 10_000.0,
         on_ramp_at: vec![1000.0],
         off_ramp_at: vec![2500.0],
         lanelet_length_m: 200.0,
@@ -25,12 +25,13 @@ fn styles() -> Vec<Style> {
     vec![drivers::aggressive(), drivers::conservative()]
 }
 
-/// State after two minutes of dense traffic of both styles with trucks.
+/// State after four minutes of dense traffic of both styles with trucks, enough of it to be shared among threads.
 fn hash(network: Network, seed: u64, threads: usize) -> u64 {
-    let demand = drivers::demand(&network, 5000.0, 0.1, &[0.3, 0.7]);
+    let demand = drivers::demand(&network, 6500.0, 0.1, &[0.3, 0.7]);
     let mut world = World::new(network, styles(), demand, Setup { step: 0.1, seed, threads })
         .expect("the set-up makes sense");
-    (0..1200).for_each(|_| world.step());
+    (0..2400).for_each(|_| world.step());
+    assert!(world.on_road() > 350);
     assert!(world.counts().discretionary_changes > 20 && world.counts().route_changes > 20);
     world.state_hash()
 }
