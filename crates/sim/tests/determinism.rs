@@ -25,13 +25,13 @@ fn styles() -> Vec<Style> {
     vec![drivers::aggressive(), drivers::conservative()]
 }
 
-/// State after four minutes of dense traffic of both styles with trucks, enough of it to be shared among threads.
+/// State after six minutes of dense traffic of both styles with trucks, enough of it to be shared among threads.
 fn hash(network: Network, seed: u64, threads: usize) -> u64 {
     let demand = drivers::demand(&network, 6500.0, 0.1, &[0.3, 0.7]);
     let mut world = World::new(network, styles(), demand, Setup { step: 0.1, seed, threads })
         .expect("the set-up makes sense");
-    (0..2400).for_each(|_| world.step());
-    assert!(world.on_road() > 350);
+    (0..3600).for_each(|_| world.step());
+    assert!(world.on_road() > 320);
     assert!(world.counts().discretionary_changes > 20 && world.counts().route_changes > 20);
     world.state_hash()
 }
