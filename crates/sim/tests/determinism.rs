@@ -9,9 +9,10 @@ use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
 
-/// Three lanes of 10 km with an on-ramp and an off-ramp.
+/// Five lanes of 10 km with an on-ramp and an off-ramp.
 fn ramps() -> Network {
     let plan = Motorway {
+        lanes: 5,
         length_m: 10_000.0,
         on_ramp_at: vec![1000.0],
         off_ramp_at: vec![2500.0],
@@ -27,7 +28,7 @@ fn styles() -> Vec<Style> {
 
 /// State after six minutes of dense traffic of both styles with trucks, enough of it to be shared among threads.
 fn hash(network: Network, seed: u64, threads: usize) -> u64 {
-    let demand = drivers::demand(&network, 6500.0, 0.1, &[0.3, 0.7]);
+    let demand = drivers::demand(&network, 9000.0, 0.1, &[0.3, 0.7]);
     let mut world = World::new(network, styles(), demand, Setup { step: 0.1, seed, threads })
         .expect("the set-up makes sense");
     (0..3600).for_each(|_| world.step());
