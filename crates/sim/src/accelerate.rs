@@ -29,6 +29,7 @@ pub(crate) fn accelerate(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &
     let cars = scene.cars(chain);
     let lane_end = lane_end(scene, chain);
     plan.accelerations.clear();
+    plan.accelerations.reserve_exact(cars.len());
     for (index, car) in cars.iter().enumerate() {
         let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
         let usual =

@@ -219,6 +219,12 @@ impl Lane {
     /// Adds an entry at its place.
     pub(crate) fn insert(&mut self, car: Car, mind: Mind) {
         let index = self.ahead_of(car.x);
+        if self.cars.len() == self.cars.capacity() {
+            // Doubling would leave a third of the memory of much traffic unused.
+            let more = 8 + self.cars.len() / 8;
+            self.cars.reserve_exact(more);
+            self.minds.reserve_exact(more);
+        }
         self.cars.insert(index, car);
         self.minds.insert(index, mind);
     }
