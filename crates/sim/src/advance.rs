@@ -116,6 +116,9 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan) 
     }
 }
 
+/// A change is done at this share of its time: the steps add up to 1 but for rounding.
+const DONE: f32 = 0.9999;
+
 /// A vehicle that stands this long is stuck [s].
 const STUCK_AFTER: f32 = 300.0;
 
@@ -152,7 +155,7 @@ fn go_across(
                     plan.milestones.push(milestone(car, mind, chain, Reached::Crossing));
                 }
             }
-            if mind.progress < 1.0 {
+            if mind.progress < DONE {
                 return false;
             }
         }

@@ -7,8 +7,10 @@ use crate::navigate::Destination;
 use crate::tally::Tally;
 use crate::traffic::{Car, Kind, Milestone, Mind, Twin, VehicleId};
 
-/// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew.
+/// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
+/// its own, so that threads do not disturb each other.
 #[derive(Debug, Default)]
+#[repr(align(128))]
 pub(crate) struct Plan {
     /// Acceleration of each entry [m/s²].
     pub(crate) accelerations: Vec<f64>,

@@ -9,7 +9,7 @@ use std::thread::{self, JoinHandle, Thread};
 /// How often an idle worker looks for work before it parks.
 const SPINS: u32 = 20_000;
 /// Into how many portions per thread the items are cut, so that an uneven load evens out.
-const PORTIONS: usize = 8;
+const PORTIONS: usize = 16;
 
 /// A pool of threads, of which the caller's is one.
 pub(crate) struct Pool {
@@ -21,14 +21,20 @@ struct Shared {
     /// Number of the current job; odd numbers never occur, so that a stop can be told.
     job: AtomicUsize,
     task: Mutex<Option<Task>>,
-    next: AtomicUsize,
+    /// For each thread how much of its own range of items has been claimed.
+    claimed: Vec<Claimed>,
     busy: AtomicUsize,
     stop: AtomicBool,
     panicked: AtomicBool,
     parked: Vec<AtomicBool>,
 }
 
-/// A job that lives only while [`Pool::each`] waits for it.
+/// A counter on a cache line of its own.
+#[derive(Default)]
+#[repr(align(128))]
+struct Claimed(AtomicUsize);
+
+/// A job that lives only while [`Pool::each_pair`] waits for it.
 #[derive(Clone, Copy)]
 struct Task {
     work: *const (dyn Fn(usize) + Sync),
@@ -36,7 +42,7 @@ struct Task {
     portion: usize,
 }
 
-// SAFETY: the pointer is used only while `Pool::each` keeps what it points to alive, and it points to something
+// SAFETY: the pointer is used only while `Pool::each_pair` keeps what it points to alive, and it points to something
 // `Sync`.
 unsafe impl Send for Task {}
 
@@ -59,7 +65,7 @@ impl Pool {
         let shared = Arc::new(Shared {
             job: AtomicUsize::new(0),
             task: Mutex::new(None),
-            next: AtomicUsize::new(0),
+            claimed: (0..=helpers).map(|_| Claimed::default()).collect(),
             busy: AtomicUsize::new(0),
             stop: AtomicBool::new(false),
             panicked: AtomicBool::new(false),
@@ -117,7 +123,7 @@ impl Pool {
         let task = Task { work, items: items.len(), portion };
         self.start(task);
         let finish = Finish(&self.shared);
-        self.shared.work_on(task);
+        self.shared.work_on(task, 0);
         drop(finish);
         assert!(!self.shared.panicked.load(Ordering::Acquire), "a worker of the pool panicked");
     }
@@ -125,7 +131,7 @@ impl Pool {
     fn start(&self, task: Task) {
         let shared = &self.shared;
         *shared.task.lock().unwrap_or_else(PoisonError::into_inner) = Some(task);
-        shared.next.store(0, Ordering::Relaxed);
+        shared.claimed.iter().for_each(|it| it.0.store(0, Ordering::Relaxed));
         shared.busy.store(self.workers.len(), Ordering::Relaxed);
         shared.job.fetch_add(1, Ordering::SeqCst);
         for (worker, parked) in self.workers.iter().zip(&shared.parked) {
@@ -174,7 +180,7 @@ impl Shared {
             let task = *self.task.lock().unwrap_or_else(PoisonError::into_inner);
             let _done = Done(self);
             if let Some(task) = task {
-                self.work_on(task);
+                self.work_on(task, number + 1);
             }
         }
     }
@@ -198,15 +204,22 @@ impl Shared {
         }
     }
 
-    fn work_on(&self, task: Task) {
-        // SAFETY: `Pool::each` keeps the job alive until no thread is busy any more.
+    /// Works on the range of items that is this thread's in every job, so that what it left in its cache is there; then
+    /// on what is left of the others' ranges.
+    fn work_on(&self, task: Task, thread: usize) {
+        // SAFETY: `Pool::each_pair` keeps the job alive until no thread is busy any more.
         let work = unsafe { &*task.work };
-        loop {
-            let first = self.next.fetch_add(task.portion, Ordering::Relaxed);
-            if first >= task.items {
-                return;
+        let threads = self.claimed.len();
+        for owner in (thread..threads).chain(0..thread) {
+            let range = |owner: usize| owner * task.items / threads;
+            let (begin, end) = (range(owner), range(owner + 1));
+            loop {
+                let first = begin + self.claimed[owner].0.fetch_add(task.portion, Ordering::Relaxed);
+                if first >= end {
+                    break;
+                }
+                (first..(first + task.portion).min(end)).for_each(work);
             }
-            (first..(first + task.portion).min(task.items)).for_each(work);
         }
     }
 }

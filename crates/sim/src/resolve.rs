@@ -35,7 +35,8 @@ impl World {
     }
 
     fn grant(&mut self, spot: Spot, request: &Request) {
-        let phase = self.lanes[spot.chain.at()].cars()[spot.index].phase;
+        let lane = &self.lanes[spot.chain.at()];
+        let (phase, progress) = (lane.cars()[spot.index].phase, lane.minds()[spot.index].progress);
         match request.ask {
             Ask::Want(want) if phase == Phase::Cruises => self.begin_to_want(spot, request, &want),
             Ask::Change if phase == Phase::Wants => self.begin_to_change(spot),
@@ -49,7 +50,8 @@ impl World {
                     }
                 }
             }
-            Ask::Abort if phase == Phase::Changes => self.turn_back(spot),
+            // Who has crossed the line in the meantime goes on.
+            Ask::Abort if phase == Phase::Changes && progress < 0.5 => self.turn_back(spot),
             _ => {}
         }
     }
