@@ -29,12 +29,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     if std::env::args().nth(1).as_deref() == Some("short") {
         return Measurement::of(40.0, 1, 300).map(|it| it.print("40 km"));
     }
-    if std::env::args().nth(1).as_deref() == Some("pair") {
-        for threads in [1, 2] {
-            Measurement::of(40.0, threads, 6000)?.print("40 km");
-        }
-        return Ok(());
-    }
     let one = Measurement::of(40.0, 1, 6000)?;
     one.print("40 km");
     let two = Measurement::of(40.0, 2, 6000)?;

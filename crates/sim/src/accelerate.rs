@@ -213,6 +213,9 @@ fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64
 /// A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
 pub(crate) fn couple(lanes: &[Lane], plans: &mut [Plan]) {
     for here in 0..plans.len() {
+        if plans[here].couples.is_empty() {
+            continue;
+        }
         let couples = std::mem::take(&mut plans[here].couples);
         for (index, twin) in &couples {
             let index = *index as usize;

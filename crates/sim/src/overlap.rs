@@ -12,18 +12,13 @@ const TOLERANCE: f64 = 0.05;
 /// Vehicles further apart along the road than this cannot touch [m].
 const REACH: f64 = 30.0;
 
-/// Number of overlaps between a vehicle in a change and any other.
-pub(crate) fn overlaps(scene: &Scene) -> u64 {
-    let mut count = 0;
-    for (index, lane) in scene.lanes.iter().enumerate() {
-        let chain = ChainIndex(index as u32);
-        for (index, car) in lane.cars().iter().enumerate() {
-            if !car.is_shadow && moves_sideways(car.phase) {
-                count += overlaps_of(scene, Spot { chain, index });
-            }
-        }
-    }
-    count
+/// Number of overlaps between a vehicle on `chain` in a change and any other.
+pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex) -> u64 {
+    let entries = scene.cars(chain).iter().enumerate();
+    entries
+        .filter(|(_, car)| !car.is_shadow && moves_sideways(car.phase))
+        .map(|(index, _)| overlaps_of(scene, Spot { chain, index }))
+        .sum()
 }
 
 fn moves_sideways(phase: Phase) -> bool {

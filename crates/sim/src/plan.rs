@@ -28,6 +28,8 @@ pub(crate) struct Plan {
     pub(crate) leaving: Vec<(Car, Mind)>,
     /// What happened to lane changes.
     pub(crate) milestones: Vec<Milestone>,
+    /// Overlaps, if it was time to look for them.
+    pub(crate) overlaps: u64,
     /// Counts.
     pub(crate) tally: Tally,
 }

@@ -15,9 +15,16 @@ impl World {
     pub(crate) fn gather(&mut self) {
         for (index, plan) in self.plans.iter_mut().enumerate() {
             let from = ChainIndex(index as u32);
-            self.requests.append(&mut plan.requests);
-            self.milestones.append(&mut plan.milestones);
-            self.leaving.extend(plan.leaving.drain(..).map(|(car, mind)| (from, car, mind)));
+            // What is empty is not written to: its cache line stays with the thread that has it.
+            if !plan.requests.is_empty() {
+                self.requests.append(&mut plan.requests);
+            }
+            if !plan.milestones.is_empty() {
+                self.milestones.append(&mut plan.milestones);
+            }
+            if !plan.leaving.is_empty() {
+                self.leaving.extend(plan.leaving.drain(..).map(|(car, mind)| (from, car, mind)));
+            }
         }
     }
 

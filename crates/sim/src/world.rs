@@ -161,6 +161,9 @@ impl World {
     pub fn step(&mut self) {
         self.events.clear();
         self.decide_and_accelerate();
+        if self.is_watched() {
+            self.counts.overlaps += self.plans.iter().map(|plan| plan.overlaps).sum::<u64>();
+        }
         self.advance();
         self.clock.step += 1;
         self.gather();
@@ -168,7 +171,6 @@ impl World {
         self.transfer();
         self.resolve();
         self.enter();
-        self.watch();
     }
 
     fn decide_and_accelerate(&mut self) {
@@ -178,6 +180,7 @@ impl World {
             lanes: &self.lanes,
             characters: &self.characters,
         };
+        let is_watched = self.is_watched();
         let overtaking = self.network.driving_side.overtaking();
         let moment = Moment { clock: self.clock, random: &self.random, overtaking };
         self.pools[pool_for(self.crowd)].each(&mut self.plans, |index, plan| {
@@ -185,6 +188,7 @@ impl World {
             plan.clear();
             decide(&scene, moment, chain, plan);
             accelerate(&scene, moment.clock, chain, plan);
+            plan.overlaps = if is_watched { overlaps(&scene, chain) } else { 0 };
         });
         couple(&self.lanes, &mut self.plans);
     }
@@ -285,11 +289,9 @@ impl World {
         self.crowd += 1;
     }
 
-    /// Looks for overlaps once a second.
-    fn watch(&mut self) {
-        if self.clock.step.is_multiple_of(self.clock.steps(1.0)) {
-            self.counts.overlaps += overlaps(&self.scene());
-        }
+    /// Overlaps are looked for once a second.
+    fn is_watched(&self) -> bool {
+        self.clock.step.is_multiple_of(self.clock.steps(1.0))
     }
 
     /// The current instant.
