@@ -8,7 +8,7 @@ use laneweave_network::ChainIndex;
 use crate::clock::Clock;
 use crate::plan::Plan;
 use crate::scene::{Scene, Spot};
-use crate::traffic::{Car, Lane, Mind, Phase};
+use crate::traffic::{Car, Lane, Phase};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
@@ -70,14 +70,13 @@ fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>, pla
     let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
     let behind_leader = bound(car.speed, acceleration, leader, clock.dt);
     let bounded = bound(car.speed, behind_leader, lane_end, clock.dt);
-    if let Some(twin) = mind(scene, spot).twin.filter(|_| !car.is_shadow) {
+    if let Some(twin) = scene.mind(spot).twin.filter(|_| !car.is_shadow) {
         plan.couples.push((spot.index as u32, twin));
     }
-    if bounded < acceleration {
+    // To accelerate less is no braking. A shadow counts as well: kinematics in either lane is kinematics.
+    if bounded < acceleration && bounded < 0.0 {
         plan.emergencies.push(spot.index as u32);
-        if !car.in_emergency && !car.is_shadow && bounded < 0.0 {
-            plan.tally.emergency_brakings += 1;
-        }
+        plan.tally.emergency_brakings += u64::from(!car.in_emergency);
     }
     if leader.is_some_and(|it| it.gap < 0.0) {
         plan.collisions.push(spot.index as u32);
@@ -130,18 +129,14 @@ fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<f64> {
 /// A vehicle whose centre has left the lane need not mind its end.
 fn is_leaving(scene: &Scene, spot: Spot) -> bool {
     let car = scene.car(spot);
-    car.is_shadow && car.phase == Phase::Changes && mind(scene, spot).progress >= 0.5
-}
-
-fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
-    &scene.lanes[spot.chain.at()].minds()[spot.index]
+    car.is_shadow && car.phase == Phase::Changes && scene.mind(spot).progress >= 0.5
 }
 
 /// Road that a driver keeps before the place where it has to have left its lane [m]. Who changes already uses it; so
 /// does who has waited there in vain, if only the vehicle behind is in the way: of two drivers side by side who want
 /// each other's lane the one ahead moves on, and both can go.
 fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let (car, mind) = (scene.car(spot), scene.mind(spot));
     let moves_up = match car.phase {
         Phase::Changes => true,
         Phase::Wants => {
@@ -158,7 +153,7 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
 
 /// What a driver heeds beside its leader.
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let (car, mind) = (scene.car(spot), scene.mind(spot));
     let pace = pace(car);
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
@@ -182,7 +177,7 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
 /// The leader on the lane that a driver waits to change to.
 fn leader_beside(scene: &Scene, spot: Spot) -> Option<Ahead> {
     let car = scene.car(spot);
-    let beside = scene.network.chain(spot.chain).beside(mind(scene, spot).side, car.x)?;
+    let beside = scene.network.chain(spot.chain).beside(scene.mind(spot).side, car.x)?;
     let x = beside.across(car.x);
     scene.ahead(scene.viewpoint_at(beside.chain, x, car.id, car.goal.destination()))
 }

@@ -62,10 +62,6 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
     }
 }
 
-fn mind<'a>(scene: &Scene<'a>, spot: Spot) -> &'a Mind {
-    &scene.lanes[spot.chain.at()].minds()[spot.index]
-}
-
 /// A driver considers both sides. `hints` are the entries beside the last driver of the lane who did.
 fn consider(scene: &Scene, moment: Moment, spot: Spot, hints: &mut [usize; 2], plan: &mut Plan) {
     let car = scene.car(spot);
@@ -95,7 +91,7 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, hints: &mut [usize; 2], p
     ];
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
-        let mind = mind(scene, spot);
+        let mind = scene.mind(spot);
         note.gives_up = gives_up(moment, mind, style, sides, appraisals);
         let wanted = options.iter().flatten().find(|it| it.side == mind.side);
         note.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
@@ -221,7 +217,7 @@ fn count_signs(here: f64, desired: f64, options: &[Option<Choice>; 2], has_chose
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
 fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
     let car = scene.car(spot);
-    let mind = mind(scene, spot);
+    let mind = scene.mind(spot);
     let request = |ask: Ask| Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask };
     match gap(scene, spot, mind.side) {
         None => {}
@@ -314,7 +310,7 @@ impl Gap {
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Refusal> {
         let car = scene.car(spot);
         let style = &scene.characters[car.character as usize];
-        let duration = style.manner.duration(f64::from(mind(scene, spot).urgency));
+        let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
         let crossing = 0.5 * duration * car.speed;
         if self.room < crossing {
             return Err(Refusal::Short);
@@ -339,7 +335,7 @@ impl Gap {
     fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
         let car = scene.car(spot);
         let style = &scene.characters[car.character as usize];
-        let desire = f64::from(mind(scene, spot).urgency).max(VOLUNTARY_DESIRE);
+        let desire = f64::from(scene.mind(spot).urgency).max(VOLUNTARY_DESIRE);
         let tightness = style.manner.tightness(desire).min(f64::from(car.tightness));
         Pace { speed: car.speed, desired: f64::from(car.desired), tightness }
     }
@@ -366,7 +362,7 @@ impl Gap {
 /// Before the crossing a driver goes back if its new leader forces it to brake much harder than its old one.
 fn abort_if_it_must(scene: &Scene, spot: Spot, plan: &mut Plan) {
     const MUCH_HARDER: f64 = 2.0;
-    let (car, mind) = (scene.car(spot), mind(scene, spot));
+    let (car, mind) = (scene.car(spot), scene.mind(spot));
     let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };
     let style = &scene.characters[car.character as usize];
     let forced = |from| {

@@ -6,7 +6,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Network};
 
 use crate::navigate::{Destination, Navigator};
-use crate::traffic::{Car, Lane, VehicleId};
+use crate::traffic::{Car, Lane, Mind, VehicleId};
 
 /// One instant of traffic on a network.
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +116,12 @@ impl<'a> Scene<'a> {
     #[inline]
     pub fn car(&self, spot: Spot) -> &'a Car {
         &self.cars(spot.chain)[spot.index]
+    }
+
+    /// The warm part of the entry at `spot`.
+    #[inline]
+    pub(crate) fn mind(&self, spot: Spot) -> &'a Mind {
+        &self.lanes[spot.chain.at()].minds()[spot.index]
     }
 
     /// The viewpoint of an entry.

@@ -42,6 +42,7 @@ pub struct World {
     random: Random,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
+    /// Vehicles on the road.
     pub(crate) crowd: usize,
     next_id: VehicleId,
 }

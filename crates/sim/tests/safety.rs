@@ -5,8 +5,10 @@ mod roads;
 use std::collections::BTreeMap;
 
 use laneweave_maps::generate::{Motorway, motorway};
-use laneweave_network::Network;
-use laneweave_sim::{Setup, World};
+use laneweave_models::Style;
+use laneweave_models::follow::{FollowingModel, Idm};
+use laneweave_network::{ChainIndex, Network};
+use laneweave_sim::{Class, NewVehicle, Setup, World};
 use proptest::prelude::*;
 use roads::{Road, drivers};
 
@@ -116,4 +118,23 @@ fn traffic_leaves_at_an_off_ramp() {
 #[test]
 fn traffic_leaves_a_lane_that_ends() {
     ten_minutes(&Motorway { lane_drop_at: Some(2500.0), ..four_km() }, 3000.0);
+}
+
+#[test]
+fn a_driver_who_would_still_accelerate_when_kinematics_sets_in_is_counted_once() {
+    let reckless = Idm { acceleration: 3.0, deceleration: 1e6, time_gap: 0.0, jam_gap: 0.1, exponent: 4.0 };
+    let follower = Style { follow: FollowingModel::Idm(reckless), ..drivers::conservative() };
+    let leader = Style { speed_factor: 0.2, ..drivers::conservative() };
+    let network = Road { lanes: 1, length: 2000.0, ..Road::default() }.network();
+    let demand = drivers::demand(&network, 0.0, 0.0, &[1.0]);
+    let setup = Setup { step: 0.01, seed: 1, threads: 1 };
+    let mut world =
+        World::new(network, vec![follower, leader], demand, setup).expect("the set-up makes sense");
+    for (character, x) in [(0, 20.0), (1, 120.0)] {
+        let (chain, class, destination) = (ChainIndex(0), Class::Car, Some(0));
+        world.place(NewVehicle { chain, x, speed: 5.0, class, character, destination });
+    }
+    (0..1500).for_each(|_| world.step());
+    assert_eq!(world.tally().collisions, 0);
+    assert_eq!(world.tally().emergency_brakings, 1);
 }
