@@ -99,7 +99,7 @@ fn replicate(population: &(Vec<Style>, Vec<Share>), vehicles_per_hour: f64, seed
         }
         if step % 10 == 0 {
             for vehicle in world.vehicles() {
-                signs.styles[style_of(vehicle.car.character)].1 += vehicle.car.speed / 1000.0;
+                signs.styles[style_of(vehicle.car.character)].1 += vehicle.speed() / 1000.0;
             }
         }
     }

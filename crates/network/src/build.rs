@@ -43,8 +43,11 @@ pub enum NetworkError {
 }
 
 impl Network {
-    /// A chain is cut at the next lanelet beyond this length, so that some hundred vehicles stand on one at most [m].
-    const CHAIN_LENGTH: f64 = 5000.0;
+    /// A chain is cut at the next lanelet beyond a length between these [m]: long enough that what is done once for every
+    /// chain does not matter, short enough that a vehicle gets into the row of the others soon.
+    const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
+    /// Within these bounds there are as many chains, so that threads share them evenly.
+    const CHAINS: f64 = 32.0;
 
     /// Builds the network of `lanelets`.
     ///
@@ -115,7 +118,7 @@ fn previous(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     previous
 }
 
-/// Maximal fork-free runs, cut beyond [`Network::CHAIN_LENGTH`].
+/// Maximal fork-free runs, cut where they are long enough.
 fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<LaneletIndex>> {
     let only_following = |it: LaneletIndex| match lanelets[it.at()].following[..] {
         [next] if previous[next.at()].len() == 1 => Some(next),
@@ -124,6 +127,9 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
     let continues_another =
         |it: LaneletIndex| previous[it.at()].first().is_some_and(|back| only_following(*back) == Some(it));
     let all = || (0..lanelets.len()).map(|i| LaneletIndex(i as u32));
+    let total: f64 = lanelets.iter().map(Lanelet::length).sum();
+    let [shortest, longest] = Network::CHAIN_LENGTHS;
+    let enough = (total / Network::CHAINS).clamp(shortest, longest);
     let mut taken = vec![false; lanelets.len()];
     let mut runs = Vec::new();
     // Runs with a first lanelet, then what is left: rings, which begin anywhere.
@@ -131,7 +137,7 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
         let mut next = (!taken[first.at()]).then_some(first);
         while next.is_some() {
             let (mut run, mut length) = (Vec::new(), 0.0);
-            while let Some(lanelet) = next.filter(|it| length < Network::CHAIN_LENGTH && !taken[it.at()]) {
+            while let Some(lanelet) = next.filter(|it| length < enough && !taken[it.at()]) {
                 taken[lanelet.at()] = true;
                 length += lanelets[lanelet.at()].length();
                 run.push(lanelet);

@@ -1,14 +1,13 @@
-//! Drivers accelerate: behind their leaders, towards the ends of lanes, into and out of lanes, and above all that
-//! emergency braking.
+//! Drivers choose accelerations: behind their leaders, towards the ends of lanes, into and out of lanes, and above all
+//! that emergency braking.
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::ChainIndex;
 
 use crate::clock::Clock;
-use crate::plan::Plan;
 use crate::scene::{Scene, Spot};
-use crate::traffic::{Car, Lane, Phase};
+use crate::traffic::{Car, Motion, Phase};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
@@ -24,65 +23,65 @@ const HARDLY_MOVES: f64 = 3.0;
 /// what they desire beyond it (ours: in a town one waits for a gap, on a motorway one does not stop).
 const WAITS_BELOW: f64 = 17.0;
 
-/// All drivers of a lane choose their accelerations.
-pub(crate) fn accelerate(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan) {
-    let cars = scene.cars(chain);
-    let lane_end = lane_end(scene, chain);
-    plan.accelerations.clear();
-    plan.accelerations.reserve_exact(cars.len());
-    for (index, car) in cars.iter().enumerate() {
-        let follows_only = car.phase == Phase::Cruises && !car.heeds_more && lane_end.is_none();
-        let usual =
-            cars.get(index + 1).filter(|_| follows_only).and_then(|it| behind(scene, car, it, clock.dt));
-        let acceleration = match usual {
-            Some(acceleration) => acceleration,
-            None => with_care(scene, clock, Spot { chain, index }, lane_end, plan),
-        };
-        plan.accelerations.push(acceleration);
-    }
+/// The acceleration that a driver chose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chosen {
+    /// Acceleration [m/s²].
+    pub(crate) acceleration: f64,
+    /// Kinematics, not the model, decided, and the driver brakes.
+    pub(crate) by_kinematics: bool,
+    /// The vehicle touches its leader.
+    pub(crate) touches: bool,
 }
 
-fn pace(car: &Car) -> Pace {
-    Pace { speed: car.speed, desired: f64::from(car.desired), tightness: f64::from(car.tightness) }
-}
-
-/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it.
+/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it. `None` if it is not.
 #[inline]
-fn behind(scene: &Scene, car: &Car, leader: &Car, dt: f64) -> Option<f64> {
-    let ahead = Ahead { gap: leader.rear() - car.x, speed: leader.speed };
+pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
+    let ahead = Ahead { gap: leader.rear() - motion.x, speed: leader.speed };
     let follow = &scene.characters[car.character as usize].follow;
-    let wish = follow.acceleration(pace(car), Some(ahead));
+    let wish = follow.acceleration(pace(motion, car), Some(ahead));
     let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
-    let next = car.speed + acceleration * dt;
+    let next = motion.speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
-    (ahead.gap >= 0.0 && stays_secure(car.speed, next, ahead, dt)).then_some(acceleration)
+    (ahead.gap >= 0.0 && stays_secure(motion.speed, next, ahead, dt)).then_some(acceleration)
 }
 
-/// Every case: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may have
-/// to decide.
+/// Every case. A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
+pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Chosen {
+    let chosen = in_lane(scene, clock, spot, lane_end);
+    if !scene.car(spot).phase.is_between_lanes() {
+        return chosen;
+    }
+    let Some(twin) = scene.mind(spot).twin else { return chosen };
+    let id = scene.motion(spot).id;
+    let Some(index) = scene.lanes[twin.chain.at()].find(id, twin.x) else { return chosen };
+    let lane_end = self::lane_end(scene, twin.chain);
+    let other = in_lane(scene, clock, Spot { chain: twin.chain, index }, lane_end);
+    Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
+}
+
+/// For one entry: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may
+/// have to decide.
 #[inline(never)]
-fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>, plan: &mut Plan) -> f64 {
-    let car = scene.car(spot);
+fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Chosen {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.characters[car.character as usize].follow;
-    let wish = follow.acceleration(pace(car), leader);
+    let wish = follow.acceleration(pace(motion, car), leader);
     let (wish, lane_end) = heed(scene, clock, spot, wish, lane_end);
-    let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
-    let behind_leader = bound(car.speed, acceleration, leader, clock.dt);
-    let bounded = bound(car.speed, behind_leader, lane_end, clock.dt);
-    if let Some(twin) = scene.mind(spot).twin.filter(|_| !car.is_shadow) {
-        plan.couples.push((spot.index as u32, twin));
+    let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
+    let behind_leader = bound(motion.speed, wish, leader, clock.dt);
+    let acceleration = bound(motion.speed, behind_leader, lane_end, clock.dt);
+    Chosen {
+        acceleration,
+        // To accelerate less is no braking.
+        by_kinematics: acceleration < wish && acceleration < 0.0,
+        touches: leader.is_some_and(|it| it.gap < 0.0),
     }
-    // To accelerate less is no braking. A shadow counts as well: kinematics in either lane is kinematics.
-    if bounded < acceleration && bounded < 0.0 {
-        plan.emergencies.push(spot.index as u32);
-        plan.tally.emergency_brakings += u64::from(!car.in_emergency);
-    }
-    if leader.is_some_and(|it| it.gap < 0.0) {
-        plan.collisions.push(spot.index as u32);
-        plan.tally.collisions += u64::from(!car.in_collision);
-    }
-    bounded
+}
+
+fn pace(motion: &Motion, car: &Car) -> Pace {
+    Pace { speed: motion.speed, desired: f64::from(car.desired), tightness: f64::from(motion.tightness) }
 }
 
 /// `clamp` for bounds in order.
@@ -100,21 +99,21 @@ fn heed(
     behind_leader: f64,
     lane_end: Option<f64>,
 ) -> (f64, Option<Ahead>) {
-    let car = scene.car(spot);
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
     let (mut wish, mut obstacle) = (behind_leader, None);
     if car.phase == Phase::Wants || car.heeds_more {
         wish = wish.min(beyond_the_leader(scene, clock, spot));
     }
     if let Some(end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
         let kept = kept_room(scene, clock, spot);
-        wish = wish.min(approach(car.speed, end - kept - car.x, 0.0));
-        obstacle = Some(Ahead::standing(end - car.x));
+        wish = wish.min(approach(motion.speed, end - kept - motion.x, 0.0));
+        obstacle = Some(Ahead::standing(end - motion.x));
     }
     (wish, obstacle)
 }
 
 /// Where the lane ends for all that are on it, along the chain [m].
-fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<f64> {
+pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<f64> {
     let here = scene.network.chain(chain);
     match here.following[..] {
         [] => here.is_lane_drop.then_some(here.length),
@@ -143,7 +142,7 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
             let waited = f64::from(clock.step - mind.since) * clock.dt;
             let least = scene.characters[car.character as usize].safety.min_gap;
             waited > WAITS
-                && car.speed < HARDLY_MOVES
+                && scene.motion(spot).speed < HARDLY_MOVES
                 && leader_beside(scene, spot).is_none_or(|it| it.gap >= least)
         }
         Phase::Cruises | Phase::Aborts => false,
@@ -153,8 +152,8 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
 
 /// What a driver heeds beside its leader.
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (car, mind) = (scene.car(spot), scene.mind(spot));
-    let pace = pace(car);
+    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+    let pace = pace(motion, car);
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
     if car.phase == Phase::Wants {
@@ -167,19 +166,19 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }
     if mind.last_place.is_finite() && matches!(car.phase, Phase::Cruises | Phase::Wants) {
-        let room = mind.last_place - kept_room(scene, clock, spot) - car.x;
+        let room = mind.last_place - kept_room(scene, clock, spot) - motion.x;
         let passing = 0.5 * (pace.desired - WAITS_BELOW).max(0.0);
-        acceleration = acceleration.min(approach(car.speed, room, passing).max(-2.0 * COMFORTABLE_BRAKING));
+        acceleration =
+            acceleration.min(approach(motion.speed, room, passing).max(-2.0 * COMFORTABLE_BRAKING));
     }
     acceleration
 }
 
 /// The leader on the lane that a driver waits to change to.
 fn leader_beside(scene: &Scene, spot: Spot) -> Option<Ahead> {
-    let car = scene.car(spot);
-    let beside = scene.network.chain(spot.chain).beside(scene.mind(spot).side, car.x)?;
-    let x = beside.across(car.x);
-    scene.ahead(scene.viewpoint_at(beside.chain, x, car.id, car.goal.destination()))
+    let from = scene.viewpoint(spot);
+    let beside = scene.network.chain(spot.chain).beside(scene.mind(spot).side, from.x)?;
+    scene.ahead(scene.viewpoint_at(beside.chain, beside.across(from.x), from.id, from.destination))
 }
 
 /// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.
@@ -202,24 +201,5 @@ fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64
             acceleration.min(slowed.max(-HARDEST_BRAKING))
         }
         _ => acceleration,
-    }
-}
-
-/// A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
-pub(crate) fn couple(lanes: &[Lane], plans: &mut [Plan]) {
-    for here in 0..plans.len() {
-        if plans[here].couples.is_empty() {
-            continue;
-        }
-        let couples = std::mem::take(&mut plans[here].couples);
-        for (index, twin) in &couples {
-            let index = *index as usize;
-            let id = lanes[here].cars()[index].id;
-            let Some(shadow) = lanes[twin.chain.at()].find(id, twin.x) else { continue };
-            let lower = plans[here].accelerations[index].min(plans[twin.chain.at()].accelerations[shadow]);
-            plans[here].accelerations[index] = lower;
-            plans[twin.chain.at()].accelerations[shadow] = lower;
-        }
-        plans[here].couples = couples;
     }
 }

@@ -3,19 +3,17 @@
 use laneweave_models::Style;
 
 use crate::clock::Clock;
-use crate::plan::Plan;
+use crate::plan::{Outbox, Plan};
 use crate::pose::least_way;
-use crate::traffic::{Car, Lane, Milestone, Mind, Phase, Reached, Twin};
+use crate::traffic::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
 use laneweave_network::ChainIndex;
 
 /// How fast a desired speed above a new, lower limit comes down [m/s²].
 const EASING: f64 = 1.5;
-/// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
-const HEEDED_WITHIN: f64 = 400.0;
 /// Share of its usual pace at which a change goes on at standstill.
 const SLOWEST_SHARE: f64 = 0.2;
 
-/// All vehicles of a lane move.
+/// All vehicles of a lane move, and what else became of them is kept.
 pub(crate) fn advance(
     lane: &mut Lane,
     chain: ChainIndex,
@@ -23,95 +21,61 @@ pub(crate) fn advance(
     clock: Clock,
     characters: &[Style],
     plan: &mut Plan,
+    outbox: &mut Outbox,
 ) {
-    take_note(lane, chain, clock, plan);
-    let (cars, minds) = lane.parts();
+    take_note(lane, chain, clock, plan, outbox);
+    lane.swap_motions(&mut plan.next);
     let mut has_ended = false;
-    for (index, (car, mind)) in cars.iter_mut().zip(minds.iter_mut()).enumerate() {
-        let stretch = if car.phase == Phase::Cruises { 1.0 } else { f64::from(mind.stretch) };
-        let distance = drive(car, plan.accelerations[index], stretch, clock.dt);
-        if !car.is_shadow {
-            plan.tally.distance += distance;
-            plan.tally.updates += 1;
-        }
-        let style = || &characters[car.character as usize];
-        if car.tightness < 1.0 {
-            car.tightness = style().manner.relaxed(f64::from(car.tightness), clock.dt) as f32;
+    for upkeep in &plan.upkeep {
+        let (motion, car, mind) = lane.entry_mut(upkeep.index as usize);
+        car.in_emergency = upkeep.in_emergency;
+        car.in_collision = upkeep.in_collision;
+        if car.desired != car.limit_desired {
+            let eased = car.desired - (EASING * clock.dt) as f32;
+            car.desired = eased.max(car.limit_desired);
         }
         if car.phase != Phase::Cruises {
             if let Some(twin) = &mut mind.twin {
-                twin.x += distance * f64::from(twin.stretch);
+                twin.x += upkeep.distance * f64::from(twin.stretch);
             }
-            let duration = style().manner.duration(f64::from(mind.urgency));
-            has_ended |= go_across(car, mind, chain, clock, duration, plan);
+            let manner = &characters[car.character as usize].manner;
+            let duration = manner.duration(f64::from(mind.urgency));
+            has_ended |= go_across(motion, car, mind, chain, clock, duration, outbox);
         }
         if car.heeds_more {
             mind.lets_in = None;
             car.heeds_more = mind.last_place.is_finite();
         }
     }
-    for index in plan.emergencies.drain(..) {
-        cars[index as usize].in_emergency = true;
-    }
-    for index in plan.collisions.drain(..) {
-        cars[index as usize].in_collision = true;
-    }
     if has_ended {
         lane.remove_ended();
     }
     while let Some(entry) = lane.pop_beyond(length) {
-        plan.leaving.push(entry);
+        outbox.leaving.push((chain, entry));
     }
-}
-
-/// Moves one entry; returns the distance driven [m].
-#[inline]
-fn drive(car: &mut Car, acceleration: f64, stretch: f64, dt: f64) -> f64 {
-    let next = car.speed + acceleration * dt;
-    let (next, distance) = if next >= 0.0 {
-        car.acceleration = acceleration as f32;
-        (next, 0.5 * (car.speed + next) * dt)
-    } else {
-        car.acceleration = (-car.speed / dt) as f32;
-        (0.0, -0.5 * car.speed * car.speed / acceleration)
-    };
-    car.x += distance * stretch;
-    car.speed = next;
-    if car.desired != car.limit_desired {
-        let eased = car.desired - (EASING * dt) as f32;
-        car.desired = eased.max(car.limit_desired);
-    }
-    car.in_emergency &= acceleration < 0.0;
-    car.in_collision = false;
-    distance
 }
 
 /// Drivers who considered lanes keep in mind what they saw and resolved.
-fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan) {
-    let (cars, minds) = lane.parts();
-    for note in plan.notes.drain(..) {
+fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, outbox: &mut Outbox) {
+    let cars = lane.cars_mut();
+    for note in &plan.notes {
         let car = &mut cars[note.index as usize];
         car.due = note.due;
         car.limit_desired = note.limit_desired;
-        if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
-            plan.tally.stuck += 1;
-        }
         car.standing = note.standing;
-        if let Some(destination) = note.rerouted {
+    }
+    for concern in &plan.concerns {
+        let (motion, car, mind) = lane.entry_mut(concern.index as usize);
+        if let Some(destination) = concern.rerouted {
             car.goal = destination.into();
             car.due = clock.step + 1;
         }
-        let is_near = note.last_place - car.x < HEEDED_WITHIN;
-        if car.phase == Phase::Cruises && !car.heeds_more && !is_near {
-            continue;
-        }
-        let mind = &mut minds[note.index as usize];
-        mind.last_place = if is_near { note.last_place } else { f64::INFINITY };
-        mind.urgency = note.urgency;
-        car.heeds_more |= is_near;
-        if note.gives_up && car.phase == Phase::Wants {
+        mind.last_place = concern.last_place.unwrap_or(f64::INFINITY);
+        mind.urgency = concern.urgency;
+        car.heeds_more |= concern.last_place.is_some();
+        if concern.gives_up && car.phase == Phase::Wants {
             car.phase = Phase::Cruises;
-            plan.milestones.push(milestone(car, mind, chain, Reached::Nothing));
+            outbox.milestones.push(milestone(motion, mind, chain, Reached::Nothing));
         }
     }
 }
@@ -119,31 +83,29 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan) 
 /// A change is done at this share of its time: the steps add up to 1 but for rounding.
 const DONE: f32 = 0.9999;
 
-/// A vehicle that stands this long is stuck [s].
-const STUCK_AFTER: f32 = 300.0;
-
-fn milestone(car: &Car, mind: &Mind, chain: ChainIndex, what: Reached) -> Milestone {
+fn milestone(motion: &Motion, mind: &Mind, chain: ChainIndex, what: Reached) -> Milestone {
     Milestone {
-        id: car.id,
+        id: motion.id,
         record: mind.record,
         what,
-        at: (chain, car.x),
+        at: (chain, motion.x),
         shadow: mind.twin.map(|twin| (twin.chain, twin.x)),
-        speed: car.speed,
+        speed: motion.speed,
     }
 }
 
 /// A change goes on, or back. Both entries of a vehicle come to the same. Returns whether this entry has ended.
 fn go_across(
+    motion: &Motion,
     car: &mut Car,
     mind: &mut Mind,
     chain: ChainIndex,
     clock: Clock,
     duration: f64,
-    plan: &mut Plan,
+    outbox: &mut Outbox,
 ) -> bool {
     // A slow vehicle needs way, not time.
-    let pace = (car.speed * duration / least_way(car)).clamp(SLOWEST_SHARE, 1.0);
+    let pace = (motion.speed * duration / least_way(motion)).clamp(SLOWEST_SHARE, 1.0);
     let step = (pace * clock.dt / duration) as f32;
     let was = mind.progress;
     match car.phase {
@@ -152,7 +114,7 @@ fn go_across(
             if was < 0.5 && mind.progress >= 0.5 {
                 cross(car, mind);
                 if !car.is_shadow {
-                    plan.milestones.push(milestone(car, mind, chain, Reached::Crossing));
+                    outbox.milestones.push(milestone(motion, mind, chain, Reached::Crossing));
                 }
             }
             if mind.progress < DONE {
@@ -172,7 +134,7 @@ fn go_across(
         return true;
     }
     let reached = if car.phase == Phase::Changes { Reached::End } else { Reached::Return };
-    plan.milestones.push(milestone(car, mind, chain, reached));
+    outbox.milestones.push(milestone(motion, mind, chain, reached));
     car.phase = Phase::Cruises;
     mind.progress = 0.0;
     mind.twin = None;

@@ -2,15 +2,14 @@
 
 use laneweave_models::Style;
 use laneweave_models::change::{
-    Appraisal, GapPair, Refusal, Situation, at_least_once_in, deceleration_to_avoid, time_to_collision,
-    urgency,
+    Appraisal, GapPair, Refusal, Situation, deceleration_to_avoid, time_to_collision, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::clock::Clock;
 use crate::perceive::{Outlook, driver};
-use crate::plan::{Ask, Note, Plan, Request, Want};
+use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want};
 use crate::random::{Purpose, Random};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Kind, Mind, Phase};
@@ -24,6 +23,10 @@ const ROOM_TO_YIELD: f64 = 1.0;
 /// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
 const STANDS_IN_VAIN: f32 = 60.0;
 const AT_THE_PLACE: f64 = 20.0;
+/// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
+const HEEDED_WITHIN: f64 = 400.0;
+/// A vehicle that stands this long is stuck [s].
+const STUCK_AFTER: f32 = 300.0;
 /// Standstill below this speed [m/s].
 const STANDSTILL: f64 = 0.1;
 
@@ -36,7 +39,7 @@ pub(crate) struct Moment<'a> {
 }
 
 /// All drivers of a lane decide.
-pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan) {
+pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
     let mut hints = [0; 2];
     for (index, car) in lane.cars().iter().enumerate() {
@@ -48,14 +51,14 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
         }
         let spot = Spot { chain, index };
         match car.phase {
-            Phase::Changes => abort_if_it_must(scene, spot, plan),
+            Phase::Changes => abort_if_it_must(scene, spot, outbox),
             Phase::Aborts => {}
             Phase::Cruises | Phase::Wants => {
                 if car.phase == Phase::Wants {
-                    go_or_ask(scene, moment, spot, plan);
+                    go_or_ask(scene, moment, spot, outbox);
                 }
                 if car.due <= moment.clock.step {
-                    consider(scene, moment, spot, &mut hints, plan);
+                    consider(scene, moment, spot, &mut hints, plan, outbox);
                 }
             }
         }
@@ -63,25 +66,36 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
 }
 
 /// A driver considers both sides. `hints` are the entries beside the last driver of the lane who did.
-fn consider(scene: &Scene, moment: Moment, spot: Spot, hints: &mut [usize; 2], plan: &mut Plan) {
-    let car = scene.car(spot);
+fn consider(
+    scene: &Scene,
+    moment: Moment,
+    spot: Spot,
+    hints: &mut [usize; 2],
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
     let style = &scene.characters[car.character as usize];
     plan.tally.considerations += 1;
-    let mut note = note(scene, moment, spot, style);
+    let note = note(scene, moment, spot, style);
+    plan.tally.stuck += u64::from(car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER);
+    plan.notes.push(note);
+    let mut concern =
+        Concern { index: note.index, last_place: None, urgency: 0.0, gives_up: false, rerouted: None };
     let waypoint = scene.navigator.waypoint(car.goal.destination(), spot.chain);
     // Where it stands in vain, the driver takes another way if there is one.
-    let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - car.x < AT_THE_PLACE;
+    let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - motion.x < AT_THE_PLACE;
     let beyond = waypoint.last_place + 1.0;
     let has_another_way = stands_in_vain && scene.navigator.reachable(spot.chain, beyond).next().is_some();
-    if !waypoint.leads_on(car.x) || has_another_way {
-        let from = if has_another_way { beyond } else { car.x };
-        note.rerouted = Some(scene.navigator.nearest(spot.chain, from));
-        note.gives_up = true;
+    if !waypoint.leads_on(motion.x) || has_another_way {
+        let from = if has_another_way { beyond } else { motion.x };
+        concern.rerouted = Some(scene.navigator.nearest(spot.chain, from));
+        concern.gives_up = true;
         plan.tally.missed_turns += 1;
-        plan.notes.push(note);
+        plan.concerns.push(concern);
         return;
     }
-    note.last_place = waypoint.last_place;
+    concern.last_place = Some(waypoint.last_place).filter(|it| it - motion.x < HEEDED_WITHIN);
     let outlook = Outlook::new(scene, spot);
     let sides = [moment.overtaking, moment.overtaking.opposite()];
     let [first_hint, second_hint] = hints;
@@ -92,30 +106,25 @@ fn consider(scene: &Scene, moment: Moment, spot: Spot, hints: &mut [usize; 2], p
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
         let mind = scene.mind(spot);
-        note.gives_up = gives_up(moment, mind, style, sides, appraisals);
+        concern.gives_up = gives_up(moment, mind, style, sides, appraisals);
         let wanted = options.iter().flatten().find(|it| it.side == mind.side);
-        note.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
+        concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
         let period = f64::from(moment.clock.steps(style.attention.epoch)) * moment.clock.dt;
         let epochs = period / style.attention.epoch;
-        let chances = style.change.choose(appraisals).map(|p| at_least_once_in(epochs, p));
-        let draw = moment.random.uniform(car.id, Purpose::Desire, moment.clock.step);
-        let [first, second] = &options;
-        let chosen = if draw < chances[0] {
-            first.as_ref()
-        } else if draw < chances[0] + chances[1] {
-            second.as_ref()
-        } else {
-            None
-        };
+        let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
+        let drawn = style.change.drawn(appraisals, epochs, draw);
+        let chosen = drawn.and_then(|it| options[it].as_ref());
         count_signs(outlook.here().prospect, f64::from(car.desired), &options, chosen.is_some(), plan);
         if let Some(choice) = chosen {
             let ask = Ask::Want(choice.want(outlook.here().prospect));
             let urgency = choice.urgency as f32;
-            plan.requests.push(Request { urgency, id: car.id, chain: spot.chain, x: car.x, ask });
+            outbox.requests.push(Request { urgency, id: motion.id, chain: spot.chain, x: motion.x, ask });
         }
     }
-    plan.notes.push(note);
+    if car.phase != Phase::Cruises || car.heeds_more || concern.last_place.is_some() {
+        plan.concerns.push(concern);
+    }
 }
 
 /// A side, and what the driver makes of it.
@@ -160,21 +169,17 @@ fn pressure(situation: &Situation) -> f64 {
     urgency(route.changes, route.remaining, situation.me.pace.speed)
 }
 
-/// What the driver remembers whatever it decides.
+/// What the driver keeps in mind whatever it decides.
 fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
-    let car = scene.car(spot);
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
     let period = moment.clock.steps(style.attention.epoch);
-    let limit = scene.network.chain(spot.chain).limit(car.x);
-    let stands = car.speed < STANDSTILL;
+    let limit = scene.network.chain(spot.chain).limit(motion.x);
+    let stands = motion.speed < STANDSTILL;
     Note {
         index: spot.index as u32,
         due: moment.clock.step + period,
         limit_desired: car.class.desired_speed(style, limit) as f32,
-        last_place: f64::INFINITY,
         standing: if stands { car.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
-        urgency: 0.0,
-        gives_up: false,
-        rerouted: None,
     }
 }
 
@@ -215,29 +220,29 @@ fn count_signs(here: f64, desired: f64, options: &[Option<Choice>; 2], has_chose
 }
 
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
-fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, plan: &mut Plan) {
-    let car = scene.car(spot);
-    let mind = scene.mind(spot);
-    let request = |ask: Ask| Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask };
+fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
+    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+    let request =
+        |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
     match gap(scene, spot, mind.side) {
         None => {}
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
-            plan.requests.push(request(Ask::Change));
+            outbox.requests.push(request(Ask::Change));
         }
         Some(gap) => {
             let Some(found) = gap.follower else { return };
-            let gap_behind = found.distance - f64::from(car.length);
+            let gap_behind = found.distance - f64::from(motion.length);
             let room = scene.characters[car.character as usize].safety.min_gap + ROOM_TO_YIELD;
             // Who stands beside or right behind a standing vehicle cannot make room for it.
-            let can_yield = gap_behind >= room || car.speed > STANDSTILL;
+            let can_yield = gap_behind >= room || motion.speed > STANDSTILL;
             if f64::from(mind.urgency) >= ASKS_FROM && can_yield {
-                let behind = scene.car(found.spot);
-                plan.requests.push(request(Ask::LetIn {
+                let behind = scene.motion(found.spot);
+                outbox.requests.push(request(Ask::LetIn {
                     follower: behind.id,
                     chain: found.spot.chain,
                     x: behind.x,
                     gap: (gap_behind - ROOM_TO_YIELD) as f32,
-                    speed: car.speed as f32,
+                    speed: motion.speed as f32,
                 }));
             }
         }
@@ -263,10 +268,10 @@ pub(crate) struct Gap {
 
 /// The gap beside; `None` where a change to `side` is not allowed.
 pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
-    let car = scene.car(spot);
-    let beside = scene.network.chain(spot.chain).beside(side, car.x)?;
-    let x = beside.across(car.x);
-    let from = scene.viewpoint_at(beside.chain, x, car.id, car.goal.destination());
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let beside = scene.network.chain(spot.chain).beside(side, motion.x)?;
+    let x = beside.across(motion.x);
+    let from = scene.viewpoint_at(beside.chain, x, motion.id, car.goal.destination());
     Some(Gap {
         chain: beside.chain,
         x,
@@ -280,8 +285,8 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
 /// How far on a change to `side` stays allowed [m], as far as a change needs.
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
     const ENOUGH: f64 = 150.0;
-    let car = scene.car(spot);
-    let (mut chain, mut x, mut permitted) = (spot.chain, car.x, 0.0);
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let (mut chain, mut x, mut permitted) = (spot.chain, motion.x, 0.0);
     while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
         permitted += stretch.end - x;
         if permitted > ENOUGH || stretch.end < scene.network.chain(chain).length - 1e-6 {
@@ -308,24 +313,24 @@ impl Gap {
     /// # Errors
     /// Why not.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Refusal> {
-        let car = scene.car(spot);
-        let style = &scene.characters[car.character as usize];
+        let speed = scene.motion(spot).speed;
+        let style = &scene.characters[scene.car(spot).character as usize];
         let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
-        let crossing = 0.5 * duration * car.speed;
+        let crossing = 0.5 * duration * speed;
         if self.room < crossing {
             return Err(Refusal::Short);
         }
-        let me = driver(scene, car);
+        let me = driver(scene, spot);
         if let Some(ahead) = self.ahead {
             let demanded = style.follow.acceleration(self.pace(spot, scene), Some(ahead));
-            let pair = GapPair { gap: ahead.gap, follower: car.speed, leader: ahead.speed, demanded };
+            let pair = GapPair { gap: ahead.gap, follower: speed, leader: ahead.speed, demanded };
             style.safety.accept(pair, dt)?;
         }
         if let Some(found) = self.follower {
-            let behind = driver(scene, scene.car(found.spot));
+            let behind = driver(scene, found.spot);
             let gap = found.distance - me.length;
-            let demanded = behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed: car.speed }));
-            let pair = GapPair { gap, follower: behind.pace.speed, leader: car.speed, demanded };
+            let demanded = behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed }));
+            let pair = GapPair { gap, follower: behind.pace.speed, leader: speed, demanded };
             style.safety.accept(pair, dt)?;
         }
         Ok(())
@@ -333,11 +338,11 @@ impl Gap {
 
     /// The driver's pace with the time gap that it accepts for this change.
     fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
-        let car = scene.car(spot);
+        let (motion, car) = (scene.motion(spot), scene.car(spot));
         let style = &scene.characters[car.character as usize];
         let desire = f64::from(scene.mind(spot).urgency).max(VOLUNTARY_DESIRE);
-        let tightness = style.manner.tightness(desire).min(f64::from(car.tightness));
-        Pace { speed: car.speed, desired: f64::from(car.desired), tightness }
+        let tightness = style.manner.tightness(desire).min(f64::from(motion.tightness));
+        Pace { speed: motion.speed, desired: f64::from(car.desired), tightness }
     }
 
     /// Share of the usual time gap that the driver accepts for this change.
@@ -347,30 +352,36 @@ impl Gap {
 
     /// Gaps [m] and times to collision [s] ahead and behind; infinite where there is nobody.
     pub(crate) fn measures(&self, scene: &Scene, spot: Spot) -> [f64; 4] {
-        let car = scene.car(spot);
+        let motion = scene.motion(spot);
         let (gap_ahead, ttc_ahead) = self.ahead.map_or((f64::INFINITY, f64::INFINITY), |it| {
-            (it.gap, time_to_collision(it.gap, car.speed, it.speed))
+            (it.gap, time_to_collision(it.gap, motion.speed, it.speed))
         });
         let (gap_behind, ttc_behind) = self.follower.map_or((f64::INFINITY, f64::INFINITY), |it| {
-            let gap = it.distance - f64::from(car.length);
-            (gap, time_to_collision(gap, scene.car(it.spot).speed, car.speed))
+            let gap = it.distance - f64::from(motion.length);
+            (gap, time_to_collision(gap, scene.motion(it.spot).speed, motion.speed))
         });
         [gap_ahead, gap_behind, ttc_ahead, ttc_behind]
     }
 }
 
 /// Before the crossing a driver goes back if its new leader forces it to brake much harder than its old one.
-fn abort_if_it_must(scene: &Scene, spot: Spot, plan: &mut Plan) {
+fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
-    let (car, mind) = (scene.car(spot), scene.mind(spot));
+    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
     let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };
     let style = &scene.characters[car.character as usize];
     let forced = |from| {
-        scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), car.speed, it.speed))
+        scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };
-    let there = forced(scene.viewpoint_at(twin.chain, twin.x, car.id, car.goal.destination()));
+    let there = forced(scene.viewpoint_at(twin.chain, twin.x, motion.id, car.goal.destination()));
     if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
         let ask = Ask::Abort;
-        plan.requests.push(Request { urgency: mind.urgency, id: car.id, chain: spot.chain, x: car.x, ask });
+        outbox.requests.push(Request {
+            urgency: mind.urgency,
+            id: motion.id,
+            chain: spot.chain,
+            x: motion.x,
+            ask,
+        });
     }
 }

@@ -13,7 +13,7 @@ use laneweave_network::{ChainIndex, Gate, Network};
 use crate::navigate::{Destination, Navigator, Waypoint};
 use crate::random::{Purpose, Random};
 use crate::scene::Scene;
-use crate::traffic::VehicleId;
+use crate::traffic::{Motion, VehicleId};
 use crate::vehicle::Class;
 use crate::world::WorldError;
 
@@ -193,7 +193,7 @@ impl Source {
         const SOON: f64 = 600.0;
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
-            let room = scene.cars(queue.chain).first().map_or(f64::INFINITY, |car| car.rear());
+            let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
             let (queued, room) = match arrival.class {
                 Class::Truck => (0, 0.0),
                 Class::Car => (queue.waiting.len(), room),

@@ -5,7 +5,6 @@ use laneweave_network::{ChainIndex, Pose, Side};
 
 use crate::pose::pose;
 use crate::scene::{Scene, Spot};
-use crate::traffic::Phase;
 
 /// Rectangles that intersect less than this do not overlap [m].
 const TOLERANCE: f64 = 0.05;
@@ -16,20 +15,16 @@ const REACH: f64 = 30.0;
 pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex) -> u64 {
     let entries = scene.cars(chain).iter().enumerate();
     entries
-        .filter(|(_, car)| !car.is_shadow && moves_sideways(car.phase))
+        .filter(|(_, car)| !car.is_shadow && car.phase.is_between_lanes())
         .map(|(index, _)| overlaps_of(scene, Spot { chain, index }))
         .sum()
 }
 
-fn moves_sideways(phase: Phase) -> bool {
-    matches!(phase, Phase::Changes | Phase::Aborts)
-}
-
 fn overlaps_of(scene: &Scene, spot: Spot) -> u64 {
     let lane = &scene.lanes[spot.chain.at()];
-    let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
+    let (motion, mind) = (&lane.motions()[spot.index], &lane.minds()[spot.index]);
     let body = Rectangle::of(scene, spot);
-    let own = [Some((spot.chain, car.x)), mind.twin.map(|twin| (twin.chain, twin.x))];
+    let own = [Some((spot.chain, motion.x)), mind.twin.map(|twin| (twin.chain, twin.x))];
     let beside = |side, place: Option<(ChainIndex, f64)>| {
         let (chain, x) = place?;
         scene.network.chain(chain).beside(side, x).map(|it| (it.chain, it.across(x)))
@@ -42,13 +37,16 @@ fn overlaps_of(scene: &Scene, spot: Spot) -> u64 {
         if places[..number].iter().flatten().any(|(earlier, _)| *earlier == chain) {
             continue;
         }
-        let cars = scene.cars(chain);
-        let from = cars.partition_point(|other| other.x < x - REACH);
-        for (index, other) in cars.iter().enumerate().skip(from).take_while(|(_, it)| it.x < x + REACH) {
+        let motions = scene.motions(chain);
+        let from = motions.partition_point(|other| other.x < x - REACH);
+        let near = motions.iter().enumerate().skip(from).take_while(|(_, it)| it.x < x + REACH);
+        for (index, other) in near {
+            let at = Spot { chain, index };
+            let other_car = scene.car(at);
             // Of two that move sideways the pair is counted once.
-            let is_counted_there = moves_sideways(other.phase) && other.id < car.id;
-            if other.id != car.id && !other.is_shadow && !is_counted_there {
-                let other = Rectangle::of(scene, Spot { chain, index });
+            let is_counted_there = other_car.phase.is_between_lanes() && other.id < motion.id;
+            if other.id != motion.id && !other_car.is_shadow && !is_counted_there {
+                let other = Rectangle::of(scene, at);
                 count += u64::from(body.depth(&other) > TOLERANCE);
             }
         }
@@ -65,9 +63,8 @@ struct Rectangle {
 
 impl Rectangle {
     fn of(scene: &Scene, spot: Spot) -> Rectangle {
-        let lane = &scene.lanes[spot.chain.at()];
-        let car = &lane.cars()[spot.index];
-        Rectangle { pose: pose(scene, spot), length: f64::from(car.length), width: car.class.body().width }
+        let (length, class) = (scene.motion(spot).length, scene.car(spot).class);
+        Rectangle { pose: pose(scene, spot), length: f64::from(length), width: class.body().width }
     }
 
     /// Half its extent along the direction (`x`, `y`).

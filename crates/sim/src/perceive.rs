@@ -12,17 +12,22 @@ use crate::traffic::{Car, Phase};
 pub fn perceive<'a>(scene: &'a Scene, me: Spot, side: Side) -> Option<Situation<'a>> {
     let outlook = Outlook::new(scene, me);
     let beside = outlook.beside(side)?;
-    let hint = scene.lanes[beside.chain.at()].ahead_of(beside.across(outlook.car().x));
+    let hint = scene.lanes[beside.chain.at()].ahead_of(beside.across(outlook.from.x));
     Some(outlook.situation(side, beside, &mut { hint }))
 }
 
 /// A driver with its vehicle.
 #[inline]
-pub fn driver<'a>(scene: &Scene<'a>, car: &Car) -> Driver<'a> {
+pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
     Driver {
-        pace: Pace { speed: car.speed, desired: f64::from(car.desired), tightness: f64::from(car.tightness) },
+        pace: Pace {
+            speed: motion.speed,
+            desired: f64::from(car.desired),
+            tightness: f64::from(motion.tightness),
+        },
         follow: &scene.characters[car.character as usize].follow,
-        length: f64::from(car.length),
+        length: f64::from(motion.length),
     }
 }
 
@@ -39,12 +44,11 @@ pub(crate) struct Outlook<'a> {
 impl<'a> Outlook<'a> {
     /// Looks along the driver's own lane.
     pub(crate) fn new(scene: &'a Scene<'a>, spot: Spot) -> Outlook<'a> {
-        let car = scene.car(spot);
-        let me = driver(scene, car);
+        let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length);
         let here = lane_view(scene, &me, from, &sight);
-        Outlook { scene, car, me, from, sight, here }
+        Outlook { scene, car: scene.car(spot), me, from, sight, here }
     }
 
     /// The driver's own vehicle.
@@ -59,20 +63,20 @@ impl<'a> Outlook<'a> {
 
     /// The stretch beside on `side`.
     pub(crate) fn beside(&self, side: Side) -> Option<&'a Beside> {
-        self.scene.network.chain(self.from.chain).beside(side, self.car.x)
+        self.scene.network.chain(self.from.chain).beside(side, self.from.x)
     }
 
     /// What the driver knows about the lane on `side`, along the stretch `beside`. The first entry ahead there is
     /// sought from `hint` on, and kept in it.
     pub(crate) fn situation(&self, side: Side, beside: &Beside, hint: &mut usize) -> Situation<'a> {
-        let x = beside.across(self.car.x);
+        let x = beside.across(self.from.x);
         *hint = self.scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
         let from = Viewpoint { chain: beside.chain, x, ahead: *hint, ..self.from };
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length);
         let mut there = lane_view(self.scene, &self.me, from, &sight);
         let mut here = self.here;
         let section = here.route.remaining.min(there.route.remaining).min(SIGHT);
-        let on_section = section / self.scene.network.chain(self.from.chain).limit(self.car.x);
+        let on_section = section / self.scene.network.chain(self.from.chain).limit(self.from.x);
         here.route.onward = (here.route.onward - on_section).max(0.0);
         there.route.onward = if there.route.changes == Waypoint::NO_WAY {
             here.route.onward
@@ -91,10 +95,10 @@ impl<'a> Outlook<'a> {
         };
         let behind = sight.follower.map(|it| it.spot).filter(|it| wants_in(*it));
         let spot = behind.or(sight.leader.filter(|it| wants_in(*it)))?;
-        let car = self.scene.car(spot);
         // Where it would be on the driver's own lane, seen from the driver.
-        let forward = if spot.chain == from.chain { car.x - from.x } else { return None };
-        let driver = driver(self.scene, car);
+        let forward =
+            if spot.chain == from.chain { self.scene.motion(spot).x - from.x } else { return None };
+        let driver = driver(self.scene, spot);
         let in_own_lane = self.scene.ahead(self.scene.viewpoint(spot));
         let me_ahead = Ahead { gap: -forward - self.me.length, speed: self.me.pace.speed };
         let my_leader =
@@ -106,9 +110,8 @@ impl<'a> Outlook<'a> {
 }
 
 fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, from: Viewpoint, sight: &LaneSight) -> LaneView<'a> {
-    let behind = sight
-        .follower
-        .map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, scene.car(it.spot)) });
+    let behind =
+        sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, it.spot) });
     LaneView {
         ahead: sight.ahead,
         behind,

@@ -1,33 +1,25 @@
-//! What the drivers of one lane resolve to do in a step, written down on the snapshot and carried out afterwards.
+//! What drivers resolve to do in a step, written down on the snapshot and carried out afterwards.
 
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side};
 
 use crate::navigate::Destination;
 use crate::tally::Tally;
-use crate::traffic::{Car, Kind, Milestone, Mind, Twin, VehicleId};
+use crate::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
 /// its own, so that threads do not disturb each other.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(crate) struct Plan {
-    /// Acceleration of each entry [m/s²].
-    pub(crate) accelerations: Vec<f64>,
-    /// Main entries of vehicles in a change, with their shadows.
-    pub(crate) couples: Vec<(u32, Twin)>,
-    /// Entries whose braking kinematics decided.
-    pub(crate) emergencies: Vec<u32>,
-    /// Entries that touch their leaders.
-    pub(crate) collisions: Vec<u32>,
+    /// How each entry moves at the end of the step.
+    pub(crate) next: Vec<Motion>,
+    /// Entries about which there is more to keep than how they move.
+    pub(crate) upkeep: Vec<Upkeep>,
     /// What drivers who considered lanes keep in mind.
     pub(crate) notes: Vec<Note>,
-    /// What concerns other lanes.
-    pub(crate) requests: Vec<Request>,
-    /// Entries that passed the end of the chain.
-    pub(crate) leaving: Vec<(Car, Mind)>,
-    /// What happened to lane changes.
-    pub(crate) milestones: Vec<Milestone>,
+    /// What some of them keep in mind beside.
+    pub(crate) concerns: Vec<Concern>,
     /// Overlaps, if it was time to look for them.
     pub(crate) overlaps: u64,
     /// Counts.
@@ -37,16 +29,49 @@ pub(crate) struct Plan {
 impl Plan {
     /// Forgets the last step.
     pub(crate) fn clear(&mut self) {
-        self.accelerations.clear();
-        self.couples.clear();
-        self.emergencies.clear();
-        self.collisions.clear();
+        self.next.clear();
+        self.upkeep.clear();
         self.notes.clear();
-        self.requests.clear();
+        self.concerns.clear();
     }
 }
 
-/// What a driver keeps in mind after considering lanes.
+/// What concerns more than one lane, as one thread gathers it from the lanes that it happens to move: in no order that
+/// may matter.
+#[derive(Debug, Default)]
+#[repr(align(128))]
+pub(crate) struct Outbox {
+    /// What drivers ask for.
+    pub(crate) requests: Vec<Request>,
+    /// What happened to lane changes.
+    pub(crate) milestones: Vec<Milestone>,
+    /// Entries that passed the ends of their chains.
+    pub(crate) leaving: Vec<(ChainIndex, Entry)>,
+}
+
+impl Outbox {
+    /// Takes over all that is in `other`.
+    pub(crate) fn gather(&mut self, other: &mut Outbox) {
+        self.requests.append(&mut other.requests);
+        self.milestones.append(&mut other.milestones);
+        self.leaving.append(&mut other.leaving);
+    }
+}
+
+/// What became in a step of an entry that does not only follow.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Upkeep {
+    /// The entry.
+    pub(crate) index: u32,
+    /// Distance driven [m].
+    pub(crate) distance: f64,
+    /// Kinematics decided in the present braking.
+    pub(crate) in_emergency: bool,
+    /// It touches its leader.
+    pub(crate) in_collision: bool,
+}
+
+/// What every driver keeps in mind after considering lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Note {
     /// Its entry.
@@ -55,10 +80,17 @@ pub(crate) struct Note {
     pub(crate) due: u32,
     /// Desired speed that the current limit gives [m/s].
     pub(crate) limit_desired: f32,
-    /// Where it has to have left a wrong lane [m].
-    pub(crate) last_place: f64,
     /// Time at standstill [s].
     pub(crate) standing: f32,
+}
+
+/// What a driver keeps in mind beside, who has to leave its lane soon, heeds more than its leader, or wants to change.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Concern {
+    /// Its entry.
+    pub(crate) index: u32,
+    /// Where it has to have left a wrong lane soon [m].
+    pub(crate) last_place: Option<f64>,
     /// How much the route presses it to the change that it wants, 0…1.
     pub(crate) urgency: f32,
     /// It no longer wants to change.

@@ -2,8 +2,9 @@
 //! work-stealing pools lose more than they gain.
 #![expect(unsafe_code, reason = "workers that outlive a step borrow that step's data; measured in bench/")]
 
+use std::cell::UnsafeCell;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle, Thread};
 
 /// How often an idle worker looks for work before it parks.
@@ -18,38 +19,66 @@ pub(crate) struct Pool {
 }
 
 struct Shared {
-    /// Number of the current job; odd numbers never occur, so that a stop can be told.
-    job: AtomicUsize,
-    task: Mutex<Option<Task>>,
+    posted: Posted,
     /// For each thread how much of its own range of items has been claimed.
     claimed: Vec<Claimed>,
-    busy: AtomicUsize,
-    stop: AtomicBool,
-    panicked: AtomicBool,
+    progress: Progress,
     parked: Vec<AtomicBool>,
 }
 
-/// A counter on a cache line of its own.
+/// What the caller's thread writes, on a cache line of its own.
+#[repr(align(128))]
+struct Posted {
+    /// Number of the current job.
+    job: AtomicUsize,
+    task: UnsafeCell<Option<Task>>,
+    stop: AtomicBool,
+}
+
+// SAFETY: the task is written only by the caller's thread while no worker is busy, before the job's number is raised;
+// workers read it only between their seeing that number and their no longer being busy.
+unsafe impl Sync for Posted {}
+
+/// What the workers write, on a cache line of its own.
 #[derive(Default)]
 #[repr(align(128))]
-struct Claimed(AtomicUsize);
+struct Progress {
+    /// Workers that are not yet done.
+    busy: AtomicUsize,
+    /// Threads that are done with looking.
+    looked: AtomicUsize,
+    panicked: AtomicBool,
+}
 
-/// A job that lives only while [`Pool::each_pair`] waits for it.
+/// Counters on a cache line of their own: claimed for looking, and for acting.
+#[derive(Default)]
+#[repr(align(128))]
+struct Claimed([AtomicUsize; 2]);
+
+/// A job that lives only while [`Pool::look_then_act`] waits for it. The numbers that are passed are those of the phase,
+/// the thread and the item.
 #[derive(Clone, Copy)]
 struct Task {
-    work: *const (dyn Fn(usize) + Sync),
+    work: *const (dyn Fn(Phase, usize, usize) + Sync),
     items: usize,
     portion: usize,
 }
 
-// SAFETY: the pointer is used only while `Pool::each_pair` keeps what it points to alive, and it points to something
-// `Sync`.
+// SAFETY: the pointer is used only while `Pool::look_then_act` keeps what it points to alive, and it points to
+// something `Sync`.
 unsafe impl Send for Task {}
+
+/// The two phases of a job.
+#[derive(Clone, Copy, PartialEq)]
+enum Phase {
+    Look,
+    Act,
+}
 
 /// An array whose items are handed to one thread each.
 struct Items<T>(*mut T);
 
-// SAFETY: every index is claimed by exactly one thread, see `Shared::work_on`.
+// SAFETY: every index is claimed by exactly one thread in each phase, see `Shared::work_on`.
 unsafe impl<T: Send> Sync for Items<T> {}
 
 impl<T> Items<T> {
@@ -63,12 +92,13 @@ impl Pool {
     pub(crate) fn new(threads: usize) -> Pool {
         let helpers = threads.max(1) - 1;
         let shared = Arc::new(Shared {
-            job: AtomicUsize::new(0),
-            task: Mutex::new(None),
+            posted: Posted {
+                job: AtomicUsize::new(0),
+                task: UnsafeCell::new(None),
+                stop: AtomicBool::new(false),
+            },
             claimed: (0..=helpers).map(|_| Claimed::default()).collect(),
-            busy: AtomicUsize::new(0),
-            stop: AtomicBool::new(false),
-            panicked: AtomicBool::new(false),
+            progress: Progress::default(),
             parked: (0..helpers).map(|_| AtomicBool::new(false)).collect(),
         });
         let workers = (0..helpers)
@@ -85,56 +115,69 @@ impl Pool {
         self.workers.len() + 1
     }
 
-    /// Calls `work` once for every item with its index; returns when all are done. Which thread takes which item is
-    /// not determined, so `work` must not let it matter.
-    pub(crate) fn each<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
-        // Items without a size need no memory.
-        let mut nothing = vec![(); items.len()];
-        self.each_pair(items, &mut nothing, |index, item, ()| work(index, item));
-    }
-
-    /// Calls `work` once for every item of `items` and the one at the same place of `others`.
-    pub(crate) fn each_pair<T: Send, U: Send>(
+    /// Calls `look` once for every plan, with all items to look at; when that is done, calls `act` once for every item
+    /// with its plan; returns when all is done. Both are given the item's index and what belongs to the thread alone,
+    /// one of `own`. Which thread takes which item is not determined, so neither may let it matter.
+    pub(crate) fn look_then_act<O: Send, T: Send + Sync, P: Send>(
         &self,
+        own: &mut [O],
         items: &mut [T],
-        others: &mut [U],
-        work: impl Fn(usize, &mut T, &mut U) + Sync,
+        plans: &mut [P],
+        look: impl Fn(&[T], &mut O, usize, &mut P) + Sync,
+        act: impl Fn(&mut T, &mut O, usize, &mut P) + Sync,
     ) {
-        assert_eq!(items.len(), others.len(), "items that do not pair");
+        assert_eq!(items.len(), plans.len(), "items that do not pair");
+        assert!(own.len() >= self.threads(), "each thread has something of its own");
         if self.workers.is_empty() || items.len() < 2 {
-            let pairs = items.iter_mut().zip(others).enumerate();
-            pairs.for_each(|(index, (item, other))| work(index, item, other));
+            let own = &mut own[0];
+            plans.iter_mut().enumerate().for_each(|(index, plan)| look(items, own, index, plan));
+            let pairs = items.iter_mut().zip(plans).enumerate();
+            pairs.for_each(|(index, (item, plan))| act(item, own, index, plan));
             return;
         }
-        let (array, other_array) = (Items(items.as_mut_ptr()), Items(others.as_mut_ptr()));
-        let call = |index: usize| {
-            // SAFETY: `index` is below the length of both and claimed by this thread alone; both are borrowed mutably
-            // until all threads are done.
-            let (item, other) = unsafe { (&mut *array.at(index), &mut *other_array.at(index)) };
-            work(index, item, other);
+        let count = items.len();
+        let (own, items, plans) =
+            (Items(own.as_mut_ptr()), Items(items.as_mut_ptr()), Items(plans.as_mut_ptr()));
+        let work = |phase: Phase, thread: usize, index: usize| {
+            // SAFETY: no other thread has this number, and `index` is below the length and claimed by this thread alone in
+            // this phase; all are borrowed mutably until all threads are done.
+            let (own, plan) = unsafe { (&mut *own.at(thread), &mut *plans.at(index)) };
+            match phase {
+                // SAFETY: nobody writes to the items before all threads are done with looking.
+                Phase::Look => {
+                    look(unsafe { std::slice::from_raw_parts(items.at(0), count) }, own, index, plan)
+                }
+                // SAFETY: all threads are done with looking, and the item is claimed by this one.
+                Phase::Act => act(unsafe { &mut *items.at(index) }, own, index, plan),
+            }
         };
-        let portion = (items.len() / (self.threads() * PORTIONS)).max(1);
-        let work: *const (dyn Fn(usize) + Sync + '_) = &raw const call;
-        // SAFETY: only the lifetime changes; `call` outlives every use, since this function returns only when all
-        // workers are done with it.
+        let portion = (count / (self.threads() * PORTIONS)).max(1);
+        let work: *const (dyn Fn(Phase, usize, usize) + Sync + '_) = &raw const work;
+        // SAFETY: only the lifetime changes; what it points to outlives every use, since this function returns only when
+        // all workers are done with it.
         let work = unsafe {
-            std::mem::transmute::<*const (dyn Fn(usize) + Sync + '_), *const (dyn Fn(usize) + Sync)>(work)
+            std::mem::transmute::<
+                *const (dyn Fn(Phase, usize, usize) + Sync + '_),
+                *const (dyn Fn(Phase, usize, usize) + Sync),
+            >(work)
         };
-        let task = Task { work, items: items.len(), portion };
+        let task = Task { work, items: count, portion };
         self.start(task);
-        let finish = Finish(&self.shared);
+        let finish = Finish(&self.shared.progress);
         self.shared.work_on(task, 0);
         drop(finish);
-        assert!(!self.shared.panicked.load(Ordering::Acquire), "a worker of the pool panicked");
+        assert!(!self.shared.progress.panicked.load(Ordering::Acquire), "a worker of the pool panicked");
     }
 
     fn start(&self, task: Task) {
-        let shared = &self.shared;
-        *shared.task.lock().unwrap_or_else(PoisonError::into_inner) = Some(task);
-        shared.claimed.iter().for_each(|it| it.0.store(0, Ordering::Relaxed));
-        shared.busy.store(self.workers.len(), Ordering::Relaxed);
-        shared.job.fetch_add(1, Ordering::SeqCst);
-        for (worker, parked) in self.workers.iter().zip(&shared.parked) {
+        let Shared { posted, claimed, progress, parked } = &*self.shared;
+        // SAFETY: no worker is busy.
+        unsafe { *posted.task.get() = Some(task) };
+        claimed.iter().flat_map(|it| &it.0).for_each(|it| it.store(0, Ordering::Relaxed));
+        progress.busy.store(self.workers.len(), Ordering::Relaxed);
+        progress.looked.store(0, Ordering::Relaxed);
+        posted.job.fetch_add(1, Ordering::SeqCst);
+        for (worker, parked) in self.workers.iter().zip(parked) {
             if parked.load(Ordering::SeqCst) {
                 Thread::unpark(worker.thread());
             }
@@ -143,28 +186,47 @@ impl Pool {
 }
 
 /// Waits for the workers, also when the caller's own share panics.
-struct Finish<'a>(&'a Shared);
+struct Finish<'a>(&'a Progress);
 
 impl Drop for Finish<'_> {
     fn drop(&mut self) {
-        let mut spins = 0;
-        while self.0.busy.load(Ordering::Acquire) > 0 {
-            spins += 1;
-            // A worker that has lost its core needs it back.
-            if spins > SPINS { thread::yield_now() } else { std::hint::spin_loop() }
-        }
+        self.0.note_panic();
+        spin_until(|| self.0.busy.load(Ordering::Acquire) == 0);
     }
 }
 
 /// Says that a worker is done, also when it panics.
-struct Done<'a>(&'a Shared);
+struct Done<'a>(&'a Progress);
 
 impl Drop for Done<'_> {
     fn drop(&mut self) {
-        if thread::panicking() {
-            self.0.panicked.store(true, Ordering::Release);
-        }
+        self.0.note_panic();
         self.0.busy.fetch_sub(1, Ordering::Release);
+    }
+}
+
+impl Progress {
+    fn note_panic(&self) {
+        if thread::panicking() {
+            self.panicked.store(true, Ordering::Release);
+        }
+    }
+
+    /// Waits for all `threads` to be done with looking. Returns whether they are: not if one panicked.
+    fn all_looked(&self, threads: usize) -> bool {
+        self.looked.fetch_add(1, Ordering::AcqRel);
+        let is_over = || self.panicked.load(Ordering::Acquire);
+        spin_until(|| self.looked.load(Ordering::Acquire) == threads || is_over());
+        !is_over()
+    }
+}
+
+fn spin_until(is_so: impl Fn() -> bool) {
+    let mut spins = 0;
+    while !is_so() {
+        spins += 1;
+        // A thread that has lost its core needs it back.
+        if spins > SPINS { thread::yield_now() } else { std::hint::spin_loop() }
     }
 }
 
@@ -174,12 +236,12 @@ impl Shared {
         let mut seen = 0;
         loop {
             seen = self.await_job(seen, number);
-            if self.stop.load(Ordering::Acquire) {
+            if self.posted.stop.load(Ordering::Acquire) {
                 return;
             }
-            let task = *self.task.lock().unwrap_or_else(PoisonError::into_inner);
-            let _done = Done(self);
-            if let Some(task) = task {
+            let _done = Done(&self.progress);
+            // SAFETY: this worker has seen the job's number and is busy.
+            if let Some(task) = unsafe { *self.posted.task.get() } {
                 self.work_on(task, number + 1);
             }
         }
@@ -187,7 +249,7 @@ impl Shared {
 
     fn await_job(&self, seen: usize, number: usize) -> usize {
         for _ in 0..SPINS {
-            let job = self.job.load(Ordering::Acquire);
+            let job = self.posted.job.load(Ordering::Acquire);
             if job != seen {
                 return job;
             }
@@ -195,7 +257,7 @@ impl Shared {
         }
         self.parked[number].store(true, Ordering::SeqCst);
         loop {
-            let job = self.job.load(Ordering::SeqCst);
+            let job = self.posted.job.load(Ordering::SeqCst);
             if job != seen {
                 self.parked[number].store(false, Ordering::SeqCst);
                 return job;
@@ -204,21 +266,28 @@ impl Shared {
         }
     }
 
-    /// Works on the range of items that is this thread's in every job, so that what it left in its cache is there; then
-    /// on what is left of the others' ranges.
     fn work_on(&self, task: Task, thread: usize) {
-        // SAFETY: `Pool::each_pair` keeps the job alive until no thread is busy any more.
+        self.work_in(Phase::Look, task, thread);
+        if self.progress.all_looked(self.claimed.len()) {
+            self.work_in(Phase::Act, task, thread);
+        }
+    }
+
+    /// Works on the range of items that is this thread's in every job, so that what it left in its cache is there; then
+    /// on what is left of the others' ranges, but for the last portion of each: to fetch that from another's cache takes
+    /// as long as to wait for it.
+    fn work_in(&self, phase: Phase, task: Task, thread: usize) {
+        // SAFETY: `Pool::look_then_act` keeps the job alive until no thread is busy any more.
         let work = unsafe { &*task.work };
         let threads = self.claimed.len();
         for owner in (thread..threads).chain(0..thread) {
             let range = |owner: usize| owner * task.items / threads;
             let (begin, end) = (range(owner), range(owner + 1));
-            loop {
-                let first = begin + self.claimed[owner].0.fetch_add(task.portion, Ordering::Relaxed);
-                if first >= end {
-                    break;
-                }
-                (first..(first + task.portion).min(end)).for_each(work);
+            let claimed = &self.claimed[owner].0[phase as usize];
+            let left_to_it = if owner == thread { 0 } else { task.portion };
+            while begin + claimed.load(Ordering::Relaxed) + left_to_it < end {
+                let first = begin + claimed.fetch_add(task.portion, Ordering::Relaxed);
+                (first..(first + task.portion).min(end)).for_each(|index| work(phase, thread, index));
             }
         }
     }
@@ -226,8 +295,8 @@ impl Shared {
 
 impl Drop for Pool {
     fn drop(&mut self) {
-        self.shared.stop.store(true, Ordering::Release);
-        self.shared.job.fetch_add(1, Ordering::SeqCst);
+        self.shared.posted.stop.store(true, Ordering::Release);
+        self.shared.posted.job.fetch_add(1, Ordering::SeqCst);
         for worker in self.workers.drain(..) {
             worker.thread().unpark();
             // A worker that panicked was reported when it did.
@@ -238,16 +307,32 @@ impl Drop for Pool {
 
 #[cfg(test)]
 mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
     use super::*;
 
     #[test]
-    fn every_item_is_worked_on_once_by_any_number_of_threads() {
+    fn every_item_is_worked_on_once_by_any_number_of_threads_after_all_have_looked() {
         for threads in [1, 2, 4] {
             let pool = Pool::new(threads);
-            let mut items = vec![0usize; 1000];
-            for round in 1..200 {
-                pool.each(&mut items, |index, item| *item += index);
-                assert!(items.iter().enumerate().all(|(index, item)| *item == round * index));
+            let (mut items, mut seen) = (vec![0_usize; 300], vec![0; 300]);
+            for round in 0..200 {
+                let mut counts = vec![0; threads];
+                pool.look_then_act(
+                    &mut counts,
+                    &mut items,
+                    &mut seen,
+                    |items, count, index, seen| {
+                        *count += 1;
+                        *seen = items.iter().sum::<usize>() + index;
+                    },
+                    |item, _, index, seen| {
+                        assert_eq!(*seen, 300 * round + index, "everybody looked at the same");
+                        *item += 1;
+                    },
+                );
+                assert_eq!(counts.iter().sum::<usize>(), items.len());
+                assert!(items.iter().all(|it| *it == round + 1));
             }
         }
     }
@@ -258,8 +343,21 @@ mod tests {
         let mut items = vec![0; 10];
         for _ in 0..3 {
             thread::sleep(std::time::Duration::from_millis(50));
-            pool.each(&mut items, |_, item| *item += 1);
+            let act = |item: &mut i32, (): &mut (), _, (): &mut ()| *item += 1;
+            pool.look_then_act(&mut [(); 2], &mut items, &mut [(); 10], |_, (), _, ()| (), act);
         }
         assert_eq!(items, [3; 10]);
+    }
+
+    #[test]
+    fn a_panic_while_looking_reaches_the_caller() {
+        for place in 0..10 {
+            let pool = Pool::new(2);
+            let look = |_: &[i32], (): &mut (), index, (): &mut ()| assert_ne!(index, place);
+            let mut items = [0; 10];
+            let call =
+                || pool.look_then_act(&mut [(); 2], &mut items, &mut [(); 10], look, |_, (), _, ()| ());
+            assert!(catch_unwind(AssertUnwindSafe(call)).is_err());
+        }
     }
 }

@@ -4,30 +4,31 @@ use laneweave_models::change::moved_share;
 use laneweave_network::{ChainIndex, Point, Pose};
 
 use crate::scene::{Scene, Spot};
-use crate::traffic::{Car, Mind};
+use crate::traffic::{Entry, Motion};
 
 /// Pose of the centre of the vehicle whose main entry is `spot`.
 ///
 /// In a lane change its front and rear bumpers both lie on the path: the rear bumper follows the front one, so that a
 /// long vehicle does not swing out.
 pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
-    let lane = &scene.lanes[spot.chain.at()];
-    let (car, mind) = (&lane.cars()[spot.index], &lane.minds()[spot.index]);
-    let [front_offset, rear_offset] = offsets(scene, spot.chain, car, mind);
-    let front = on_path(scene, spot.chain, mind.came_from, car.x, front_offset);
-    let rear = on_path(scene, spot.chain, mind.came_from, car.rear(), rear_offset);
+    let entry = scene.lanes[spot.chain.at()].entry(spot.index);
+    let Entry { motion, mind, .. } = &entry;
+    let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
+    let front = on_path(scene, spot.chain, mind.came_from, motion.x, front_offset);
+    let rear = on_path(scene, spot.chain, mind.came_from, motion.rear(), rear_offset);
     Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
 }
 
 /// How far the vehicle's centre is to the left of the centre of its lane [m].
 pub(crate) fn lateral_offset(scene: &Scene, spot: Spot) -> f64 {
-    let lane = &scene.lanes[spot.chain.at()];
-    let [front, rear] = offsets(scene, spot.chain, &lane.cars()[spot.index], &lane.minds()[spot.index]);
+    let entry = scene.lanes[spot.chain.at()].entry(spot.index);
+    let [front, rear] = offsets(scene, spot.chain, &entry);
     0.5 * (front + rear)
 }
 
 /// Offsets of the front and the rear bumper to the left [m].
-fn offsets(scene: &Scene, chain: ChainIndex, car: &Car, mind: &Mind) -> [f64; 2] {
+fn offsets(scene: &Scene, chain: ChainIndex, entry: &Entry) -> [f64; 2] {
+    let Entry { motion, car, mind } = entry;
     let progress = f64::from(mind.progress).clamp(0.0, 1.0);
     if progress == 0.0 {
         return [0.0; 2];
@@ -35,29 +36,30 @@ fn offsets(scene: &Scene, chain: ChainIndex, car: &Car, mind: &Mind) -> [f64; 2]
     // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
     let manner = &scene.characters[car.character as usize].manner;
     let duration = manner.duration(f64::from(mind.urgency));
-    let way = (car.speed * duration).max(least_way(car));
-    let half = 0.5 * f64::from(car.length) / way * 4.0 * progress * (1.0 - progress);
+    let way = (motion.speed * duration).max(least_way(motion));
+    let half = 0.5 * f64::from(motion.length) / way * 4.0 * progress * (1.0 - progress);
     let crossed = if mind.progress < 0.5 { 0.0 } else { 1.0 };
-    let spacing = mind.side.sign() * lane_spacing(scene, chain, car, mind);
+    let spacing = mind.side.sign() * lane_spacing(scene, chain, entry);
     [progress + half, progress - half].map(|it| spacing * (moved_share(it) - crossed))
 }
 
 /// Shortest way on which a vehicle can change lanes [m].
-pub(crate) fn least_way(car: &Car) -> f64 {
+pub(crate) fn least_way(motion: &Motion) -> f64 {
     const OF_A_SHORT_ONE: f64 = 25.0;
     const LENGTHS: f64 = 3.0;
-    (LENGTHS * f64::from(car.length)).max(OF_A_SHORT_ONE)
+    (LENGTHS * f64::from(motion.length)).max(OF_A_SHORT_ONE)
 }
 
 /// Distance between the centre lines of the two lanes [m].
-fn lane_spacing(scene: &Scene, chain: ChainIndex, car: &Car, mind: &Mind) -> f64 {
-    match mind.twin {
+fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
+    let x = entry.motion.x;
+    match entry.mind.twin {
         Some(twin) => {
-            let here = scene.network.chain(chain).centre.at(car.x);
+            let here = scene.network.chain(chain).centre.at(x);
             here.distance(&scene.network.chain(twin.chain).centre.at(twin.x))
         }
         None => {
-            let (lanelet, along) = scene.network.lanelet_at(chain, car.x);
+            let (lanelet, along) = scene.network.lanelet_at(chain, x);
             lanelet.width(along)
         }
     }

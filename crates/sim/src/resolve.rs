@@ -7,30 +7,19 @@ use crate::decide::gap;
 use crate::events::{Event, LaneChange};
 use crate::plan::{Ask, Request, Want};
 use crate::scene::Spot;
-use crate::traffic::{Car, Milestone, Mind, Phase, Reached, Twin};
+use crate::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin};
 use crate::world::World;
 
 impl World {
     /// Gathers what concerns more than one lane.
     pub(crate) fn gather(&mut self) {
-        for (index, plan) in self.plans.iter_mut().enumerate() {
-            let from = ChainIndex(index as u32);
-            // What is empty is not written to: its cache line stays with the thread that has it.
-            if !plan.requests.is_empty() {
-                self.requests.append(&mut plan.requests);
-            }
-            if !plan.milestones.is_empty() {
-                self.milestones.append(&mut plan.milestones);
-            }
-            if !plan.leaving.is_empty() {
-                self.leaving.extend(plan.leaving.drain(..).map(|(car, mind)| (from, car, mind)));
-            }
-        }
+        let [first, others @ ..] = &mut self.outboxes[..] else { return };
+        others.iter_mut().for_each(|it| first.gather(it));
     }
 
     /// Grants what can be granted.
     pub(crate) fn resolve(&mut self) {
-        let mut requests = std::mem::take(&mut self.requests);
+        let mut requests = std::mem::take(&mut self.outboxes[0].requests);
         requests.sort_unstable_by(|a, b| {
             b.urgency.total_cmp(&a.urgency).then(a.id.cmp(&b.id)).then(a.ask.rank().cmp(&b.ask.rank()))
         });
@@ -38,7 +27,7 @@ impl World {
             let Some(index) = self.lanes[request.chain.at()].find(request.id, request.x) else { continue };
             self.grant(Spot { chain: request.chain, index }, &request);
         }
-        self.requests = requests;
+        self.outboxes[0].requests = requests;
     }
 
     fn grant(&mut self, spot: Spot, request: &Request) {
@@ -49,11 +38,11 @@ impl World {
             Ask::Change if phase == Phase::Wants => self.begin_to_change(spot),
             Ask::LetIn { follower, chain, x, gap, speed } => {
                 if let Some(index) = self.lanes[chain.at()].find(follower, x) {
-                    let (cars, minds) = self.lanes[chain.at()].parts();
-                    let manner = &self.characters[cars[index].character as usize].manner;
-                    if manner.yield_deceleration > 0.0 && cars[index].phase == Phase::Cruises {
-                        minds[index].lets_in = Some((gap, speed));
-                        cars[index].heeds_more = true;
+                    let (_, car, mind) = self.lanes[chain.at()].entry_mut(index);
+                    let manner = &self.characters[car.character as usize].manner;
+                    if manner.yield_deceleration > 0.0 && car.phase == Phase::Cruises {
+                        mind.lets_in = Some((gap, speed));
+                        car.heeds_more = true;
                     }
                 }
             }
@@ -65,25 +54,24 @@ impl World {
 
     fn begin_to_want(&mut self, spot: Spot, request: &Request, want: &Want) {
         let step = self.clock.step;
-        let (cars, minds) = self.lanes[spot.chain.at()].parts();
-        let (car, mind) = (&mut cars[spot.index], &mut minds[spot.index]);
+        let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
         car.phase = Phase::Wants;
         mind.side = want.side;
         mind.kind = want.kind;
         mind.since = step;
         mind.urgency = request.urgency;
         mind.record = self.records.keep(LaneChange {
-            vehicle: car.id,
+            vehicle: motion.id,
             character: car.character,
             class: car.class,
             started: 0.0,
             time: 0.0,
             duration: 0.0,
-            from: (spot.chain, car.x),
-            to: (spot.chain, car.x),
+            from: (spot.chain, motion.x),
+            to: (spot.chain, motion.x),
             side: want.side,
             kind: want.kind,
-            speed: car.speed,
+            speed: motion.speed,
             speed_gain: f64::from(want.speed_gain),
             appraisal: want.appraisal,
             gap_ahead: f64::INFINITY,
@@ -107,43 +95,50 @@ impl World {
         let time = self.clock.time();
         let record = self.records.get_mut(mind.record);
         *record = LaneChange { started: time, gap_ahead, gap_behind, ttc_ahead, ttc_behind, ..*record };
-        let (cars, minds) = self.lanes[spot.chain.at()].parts();
-        let (car, mind) = (&mut cars[spot.index], &mut minds[spot.index]);
+        let lane = &mut self.lanes[spot.chain.at()];
+        let (motion, car, mind) = lane.entry_mut(spot.index);
+        motion.tightness = tightness;
         car.phase = Phase::Changes;
-        car.tightness = tightness;
         mind.progress = 0.0;
         mind.since = self.clock.step;
-        mind.twin = Some(Twin { chain: gap.chain, x: gap.x, stretch: gap.scale as f32 });
-        let shadow = Car { x: gap.x, is_shadow: true, heeds_more: false, ..*car };
-        let twin = Some(Twin { chain: spot.chain, x: car.x, stretch: 1.0 });
-        let stretch = gap.scale as f32;
-        let shadow_mind =
-            Mind { twin, stretch, came_from: None, last_place: f64::INFINITY, lets_in: None, ..*mind };
-        self.lanes[gap.chain.at()].insert(shadow, shadow_mind);
+        let (x, stretch) = (gap.x, gap.scale as f32);
+        mind.twin = Some(Twin { chain: gap.chain, x, stretch });
+        let Entry { motion, car, mind } = lane.entry(spot.index);
+        let shadow = Entry {
+            motion: Motion { x, ..motion },
+            car: Car { is_shadow: true, heeds_more: false, ..car },
+            mind: Mind {
+                twin: Some(Twin { chain: spot.chain, x: motion.x, stretch: 1.0 }),
+                stretch,
+                came_from: None,
+                last_place: f64::INFINITY,
+                lets_in: None,
+                ..mind
+            },
+        };
+        self.lanes[gap.chain.at()].insert(shadow);
     }
 
     /// Both entries of a vehicle go back.
     fn turn_back(&mut self, spot: Spot) {
-        let lane = &mut self.lanes[spot.chain.at()];
-        let (cars, minds) = lane.parts();
-        let id = cars[spot.index].id;
-        cars[spot.index].phase = Phase::Aborts;
-        if let Some(twin) = minds[spot.index].twin {
-            let lane = &mut self.lanes[twin.chain.at()];
-            if let Some(index) = lane.find(id, twin.x) {
-                lane.parts().0[index].phase = Phase::Aborts;
-            }
+        let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
+        car.phase = Phase::Aborts;
+        let (id, twin) = (motion.id, mind.twin);
+        let Some(twin) = twin else { return };
+        let lane = &mut self.lanes[twin.chain.at()];
+        if let Some(index) = lane.find(id, twin.x) {
+            lane.entry_mut(index).1.phase = Phase::Aborts;
         }
     }
 
     /// Keeps account of the lane changes.
     pub(crate) fn account(&mut self) {
-        let mut milestones = std::mem::take(&mut self.milestones);
+        let mut milestones = std::mem::take(&mut self.outboxes[0].milestones);
         milestones.sort_unstable_by_key(|it| (it.id, it.what));
         for milestone in milestones.drain(..) {
             self.note_milestone(&milestone);
         }
-        self.milestones = milestones;
+        self.outboxes[0].milestones = milestones;
     }
 
     fn note_milestone(&mut self, milestone: &Milestone) {
@@ -185,103 +180,100 @@ impl World {
         let (chain, x) = milestone.at;
         let lane = &mut self.lanes[chain.at()];
         if let Some(index) = lane.find(milestone.id, x) {
-            let cars = lane.parts().0;
-            let manner = &self.characters[cars[index].character as usize].manner;
-            cars[index].calm_until = self.clock.step + self.clock.steps(manner.calm);
+            let car = lane.entry_mut(index).1;
+            let manner = &self.characters[car.character as usize].manner;
+            car.calm_until = self.clock.step + self.clock.steps(manner.calm);
         }
     }
 
     /// Entries that passed the ends of their chains go on, or leave the map.
     pub(crate) fn transfer(&mut self) {
-        let mut leaving = std::mem::take(&mut self.leaving);
+        let mut leaving = std::mem::take(&mut self.outboxes[0].leaving);
         // A vehicle's main entry comes before its shadow.
-        leaving.sort_unstable_by_key(|(_, car, _)| (car.id, car.is_shadow));
+        leaving.sort_unstable_by_key(|(_, it)| (it.motion.id, it.car.is_shadow));
         let mut index = 0;
         while index < leaving.len() {
-            let (from, car, mut mind) = leaving[index];
+            let (from, mut entry) = leaving[index];
             index += 1;
-            let onto = self.place_beyond(from, &car);
-            if let Some((shadow_from, shadow, mut shadow_mind)) =
-                leaving.get(index).copied().filter(|(_, it, _)| it.id == car.id)
-            {
+            let onto = self.place_beyond(from, &entry);
+            let own_shadow = leaving.get(index).filter(|(_, it)| it.motion.id == entry.motion.id);
+            if let Some((shadow_from, mut shadow)) = own_shadow.copied() {
                 index += 1;
                 let shadow_onto = self.place_beyond(shadow_from, &shadow);
-                mind.twin = relocated(mind.twin, shadow_onto);
-                shadow_mind.twin = relocated(shadow_mind.twin, onto);
+                entry.mind.twin = relocated(entry.mind.twin, shadow_onto);
+                shadow.mind.twin = relocated(shadow.mind.twin, onto);
                 if onto.is_some() && shadow_onto.is_some() {
-                    self.go_on_or_leave(shadow_from, shadow_onto, shadow, shadow_mind);
+                    self.go_on_or_leave(shadow_from, shadow_onto, shadow);
                 }
             }
-            self.go_on_or_leave(from, onto, car, mind);
+            self.go_on_or_leave(from, onto, entry);
         }
         leaving.clear();
-        self.leaving = leaving;
+        self.outboxes[0].leaving = leaving;
     }
 
     /// Where an entry that passed the end of its chain stands now.
-    fn place_beyond(&self, from: ChainIndex, car: &Car) -> Option<(ChainIndex, f64)> {
-        let next = self.navigator.waypoint(car.goal.destination(), from).next?;
-        Some((next, car.x - self.network.chain(from).length))
+    fn place_beyond(&self, from: ChainIndex, entry: &Entry) -> Option<(ChainIndex, f64)> {
+        let next = self.navigator.waypoint(entry.car.goal.destination(), from).next?;
+        Some((next, entry.motion.x - self.network.chain(from).length))
     }
 
-    fn go_on_or_leave(&mut self, from: ChainIndex, onto: Option<(ChainIndex, f64)>, car: Car, mind: Mind) {
+    fn go_on_or_leave(&mut self, from: ChainIndex, onto: Option<(ChainIndex, f64)>, entry: Entry) {
         match onto {
-            Some((next, _)) => self.go_on(from, next, car, mind),
-            None => self.leave(from, car, mind),
+            Some((next, _)) => self.go_on(from, next, entry),
+            None => self.leave(from, entry),
         }
     }
 
-    fn go_on(&mut self, from: ChainIndex, next: ChainIndex, mut car: Car, mut mind: Mind) {
+    fn go_on(&mut self, from: ChainIndex, next: ChainIndex, mut entry: Entry) {
         let length = self.network.chain(from).length;
-        car.x -= length;
-        mind.last_place -= length;
-        mind.came_from = Some(from);
-        let limit = self.network.chain(next).limit(car.x);
-        let style = &self.characters[car.character as usize];
-        car.limit_desired = car.class.desired_speed(style, limit) as f32;
-        self.tell_twin(&car, &mind, Some((next, car.x)));
-        self.lanes[next.at()].insert(car, mind);
+        entry.motion.x -= length;
+        entry.mind.last_place -= length;
+        entry.mind.came_from = Some(from);
+        let limit = self.network.chain(next).limit(entry.motion.x);
+        let style = &self.characters[entry.car.character as usize];
+        entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
+        self.tell_twin(&entry, Some((next, entry.motion.x)));
+        self.lanes[next.at()].insert(entry);
     }
 
     /// A main entry leaves the map; a shadow on a lane that ends is no longer needed.
-    fn leave(&mut self, from: ChainIndex, car: Car, mind: Mind) {
+    fn leave(&mut self, from: ChainIndex, entry: Entry) {
+        let Entry { motion, car, mind } = entry;
         if car.is_shadow {
-            self.tell_twin(&car, &mind, None);
+            self.tell_twin(&entry, None);
             return;
         }
         if let Some(twin) = mind.twin {
             let lane = &mut self.lanes[twin.chain.at()];
-            if let Some(index) = lane.find(car.id, twin.x) {
+            if let Some(index) = lane.find(motion.id, twin.x) {
                 lane.remove(index);
             }
         }
-        if matches!(car.phase, Phase::Changes | Phase::Wants | Phase::Aborts) {
+        if car.phase != Phase::Cruises {
+            let is_across = car.phase == Phase::Changes && mind.progress >= 0.5;
             self.note_milestone(&Milestone {
-                id: car.id,
+                id: motion.id,
                 record: mind.record,
-                what: if car.phase == Phase::Changes && mind.progress >= 0.5 {
-                    Reached::End
-                } else {
-                    Reached::Nothing
-                },
-                at: (from, car.x),
+                what: if is_across { Reached::End } else { Reached::Nothing },
+                at: (from, motion.x),
                 shadow: None,
-                speed: car.speed,
+                speed: motion.speed,
             });
         }
         self.counts.left += 1;
         self.crowd -= 1;
         let duration = f64::from(self.clock.step - mind.entered) * self.clock.dt;
         self.counts.trip_time += duration;
-        self.events.push(Event::Left { vehicle: car.id, duration });
+        self.events.push(Event::Left { vehicle: motion.id, duration });
     }
 
     /// Tells the other entry of a vehicle where this one stands now.
-    fn tell_twin(&mut self, car: &Car, mind: &Mind, now: Option<(ChainIndex, f64)>) {
-        let Some(twin) = mind.twin else { return };
+    fn tell_twin(&mut self, entry: &Entry, now: Option<(ChainIndex, f64)>) {
+        let Some(twin) = entry.mind.twin else { return };
         let lane = &mut self.lanes[twin.chain.at()];
-        if let Some(index) = lane.find(car.id, twin.x) {
-            let other = &mut lane.parts().1[index];
+        if let Some(index) = lane.find(entry.motion.id, twin.x) {
+            let other = lane.entry_mut(index).2;
             other.twin = relocated(other.twin, now);
         }
     }

@@ -6,7 +6,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Network};
 
 use crate::navigate::{Destination, Navigator};
-use crate::traffic::{Car, Lane, Mind, VehicleId};
+use crate::traffic::{Car, Lane, Mind, Motion, VehicleId};
 
 /// One instant of traffic on a network.
 #[derive(Clone, Copy, Debug)]
@@ -86,10 +86,10 @@ struct Window {
 
 impl Window {
     #[inline]
-    fn add(&mut self, car: &Car) {
+    fn add(&mut self, other: &Motion) {
         self.count += 1.0;
-        self.speeds += car.speed;
-        self.lengths += f64::from(car.length);
+        self.speeds += other.speed;
+        self.lengths += f64::from(other.length);
     }
 
     /// Means over a window of `extent` [m]; an empty one looks like a road on which one drives as one likes.
@@ -106,13 +106,25 @@ impl Window {
 }
 
 impl<'a> Scene<'a> {
-    /// The vehicles on `chain`.
+    /// The vehicles on `chain`, as others see them.
+    #[inline]
+    pub fn motions(&self, chain: ChainIndex) -> &'a [Motion] {
+        self.lanes[chain.at()].motions()
+    }
+
+    /// The drivers on `chain`.
     #[inline]
     pub fn cars(&self, chain: ChainIndex) -> &'a [Car] {
         self.lanes[chain.at()].cars()
     }
 
-    /// The entry at `spot`.
+    /// How the entry at `spot` moves.
+    #[inline]
+    pub fn motion(&self, spot: Spot) -> &'a Motion {
+        &self.motions(spot.chain)[spot.index]
+    }
+
+    /// The hot part of the entry at `spot`.
     #[inline]
     pub fn car(&self, spot: Spot) -> &'a Car {
         &self.cars(spot.chain)[spot.index]
@@ -127,9 +139,9 @@ impl<'a> Scene<'a> {
     /// The viewpoint of an entry.
     #[inline]
     pub fn viewpoint(&self, spot: Spot) -> Viewpoint {
-        let car = self.car(spot);
-        let destination = car.goal.destination();
-        Viewpoint { chain: spot.chain, x: car.x, ahead: spot.index + 1, id: car.id, destination }
+        let Motion { x, id, .. } = *self.motion(spot);
+        let destination = self.car(spot).goal.destination();
+        Viewpoint { chain: spot.chain, x, ahead: spot.index + 1, id, destination }
     }
 
     /// The viewpoint from `x` on another chain.
@@ -153,9 +165,9 @@ impl<'a> Scene<'a> {
     /// The leader within sight.
     #[inline]
     pub fn ahead(&self, from: Viewpoint) -> Option<Ahead> {
-        let cars = self.cars(from.chain);
-        match cars[from.ahead..].iter().find(|car| car.id != from.id) {
-            Some(car) => Some(Ahead { gap: car.rear() - from.x, speed: car.speed }),
+        let motions = self.motions(from.chain);
+        match motions[from.ahead..].iter().find(|it| it.id != from.id) {
+            Some(it) => Some(Ahead { gap: it.rear() - from.x, speed: it.speed }),
             None => self.ahead_beyond(from),
         }
     }
@@ -166,8 +178,8 @@ impl<'a> Scene<'a> {
         let mut base = self.network.chain(chain).length - from.x;
         while base < SIGHT {
             let next = self.next(from.destination, chain)?;
-            let on_way = self.cars(next).iter().find(|car| car.id != from.id);
-            let leader = on_way.map(|car| Ahead { gap: base + car.rear(), speed: car.speed });
+            let on_way = self.motions(next).iter().find(|it| it.id != from.id);
+            let leader = on_way.map(|it| Ahead { gap: base + it.rear(), speed: it.speed });
             let beside = self.beside_the_fork(chain, next, base, from.id);
             if let Some(nearest) = nearer(leader, beside) {
                 return Some(nearest);
@@ -189,19 +201,19 @@ impl<'a> Scene<'a> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
         siblings
             .filter_map(|it| {
-                let car = self.cars(*it).iter().find(|car| car.id != id)?;
-                let in_the_way = car.rear() < self.network.chain(*it).fork_clearance;
-                in_the_way.then(|| Ahead { gap: base + car.rear(), speed: car.speed })
+                let other = self.motions(*it).iter().find(|other| other.id != id)?;
+                let in_the_way = other.rear() < self.network.chain(*it).fork_clearance;
+                in_the_way.then(|| Ahead { gap: base + other.rear(), speed: other.speed })
             })
             .fold(None, |nearest, it| nearer(nearest, Some(it)))
     }
 
     /// The follower within sight.
     pub fn follower(&self, from: Viewpoint) -> Option<Found> {
-        let cars = &self.cars(from.chain)[..from.ahead];
-        let here = cars.iter().enumerate().rev().find(|(_, car)| car.id != from.id);
-        if let Some((index, car)) = here {
-            let found = Found { spot: Spot { chain: from.chain, index }, distance: from.x - car.x };
+        let motions = &self.motions(from.chain)[..from.ahead];
+        let here = motions.iter().enumerate().rev().find(|(_, it)| it.id != from.id);
+        if let Some((index, it)) = here {
+            let found = Found { spot: Spot { chain: from.chain, index }, distance: from.x - it.x };
             return (found.distance < REAR_SIGHT).then_some(found);
         }
         let (mut chain, mut base) = (from.chain, from.x);
@@ -226,10 +238,10 @@ impl<'a> Scene<'a> {
         let previous = &self.network.chain(chain).previous;
         let mut nearest: Option<(ChainIndex, Option<Found>)> = previous.first().map(|it| (*it, None));
         for back in previous {
-            let mut foremost = self.cars(*back).iter().enumerate().rev();
+            let mut foremost = self.motions(*back).iter().zip(self.cars(*back)).enumerate().rev();
             let comes = |car: &Car| self.next(car.goal.destination(), *back) == Some(chain);
-            let found = foremost.find(|(_, car)| car.id != id && comes(car)).map(|(index, car)| {
-                let distance = base + self.network.chain(*back).length - car.x;
+            let found = foremost.find(|(_, (it, car))| it.id != id && comes(car)).map(|(index, (it, _))| {
+                let distance = base + self.network.chain(*back).length - it.x;
                 Found { spot: Spot { chain: *back, index }, distance }
             });
             let is_nearer = match (&nearest, &found) {
@@ -259,7 +271,7 @@ impl<'a> Scene<'a> {
     fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
         let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
         loop {
-            if view.pass(&self.cars(chain)[index..], chain, index, base, from.id, desired) {
+            if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
                 return WINDOW_AHEAD;
             }
             base += self.network.chain(chain).length;
@@ -281,22 +293,22 @@ impl<'a> Scene<'a> {
     /// Looks at what is behind; returns the follower and the window's extent [m].
     #[inline]
     fn look_back(&self, from: Viewpoint, window: &mut Window) -> (Option<Found>, f64) {
-        let cars = &self.cars(from.chain)[..from.ahead];
+        let motions = &self.motions(from.chain)[..from.ahead];
         let mut follower = None;
-        for (index, car) in cars.iter().enumerate().rev() {
-            let distance = from.x - car.x;
+        for (index, it) in motions.iter().enumerate().rev() {
+            let distance = from.x - it.x;
             let is_in_window = distance <= WINDOW_BACK;
             if !is_in_window && (follower.is_some() || distance >= REAR_SIGHT) {
                 return (follower, WINDOW_BACK);
             }
-            if car.id == from.id {
+            if it.id == from.id {
                 continue;
             }
             if follower.is_none() {
                 follower = Some(Found { spot: Spot { chain: from.chain, index }, distance });
             }
             if is_in_window {
-                window.add(car);
+                window.add(it);
             }
         }
         if follower.is_none() {
@@ -312,8 +324,8 @@ impl<'a> Scene<'a> {
             return from.x.clamp(0.0, WINDOW_BACK);
         };
         let length = self.network.chain(*back).length;
-        let cars = self.cars(*back).iter().rev().take_while(|car| length - car.x <= missing);
-        cars.filter(|car| car.id != from.id).for_each(|car| window.add(car));
+        let within = self.motions(*back).iter().rev().take_while(|it| length - it.x <= missing);
+        within.filter(|it| it.id != from.id).for_each(|it| window.add(it));
         (from.x + length).min(WINDOW_BACK)
     }
 }
@@ -327,25 +339,25 @@ struct View {
 }
 
 impl View {
-    /// Looks along `cars`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
+    /// Looks along `motions`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
     /// Returns whether the end of sight was reached.
     #[inline]
     fn pass(
         &mut self,
-        cars: &[Car],
+        motions: &[Motion],
         chain: ChainIndex,
         first: usize,
         base: f64,
         id: VehicleId,
         desired: f64,
     ) -> bool {
-        for (index, car) in (first..).zip(cars) {
-            let front = base + car.x;
-            let ahead = Ahead { gap: front - f64::from(car.length), speed: car.speed };
+        for (index, it) in (first..).zip(motions) {
+            let front = base + it.x;
+            let ahead = Ahead { gap: front - f64::from(it.length), speed: it.speed };
             if ahead.gap > SIGHT {
                 return true;
             }
-            if car.id == id {
+            if it.id == id {
                 continue;
             }
             if self.leader.is_none() {
@@ -355,7 +367,7 @@ impl View {
             let anticipated = anticipated_speed(ahead, desired);
             self.prospect = if anticipated < self.prospect { anticipated } else { self.prospect };
             if front <= WINDOW_AHEAD {
-                self.window.add(car);
+                self.window.add(it);
             }
         }
         false

@@ -1,7 +1,9 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
-//! What driving on and considering lanes need stands in [`Car`], one cache line; what only changes of lane need, in the same order, in [`Mind`]. A vehicle that changes lanes
-//! stands in both lanes: with its main entry where its centre is, with a shadow in the other.
+//! An entry has three parts, kept in arrays of the same order: its [`Motion`], written anew at every step, is all that
+//! others need to see; [`Car`] is what its driver needs to drive on and to consider lanes; [`Mind`] what only changes of
+//! lane need. A vehicle that changes lanes stands in both lanes: with its main entry where its centre is, with a
+//! shadow in the other.
 
 use laneweave_network::{ChainIndex, Side};
 
@@ -11,30 +13,44 @@ use crate::vehicle::Class;
 /// Name of a vehicle; it never changes and is never given again.
 pub type VehicleId = u32;
 
-/// The hot part of a vehicle: one cache line of 64 bytes.
+/// How a vehicle moves, and what others see of it: half a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
-pub struct Car {
+#[repr(align(32))]
+pub struct Motion {
     /// Front bumper along the chain [m].
     pub x: f64,
     /// Speed [m/s].
     pub speed: f64,
     /// Acceleration of the last step [m/s²].
     pub acceleration: f32,
+    /// Share of its usual time gap that the driver accepts for now.
+    pub tightness: f32,
+    /// Vehicle length [m].
+    pub length: f32,
+    /// Who it is.
+    pub id: VehicleId,
+}
+
+impl Motion {
+    /// Rear bumper along the chain [m].
+    #[inline]
+    pub fn rear(&self) -> f64 {
+        self.x - f64::from(self.length)
+    }
+}
+
+/// What the driver of a vehicle needs at every step: half a cache line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(32))]
+pub struct Car {
     /// Desired speed [m/s]; a lower limit is approached gently.
     pub desired: f32,
     /// Desired speed that the current speed limit gives [m/s].
     pub limit_desired: f32,
-    /// Vehicle length [m].
-    pub length: f32,
-    /// Share of its usual time gap that the driver accepts for now.
-    pub tightness: f32,
     /// Time at standstill [s].
     pub standing: f32,
     /// Its driver's place in the table of characters.
     pub character: u32,
-    /// Who it is.
-    pub id: VehicleId,
     /// Step at which its driver considers lanes next.
     pub due: u32,
     /// Step before which there is no new voluntary change.
@@ -55,13 +71,17 @@ pub struct Car {
     pub heeds_more: bool,
 }
 
-const _: () = assert!(size_of::<Car>() == 64, "a car fills one cache line");
+const _: () = assert!(size_of::<Motion>() == 32 && size_of::<Car>() == 32, "an entry fills one cache line");
 
 impl Car {
-    /// Rear bumper along the chain [m].
+    /// Its driver only follows: no change of lanes, nothing else to heed or to remember.
     #[inline]
-    pub fn rear(&self) -> f64 {
-        self.x - f64::from(self.length)
+    pub(crate) fn only_follows(&self) -> bool {
+        self.phase == Phase::Cruises
+            && !self.heeds_more
+            && !self.in_emergency
+            && !self.in_collision
+            && self.desired == self.limit_desired
     }
 }
 
@@ -77,6 +97,14 @@ pub enum Phase {
     Changes,
     /// Goes back to where it came from.
     Aborts,
+}
+
+impl Phase {
+    /// Its vehicle is between two lanes, and stands in both.
+    #[inline]
+    pub fn is_between_lanes(self) -> bool {
+        matches!(self, Phase::Changes | Phase::Aborts)
+    }
 }
 
 /// The warm part of a vehicle.
@@ -159,47 +187,89 @@ pub enum Kind {
     Route,
 }
 
+/// An entry with all its parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// How it moves.
+    pub motion: Motion,
+    /// Its driver's hot part.
+    pub car: Car,
+    /// Its driver's warm part.
+    pub mind: Mind,
+}
+
 /// The vehicles of one chain in driving order: the last entry is foremost.
 #[derive(Clone, Debug, Default)]
 pub struct Lane {
+    motions: Vec<Motion>,
     cars: Vec<Car>,
     minds: Vec<Mind>,
 }
 
 impl Lane {
-    /// Their hot parts.
+    /// How they move.
+    #[inline]
+    pub fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
+    /// Their drivers' hot parts.
     #[inline]
     pub fn cars(&self) -> &[Car] {
         &self.cars
     }
 
-    /// Their warm parts.
+    /// Their drivers' warm parts.
     #[inline]
     pub fn minds(&self) -> &[Mind] {
         &self.minds
     }
 
-    /// Both parts, to change. The order must stay that of the positions.
+    /// Their drivers' hot parts, to change.
     #[inline]
-    pub(crate) fn parts(&mut self) -> (&mut [Car], &mut [Mind]) {
-        (&mut self.cars, &mut self.minds)
+    pub(crate) fn cars_mut(&mut self) -> &mut [Car] {
+        &mut self.cars
+    }
+
+    /// All parts of the entry at `index`.
+    pub(crate) fn entry(&self, index: usize) -> Entry {
+        Entry { motion: self.motions[index], car: self.cars[index], mind: self.minds[index] }
+    }
+
+    /// The parts of the entry at `index`, to change. The order must stay that of the positions.
+    #[inline]
+    pub(crate) fn entry_mut(&mut self, index: usize) -> (&mut Motion, &mut Car, &mut Mind) {
+        (&mut self.motions[index], &mut self.cars[index], &mut self.minds[index])
+    }
+
+    /// Number of entries that there is room for.
+    #[inline]
+    pub(crate) fn capacity(&self) -> usize {
+        self.cars.capacity()
+    }
+
+    /// All move: `next` becomes how they move, and is given what it was.
+    #[inline]
+    pub(crate) fn swap_motions(&mut self, next: &mut Vec<Motion>) {
+        assert_eq!(self.motions.len(), next.len(), "every entry moves once");
+        std::mem::swap(&mut self.motions, next);
     }
 
     /// Number of entries that are not beyond `x`: the index of the first one ahead.
     #[inline]
     pub fn ahead_of(&self, x: f64) -> usize {
-        self.cars.partition_point(|car| car.x <= x)
+        self.motions.partition_point(|it| it.x <= x)
     }
 
     /// The same, sought from the index `hint` on: drivers who look across one after the other are near each other, and
     /// a walk over neighbours meets no cold memory as a bisection does.
     #[inline]
     pub(crate) fn ahead_of_near(&self, x: f64, hint: usize) -> usize {
-        let mut index = hint.min(self.cars.len());
-        while index < self.cars.len() && self.cars[index].x <= x {
+        let mut index = hint.min(self.motions.len());
+        while index < self.motions.len() && self.motions[index].x <= x {
             index += 1;
         }
-        while index > 0 && self.cars[index - 1].x > x {
+        while index > 0 && self.motions[index - 1].x > x {
             index -= 1;
         }
         index
@@ -211,27 +281,35 @@ impl Lane {
         const STEP: f64 = 100.0;
         /// Rounding [m].
         const NEAR: f64 = 0.01;
-        let from = self.cars.partition_point(|car| car.x < x - NEAR);
-        let within = self.cars[from..].iter().take_while(|car| car.x <= x + STEP);
-        within.zip(from..).find(|(car, _)| car.id == id).map(|(_, index)| index)
+        let from = self.motions.partition_point(|it| it.x < x - NEAR);
+        let within = self.motions[from..].iter().take_while(|it| it.x <= x + STEP);
+        within.zip(from..).find(|(it, _)| it.id == id).map(|(_, index)| index)
     }
 
     /// Adds an entry at its place.
-    pub(crate) fn insert(&mut self, car: Car, mind: Mind) {
-        let index = self.ahead_of(car.x);
+    pub(crate) fn insert(&mut self, entry: Entry) {
+        let index = self.ahead_of(entry.motion.x);
         if self.cars.len() == self.cars.capacity() {
             // Doubling would leave a third of the memory of much traffic unused.
-            let more = 8 + self.cars.len() / 8;
+            let more = 8 + self.cars.len() / 16;
             self.cars.reserve_exact(more);
             self.minds.reserve_exact(more);
         }
-        self.cars.insert(index, car);
-        self.minds.insert(index, mind);
+        if self.motions.len() == self.motions.capacity() {
+            self.motions.reserve_exact(self.cars.capacity() - self.motions.len());
+        }
+        self.motions.insert(index, entry.motion);
+        self.cars.insert(index, entry.car);
+        self.minds.insert(index, entry.mind);
     }
 
     /// Takes an entry out.
-    pub(crate) fn remove(&mut self, index: usize) -> (Car, Mind) {
-        (self.cars.remove(index), self.minds.remove(index))
+    pub(crate) fn remove(&mut self, index: usize) -> Entry {
+        Entry {
+            motion: self.motions.remove(index),
+            car: self.cars.remove(index),
+            mind: self.minds.remove(index),
+        }
     }
 
     /// Takes out the shadows of changes that are over.
@@ -247,8 +325,8 @@ impl Lane {
     }
 
     /// Takes the foremost entry out if it is beyond `end`.
-    pub(crate) fn pop_beyond(&mut self, end: f64) -> Option<(Car, Mind)> {
-        self.cars.last().filter(|car| car.x > end)?;
-        Some((self.cars.pop()?, self.minds.pop()?))
+    pub(crate) fn pop_beyond(&mut self, end: f64) -> Option<Entry> {
+        self.motions.last().filter(|it| it.x > end)?;
+        Some(self.remove(self.motions.len() - 1))
     }
 }

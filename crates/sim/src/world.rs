@@ -5,22 +5,22 @@ use laneweave_network::{ChainIndex, Network, Pose};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::accelerate::{accelerate, couple};
 use crate::advance::advance;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
 use crate::demand::{Arrival, Demand, Source, entry_speed};
+use crate::drive::drive;
 use crate::events::Event;
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
-use crate::plan::{Plan, Request};
+use crate::plan::{Outbox, Plan};
 use crate::pool::Pool;
 use crate::pose::{lateral_offset, pose};
 use crate::random::{Purpose, Random};
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
 use crate::tally::Tally;
-use crate::traffic::{Car, Kind, Lane, Milestone, Mind, Phase, VehicleId};
+use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
 use crate::vehicle::Class;
 
 /// Traffic on a network, and all that moves it.
@@ -34,9 +34,8 @@ pub struct World {
     pub(crate) records: Records,
     pub(crate) events: Vec<Event>,
     pub(crate) counts: Counts,
-    pub(crate) requests: Vec<Request>,
-    pub(crate) milestones: Vec<Milestone>,
-    pub(crate) leaving: Vec<(ChainIndex, Car, Mind)>,
+    /// One for each thread.
+    pub(crate) outboxes: Vec<Outbox>,
     demand: Demand,
     sources: Vec<Source>,
     random: Random,
@@ -150,9 +149,7 @@ impl World {
             records: Records::default(),
             events: Vec::new(),
             counts: Counts::default(),
-            requests: Vec::new(),
-            milestones: Vec::new(),
-            leaving: Vec::new(),
+            outboxes: (0..setup.threads.max(1)).map(|_| Outbox::default()).collect(),
             next_id: 0,
         })
     }
@@ -161,11 +158,7 @@ impl World {
     /// lanes is resolved in order; vehicles enter.
     pub fn step(&mut self) {
         self.events.clear();
-        self.decide_and_accelerate();
-        if self.is_watched() {
-            self.counts.overlaps += self.plans.iter().map(|plan| plan.overlaps).sum::<u64>();
-        }
-        self.advance();
+        self.move_all();
         self.clock.step += 1;
         self.gather();
         self.account();
@@ -174,32 +167,32 @@ impl World {
         self.enter();
     }
 
-    fn decide_and_accelerate(&mut self) {
-        let scene = Scene {
-            network: &self.network,
-            navigator: &self.navigator,
-            lanes: &self.lanes,
-            characters: &self.characters,
-        };
+    /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
+    fn move_all(&mut self) {
         let is_watched = self.is_watched();
-        let overtaking = self.network.driving_side.overtaking();
-        let moment = Moment { clock: self.clock, random: &self.random, overtaking };
-        self.pools[pool_for(self.crowd)].each(&mut self.plans, |index, plan| {
-            let chain = ChainIndex(index as u32);
-            plan.clear();
-            decide(&scene, moment, chain, plan);
-            accelerate(&scene, moment.clock, chain, plan);
-            plan.overlaps = if is_watched { overlaps(&scene, chain) } else { 0 };
-        });
-        couple(&self.lanes, &mut self.plans);
-    }
-
-    fn advance(&mut self) {
-        let World { network, characters, clock, lanes, plans, pools, crowd, .. } = self;
-        pools[pool_for(*crowd)].each_pair(lanes, plans, |index, lane, plan| {
-            let chain = ChainIndex(index as u32);
-            advance(lane, chain, network.chain(chain).length, *clock, characters, plan);
-        });
+        let World { network, navigator, characters, clock, random, lanes, plans, outboxes, .. } = self;
+        let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
+        let moment = Moment { clock: *clock, random, overtaking: network.driving_side.overtaking() };
+        self.pools[pool_for(self.crowd)].look_then_act(
+            outboxes,
+            lanes,
+            plans,
+            |lanes, outbox, index, plan| {
+                let scene = Scene { network, navigator, lanes, characters };
+                let chain = ChainIndex(index as u32);
+                plan.clear();
+                decide(&scene, moment, chain, plan, outbox);
+                drive(&scene, moment.clock, chain, plan);
+                plan.overlaps = if is_watched { overlaps(&scene, chain) } else { 0 };
+            },
+            |lane, outbox, index, plan| {
+                let chain = ChainIndex(index as u32);
+                advance(lane, chain, network.chain(chain).length, moment.clock, characters, plan, outbox);
+            },
+        );
+        if is_watched {
+            self.counts.overlaps += self.plans.iter().map(|plan| plan.overlaps).sum::<u64>();
+        }
     }
 
     /// Vehicles arrive, queue up, and enter where there is room.
@@ -250,17 +243,12 @@ impl World {
         let desired = class.desired_speed(style, self.network.chain(chain).limit(x)) as f32;
         let period = f64::from(self.clock.steps(style.attention.epoch));
         let delay = (self.random.uniform(id, Purpose::Epoch, 0) * period) as u32;
+        let motion = Motion { x, speed, acceleration: 0.0, tightness: 1.0, length: body.length as f32, id };
         let car = Car {
-            x,
-            speed,
-            acceleration: 0.0,
             desired,
             limit_desired: desired,
-            length: body.length as f32,
-            tightness: 1.0,
             standing: 0.0,
             character,
-            id,
             due: self.clock.step + delay,
             calm_until: 0,
             goal: destination.into(),
@@ -285,7 +273,7 @@ impl World {
             last_place: f64::INFINITY,
             lets_in: None,
         };
-        self.lanes[chain.at()].insert(car, mind);
+        self.lanes[chain.at()].insert(Entry { motion, car, mind });
         self.counts.entered += 1;
         self.crowd += 1;
     }
@@ -357,12 +345,10 @@ impl World {
     pub fn vehicles(&self) -> impl Iterator<Item = Vehicle<'_>> {
         self.lanes.iter().enumerate().flat_map(move |(index, lane)| {
             let chain = ChainIndex(index as u32);
-            let entries = lane.cars().iter().zip(lane.minds()).enumerate();
-            entries.filter(|(_, (car, _))| !car.is_shadow).map(move |(index, (car, mind))| Vehicle {
-                world: self,
-                spot: Spot { chain, index },
-                car,
-                mind,
+            let entries = lane.motions().iter().zip(lane.cars()).enumerate();
+            entries.filter(|(_, (_, car))| !car.is_shadow).map(move |(index, (motion, car))| {
+                let (spot, mind) = (Spot { chain, index }, &lane.minds()[index]);
+                Vehicle { world: self, spot, motion, car, mind }
             })
         })
     }
@@ -370,14 +356,14 @@ impl World {
     /// Hash of (id, lanelet, position, speed, state) of all vehicles in the order of their ids.
     pub fn state_hash(&self) -> u64 {
         let mut vehicles: Vec<Vehicle> = self.vehicles().collect();
-        vehicles.sort_by_key(|vehicle| vehicle.car.id);
+        vehicles.sort_by_key(Vehicle::id);
         let mut hash = Xxh3::new();
         for vehicle in vehicles {
-            let (lanelet, along) = self.network.lanelet_at(vehicle.spot.chain, vehicle.car.x);
-            hash.update(&vehicle.car.id.to_le_bytes());
+            let (lanelet, along) = self.network.lanelet_at(vehicle.spot.chain, vehicle.x());
+            hash.update(&vehicle.id().to_le_bytes());
             hash.update(&lanelet.id.to_le_bytes());
             hash.update(&along.to_bits().to_le_bytes());
-            hash.update(&vehicle.car.speed.to_bits().to_le_bytes());
+            hash.update(&vehicle.speed().to_bits().to_le_bytes());
             hash.update(&[vehicle.car.phase as u8]);
         }
         hash.digest()
@@ -396,13 +382,30 @@ pub struct Vehicle<'a> {
     world: &'a World,
     /// Where its main entry stands.
     pub spot: Spot,
-    /// Its hot part.
+    /// How it moves.
+    pub motion: &'a Motion,
+    /// Its driver's hot part.
     pub car: &'a Car,
-    /// Its warm part.
+    /// Its driver's warm part.
     pub mind: &'a Mind,
 }
 
 impl Vehicle<'_> {
+    /// Who it is.
+    pub fn id(&self) -> VehicleId {
+        self.motion.id
+    }
+
+    /// Front bumper along its chain [m].
+    pub fn x(&self) -> f64 {
+        self.motion.x
+    }
+
+    /// Speed [m/s].
+    pub fn speed(&self) -> f64 {
+        self.motion.speed
+    }
+
     /// Where its body is.
     pub fn pose(&self) -> Pose {
         pose(&self.world.scene(), self.spot)

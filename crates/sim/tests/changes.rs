@@ -159,7 +159,7 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
             world.step();
             let has_desire = |it: &laneweave_sim::Vehicle| it.car.phase != Phase::Cruises;
             for vehicle in world.vehicles().filter(has_desire) {
-                let first = &mut epochs[vehicle.car.id as usize];
+                let first = &mut epochs[vehicle.id() as usize];
                 *first = if *first == 0 { number / steps_per_epoch + 1 } else { *first };
             }
         }
@@ -236,7 +236,7 @@ fn put(world: &mut World, lane: u32, x: f64, speed: f64, character: u32) {
 }
 
 fn phase_of_the_first(world: &World) -> Phase {
-    world.vehicles().find(|it| it.car.id == 0).expect("it is on the road").car.phase
+    world.vehicles().find(|it| it.id() == 0).expect("it is on the road").car.phase
 }
 
 #[test]
@@ -282,8 +282,8 @@ fn v49_a_driver_waits_while_the_gap_is_blocked_and_changes_when_it_opens() {
             let mut opened = None;
             while opened.is_none_or(|since| world.clock().time() < since + 20.0) {
                 world.step();
-                let car = |id| world.vehicles().find(|it| it.car.id == id).unwrap();
-                let is_blocked = car(last).car.x < car(0).car.x + LENGTH;
+                let car = |id| world.vehicles().find(|it| it.id() == id).unwrap();
+                let is_blocked = car(last).x() < car(0).x() + LENGTH;
                 if is_blocked {
                     let phase = phase_of_the_first(&world);
                     assert!(

@@ -45,7 +45,7 @@ fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_
         }
         assert_eq!((entered, left), (counts.entered, counts.left));
         assert_eq!(ids.len(), world.on_road());
-        assert!(world.vehicles().all(|it| ids.contains(&it.car.id)));
+        assert!(world.vehicles().all(|it| ids.contains(&it.id())));
     }
     assert!(world.waiting() > 50 && left > 300);
 }
@@ -57,11 +57,11 @@ fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
     let (mut updates, mut distance, mut durations) = (0, 0.0, 0.0);
     for _ in 0..3000 {
         let before: std::collections::BTreeMap<u32, f64> =
-            world.vehicles().map(|it| (it.car.id, it.car.x)).collect();
+            world.vehicles().map(|it| (it.id(), it.x())).collect();
         updates += before.len() as u64;
         world.step();
         let after: std::collections::BTreeMap<u32, f64> =
-            world.vehicles().map(|it| (it.car.id, it.car.x)).collect();
+            world.vehicles().map(|it| (it.id(), it.x())).collect();
         distance += before.iter().filter_map(|(id, x)| after.get(id).map(|it| it - x)).sum::<f64>();
         durations += world
             .events()

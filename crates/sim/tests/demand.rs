@@ -79,7 +79,7 @@ fn classes_styles_and_destinations_come_in_their_shares() {
     for _ in 0..2 * 3600 {
         world.step();
         let is_new = |id| world.events().contains(&Event::Entered(id));
-        for vehicle in world.vehicles().filter(|it| it.car.x < 60.0 && is_new(it.car.id)) {
+        for vehicle in world.vehicles().filter(|it| it.x() < 60.0 && is_new(it.id())) {
             entered += 1.0;
             trucks += f64::from(u8::from(vehicle.car.class == Class::Truck));
             aggressive += f64::from(u8::from(vehicle.style().name == "aggressive"));

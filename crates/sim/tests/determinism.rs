@@ -122,9 +122,7 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
         (0..STEPS).for_each(|_| world.step());
         let mut state: Vec<_> = world
             .vehicles()
-            .map(|it| {
-                (number_of[it.car.id as usize], it.spot.chain, it.car.x.to_bits(), it.car.speed.to_bits())
-            })
+            .map(|it| (number_of[it.id() as usize], it.spot.chain, it.x().to_bits(), it.speed().to_bits()))
             .collect();
         state.sort_unstable();
         (state, world.counts().discretionary_changes)
@@ -149,9 +147,9 @@ fn v38_a_mirrored_road_mirrors_all_trajectories() {
         image.step();
         assert_eq!(original.on_road(), image.on_road());
         for (one, other) in original.vehicles().zip(image.vehicles()) {
-            assert_eq!((one.car.id, one.spot, one.car.phase), (other.car.id, other.spot, other.car.phase));
-            assert_eq!(one.car.x.to_bits(), other.car.x.to_bits());
-            assert_eq!(one.car.speed.to_bits(), other.car.speed.to_bits());
+            assert_eq!((one.id(), one.spot, one.car.phase), (other.id(), other.spot, other.car.phase));
+            assert_eq!(one.x().to_bits(), other.x().to_bits());
+            assert_eq!(one.speed().to_bits(), other.speed().to_bits());
             assert_eq!(one.lateral_offset(), -other.lateral_offset());
             let (pose, mirrored) = (one.pose(), other.pose());
             assert_eq!((pose.at.x, pose.at.y), (mirrored.at.x, -mirrored.at.y));

@@ -5,7 +5,7 @@ mod roads;
 use laneweave_models::Style;
 use laneweave_models::follow::{FollowingModel, Fvdm, Idm, Pace};
 use laneweave_network::ChainIndex;
-use laneweave_sim::{Car, Class, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Motion, NewVehicle, Setup, World};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -92,8 +92,8 @@ fn place(world: &mut World, x: f64, speed: f64, character: u32) {
     world.place(NewVehicle { chain, x, speed, class: Class::Car, character, destination: None });
 }
 
-fn car(world: &World, id: u32) -> Car {
-    *world.vehicles().find(|vehicle| vehicle.car.id == id).expect("it is on the road").car
+fn car(world: &World, id: u32) -> Motion {
+    *world.vehicles().find(|vehicle| vehicle.id() == id).expect("it is on the road").motion
 }
 
 /// Time [s] and way [m] in which a car from rest reaches `share` of its desired speed.
@@ -191,7 +191,7 @@ fn v8_a_ring_in_equilibrium_stays_there_for_a_thousand_seconds() {
         }
         assert_eq!(world.on_road(), 100);
         for vehicle in world.vehicles() {
-            assert_near(vehicle.car.speed, speed, 1e-9);
+            assert_near(vehicle.speed(), speed, 1e-9);
         }
     }
 }
@@ -219,7 +219,7 @@ fn v9_rings_of_ten_densities_flow_as_the_fundamental_diagram_says() {
         for (set, speed) in [(k2010(), idm_speed(gap)), (fvdm(), fvdm_speed(gap))] {
             let mut world = ring(set, gap, 0.5 * speed);
             (0..3_000).for_each(|_| world.step());
-            let mean = world.vehicles().map(|it| it.car.speed).sum::<f64>() / world.on_road() as f64;
+            let mean = world.vehicles().map(|it| it.speed()).sum::<f64>() / world.on_road() as f64;
             assert_near(density * mean, density * speed, 5e-3 * density * speed);
         }
     }

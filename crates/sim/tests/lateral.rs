@@ -153,11 +153,12 @@ fn v46_both_entries_of_a_vehicle_that_changes_drive_side_by_side() {
         for _ in 0..100 {
             world.step();
             let scene = world.scene();
-            let entries = [0, 1].map(|chain| scene.lanes[chain].cars().first());
+            let entries = [0, 1].map(|chain| scene.lanes[chain].motions().first());
             if let [Some(slow), Some(fast)] = entries {
                 steps += 1;
                 assert_eq!(slow.speed.to_bits(), fast.speed.to_bits());
-                assert_ne!(slow.is_shadow, fast.is_shadow);
+                let shadows = [0, 1].map(|chain| scene.lanes[chain].cars()[0].is_shadow);
+                assert_ne!(shadows[0], shadows[1]);
                 let beside = scene.network.chains[0].beside(Side::Left, slow.x).unwrap();
                 assert!((beside.across(slow.x) - fast.x).abs() < 0.02);
             }
@@ -194,7 +195,7 @@ fn v47_of_two_who_aim_at_one_gap_exactly_one_enters() {
             // As long as the first is calm after its change.
             for _ in 0..120 {
                 world.step();
-                let phase = |id| world.vehicles().find(|it| it.car.id == id).map(|it| it.car.phase);
+                let phase = |id| world.vehicles().find(|it| it.id() == id).map(|it| it.car.phase);
                 both_wanted |= phase(0) == Some(Phase::Wants) && phase(1) == Some(Phase::Wants);
                 // They keep side by side, so that the gap never holds the second.
                 assert_ne!(phase(1), Some(Phase::Changes));
@@ -221,7 +222,7 @@ fn v47_a_change_is_called_off_when_the_new_leader_brakes_hard_and_the_driver_ret
     let mut furthest: f64 = 0.0;
     for _ in 0..100 {
         world.step();
-        let vehicle = world.vehicles().find(|it| it.car.id == 0).unwrap();
+        let vehicle = world.vehicles().find(|it| it.id() == 0).unwrap();
         if called_off.is_empty() {
             furthest = furthest.max(vehicle.lateral_offset());
             assert_eq!(vehicle.spot.chain, ChainIndex(0));
@@ -231,7 +232,7 @@ fn v47_a_change_is_called_off_when_the_new_leader_brakes_hard_and_the_driver_ret
     assert_eq!(called_off.len(), 1);
     assert!(!called_off[0].is_completed);
     assert!(furthest > 0.1 && furthest < 0.5 * WIDTH, "{furthest} m");
-    let vehicle = world.vehicles().find(|it| it.car.id == 0).unwrap();
+    let vehicle = world.vehicles().find(|it| it.id() == 0).unwrap();
     assert_eq!((vehicle.spot.chain, vehicle.lateral_offset()), (ChainIndex(0), 0.0));
     assert_eq!(world.on_road(), 3);
     assert_eq!((world.counts().overlaps, world.tally().collisions), (0, 0));

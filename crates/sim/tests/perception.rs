@@ -54,7 +54,7 @@ fn truck(world: &mut World, chain: u32, x: f64, speed: f64) -> u32 {
 }
 
 fn spot(world: &World, id: u32) -> Spot {
-    world.vehicles().find(|it| it.car.id == id).expect("it is on the road").spot
+    world.vehicles().find(|it| it.id() == id).expect("it is on the road").spot
 }
 
 fn look<'a>(scene: &'a Scene, world: &World, id: u32, side: Side) -> Situation<'a> {
@@ -208,13 +208,15 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
     for _ in 0..60 {
         world.step();
         let scene = world.scene();
-        let front = scene.car(spot(&world, changer));
-        let [own, left] = [slow, fast].map(|id| (scene.car(spot(&world, id)), spot(&world, id)));
-        let gap_to = |it: &laneweave_sim::Car| Some(Ahead { gap: front.rear() - it.x, speed: front.speed });
+        let at = spot(&world, changer);
+        let (front, phase) = (scene.motion(at), scene.car(at).phase);
+        let [own, left] = [slow, fast].map(|id| (scene.motion(spot(&world, id)), spot(&world, id)));
+        let gap_to =
+            |it: &laneweave_sim::Motion| Some(Ahead { gap: front.rear() - it.x, speed: front.speed });
         let from_slow = look(&scene, &world, slow, Side::Left);
         let from_fast = look(&scene, &world, fast, Side::Right);
-        if front.phase == Phase::Changes {
-            seen_from.insert(spot(&world, changer).chain);
+        if phase == Phase::Changes {
+            seen_from.insert(at.chain);
             assert_eq!((from_slow.here.ahead, from_slow.there.ahead), (gap_to(own.0), gap_to(own.0)));
             assert_eq!((from_fast.here.ahead, from_fast.there.behind.is_some()), (gap_to(left.0), false));
             // It is one vehicle in each lane's means, and never its own neighbour.

@@ -60,22 +60,22 @@ proptest! {
             world.step();
             let scene = world.scene();
             for lane in scene.lanes {
-                for pair in lane.cars().windows(2) {
+                for pair in lane.motions().windows(2) {
                     prop_assert!(pair[1].rear() > pair[0].x, "{} touches {}", pair[0].id, pair[1].id);
                 }
             }
             let mut now = BTreeMap::new();
             for vehicle in world.vehicles() {
-                let (car, chain) = (vehicle.car, vehicle.spot.chain);
-                prop_assert!(car.x.is_finite() && car.speed.is_finite() && car.acceleration.is_finite());
-                prop_assert!(car.speed >= 0.0);
-                prop_assert!(car.acceleration >= -HARDEST_BRAKING - 1e-4, "{} m/s²", car.acceleration);
-                prop_assert!(f64::from(car.acceleration) <= car.class.body().strength);
-                if let Some(before) = places.get(&(car.id, chain)) {
-                    prop_assert!(car.x >= *before, "{} went back", car.id);
-                    prop_assert!(car.x - before <= (car.speed + 8.0 * step) * step + 1e-6);
+                let (motion, chain) = (vehicle.motion, vehicle.spot.chain);
+                prop_assert!(motion.x.is_finite() && motion.speed.is_finite() && motion.acceleration.is_finite());
+                prop_assert!(motion.speed >= 0.0);
+                prop_assert!(motion.acceleration >= -HARDEST_BRAKING - 1e-4, "{} m/s²", motion.acceleration);
+                prop_assert!(f64::from(motion.acceleration) <= vehicle.car.class.body().strength);
+                if let Some(before) = places.get(&(motion.id, chain)) {
+                    prop_assert!(motion.x >= *before, "{} went back", motion.id);
+                    prop_assert!(motion.x - before <= (motion.speed + 8.0 * step) * step + 1e-6);
                 }
-                now.insert((car.id, chain), car.x);
+                now.insert((motion.id, chain), motion.x);
             }
             places = now;
         }

@@ -69,8 +69,8 @@ impl Observer for LaneChangeRate {
         {
             let duration = f64::from(clock.steps(SAMPLING)) * clock.dt;
             for vehicle in world.vehicles() {
-                if let Some(section) = self.sections.at(vehicle.spot.chain, vehicle.car.x) {
-                    grid.add(section, clock.time() - duration, duration, vehicle.car.speed * duration);
+                if let Some(section) = self.sections.at(vehicle.spot.chain, vehicle.x()) {
+                    grid.add(section, clock.time() - duration, duration, vehicle.speed() * duration);
                 }
             }
         }

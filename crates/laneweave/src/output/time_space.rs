@@ -57,10 +57,11 @@ impl TimeSpace {
         let mut before = std::mem::take(&mut self.current);
         let scene = world.scene();
         for (chain, from, offset) in road.pieces() {
-            for car in scene.cars(chain).iter().filter(|car| !car.is_shadow && car.x >= from) {
-                let mut trajectory = before.remove(&car.id).unwrap_or_default();
-                trajectory.push(Sample { time_s, position_m: offset + car.x, speed_mps: car.speed });
-                self.current.insert(car.id, trajectory);
+            let entries = scene.motions(chain).iter().zip(scene.cars(chain));
+            for (it, _) in entries.filter(|(it, car)| !car.is_shadow && it.x >= from) {
+                let mut trajectory = before.remove(&it.id).unwrap_or_default();
+                trajectory.push(Sample { time_s, position_m: offset + it.x, speed_mps: it.speed });
+                self.current.insert(it.id, trajectory);
             }
         }
         self.past.extend(before.into_values());

@@ -63,13 +63,13 @@ impl Observer for Trajectories {
 }
 
 fn row<'a>(world: &World, vehicle: &'a Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()] {
-    let Vehicle { car, spot, .. } = vehicle;
-    let (lanelet, position) = world.network().lanelet_at(spot.chain, car.x);
+    let Vehicle { motion, car, spot, .. } = vehicle;
+    let (lanelet, position) = world.network().lanelet_at(spot.chain, motion.x);
     let pose = vehicle.pose();
     let body = car.class.body();
     [
         world.clock().time().into(),
-        car.id.into(),
+        motion.id.into(),
         body.name.into(),
         vehicle.style().name.as_str().into(),
         lanelet.id.into(),
@@ -79,8 +79,8 @@ fn row<'a>(world: &World, vehicle: &'a Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()]
         pose.at.y.into(),
         pose.at.z.into(),
         pose.heading.into(),
-        car.speed.into(),
-        f64::from(car.acceleration).into(),
+        motion.speed.into(),
+        f64::from(motion.acceleration).into(),
         body.length.into(),
         body.width.into(),
         state(car.phase).into(),

@@ -116,9 +116,24 @@ impl Mcdm {
         rows.iter().map(|row| row.weight * utility(row.earning)).sum()
     }
 
+    /// By how much G is above θ on either side.
+    fn excess(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
+        sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - self.theta))
+    }
+
+    /// Whether the chances of both sides within `epochs` epochs are certainly not above `draw` in all, told without an
+    /// exponential: either is at most `epochs` (or 1) times e^(excess/σ), which for most drivers on most occasions is
+    /// far below any draw.
+    #[inline]
+    pub(crate) fn is_out_of_reach(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> bool {
+        let [first, second] = self.excess(sides);
+        let share = draw / (2.0 * epochs.max(1.0));
+        self.rule == Rule::Logit && self.sigma > 0.0 && first.max(second) < self.sigma * ln_at_least(share)
+    }
+
     /// Chances within one epoch of the desire for either side.
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
-        let excess = sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - self.theta));
+        let excess = self.excess(sides);
         match self.rule {
             Rule::Logit if self.sigma > 0.0 => {
                 // Scaled by the largest exponent, so that nothing overflows.
@@ -137,6 +152,18 @@ impl Mcdm {
             },
         }
     }
+}
+
+/// A lower bound of ln x for x in (0, 1), by its binary exponent; −∞ below all normal numbers.
+#[inline]
+fn ln_at_least(x: f64) -> f64 {
+    if x < f64::MIN_POSITIVE {
+        return f64::NEG_INFINITY;
+    }
+    /// Bits of a number's fraction, and what is added to its exponent.
+    const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
+    const BIAS: i32 = f64::MAX_EXP - 1;
+    f64::from((x.to_bits() >> FRACTION) as i32 - BIAS) * std::f64::consts::LN_2
 }
 
 /// Probability of at least one event within the share `epochs` of epochs, `p` the probability within one:

@@ -94,4 +94,15 @@ impl LaneChangeModel {
             LaneChangeModel::ConstantHazard(model) => model.choose(sides),
         }
     }
+
+    /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
+    pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
+        if let LaneChangeModel::Mcdm(model) = self
+            && model.is_out_of_reach(sides, epochs, draw)
+        {
+            return None;
+        }
+        let [first, second] = self.choose(sides).map(|p| at_least_once_in(epochs, p));
+        if draw < first { Some(0) } else { (draw < first + second).then_some(1) }
+    }
 }

@@ -1,0 +1,84 @@
+//! Drivers drive on: how everybody moves at the end of the step, written down on the snapshot.
+
+use laneweave_network::ChainIndex;
+
+use crate::accelerate::{Chosen, behind, lane_end, with_care};
+use crate::clock::Clock;
+use crate::plan::{Plan, Upkeep};
+use crate::prefetch::prefetch;
+use crate::scene::{Scene, Spot};
+use crate::traffic::Motion;
+
+/// All drivers of a lane accelerate and move.
+pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan) {
+    let lane = &scene.lanes[chain.at()];
+    let (motions, end) = (lane.motions(), lane_end(scene, chain));
+    if plan.next.capacity() < motions.len() {
+        plan.next.reserve_exact(lane.capacity());
+    }
+    // The lane that is moved next.
+    let upcoming = scene.lanes.get(chain.at() + 2).unwrap_or(lane);
+    let (upcoming_motions, upcoming_cars) = (upcoming.motions(), upcoming.cars());
+    for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
+        prefetch(upcoming_motions, index);
+        prefetch(upcoming_cars, index);
+        let leader = motions.get(index + 1).filter(|_| end.is_none() && car.only_follows());
+        let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
+        let (acceleration, stretch) = match usual {
+            Some(acceleration) => (acceleration, 1.0),
+            None => drive_with_care(scene, clock, Spot { chain, index }, end, plan),
+        };
+        let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
+        if next.tightness < 1.0 {
+            let manner = &scene.characters[car.character as usize].manner;
+            next.tightness = manner.relaxed(f64::from(next.tightness), clock.dt) as f32;
+        }
+        plan.next.push(next);
+        if !car.is_shadow {
+            plan.tally.distance += distance;
+            plan.tally.updates += 1;
+        }
+    }
+}
+
+/// A driver who does not only follow, or whose vehicle kinematics has to slow down. Returns its acceleration [m/s²],
+/// and the metres along the chain for a metre driven.
+#[inline(never)]
+fn drive_with_care(
+    scene: &Scene,
+    clock: Clock,
+    spot: Spot,
+    lane_end: Option<f64>,
+    plan: &mut Plan,
+) -> (f64, f64) {
+    let car = scene.car(spot);
+    let Chosen { acceleration, by_kinematics, touches } = with_care(scene, clock, spot, lane_end);
+    let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
+    // A shadow counts as well: kinematics in either lane is kinematics.
+    plan.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
+    plan.tally.collisions += u64::from(touches && !car.in_collision);
+    if !car.only_follows() || in_emergency || touches {
+        let (_, distance) = moved(scene.motion(spot), acceleration, 1.0, clock.dt);
+        let index = spot.index as u32;
+        plan.upkeep.push(Upkeep { index, distance, in_emergency, in_collision: touches });
+    }
+    (acceleration, stretch(scene, spot))
+}
+
+/// Metres along the chain for a metre driven.
+fn stretch(scene: &Scene, spot: Spot) -> f64 {
+    if scene.car(spot).phase.is_between_lanes() { f64::from(scene.mind(spot).stretch) } else { 1.0 }
+}
+
+/// How a vehicle moves after a step, and the distance driven [m].
+#[inline]
+fn moved(motion: &Motion, acceleration: f64, stretch: f64, dt: f64) -> (Motion, f64) {
+    let next = motion.speed + acceleration * dt;
+    let (speed, distance, acceleration) = if next >= 0.0 {
+        (next, 0.5 * (motion.speed + next) * dt, acceleration)
+    } else {
+        (0.0, -0.5 * motion.speed * motion.speed / acceleration, -motion.speed / dt)
+    };
+    let x = motion.x + distance * stretch;
+    (Motion { x, speed, acceleration: acceleration as f32, ..*motion }, distance)
+}
