@@ -3,7 +3,10 @@
 mod situations;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
-use laneweave_models::change::{Behind, Driver, Flow, LaneView, Mcdm, Merging, RouteView, Rule, Situation};
+use laneweave_models::change::{
+    Appraisal, Behind, Driver, Flow, LaneChangeModel, LaneView, Mcdm, Merging, RouteView, Rule, Situation,
+    at_least_once_in,
+};
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
 use proptest::option;
 use proptest::prelude::*;
@@ -198,5 +201,20 @@ proptest! {
             prop_assert!((0.0..=1.0).contains(&first) && (0.0..=1.0).contains(&second));
             prop_assert!(first + second <= 1.0 + 1e-12);
         }
+    }
+
+    #[test]
+    fn what_is_drawn_follows_from_the_chances(
+        gains in prop::array::uniform2(-2.0..2.0_f64), sides in 1..4_u8, sigma in prop_oneof![Just(0.0), 0.001..1.0_f64],
+        rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], epochs in prop_oneof![Just(1.0), 0.1..20.0_f64],
+        draw in prop_oneof![0.0..1.0_f64, (0.0..60.0_f64).prop_map(|it| (-it).exp2())],
+    ) {
+        let model = Mcdm { rule, sigma, ..Mcdm::default() };
+        let appraisals = gains.map(|gain| Appraisal { gain, ..model.appraise(&empty_road(driver(&MODELS[0], 10.0, 14.0))) });
+        let side = |number: usize| (sides >> number & 1 == 1).then_some(&appraisals[number]);
+        let (model, sides) = (LaneChangeModel::Mcdm(model), [side(0), side(1)]);
+        let [first, second] = model.choose(sides).map(|chance| at_least_once_in(epochs, chance));
+        let expected = if draw < first { Some(0) } else { (draw < first + second).then_some(1) };
+        prop_assert_eq!(model.drawn(sides, epochs, draw), expected);
     }
 }

@@ -13,6 +13,7 @@ use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want};
 use crate::random::{Purpose, Random};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Kind, Mind, Phase};
+use crate::turn::next_turn;
 
 /// Urgency from which a driver signals so that others let it in.
 const ASKS_FROM: f64 = 0.3;
@@ -32,9 +33,9 @@ const STANDSTILL: f64 = 0.1;
 
 /// What deciding needs beside the scene.
 #[derive(Clone, Copy)]
-pub(crate) struct Moment<'a> {
+pub(crate) struct Moment {
     pub(crate) clock: Clock,
-    pub(crate) random: &'a Random,
+    pub(crate) random: Random,
     pub(crate) overtaking: Side,
 }
 
@@ -177,7 +178,7 @@ fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
     let stands = motion.speed < STANDSTILL;
     Note {
         index: spot.index as u32,
-        due: moment.clock.step + period,
+        due: next_turn(motion.id, moment.clock.step, period),
         limit_desired: car.class.desired_speed(style, limit) as f32,
         standing: if stands { car.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
     }

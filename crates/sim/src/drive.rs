@@ -5,9 +5,8 @@ use laneweave_network::ChainIndex;
 use crate::accelerate::{Chosen, behind, lane_end, with_care};
 use crate::clock::Clock;
 use crate::plan::{Plan, Upkeep};
-use crate::prefetch::prefetch;
 use crate::scene::{Scene, Spot};
-use crate::traffic::Motion;
+use crate::traffic::{Lane, Motion};
 
 /// All drivers of a lane accelerate and move.
 pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan) {
@@ -16,12 +15,11 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
     if plan.next.capacity() < motions.len() {
         plan.next.reserve_exact(lane.capacity());
     }
-    // The lane that is moved next.
-    let upcoming = scene.lanes.get(chain.at() + 2).unwrap_or(lane);
-    let (upcoming_motions, upcoming_cars) = (upcoming.motions(), upcoming.cars());
+    let upcoming = upcoming(scene, chain);
     for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
-        prefetch(upcoming_motions, index);
-        prefetch(upcoming_cars, index);
+        if let Some(upcoming) = upcoming {
+            upcoming.prefetch(index);
+        }
         let leader = motions.get(index + 1).filter(|_| end.is_none() && car.only_follows());
         let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
         let (acceleration, stretch) = match usual {
@@ -39,6 +37,12 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             plan.tally.updates += 1;
         }
     }
+}
+
+/// The lane that those beside it will look into next, if it is worth asking for: few lanes stay in the cache anyway.
+fn upcoming<'a>(scene: &Scene<'a>, chain: ChainIndex) -> Option<&'a Lane> {
+    const FEW: usize = 100;
+    scene.lanes.get(chain.at() + 2).filter(|_| scene.lanes.len() > FEW)
 }
 
 /// A driver who does not only follow, or whose vehicle kinematics has to slow down. Returns its acceleration [m/s²],

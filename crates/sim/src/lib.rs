@@ -23,6 +23,7 @@ mod resolve;
 mod scene;
 mod tally;
 mod traffic;
+mod turn;
 mod vehicle;
 mod world;
 

@@ -1,11 +1,11 @@
 //! Memory that will be needed soon is asked for while there is still something to compute.
 
-/// Asks for the cache line of the item at `index`, if there is one. Changes nothing but the time it takes.
+/// Asks for the cache line where `item` begins. Changes nothing but the time it takes.
 #[inline]
 #[cfg_attr(not(target_arch = "x86_64"), expect(unused_variables, reason = "left to the hardware there"))]
-pub(crate) fn prefetch<T>(items: &[T], index: usize) {
+pub(crate) fn prefetch<T>(item: &T) {
     #[cfg(target_arch = "x86_64")]
-    if let Some(item) = items.get(index) {
+    {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         #[expect(unsafe_code, reason = "a hint; it pays with a million vehicles, see bench/")]
         // SAFETY: the pointer is that of a reference, and nothing is read or written.

@@ -20,8 +20,6 @@ pub enum Purpose {
     Destination,
     /// A parameter of a character.
     Parameter,
-    /// Where in its epoch a driver begins.
-    Epoch,
 }
 
 /// Source of all draws of a run.

@@ -8,6 +8,7 @@
 use laneweave_network::{ChainIndex, Side};
 
 use crate::navigate::Goal;
+use crate::prefetch::prefetch;
 use crate::vehicle::Class;
 
 /// Name of a vehicle; it never changes and is never given again.
@@ -246,6 +247,15 @@ impl Lane {
     #[inline]
     pub(crate) fn capacity(&self) -> usize {
         self.cars.capacity()
+    }
+
+    /// Asks for the memory of the entry at `index`, if there is one.
+    #[inline]
+    pub(crate) fn prefetch(&self, index: usize) {
+        if let (Some(motion), Some(car)) = (self.motions.get(index), self.cars.get(index)) {
+            prefetch(motion);
+            prefetch(car);
+        }
     }
 
     /// All move: `next` becomes how they move, and is given what it was.

@@ -16,11 +16,12 @@ use crate::overlap::overlaps;
 use crate::plan::{Outbox, Plan};
 use crate::pool::Pool;
 use crate::pose::{lateral_offset, pose};
-use crate::random::{Purpose, Random};
+use crate::random::Random;
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
 use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
+use crate::turn::next_turn;
 use crate::vehicle::Class;
 
 /// Traffic on a network, and all that moves it.
@@ -172,7 +173,7 @@ impl World {
         let is_watched = self.is_watched();
         let World { network, navigator, characters, clock, random, lanes, plans, outboxes, .. } = self;
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
-        let moment = Moment { clock: *clock, random, overtaking: network.driving_side.overtaking() };
+        let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
         self.pools[pool_for(self.crowd)].look_then_act(
             outboxes,
             lanes,
@@ -241,15 +242,14 @@ impl World {
         let style = &self.characters[character as usize];
         let body = class.body();
         let desired = class.desired_speed(style, self.network.chain(chain).limit(x)) as f32;
-        let period = f64::from(self.clock.steps(style.attention.epoch));
-        let delay = (self.random.uniform(id, Purpose::Epoch, 0) * period) as u32;
+        let period = self.clock.steps(style.attention.epoch);
         let motion = Motion { x, speed, acceleration: 0.0, tightness: 1.0, length: body.length as f32, id };
         let car = Car {
             desired,
             limit_desired: desired,
             standing: 0.0,
             character,
-            due: self.clock.step + delay,
+            due: next_turn(id, self.clock.step, period),
             calm_until: 0,
             goal: destination.into(),
             class,
