@@ -178,7 +178,7 @@ fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
     let stands = motion.speed < STANDSTILL;
     Note {
         index: spot.index as u32,
-        due: next_turn(motion.id, moment.clock.step, period),
+        due: next_turn(motion.id, moment.clock.step + 1, period),
         limit_desired: car.class.desired_speed(style, limit) as f32,
         standing: if stands { car.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
     }

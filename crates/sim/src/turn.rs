@@ -2,17 +2,16 @@
 
 use crate::traffic::VehicleId;
 
-/// The first turn of the driver of `id` after step `after`, of one in every `period` steps.
+/// The first turn of the driver of `id` from step `from` on, of one in every `period` steps.
 ///
 /// Turns are dealt out by multiples of the golden ratio, which spread evenly over any number of successive vehicles.
 #[inline]
-pub(crate) fn next_turn(id: VehicleId, after: u32, period: u32) -> u32 {
+pub(crate) fn next_turn(id: VehicleId, from: u32, period: u32) -> u32 {
     /// 2³² divided by the golden ratio.
     const GOLDEN: u32 = 0x9E37_79B9;
     let share = u64::from(id.wrapping_mul(GOLDEN));
     let turn = ((share * u64::from(period)) >> 32) as u32;
-    let since_the_last = (after % period + period - turn) % period;
-    after + period - since_the_last
+    from + (period + turn - from % period) % period
 }
 
 #[cfg(test)]
@@ -23,8 +22,7 @@ mod tests {
     fn every_driver_has_one_turn_in_every_period() {
         for period in [1, 2, 10, 25] {
             for id in 0..100 {
-                let turns: Vec<u32> =
-                    (0..200).filter(|step| next_turn(id, *step, period) == step + 1).collect();
+                let turns: Vec<u32> = (0..200).filter(|step| next_turn(id, *step, period) == *step).collect();
                 assert!(turns.windows(2).all(|it| it[1] - it[0] == period), "{id} {period}");
                 assert_eq!(turns.len(), 200 / period as usize);
             }
@@ -35,7 +33,7 @@ mod tests {
     fn turns_are_spread_evenly_over_successive_vehicles() {
         let mut drivers = [0; 10];
         for id in 1000..2000 {
-            drivers[next_turn(id, 9, 10) as usize - 10] += 1;
+            drivers[next_turn(id, 10, 10) as usize - 10] += 1;
         }
         assert!(drivers.iter().all(|it| (98..=102).contains(it)), "{drivers:?}");
     }
