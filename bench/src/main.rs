@@ -6,14 +6,12 @@
 //! `… -- short` runs 300 steps of the first on one core only, to count instructions under callgrind.
 
 use std::error::Error;
-use std::path::Path;
 use std::time::Instant;
 
 use laneweave::maps::generate::{Motorway, motorway};
-use laneweave::models::Style;
 use laneweave::network::{ChainIndex, Network};
-use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, Share, World};
-use laneweave::style::{DEFAULT_MIXTURE, StyleTemplate, find};
+use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
+use laneweave::style::Population;
 
 const LANES: usize = 4;
 /// Vehicles per kilometre and lane.
@@ -110,25 +108,9 @@ impl Measurement {
 fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {
     let road = Motorway { lanes: LANES, length_m, lanelet_length_m: 500.0, ..Motorway::default() };
     let network = motorway(&road)?.network()?.0;
-    let (characters, shares) = population()?;
+    let Population { characters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, DENSITY * SPEED * 3.6 * LANES as f64, TRUCKS, shares);
     Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)
-}
-
-/// The drivers that come where nothing is said.
-fn population() -> Result<(Vec<Style>, Vec<Share>), Box<dyn Error>> {
-    let (mut characters, mut shares) = (Vec::new(), Vec::new());
-    for ((name, weight), number) in DEFAULT_MIXTURE.iter().zip(0..) {
-        let source = find(name, Path::new(""), String::new).map_err(|fault| fault.to_string())?;
-        let template = StyleTemplate::parse(&source).map_err(|fault| fault.to_string())?;
-        let (first, count) = (characters.len() as u32, template.characters());
-        for character in 0..count {
-            let drawn = template.draw(&Random::new(1), number, character);
-            characters.push(drawn.map_err(|fault| fault.to_string())?);
-        }
-        shares.push(Share { weight: *weight, first, count });
-    }
-    Ok((characters, shares))
 }
 
 /// Puts vehicles on the road, some closer together than others.

@@ -4,11 +4,10 @@
 use std::collections::HashMap;
 
 use laneweave::maps::generate::{Motorway, motorway};
-use laneweave::models::Style;
 use laneweave::models::change::{ConstantHazard, LaneChangeModel};
-use laneweave::sim::{Demand, Event, Kind, Random, Setup, Share, VehicleId, World};
+use laneweave::sim::{Demand, Event, Kind, Setup, VehicleId, World};
 use laneweave::study::{Estimate, Interval, mean};
-use laneweave::style::{DEFAULT_MIXTURE, StyleTemplate, find};
+use laneweave::style::Population;
 
 const SEEDS: u64 = 20;
 const LANES: usize = 2;
@@ -47,30 +46,20 @@ impl Signs {
     }
 }
 
-/// The drivers of the default mixture; as the control, the same drivers changing lanes without a reason.
-fn population(is_control: bool) -> (Vec<Style>, Vec<Share>) {
-    let mut characters: Vec<Style> = Vec::new();
-    let mut shares = Vec::new();
-    for ((name, weight), number) in DEFAULT_MIXTURE.iter().zip(0..) {
-        let source = find(name, std::path::Path::new(""), String::new).expect("a built-in style");
-        let template = StyleTemplate::parse(&source).expect("a valid style");
-        let (first, count) = (characters.len() as u32, template.characters());
-        let drawn =
-            (0..count).map(|character| template.draw(&Random::new(1), number, character).expect("a driver"));
-        characters.extend(drawn);
-        shares.push(Share { weight: *weight, first, count });
-    }
+/// The usual drivers; as the control, the same drivers changing lanes without a reason.
+fn population(is_control: bool) -> Population {
+    let mut population = Population::usual(1).expect("built-in styles");
     if is_control {
-        let hazard = ConstantHazard::default();
-        characters.iter_mut().for_each(|it| it.change = LaneChangeModel::ConstantHazard(hazard));
+        let hazard = LaneChangeModel::ConstantHazard(ConstantHazard::default());
+        population.characters.iter_mut().for_each(|it| it.change = hazard.clone());
     }
-    (characters, shares)
+    population
 }
 
-fn replicate(population: &(Vec<Style>, Vec<Share>), vehicles_per_hour: f64, seed: u64) -> Signs {
+fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Signs {
     let road = Motorway { lanes: LANES, length_m: LENGTH_M, ..Motorway::default() };
     let network = motorway(&road).expect("a road").network().expect("a network").0;
-    let (characters, shares) = population.clone();
+    let Population { characters, shares } = population.clone();
     let conservative_from = shares[1].first;
     let demand = Demand::even(&network, vehicles_per_hour, 0.1, shares);
     let setup = Setup { step: STEP_S, seed, threads: 1 };
@@ -116,7 +105,7 @@ fn over_seeds(signs: &[Signs], of: impl Fn(&Signs) -> f64) -> Estimate {
 }
 
 /// The replications at one flow, and what they say on screen.
-fn replications(name: &str, population: &(Vec<Style>, Vec<Share>), flow: f64) -> Vec<Signs> {
+fn replications(name: &str, population: &Population, flow: f64) -> Vec<Signs> {
     let signs: Vec<Signs> =
         (1..=SEEDS).map(|seed| replicate(population, flow * LANES as f64, seed)).collect();
     let show = |of: fn(&Signs) -> f64| {

@@ -8,10 +8,11 @@ use laneweave_models::Style;
 use laneweave_network::DrivingSide;
 use laneweave_sim::{Setup, World};
 
-use super::traffic::{Drivers, demand};
+use super::traffic::{demand, mixture};
 use super::{Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
+use crate::style::Population;
 
 /// More threads than this are a mistake.
 const MOST_THREADS: usize = 256;
@@ -54,7 +55,8 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     check_numbers(scenario, origin)?;
     let threads = threads(scenario, origin)?;
     let record_steps = record_steps(scenario, origin)?;
-    let Drivers { characters, population, typical } = Drivers::of(scenario, origin)?;
+    let mixture = mixture(scenario, origin)?;
+    let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let Map { network, problems, .. } = read_map(scenario, origin)?;
     if network.entrances.is_empty() {
         let what = "the map has no entrance: no lanelet of 10 m or more begins at its edge";
@@ -64,7 +66,9 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
             "choose a map with a road that begins at its edge",
         ));
     }
-    let demand = demand(scenario, origin, &network, population)?;
+    let demand = demand(scenario, origin, &network, shares)?;
+    let typical: Vec<(Style, f64)> =
+        mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
     let capacity = entrance_capacity(&network, &typical, demand.trucks);
     let entrance_demand_veh_h = demand.rates.clone();
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };

@@ -1,8 +1,7 @@
 //! From the demand and the styles of a scenario to those of the world.
 
-use laneweave_models::Style;
 use laneweave_network::{Gate, Network};
-use laneweave_sim::{Demand, Random, Share};
+use laneweave_sim::{Demand, Share};
 
 use super::{Origin, Scenario};
 use crate::fault::{Fault, did_you_mean};
@@ -13,50 +12,31 @@ const USUAL_DEMAND: f64 = 1000.0;
 /// Nobody has seen more vehicles an hour on one lane than a quarter of this.
 const LARGEST_DEMAND: f64 = 10_000.0;
 
-/// The drivers of a scenario.
-#[derive(Clone, Debug)]
-pub(super) struct Drivers {
-    /// All different drivers, style by style.
-    pub(super) characters: Vec<Style>,
-    /// The weight of each style and its range in `characters`.
-    pub(super) population: Vec<Share>,
-    /// The driver with median parameters of each style, and its weight.
-    pub(super) typical: Vec<(Style, f64)>,
-}
-
-impl Drivers {
-    /// Draws the drivers.
-    ///
-    /// # Errors
-    /// If a style is not known or wrong, or the weights make no mixture.
-    pub(super) fn of(scenario: &Scenario, origin: &Origin) -> Result<Drivers, Fault> {
-        let random = Random::new(scenario.run.seed);
-        let mut drivers = Drivers { characters: Vec::new(), population: Vec::new(), typical: Vec::new() };
-        for ((name, weight), number) in scenario.styles.iter().zip(0..) {
-            let place = || origin.place(&["styles", name]);
-            let template = StyleTemplate::parse(&find(name, origin.style_folder(), place)?)?;
-            if !(weight.is_finite() && *weight >= 0.0) {
-                let what = format!("the style {name:?} has the weight {weight}");
-                return Err(Fault::new(place(), what, "give it a finite weight of 0 or more"));
-            }
-            let (first, count) = (drivers.characters.len() as u32, template.characters());
-            for variant in 0..count {
-                drivers.characters.push(template.draw(&random, number, variant)?);
-            }
-            drivers.population.push(Share { weight: *weight, first, count });
-            drivers.typical.push((template.typical().clone(), *weight));
+/// The styles of a scenario with their weights.
+///
+/// # Errors
+/// If a style is not known or wrong, or the weights make no mixture.
+pub(super) fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplate, f64)>, Fault> {
+    let mut mixture = Vec::new();
+    for (name, weight) in &scenario.styles {
+        let place = || origin.place(&["styles", name]);
+        let template = StyleTemplate::parse(&find(name, origin.style_folder(), place)?)?;
+        if !(weight.is_finite() && *weight >= 0.0) {
+            let what = format!("the style {name:?} has the weight {weight}");
+            return Err(Fault::new(place(), what, "give it a finite weight of 0 or more"));
         }
-        let total: f64 = scenario.styles.values().sum();
-        if !(total.is_finite() && total > 0.0) {
-            let what = format!("the weights of the styles add up to {total}");
-            return Err(Fault::new(
-                origin.place(&["styles"]),
-                what,
-                "give at least one of them a weight above 0",
-            ));
-        }
-        Ok(drivers)
+        mixture.push((template, *weight));
     }
+    let total: f64 = scenario.styles.values().sum();
+    if !(total.is_finite() && total > 0.0) {
+        let what = format!("the weights of the styles add up to {total}");
+        return Err(Fault::new(
+            origin.place(&["styles"]),
+            what,
+            "give at least one of them a weight above 0",
+        ));
+    }
+    Ok(mixture)
 }
 
 /// The demand at each entrance, and the weight of each exit.

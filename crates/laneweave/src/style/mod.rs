@@ -4,9 +4,11 @@
 mod distribution;
 mod library;
 mod normal;
+mod population;
 mod ranges;
 mod template;
 
 pub use distribution::Distribution;
 pub use library::{BUILT_IN, BuiltIn, DEFAULT_MIXTURE, built_in, copy, find};
+pub use population::Population;
 pub use template::{Parameter, StyleTemplate};

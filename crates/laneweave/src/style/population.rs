@@ -1,0 +1,50 @@
+//! From styles with weights to the drivers of a run.
+
+use std::path::Path;
+
+use laneweave_models::Style;
+use laneweave_sim::{Random, Share};
+
+use super::{DEFAULT_MIXTURE, StyleTemplate, find};
+use crate::fault::Fault;
+
+/// All different drivers of a run.
+#[derive(Clone, Debug)]
+pub struct Population {
+    /// The drivers, style by style.
+    pub characters: Vec<Style>,
+    /// The weight of each style and its range in `characters`.
+    pub shares: Vec<Share>,
+}
+
+impl Population {
+    /// Draws the drivers of the styles in `mixture`, each with its weight.
+    ///
+    /// # Errors
+    /// If a distribution gives a value that a parameter cannot have.
+    pub fn draw(mixture: &[(StyleTemplate, f64)], seed: u64) -> Result<Population, Fault> {
+        let random = Random::new(seed);
+        let mut population = Population { characters: Vec::new(), shares: Vec::new() };
+        for ((template, weight), number) in mixture.iter().zip(0..) {
+            let (first, count) = (population.characters.len() as u32, template.characters());
+            for variant in 0..count {
+                population.characters.push(template.draw(&random, number, variant)?);
+            }
+            population.shares.push(Share { weight: *weight, first, count });
+        }
+        Ok(population)
+    }
+
+    /// The drivers that come where nothing is said.
+    ///
+    /// # Errors
+    /// None for the styles that come with the program.
+    pub fn usual(seed: u64) -> Result<Population, Fault> {
+        let built_in = |(name, weight): &(&str, f64)| {
+            let source = find(name, Path::new(""), String::new)?;
+            Ok((StyleTemplate::parse(&source)?, *weight))
+        };
+        let mixture: Vec<_> = DEFAULT_MIXTURE.iter().map(built_in).collect::<Result<_, Fault>>()?;
+        Population::draw(&mixture, seed)
+    }
+}
