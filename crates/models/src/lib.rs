@@ -6,6 +6,7 @@
 
 pub mod braking;
 pub mod change;
+mod exponential;
 pub mod follow;
 mod style;
 

@@ -9,6 +9,7 @@ use super::headway::Flow;
 use super::situation::Situation;
 use super::{Chances, Incentive, Outcomes};
 use crate::Reading;
+use crate::exponential::exp;
 
 /// Comfort incentive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +34,7 @@ const SHORTEST: f64 = 0.3;
 
 /// −T^(−β): the discomfort of a change into a lane with the mean headway `headway` [s].
 pub fn discomfort(headway: f64, beta: f64) -> f64 {
-    -libm::exp(-beta * libm::log(headway.max(SHORTEST)))
+    -exp(-beta * libm::log(headway.max(SHORTEST)))
 }
 
 impl Comfort {

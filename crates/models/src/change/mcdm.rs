@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::returning::Returning;
 use super::{Chances, Comfort, Courtesy, Incentive, Route, Situation, Speed, Urgency};
+use crate::exponential::exp;
 
 /// Multi-criteria decision-making.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -139,8 +140,8 @@ impl Mcdm {
                 // Scaled by the largest exponent, so that nothing overflows.
                 let exponents = excess.map(|it| it / self.sigma);
                 let largest = exponents[0].max(exponents[1]).max(0.0);
-                let [first, second] = exponents.map(|it| libm::exp(it - largest));
-                let stay = if largest == 0.0 { 1.0 } else { libm::exp(-largest) };
+                let [first, second] = exponents.map(|it| exp(it - largest));
+                let stay = if largest == 0.0 { 1.0 } else { exp(-largest) };
                 let all = stay + first + second;
                 [first / all, second / all]
             }

@@ -15,6 +15,7 @@ use super::Chances;
 use super::headway::Flow;
 use super::situation::{LaneView, Situation};
 use crate::Reading;
+use crate::exponential::exp;
 
 /// The chance of the changes still to go.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,7 +92,7 @@ impl Returning {
         if trials <= 0.0 {
             return 0.0;
         }
-        -trials * libm::log1p(-libm::exp(-self.needed_gap / headway))
+        -trials * libm::log1p(-exp(-self.needed_gap / headway))
     }
 }
 
@@ -108,5 +109,5 @@ fn at_least(n: u32, x: f64) -> f64 {
         sum += term;
         term *= x / f64::from(k + 1);
     }
-    (1.0 - libm::exp(-x) * sum).clamp(0.0, 1.0)
+    (1.0 - exp(-x) * sum).clamp(0.0, 1.0)
 }

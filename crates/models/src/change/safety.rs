@@ -12,6 +12,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::braking::is_secure;
+use crate::exponential::exp;
 use crate::follow::Ahead;
 
 /// Gap acceptance.
@@ -89,7 +90,7 @@ impl Safety {
         let least = if self.closing_growth == 0.0 {
             self.min_gap
         } else {
-            self.min_gap * libm::exp(self.closing_growth * closing)
+            self.min_gap * exp(self.closing_growth * closing)
         };
         let conditions = [
             (gap >= least, Refusal::Short),

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Ahead, CarFollowing, Pace};
 use crate::Reading;
+use crate::exponential::exp;
 
 /// Full Velocity Difference Model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,7 +92,7 @@ impl Fvdm {
 /// tanh by one exponential: near zero its absolute error is that of 1, which is all that V needs, at half the cost.
 #[inline]
 fn tanh(x: f64) -> f64 {
-    1.0 - 2.0 / (libm::exp(2.0 * x) + 1.0)
+    1.0 - 2.0 / (exp(2.0 * x) + 1.0)
 }
 
 /// Who closes in takes no liberties with the gap: without a time gap of its own, this model would brake too late
