@@ -23,6 +23,8 @@ pub(crate) fn advance(
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) {
+    plan.notes.iter().for_each(|it| lane.prefetch_car(it.index));
+    plan.upkeep.iter().for_each(|it| lane.prefetch_driver(it.index));
     take_note(lane, chain, clock, plan, outbox);
     lane.swap_motions(&mut plan.next);
     let mut has_ended = false;

@@ -249,6 +249,19 @@ impl Lane {
         self.cars.capacity()
     }
 
+    /// Asks for the memory of the hot part of the driver at `index`.
+    #[inline]
+    pub(crate) fn prefetch_car(&self, index: u32) {
+        prefetch(&self.cars[index as usize]);
+    }
+
+    /// Asks for the memory of both parts of the driver at `index`.
+    #[inline]
+    pub(crate) fn prefetch_driver(&self, index: u32) {
+        prefetch(&self.cars[index as usize]);
+        prefetch(&self.minds[index as usize]);
+    }
+
     /// Asks for the memory of the entry at `index`, if there is one.
     #[inline]
     pub(crate) fn prefetch(&self, index: usize) {
