@@ -1,11 +1,13 @@
 //! How fast the step is, and how its cost grows.
 //!
 //! `cargo run --release -p laneweave-bench` measures a motorway of 40 km and four lanes with some 2,000 vehicles at
-//! steps of 0.1 s, every driver not in a change considering lanes once a second, on one core and on two; then the
-//! same density on longer roads, up to a million vehicles; then the memory that a vehicle needs.
+//! steps of 0.1 s, every driver not in a change considering lanes once a second, on one core and on two; what two cores of
+//! the machine can give at most; then the same density on longer roads, up to a million vehicles; then the memory that a
+//! vehicle needs.
 //! `… -- short` runs 300 steps of the first on one core only, to count instructions under callgrind.
 
 use std::error::Error;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Instant;
 
 use laneweave::maps::generate::{Motorway, motorway};
@@ -32,6 +34,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let two = Measurement::of(40.0, 2, 6000)?;
     two.print("40 km");
     say(&format!("two threads are {:.2} times one", two.rate() / one.rate()));
+    say(&format!(
+        "two motorways of 20 km on a thread each, in step, are {:.2} times one",
+        limit_of_two_threads()?
+    ));
     let small = Measurement::of(20.0, 1, 6000)?;
     small.print("20 km");
     Measurement::of(200.0, 1, 600)?.print("200 km");
@@ -103,6 +109,38 @@ impl Measurement {
             self.hash,
         ));
     }
+}
+
+/// How many times faster two motorways of half the length are on two threads than on one, if the threads share nothing
+/// but wait for each other after every step: what the machine leaves of two cores.
+fn limit_of_two_threads() -> Result<f64, Box<dyn Error>> {
+    let half = || -> Result<World, Box<dyn Error>> {
+        let mut world = empty_motorway(20_000.0, 1)?;
+        fill(&mut world);
+        (0..WARM_UP).for_each(|_| world.step());
+        world.reset_counts();
+        Ok(world)
+    };
+    let alone = in_step(half()?, &AtomicU32::new(0), 1);
+    let (one, other, arrived) = (half()?, half()?, AtomicU32::new(0));
+    let together = std::thread::scope(|scope| {
+        let other = scope.spawn(|| in_step(other, &arrived, 2));
+        in_step(one, &arrived, 2) + other.join().unwrap_or_default()
+    });
+    Ok(together / alone)
+}
+
+/// Updates per second of a world that waits after every step until as many as `threads` have `arrived`.
+fn in_step(mut world: World, arrived: &AtomicU32, threads: u32) -> f64 {
+    let start = Instant::now();
+    for step in 1..=3000 {
+        world.step();
+        arrived.fetch_add(1, Ordering::AcqRel);
+        while arrived.load(Ordering::Acquire) < threads * step {
+            std::hint::spin_loop();
+        }
+    }
+    world.tally().updates as f64 / start.elapsed().as_secs_f64()
 }
 
 fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {
