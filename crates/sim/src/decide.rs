@@ -78,7 +78,8 @@ fn consider(
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let style = &scene.characters[car.character as usize];
     plan.tally.considerations += 1;
-    let note = note(scene, moment, spot, style);
+    let period = moment.clock.steps(style.attention.epoch);
+    let note = note(scene, moment, spot, period);
     plan.tally.stuck += u64::from(car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER);
     plan.notes.push(note);
     let mut concern =
@@ -111,8 +112,7 @@ fn consider(
         let wanted = options.iter().flatten().find(|it| it.side == mind.side);
         concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
-        let period = f64::from(moment.clock.steps(style.attention.epoch)) * moment.clock.dt;
-        let epochs = period / style.attention.epoch;
+        let epochs = f64::from(period) * moment.clock.dt / style.attention.epoch;
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
         let drawn = style.change.drawn(appraisals, epochs, draw);
         let chosen = drawn.and_then(|it| options[it].as_ref());
@@ -170,10 +170,10 @@ fn pressure(situation: &Situation) -> f64 {
     urgency(route.changes, route.remaining, situation.me.pace.speed)
 }
 
-/// What the driver keeps in mind whatever it decides.
-fn note(scene: &Scene, moment: Moment, spot: Spot, style: &Style) -> Note {
+/// What the driver keeps in mind whatever it decides, considering lanes once in `period` steps.
+fn note(scene: &Scene, moment: Moment, spot: Spot, period: u32) -> Note {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let period = moment.clock.steps(style.attention.epoch);
+    let style = &scene.characters[car.character as usize];
     let limit = scene.network.chain(spot.chain).limit(motion.x);
     let stands = motion.speed < STANDSTILL;
     Note {

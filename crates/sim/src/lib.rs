@@ -1,6 +1,6 @@
 //! The world and its step.
 //!
-//! perceive → decide → accelerate on one snapshot, then move, then resolve what concerns two lanes, then enter and
+//! perceive → decide → drive on one snapshot, then advance, then resolve what concerns two lanes, then enter and
 //! observe. The order of vehicles and the number of threads change nothing, bit for bit.
 
 mod accelerate;
@@ -35,6 +35,6 @@ pub use perceive::{driver, perceive};
 pub use random::{Purpose, Random};
 pub use scene::{Found, LaneSight, Scene, Spot, Viewpoint};
 pub use tally::Tally;
-pub use traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
+pub use traffic::{Car, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
 pub use vehicle::{Body, Class};
 pub use world::{Counts, NewVehicle, Setup, Vehicle, World, WorldError};

@@ -190,13 +190,13 @@ pub enum Kind {
 
 /// An entry with all its parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Entry {
+pub(crate) struct Entry {
     /// How it moves.
-    pub motion: Motion,
+    pub(crate) motion: Motion,
     /// Its driver's hot part.
-    pub car: Car,
+    pub(crate) car: Car,
     /// Its driver's warm part.
-    pub mind: Mind,
+    pub(crate) mind: Mind,
 }
 
 /// The vehicles of one chain in driving order: the last entry is foremost.
