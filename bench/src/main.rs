@@ -15,6 +15,10 @@ use laneweave::network::{ChainIndex, Network};
 use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
 use laneweave::style::Population;
 
+/// The allocator of the command.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 const LANES: usize = 4;
 /// Vehicles per kilometre and lane.
 const DENSITY: f64 = 12.5;

@@ -9,6 +9,11 @@ use clap::Parser;
 
 use command::Cli;
 
+/// With a million vehicles an update costs a tenth less than with the allocator of glibc: arrays of one size lie side by
+/// side, in fewer pages.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Exit code for a mistake in what the user gave, as that of a wrong option.
 const MISTAKE: u8 = 2;
 
