@@ -149,7 +149,7 @@ fn in_step(mut world: World, arrived: &AtomicU32, threads: u32) -> f64 {
 
 fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {
     let road = Motorway { lanes: LANES, length_m, lanelet_length_m: 500.0, ..Motorway::default() };
-    let network = motorway(&road)?.network()?.0;
+    let network = motorway(&road)?.build()?.network;
     let Population { characters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, DENSITY * SPEED * 3.6 * LANES as f64, TRUCKS, shares);
     Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)

@@ -4,6 +4,7 @@
 //! while [`output`]s observe it.
 
 mod capacity;
+pub mod check;
 mod fault;
 pub mod output;
 pub mod scenario;

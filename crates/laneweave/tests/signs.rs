@@ -58,7 +58,7 @@ fn population(is_control: bool) -> Population {
 
 fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Signs {
     let road = Motorway { lanes: LANES, length_m: LENGTH_M, ..Motorway::default() };
-    let network = motorway(&road).expect("a road").network().expect("a network").0;
+    let network = motorway(&road).expect("a road").build().expect("a network").network;
     let Population { characters, shares } = population.clone();
     let conservative_from = shares[1].first;
     let demand = Demand::even(&network, vehicles_per_hour, 0.1, shares);

@@ -1,10 +1,13 @@
 //! A map as it is drawn: points, borders through them, and lanes between borders.
 
-use laneweave_network::{DrivingSide, Lanelet, Network, Point, Polyline};
+use laneweave_network::{DrivingSide, Lanelet, Network, Point, Polygon, Polyline};
 
+use crate::conflict::conflicts;
 use crate::error::MapError;
-use crate::graph;
+use crate::format::Map;
+use crate::graph::{self, Graph};
 use crate::problem::Problem;
+use crate::rule::Rule;
 use crate::shape::Shape;
 
 /// What a map file holds of roads: borders that lanes share, as yet without a graph.
@@ -13,6 +16,7 @@ pub struct Drawing {
     pub(crate) points: Vec<Point>,
     pub(crate) borders: Vec<Border>,
     pub(crate) lanes: Vec<Lane>,
+    pub(crate) rules: Vec<Rule>,
     pub(crate) driving_side: DrivingSide,
 }
 
@@ -50,6 +54,13 @@ pub(crate) struct Edge {
     pub(crate) reversed: bool,
 }
 
+impl Edge {
+    /// The same border, run the other way.
+    pub(crate) fn reversed(self) -> Edge {
+        Edge { reversed: !self.reversed, ..self }
+    }
+}
+
 /// A lane between two borders, both run in its direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lane {
@@ -58,6 +69,8 @@ pub(crate) struct Lane {
     pub(crate) line: Option<usize>,
     pub(crate) left: Edge,
     pub(crate) right: Edge,
+    /// It may be used against its direction, too.
+    pub(crate) is_two_way: bool,
     /// Speed limit [km/h].
     pub(crate) limit_kmh: f64,
 }
@@ -66,11 +79,11 @@ pub(crate) struct Lane {
 pub(crate) const KMH_PER_MPS: f64 = 3.6;
 
 impl Drawing {
-    /// The network of its lanes, and a problem for each lane that was left out for its shape.
+    /// The map of this drawing, with a problem for each lane that was left out for its shape.
     ///
     /// # Errors
     /// If no lane is left.
-    pub fn network(&self) -> Result<(Network, Vec<Problem>), MapError> {
+    pub fn build(&self) -> Result<Map, MapError> {
         let mut lanes = Vec::with_capacity(self.lanes.len());
         let mut lanelets = Vec::with_capacity(self.lanes.len());
         let mut problems = Vec::new();
@@ -91,8 +104,26 @@ impl Drawing {
         if lanelets.is_empty() {
             return Err(MapError::NotDrivable { lanelets: self.lanes.len(), problems });
         }
-        graph::connect(self, &lanes, &mut lanelets);
-        Ok((Network::new(lanelets, self.driving_side)?, problems))
+        let nodes = graph::nodes(self, &lanes);
+        graph::link(&mut lanelets, &nodes);
+        let graph = Graph { nodes, conflicting: conflicts(self, &lanes) };
+        let network = Network::new(lanelets, self.driving_side)?;
+        Ok(Map { network, graph, rules: self.rules.clone(), problems, origin: None })
+    }
+
+    /// The points at which a lane between these borders begins, on its left and on its right.
+    pub(crate) fn starts(&self, left: Edge, right: Edge) -> (u32, u32) {
+        (self.ends(left).0, self.ends(right).0)
+    }
+
+    /// The points at which a lane between these borders ends, on its left and on its right.
+    pub(crate) fn finishes(&self, left: Edge, right: Edge) -> (u32, u32) {
+        (self.ends(left).1, self.ends(right).1)
+    }
+
+    /// What a lane covers; `None` if it has no area.
+    pub(crate) fn outline(&self, lane: &Lane) -> Option<Polygon> {
+        Polygon::new(self.along(lane.left).chain(self.along(lane.right.reversed())))
     }
 
     /// First and last point of `edge` in the direction of travel.
@@ -108,9 +139,17 @@ impl Drawing {
         if edge.reversed { crossing.reversed() } else { crossing }
     }
 
+    /// The points of `edge` in the direction of travel.
+    fn along(&self, edge: Edge) -> impl Iterator<Item = Point> {
+        let points = &self.borders[edge.border as usize].points;
+        (0..points.len()).map(move |index| {
+            let index = if edge.reversed { points.len() - 1 - index } else { index };
+            self.points[points[index] as usize]
+        })
+    }
+
     fn polyline(&self, edge: Edge) -> Option<Polyline> {
-        let points = self.borders[edge.border as usize].points.iter().map(|it| self.points[*it as usize]);
-        if edge.reversed { Polyline::new(points.rev()) } else { Polyline::new(points) }
+        Polyline::new(self.along(edge))
     }
 }
 

@@ -7,14 +7,20 @@ use std::path::Path;
 use laneweave_network::{DrivingSide, Network};
 
 use crate::error::MapError;
+use crate::graph::Graph;
 use crate::lanelet2;
 use crate::problem::Problem;
+use crate::rule::Rule;
 
 /// A map that was read.
 #[derive(Clone, Debug)]
 pub struct Map {
     /// Its roads.
     pub network: Network,
+    /// Where vehicles may go from each lanelet.
+    pub graph: Graph,
+    /// What orders traffic beside the lanelets themselves.
+    pub rules: Vec<Rule>,
     /// What could not be used as it stands, in order of lines.
     pub problems: Vec<Problem>,
     /// Latitude and longitude of the local frame's origin [°], if the map was projected.
@@ -27,8 +33,20 @@ pub struct ReadOptions {
     /// Latitude and longitude that become (0, 0) of the local frame [°]. Without it the place of the map's
     /// first node, rounded to 0.1°. Of no effect on maps with metric coordinates of their own.
     pub origin: Option<(f64, f64)>,
+    /// Whose speed limits hold where the map gives none.
+    pub law: Law,
     /// On which side traffic drives. Without it what the map says, or else the right.
     pub driving_side: Option<DrivingSide>,
+}
+
+/// Whose traffic law holds on a map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Law {
+    /// That of Germany.
+    #[default]
+    Germany,
+    /// That of most of the United States.
+    UnitedStates,
 }
 
 /// A format of map files.

@@ -1,45 +1,138 @@
-//! Which lanes follow each other, and which lie side by side.
+//! The routing graph: which lanelets follow each other, which lie side by side, and which get in each other's way.
 
 use laneweave_network::{Lanelet, LaneletIndex};
 
 use crate::drawing::{Drawing, Edge, Lane};
 
-/// Fills in what lies around `lanelets`, which are those of `lanes` in the same order.
-///
-/// A lane follows another if it begins at the two points at which the other one ends. Lanes are neighbours if
-/// they share a border and run along it in the same direction; of several neighbours on one side the first is
-/// taken.
-pub(crate) fn connect(drawing: &Drawing, lanes: &[Lane], lanelets: &mut [Lanelet]) {
-    let starts = sorted(lanes, |lane| {
-        let ((left, _), (right, _)) = (drawing.ends(lane.left), drawing.ends(lane.right));
-        (left, right)
-    });
-    let left_edges = sorted(lanes, |lane| lane.left);
-    let right_edges = sorted(lanes, |lane| lane.right);
-    for (index, lane) in lanes.iter().enumerate() {
-        let ((_, left_end), (_, right_end)) = (drawing.ends(lane.left), drawing.ends(lane.right));
-        let here = LaneletIndex(index as u32);
-        let beside = |edges: &[(Edge, LaneletIndex)], edge| with(edges, edge).find(|it| *it != here);
-        let (left, right) = (beside(&right_edges, lane.left), beside(&left_edges, lane.right));
-        let to_left = drawing.crossing(lane.left).to_left;
-        let to_right = drawing.crossing(lane.right).to_right;
-        let lanelet = &mut lanelets[index];
-        lanelet.following = with(&starts, (left_end, right_end)).collect();
-        (lanelet.left, lanelet.adjacent_left) = if to_left { (left, None) } else { (None, left) };
-        (lanelet.right, lanelet.adjacent_right) = if to_right { (right, None) } else { (None, right) };
+/// A lanelet's place in [`Graph::nodes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeIndex(pub u32);
+
+impl NodeIndex {
+    /// The place as an index.
+    pub fn at(self) -> usize {
+        self.0 as usize
     }
 }
 
-/// Lanes by `key`, and in their own order where that is equal.
-fn sorted<K: Ord>(lanes: &[Lane], key: impl Fn(&Lane) -> K) -> Vec<(K, LaneletIndex)> {
+/// Where vehicles may go from each lanelet, in each direction in which it may be used.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Graph {
+    /// First all lanelets in their own direction, in the order of the network, then the two-way ones backwards.
+    pub nodes: Vec<Node>,
+    /// For each lanelet of the network those whose ground it shares, in order: seen from above, without those beside it
+    /// along a common border and those that follow on it. A two-way lanelet is among its own.
+    pub conflicting: Vec<Vec<LaneletIndex>>,
+}
+
+/// A lanelet in one direction of travel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// The lanelet.
+    pub lanelet: LaneletIndex,
+    /// It is driven against its own direction.
+    pub is_backward: bool,
+    /// What begins where it ends.
+    pub following: Vec<NodeIndex>,
+    /// What ends where it begins.
+    pub previous: Vec<NodeIndex>,
+    /// What is beside it on the left, if a change there is allowed.
+    pub left: Option<NodeIndex>,
+    /// What is beside it on the right, if a change there is allowed.
+    pub right: Option<NodeIndex>,
+    /// What is beside it on the left without a change being allowed.
+    pub adjacent_left: Option<NodeIndex>,
+    /// What is beside it on the right without a change being allowed.
+    pub adjacent_right: Option<NodeIndex>,
+}
+
+impl Graph {
+    /// The node of a lanelet driven backwards, if it may be.
+    pub fn backward(&self, lanelet: LaneletIndex) -> Option<&Node> {
+        let backward = &self.nodes[self.conflicting.len()..];
+        backward.binary_search_by_key(&lanelet, |it| it.lanelet).ok().map(|it| &backward[it])
+    }
+}
+
+/// The links between `lanes`.
+///
+/// A lane follows another if it begins at the two points at which the other one ends. Lanes are neighbours if they share a
+/// border and run along it in the same direction; of several neighbours on one side the first is taken.
+pub(crate) fn nodes(drawing: &Drawing, lanes: &[Lane]) -> Vec<Node> {
+    let (ways, mut nodes): (Vec<Way>, Vec<Node>) = ways(lanes).unzip();
+    let starts = sorted(&ways, |way| drawing.starts(way.left, way.right));
+    let left_edges = sorted(&ways, |way| way.left);
+    let right_edges = sorted(&ways, |way| way.right);
+    for (index, way) in ways.iter().enumerate() {
+        let here = NodeIndex(index as u32);
+        let beside = |edges: &[(Edge, NodeIndex)], edge| with(edges, edge).find(|it| *it != here);
+        let (left, right) = (beside(&right_edges, way.left), beside(&left_edges, way.right));
+        let to_left = drawing.crossing(way.left).to_left;
+        let to_right = drawing.crossing(way.right).to_right;
+        let following: Vec<NodeIndex> = with(&starts, drawing.finishes(way.left, way.right)).collect();
+        for next in &following {
+            nodes[next.at()].previous.push(here);
+        }
+        let node = &mut nodes[index];
+        node.following = following;
+        (node.left, node.adjacent_left) = if to_left { (left, None) } else { (None, left) };
+        (node.right, node.adjacent_right) = if to_right { (right, None) } else { (None, right) };
+    }
+    nodes
+}
+
+/// The borders of a lane in a direction of travel.
+struct Way {
+    left: Edge,
+    right: Edge,
+}
+
+/// All lanes forwards, then those that may be used backwards.
+fn ways(lanes: &[Lane]) -> impl Iterator<Item = (Way, Node)> {
+    let all = || lanes.iter().enumerate();
+    let forward = all().map(|(index, lane)| (Way { left: lane.left, right: lane.right }, node(index, false)));
+    let backward = all().filter(|(_, lane)| lane.is_two_way).map(|(index, lane)| {
+        (Way { left: lane.right.reversed(), right: lane.left.reversed() }, node(index, true))
+    });
+    forward.chain(backward)
+}
+
+fn node(lanelet: usize, is_backward: bool) -> Node {
+    Node {
+        lanelet: LaneletIndex(lanelet as u32),
+        is_backward,
+        following: Vec::new(),
+        previous: Vec::new(),
+        left: None,
+        right: None,
+        adjacent_left: None,
+        adjacent_right: None,
+    }
+}
+
+/// Ways by `key`, and in their own order where that is equal.
+fn sorted<K: Ord>(ways: &[Way], key: impl Fn(&Way) -> K) -> Vec<(K, NodeIndex)> {
     let mut all: Vec<_> =
-        lanes.iter().enumerate().map(|(index, lane)| (key(lane), LaneletIndex(index as u32))).collect();
+        ways.iter().enumerate().map(|(index, way)| (key(way), NodeIndex(index as u32))).collect();
     all.sort_unstable();
     all
 }
 
-/// The lanes with `key`.
-fn with<K: Ord>(lanes: &[(K, LaneletIndex)], key: K) -> impl Iterator<Item = LaneletIndex> {
-    let from = lanes.partition_point(|(it, _)| *it < key);
-    lanes[from..].iter().take_while(move |(it, _)| *it == key).map(|(_, index)| *index)
+/// The ways with `key`.
+fn with<K: Ord>(ways: &[(K, NodeIndex)], key: K) -> impl Iterator<Item = NodeIndex> {
+    let from = ways.partition_point(|(it, _)| *it < key);
+    ways[from..].iter().take_while(move |(it, _)| *it == key).map(|(_, index)| *index)
+}
+
+/// Links `lanelets`, which are those of the forward `nodes`, with each other; simulated traffic uses lanelets in their own
+/// direction only.
+pub(crate) fn link(lanelets: &mut [Lanelet], nodes: &[Node]) {
+    let forward = |it: NodeIndex| Some(&nodes[it.at()]).filter(|it| !it.is_backward).map(|it| it.lanelet);
+    for (lanelet, node) in lanelets.iter_mut().zip(nodes) {
+        lanelet.following = node.following.iter().copied().filter_map(forward).collect();
+        lanelet.left = node.left.and_then(forward);
+        lanelet.right = node.right.and_then(forward);
+        lanelet.adjacent_left = node.adjacent_left.and_then(forward);
+        lanelet.adjacent_right = node.adjacent_right.and_then(forward);
+    }
 }

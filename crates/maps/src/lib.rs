@@ -4,6 +4,7 @@
 //! [`Network`](laneweave_network::Network). The generator makes drawings, too, which can be written as a
 //! file.
 
+mod conflict;
 mod drawing;
 mod error;
 mod format;
@@ -11,9 +12,13 @@ pub mod generate;
 mod graph;
 pub mod lanelet2;
 mod problem;
+mod rule;
 mod shape;
+mod xml;
 
 pub use drawing::Drawing;
 pub use error::MapError;
-pub use format::{FORMATS, Format, Map, ReadOptions, load};
+pub use format::{FORMATS, Format, Law, Map, ReadOptions, load};
+pub use graph::{Graph, Node, NodeIndex};
 pub use problem::Problem;
+pub use rule::{Rule, RuleKind};

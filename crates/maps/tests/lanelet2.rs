@@ -98,7 +98,9 @@ fn limits_and_directions_that_cannot_be_used_are_listed_but_the_lane_stays() {
     let tag = "<tag k='speed_limit' v='36'/>";
     let (problems, ids) = broken(tag, "<tag k='one_way' v='no'/>");
     assert_eq!((problems.len(), ids.len()), (1, 2));
-    assert!(problems[0].contains("both directions; only the forward one is; draw a lanelet"));
+    assert!(
+        problems[0].contains("both directions; simulated traffic uses the forward one only; draw a lanelet")
+    );
 }
 
 #[test]

@@ -13,7 +13,7 @@ fn folder() -> PathBuf {
 
 fn network(of: &Motorway) -> Network {
     let drawing = motorway(of).expect("the motorway is possible");
-    let (network, problems) = drawing.network().expect("the drawing is sound");
+    let Map { network, problems, .. } = drawing.build().expect("the drawing is sound");
     assert!(problems.is_empty());
     network
 }
@@ -47,7 +47,8 @@ fn the_files_are_what_the_generator_draws() {
 fn the_files_have_the_entrances_exits_and_drops_they_are_named_after() {
     let mut found = Vec::new();
     for (name, _) in own_maps() {
-        let Map { network, problems, origin } = load(&folder().join(name), &ReadOptions::default()).unwrap();
+        let Map { network, problems, origin, .. } =
+            load(&folder().join(name), &ReadOptions::default()).unwrap();
         assert!(problems.is_empty() && origin.is_none());
         let lanes =
             |gates: &[laneweave_network::Gate]| gates.iter().map(|it| it.chains.len()).collect::<Vec<_>>();

@@ -1,7 +1,7 @@
 //! No bytes make the reader panic.
 
 use laneweave_maps::generate::{Motorway, motorway};
-use laneweave_maps::{ReadOptions, lanelet2};
+use laneweave_maps::{Map, ReadOptions, lanelet2};
 use proptest::prelude::*;
 
 fn map() -> String {
@@ -94,7 +94,7 @@ proptest! {
             ..Motorway::default()
         };
         if let Ok(drawing) = motorway(&wanted) {
-            let (network, problems) = drawing.network().unwrap();
+            let Map { network, problems, .. } = drawing.build().unwrap();
             prop_assert!(problems.is_empty());
             prop_assert_eq!(network.entrances.len(), 1 + wanted.on_ramp_at.len());
             prop_assert_eq!(network.exits.len(), 1 + wanted.off_ramp_at.len());

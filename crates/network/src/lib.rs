@@ -8,9 +8,11 @@ mod chain;
 mod gate;
 mod geometry;
 mod lanelet;
+mod polygon;
 
 pub use build::{Network, NetworkError};
 pub use chain::{Beside, Chain, ChainIndex, Limit};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+pub use polygon::Polygon;

@@ -23,7 +23,7 @@ fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_
         ..Motorway::default()
     };
     // More than the road can take, so that queues grow.
-    let mut world = world(motorway(&plan).unwrap().network().unwrap().0, 7500.0, 0.1, 3);
+    let mut world = world(motorway(&plan).unwrap().build().unwrap().network, 7500.0, 0.1, 3);
     let (mut entered, mut left, mut ids) = (0, 0, std::collections::BTreeSet::new());
     for _ in 0..6000 {
         world.step();

@@ -71,7 +71,7 @@ fn a_full_road_delays_no_arrival() {
 #[test]
 fn classes_styles_and_destinations_come_in_their_shares() {
     let plan = Motorway { length_m: 2000.0, off_ramp_at: vec![1000.0], ..Motorway::default() };
-    let network = motorway(&plan).unwrap().network().unwrap().0;
+    let network = motorway(&plan).unwrap().build().unwrap().network;
     assert_eq!(network.exits.len(), 2);
     let demand = drivers::demand(&network, 3000.0, 0.1, &[0.119, 0.881]);
     let mut world = world(network, demand, 0.5);
@@ -96,7 +96,7 @@ fn classes_styles_and_destinations_come_in_their_shares() {
 #[test]
 fn entrances_share_the_demand_by_their_lanes() {
     let plan = Motorway { length_m: 2000.0, on_ramp_at: vec![1000.0], ..Motorway::default() };
-    let network = motorway(&plan).unwrap().network().unwrap().0;
+    let network = motorway(&plan).unwrap().build().unwrap().network;
     let lanes: Vec<usize> = network.entrances.iter().map(|it| it.chains.len()).collect();
     assert_eq!(lanes, [3, 1]);
     let demand = drivers::demand(&network, 4000.0, 0.0, &[1.0]);

@@ -19,7 +19,7 @@ fn ramps() -> Network {
         lanelet_length_m: 200.0,
         ..Motorway::default()
     };
-    motorway(&plan).expect("the motorway is possible").network().expect("the drawing is sound").0
+    motorway(&plan).expect("the motorway is possible").build().expect("the drawing is sound").network
 }
 
 fn styles() -> Vec<Style> {

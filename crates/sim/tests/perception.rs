@@ -144,7 +144,7 @@ fn leaders_and_followers_are_seen_across_the_ends_of_chains() {
 
 fn drawn(plan: Motorway) -> World {
     let plan = Motorway { length_m: 4000.0, lanelet_length_m: 200.0, speed_limit_kmh: 108.0, ..plan };
-    world(motorway(&plan).expect("the motorway is possible").network().expect("the drawing is sound").0)
+    world(motorway(&plan).expect("the motorway is possible").build().expect("the drawing is sound").network)
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn any_road() -> impl Strategy<Value = Network> {
                 lane_drop_at,
                 ..Motorway::default()
             };
-            motorway(&plan).expect("the motorway is possible").network().expect("the drawing is sound").0
+            motorway(&plan).expect("the motorway is possible").build().expect("the drawing is sound").network
         },
     );
     prop_oneof![straight, with_ramps]
@@ -88,7 +88,7 @@ proptest! {
 fn ten_minutes(plan: &Motorway, total: f64) {
     for aggressive in [0.12, 1.0] {
         let network =
-            motorway(plan).expect("the motorway is possible").network().expect("the drawing is sound").0;
+            motorway(plan).expect("the motorway is possible").build().expect("the drawing is sound").network;
         let mut world = world(network, total, 0.1, aggressive, Setup { step: 0.1, seed: 1, threads: 1 });
         (0..6000).for_each(|_| world.step());
         let (tally, counts) = (world.tally(), world.counts());

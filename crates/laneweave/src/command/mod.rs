@@ -1,5 +1,6 @@
 //! The command line.
 
+mod check;
 mod generate;
 mod progress;
 mod run;
@@ -26,6 +27,8 @@ pub(crate) struct Cli {
 enum Command {
     /// Simulate a scenario, or a bare map.
     Run(run::Arguments),
+    /// Say what a map holds, and what is wrong with it.
+    Check(check::Arguments),
     /// Make a map.
     #[command(subcommand)]
     Generate(generate::Kind),
@@ -45,6 +48,7 @@ impl Cli {
                 run::run(&scenario, &origin, run::Screen::default(), started)
             }
             Some(Command::Run(arguments)) => arguments.execute(started),
+            Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Generate(kind)) => kind.execute(),
             Some(Command::Styles(deed)) => deed.execute(),
             Some(Command::Schema) => {

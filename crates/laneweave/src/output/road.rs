@@ -174,7 +174,7 @@ mod tests {
     use super::*;
 
     fn network(plan: &Motorway) -> Network {
-        motorway(plan).unwrap().network().unwrap().0
+        motorway(plan).unwrap().build().unwrap().network
     }
 
     #[test]

@@ -46,8 +46,30 @@ pub struct Scenario {
 pub struct MapOptions {
     /// Latitude and longitude [°] that become (0, 0); without it the place of the map's first node, rounded to 0.1°.
     pub origin: Option<[f64; 2]>,
+    /// Whose speed limits hold where the map gives none.
+    pub law: Law,
     /// On which side traffic drives; without it what the map says, or else the right.
     pub driving_side: Option<DrivingSide>,
+}
+
+/// Whose traffic law holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Law {
+    /// That of Germany.
+    #[default]
+    Germany,
+    /// That of most of the United States.
+    Usa,
+}
+
+impl From<Law> for laneweave_maps::Law {
+    fn from(law: Law) -> laneweave_maps::Law {
+        match law {
+            Law::Germany => laneweave_maps::Law::Germany,
+            Law::Usa => laneweave_maps::Law::UnitedStates,
+        }
+    }
 }
 
 /// A side of the road.

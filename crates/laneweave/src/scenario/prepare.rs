@@ -133,6 +133,7 @@ fn threads(scenario: &Scenario, origin: &Origin) -> Result<usize, Fault> {
 
 fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
     let options = ReadOptions {
+        law: scenario.map_options.law.into(),
         origin: scenario.map_options.origin.map(|[latitude, longitude]| (latitude, longitude)),
         driving_side: scenario.map_options.driving_side.map(DrivingSide::from),
     };

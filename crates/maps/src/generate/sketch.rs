@@ -35,6 +35,7 @@ impl<'a> Sketch<'a> {
             points: Vec::new(),
             borders: Vec::new(),
             lanes: Vec::new(),
+            rules: Vec::new(),
             driving_side: motorway.driving_side,
         };
         let mut sketch = Sketch { motorway, plan, columns: Vec::new(), drawing };
@@ -130,6 +131,6 @@ impl<'a> Sketch<'a> {
             DrivingSide::Left => (slow_side, fast_side),
         };
         let id = self.drawing.lanes.len() as i64 + 1;
-        self.drawing.lanes.push(Lane { id, line: None, left, right, limit_kmh });
+        self.drawing.lanes.push(Lane { id, line: None, left, right, is_two_way: false, limit_kmh });
     }
 }

@@ -1,43 +1,76 @@
 //! Lanelet2 maps: OSM XML with nodes, ways as borders, and relations as lanelets.
 
+mod compose;
 mod draw;
+mod law;
+mod lookup;
 mod orientation;
 mod osm;
+mod parse;
 mod place;
 mod projection;
+mod regulation;
 mod rules;
 mod speed;
 mod write;
 
-pub use write::write;
+pub use compose::compose;
+pub use osm::Document;
 
+use crate::drawing::Drawing;
 use crate::error::MapError;
 use crate::format::{MAXIMUM_SIZE, Map, ReadOptions};
+use crate::problem::Problem;
+use lookup::Lookup;
 
 /// Reads a Lanelet2 map. Lanelets that cannot be used as they stand are left out and listed as problems.
-///
-/// Lanelets with `one_way=no` are used in their forward direction only, and listed, too. Regulatory elements
-/// other than speed limits are passed over.
 ///
 /// # Errors
 /// If it is no OSM XML or holds no lanelet that cars may use.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
-    if bytes.len() as u64 > MAXIMUM_SIZE {
-        return Err(MapError::TooLarge { bytes: bytes.len() as u64, limit: MAXIMUM_SIZE });
-    }
-    let mut problems = Vec::new();
-    let document = osm::parse(bytes, &mut problems)?;
-    let (drawing, origin) = draw::draw(&document, options, &mut problems)?;
-    let built = drawing.network();
-    let (network, flaws) = match built {
-        Err(MapError::NotDrivable { problems: flaws, .. }) => {
-            problems.extend(flaws);
-            problems.sort_by_key(|it| it.line);
-            return Err(MapError::NotDrivable { lanelets: document.lanelets().count(), problems });
+    let (document, problems) = Document::parse(bytes)?;
+    document.map(problems, options)
+}
+
+/// The text of a Lanelet2 map with this drawing, which is read again as the same network.
+pub fn write(drawing: &Drawing) -> String {
+    compose(drawing).write()
+}
+
+impl<'a> Document<'a> {
+    /// Reads the elements of an OSM file, all of them, whether or not a map needs them. Elements without a usable id
+    /// become problems.
+    ///
+    /// # Errors
+    /// If it is no OSM XML.
+    pub fn parse(bytes: &'a [u8]) -> Result<(Document<'a>, Vec<Problem>), MapError> {
+        if bytes.len() as u64 > MAXIMUM_SIZE {
+            return Err(MapError::TooLarge { bytes: bytes.len() as u64, limit: MAXIMUM_SIZE });
         }
-        built => built?,
-    };
-    problems.extend(flaws);
-    problems.sort_by_key(|it| it.line);
-    Ok(Map { network, problems, origin })
+        let mut problems = Vec::new();
+        parse::parse(bytes, &mut problems).map(|document| (document, problems))
+    }
+
+    /// The map of these elements, with the `problems` that are known already and what else cannot be used as it stands.
+    ///
+    /// # Errors
+    /// If it holds no lanelet that cars may use.
+    pub fn map(&self, mut problems: Vec<Problem>, options: &ReadOptions) -> Result<Map, MapError> {
+        let (lookup, origin) = Lookup::new(self, options.origin, &mut problems)?;
+        let drawing = draw::draw(self, &lookup, options, &mut problems);
+        match drawing.build() {
+            Ok(map) => {
+                problems.extend(map.problems);
+                problems.sort_by_key(|it| it.line);
+                Ok(Map { problems, origin, ..map })
+            }
+            Err(MapError::NotDrivable { problems: flaws, .. }) => {
+                problems.extend(flaws);
+                problems.sort_by_key(|it| it.line);
+                let lanelets = self.relations_of_type("lanelet").count();
+                Err(MapError::NotDrivable { lanelets, problems })
+            }
+            Err(error) => Err(error),
+        }
+    }
 }

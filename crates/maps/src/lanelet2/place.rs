@@ -2,7 +2,7 @@
 
 use laneweave_network::Point;
 
-use super::osm::{Node, number};
+use super::osm::{Document, Node, Tags, number};
 use super::projection::Utm;
 use crate::error::MapError;
 
@@ -21,32 +21,38 @@ pub(super) enum Frame {
 const MAXIMUM_COORDINATE: f64 = 4.1e7;
 
 impl Frame {
-    /// The first frame in the order above in which all of `nodes` have coordinates, and its geographic origin
-    /// [°].
-    pub(super) fn of<'a>(
-        nodes: impl Iterator<Item = &'a Node> + Clone,
+    /// The first frame in the order above in which all nodes have coordinates, and its geographic
+    /// origin [°]: `origin`, or else the place of the first node, rounded to 0.1°.
+    ///
+    /// # Errors
+    /// If `origin` is no place that the projection covers.
+    pub(super) fn of(
+        document: &Document,
         origin: Option<(f64, f64)>,
     ) -> Result<(Frame, Option<(f64, f64)>), MapError> {
-        let all = |has: fn(&Node) -> bool| nodes.clone().all(has);
-        if all(|it| it.tags.get("local_x").is_some() && it.tags.get("local_y").is_some()) {
+        let nodes = || document.nodes.iter();
+        if nodes().all(|it| {
+            let tags = document.tags(it.tags);
+            tags.get("local_x").is_some() && tags.get("local_y").is_some()
+        }) {
             return Ok((Frame::Local, None));
         }
-        if all(|it| it.x.is_some() && it.y.is_some()) {
+        if nodes().all(|it| it.x.is_some() && it.y.is_some()) {
             return Ok((Frame::Metric, None));
         }
         // Adding zero leaves no negative zero.
         let rounded = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
-        let mut places = nodes.filter_map(|it| Some((rounded(it.lat?), rounded(it.lon?))));
+        let mut places = nodes().filter_map(|it| Some((rounded(it.lat?), rounded(it.lon?))));
         let origin = origin.or_else(|| places.find(|at| Utm::around(at.0, at.1).is_some()));
         let origin = origin.unwrap_or((0.0, 0.0));
         let utm = Utm::around(origin.0, origin.1).ok_or(MapError::Origin(origin.0, origin.1))?;
         Ok((Frame::Projected(utm), Some(origin)))
     }
 
-    /// Where `node` lies; `None` if its coordinates are missing, unreadable or out of range. Without a height
-    /// it lies at zero.
-    pub(super) fn place(&self, node: &Node) -> Option<Point> {
-        let tag = |key| node.tags.get(key).map(number);
+    /// Where a node with these tags lies; `None` if its coordinates are missing, unreadable or out of range. Without a
+    /// height it lies at zero.
+    pub(super) fn place(&self, node: &Node, tags: Tags) -> Option<Point> {
+        let tag = |key| tags.get(key).map(number);
         let (x, y) = match self {
             Frame::Local => (tag("local_x")?, tag("local_y")?),
             Frame::Metric => (node.x?, node.y?),
@@ -61,46 +67,41 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::osm::Tags;
+    use crate::lanelet2::parse::parse;
 
-    fn all_three() -> Node {
-        Node {
-            lat: Some(49.04),
-            lon: Some(8.44),
-            x: Some(1.0),
-            y: Some(2.0),
-            ele: Some(3.0),
-            tags: Tags::from([("local_x", "4"), ("local_y", "5"), ("ele", "6")]),
-            ..Node::default()
-        }
-    }
+    const NODE: &str = "<node id='1' lat='49.04' lon='8.44' x='1' y='2' ele='3'>";
+    const LOCAL: &str = "<tag k='local_x' v='4'/><tag k='local_y' v='5'/><tag k='ele' v='6'/>";
 
-    fn frame(nodes: &[Node]) -> (Frame, Option<(f64, f64)>) {
-        Frame::of(nodes.iter(), None).unwrap()
+    /// The frame of nodes, its origin, and where the last node lies.
+    fn frame(nodes: &str) -> (Frame, Option<(f64, f64)>, Option<Point>) {
+        let text = format!("<osm>{nodes}</osm>");
+        let document = parse(text.as_bytes(), &mut Vec::new()).unwrap();
+        let (frame, origin) = Frame::of(&document, None).unwrap();
+        let last = document.nodes.last().unwrap();
+        (frame, origin, frame.place(last, document.tags(last.tags)))
     }
 
     #[test]
     fn local_coordinates_come_first_if_all_nodes_have_them() {
-        let nodes = [all_three(), Node { tags: Tags::default(), ..all_three() }];
-        assert_eq!(frame(&nodes[..1]), (Frame::Local, None));
-        assert_eq!(Frame::Local.place(&nodes[0]), Some(Point::new(4.0, 5.0, 6.0)));
-        assert_eq!(frame(&nodes), (Frame::Metric, None));
-        assert_eq!(Frame::Metric.place(&nodes[1]), Some(Point::new(1.0, 2.0, 3.0)));
+        let local = format!("{NODE}{LOCAL}</node>");
+        assert_eq!(frame(&local), (Frame::Local, None, Some(Point::new(4.0, 5.0, 6.0))));
+        let mixed = format!("{local}{NODE}</node>");
+        assert_eq!(frame(&mixed), (Frame::Metric, None, Some(Point::new(1.0, 2.0, 3.0))));
     }
 
     #[test]
     fn without_metric_coordinates_places_are_projected() {
-        let node = Node { lat: Some(49.04), lon: Some(8.44), ..Node::default() };
-        let (frame, origin) = frame(std::slice::from_ref(&node));
+        let (_, origin, at) = frame("<node id='1' lat='49.04' lon='8.44'/>");
         assert_eq!(origin, Some((49.0, 8.4)));
-        let at = frame.place(&node).unwrap();
+        let at = at.unwrap();
         assert!((4000.0..5000.0).contains(&at.y) && (2500.0..3500.0).contains(&at.x), "{at:?}");
         assert_eq!(at.z, 0.0);
     }
 
     #[test]
     fn an_origin_off_the_earth_is_refused() {
-        let error = Frame::of([Node::default()].iter(), Some((91.0, 0.0))).unwrap_err();
+        let document = parse(b"<osm><node id='1'/></osm>", &mut Vec::new()).unwrap();
+        let error = Frame::of(&document, Some((91.0, 0.0))).unwrap_err();
         assert!(error.to_string().starts_with("the origin (91, 0) is no latitude"));
     }
 
@@ -108,8 +109,8 @@ mod tests {
     fn points_that_are_no_place_have_none() {
         for (x, ele) in [(f64::NAN, None), (5e7, None), (f64::INFINITY, None), (0.0, Some(f64::NAN))] {
             let node = Node { x: Some(x), y: Some(0.0), ele, ..Node::default() };
-            assert_eq!(Frame::Metric.place(&node), None);
+            assert_eq!(Frame::Metric.place(&node, Tags(&[])), None);
         }
-        assert_eq!(Frame::Metric.place(&Node::default()), None);
+        assert_eq!(Frame::Metric.place(&Node::default(), Tags(&[])), None);
     }
 }

@@ -11,7 +11,7 @@ const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle
 /// Whether cars may use a lanelet with these tags.
 ///
 /// Tags `participant:…` name everybody who may; without any of them the subtype tells.
-pub(super) fn is_for_cars(lanelet: &Tags) -> bool {
+pub(super) fn is_for_cars(lanelet: Tags) -> bool {
     if lanelet.any("participant:") {
         return PARTICIPANTS.into_iter().find_map(|key| flag(lanelet, key)).unwrap_or(false);
     }
@@ -19,7 +19,7 @@ pub(super) fn is_for_cars(lanelet: &Tags) -> bool {
 }
 
 /// Whether cars may use a lanelet with these tags against its direction, too.
-pub(super) fn is_two_way(lanelet: &Tags) -> bool {
+pub(super) fn is_two_way(lanelet: Tags) -> bool {
     ["one_way:vehicle:car", "one_way:vehicle", "one_way"]
         .into_iter()
         .find_map(|key| flag(lanelet, key))
@@ -31,7 +31,7 @@ pub(super) fn is_two_way(lanelet: &Tags) -> bool {
 /// `lane_change` comes first, then `lane_change:left` and `lane_change:right`, of which one that is left out
 /// means no, and then what is painted. The first word of `dashed_solid` is the left half of the line: it may
 /// be crossed from the left.
-pub(super) fn crossing(border: &Tags) -> Crossing {
+pub(super) fn crossing(border: Tags) -> Crossing {
     if border.get("lane_change").is_some() {
         let allowed = flag(border, "lane_change") == Some(true);
         return Crossing { to_left: allowed, to_right: allowed };
@@ -64,7 +64,7 @@ pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
 }
 
 /// Yes or no, if the tag is given and is one of them.
-fn flag(tags: &Tags, key: &str) -> Option<bool> {
+fn flag(tags: Tags, key: &str) -> Option<bool> {
     match tags.get(key)? {
         "yes" | "true" | "1" => Some(true),
         "no" | "false" | "0" => Some(false),
@@ -75,38 +75,39 @@ fn flag(tags: &Tags, key: &str) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanelet2::osm::tags;
 
     #[test]
     fn the_subtype_tells_who_may_use_a_lanelet() {
         for subtype in ["road", "highway", "play_street", "exit"] {
-            assert!(is_for_cars(&Tags::from([("subtype", subtype)])), "{subtype}");
+            assert!(is_for_cars(Tags(&tags([("subtype", subtype)]))), "{subtype}");
         }
         for subtype in ["walkway", "crosswalk", "bicycle_lane", "bus_lane", "emergency_lane", "stairs", "x"] {
-            assert!(!is_for_cars(&Tags::from([("subtype", subtype)])), "{subtype}");
+            assert!(!is_for_cars(Tags(&tags([("subtype", subtype)]))), "{subtype}");
         }
-        assert!(is_for_cars(&Tags::default()));
+        assert!(is_for_cars(Tags(&[])));
     }
 
     #[test]
     fn named_participants_outrank_the_subtype() {
-        assert!(is_for_cars(&Tags::from([("subtype", "walkway"), ("participant:vehicle", "yes")])));
-        assert!(is_for_cars(&Tags::from([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")])));
-        assert!(!is_for_cars(&Tags::from([("subtype", "road"), ("participant:bicycle", "yes")])));
-        assert!(!is_for_cars(&Tags::from([("subtype", "road"), ("participant:vehicle", "no")])));
+        assert!(is_for_cars(Tags(&tags([("subtype", "walkway"), ("participant:vehicle", "yes")]))));
+        assert!(is_for_cars(Tags(&tags([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")]))));
+        assert!(!is_for_cars(Tags(&tags([("subtype", "road"), ("participant:bicycle", "yes")]))));
+        assert!(!is_for_cars(Tags(&tags([("subtype", "road"), ("participant:vehicle", "no")]))));
     }
 
     #[test]
     fn lanelets_run_one_way_unless_they_say_otherwise() {
-        assert!(!is_two_way(&Tags::default()));
-        assert!(!is_two_way(&Tags::from([("one_way:bicycle", "no")])));
-        assert!(is_two_way(&Tags::from([("one_way", "no")])));
-        assert!(is_two_way(&Tags::from([("one_way:vehicle", "no")])));
+        assert!(!is_two_way(Tags(&[])));
+        assert!(!is_two_way(Tags(&tags([("one_way:bicycle", "no")]))));
+        assert!(is_two_way(Tags(&tags([("one_way", "no")]))));
+        assert!(is_two_way(Tags(&tags([("one_way:vehicle", "no")]))));
     }
 
     #[test]
     fn the_painted_line_tells_who_may_cross() {
         let line = |kind, subtype| {
-            let crossing = crossing(&Tags::from([("type", kind), ("subtype", subtype)]));
+            let crossing = crossing(Tags(&tags([("type", kind), ("subtype", subtype)])));
             (crossing.to_left, crossing.to_right)
         };
         for kind in ["line_thin", "line_thick"] {
@@ -122,8 +123,8 @@ mod tests {
     #[test]
     fn lane_change_tags_outrank_the_line() {
         let over = |key, value| {
-            let tags = Tags::from([("type", "line_thin"), ("subtype", "dashed"), (key, value)]);
-            (crossing(&tags).to_left, crossing(&tags).to_right)
+            let tags = tags([("type", "line_thin"), ("subtype", "dashed"), (key, value)]);
+            (crossing(Tags(&tags)).to_left, crossing(Tags(&tags)).to_right)
         };
         assert_eq!(over("lane_change", "yes"), (true, true));
         assert_eq!(over("lane_change", "no"), (false, false));
@@ -138,8 +139,8 @@ mod tests {
         for to_left in [false, true] {
             for to_right in [false, true] {
                 let wanted = Crossing { to_left, to_right };
-                let tags = Tags::from([("type", "line_thin"), ("subtype", line_subtype(wanted))]);
-                assert_eq!(crossing(&tags), wanted);
+                let tags = tags([("type", "line_thin"), ("subtype", line_subtype(wanted))]);
+                assert_eq!(crossing(Tags(&tags)), wanted);
             }
         }
     }

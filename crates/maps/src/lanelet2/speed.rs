@@ -1,32 +1,35 @@
 //! Speed limits of lanelets.
 
-use super::osm::{Relation, Tags};
+use super::law::KMH_PER_MPH;
+use super::lookup::Lookup;
+use super::osm::{Document, Relation};
 use crate::drawing::KMH_PER_MPS;
+use crate::format::Law;
 use crate::problem::Problem;
 
-/// Kilometres an hour in a mile an hour.
-const KMH_PER_MPH: f64 = 1.609_344;
 /// Limits above are slips of the pen [km/h].
 const MAXIMUM: f64 = 500.0;
 
 /// The limit of a lanelet [km/h].
 ///
-/// Its first rule of the subtype `speed_limit` that can be understood comes first, then its tags, then
-/// [`german_default`]. `rule` finds a regulatory element by its id, `sign` the tags of a way.
-pub(super) fn limit<'a>(
-    lanelet: &'a Relation,
-    rule: impl Fn(i64) -> Option<&'a Relation>,
-    sign: impl Fn(i64) -> Option<&'a Tags>,
+/// Its first rule of the subtype `speed_limit` that can be understood comes first, then its tags, then what the law of the
+/// land says.
+pub(super) fn limit(
+    document: &Document,
+    lookup: &Lookup,
+    lanelet: &Relation,
+    law: Law,
     problems: &mut Vec<Problem>,
 ) -> f64 {
     const KEYS: [&str; 3] = ["speed_limit:vehicle:car", "speed_limit:vehicle", "speed_limit"];
-    let rules = lanelet
-        .members("relation", "regulatory_element")
-        .filter_map(rule)
-        .filter(|it| it.tags.is("subtype", "speed_limit"));
-    let by_rule = rules.map(|rule| (sign_text(rule, &sign), rule.line, "speed limit rule"));
-    let by_tag = KEYS.into_iter().filter_map(|key| Some((lanelet.tags.get(key)?, lanelet.line, key)));
-    let default = german_default(&lanelet.tags);
+    let tags = document.tags(lanelet.tags);
+    let rules = document
+        .members(lanelet, "relation", "regulatory_element")
+        .filter_map(|id| Some(&document.relations[lookup.relation(id)?]))
+        .filter(|it| document.tags(it.tags).is("subtype", "speed_limit"));
+    let by_rule = rules.map(|rule| (sign_text(document, lookup, rule), rule.line, "speed limit rule"));
+    let by_tag = KEYS.into_iter().filter_map(|key| Some((tags.get(key)?, lanelet.line, key)));
+    let default = law.limit(tags);
     for (text, line, source) in by_rule.chain(by_tag) {
         if let Some(limit) = sign_limit(text).or_else(|| speed(text)) {
             return limit;
@@ -42,10 +45,12 @@ pub(super) fn limit<'a>(
 }
 
 /// What a rule says: by a tag of its own, or by the sign to which it refers.
-fn sign_text<'a>(rule: &'a Relation, sign: impl Fn(i64) -> Option<&'a Tags>) -> &'a str {
-    let own = ["sign_type", "speed_limit", "max_speed"].into_iter().find_map(|key| rule.tags.get(key));
-    let shown = || rule.members("way", "refers").filter_map(&sign).find_map(|tags| tags.get("subtype"));
-    own.or_else(shown).unwrap_or_default()
+fn sign_text<'d>(document: &'d Document, lookup: &Lookup, rule: &Relation) -> &'d str {
+    let tags = document.tags(rule.tags);
+    let own = ["sign_type", "speed_limit", "max_speed"].into_iter().find_map(|key| tags.get(key));
+    let signs = document.members(rule, "way", "refers").filter_map(|id| lookup.way(id));
+    let mut shown = signs.filter_map(|way| document.tags(document.ways[way].tags).get("subtype"));
+    own.or_else(|| shown.next()).unwrap_or_default()
 }
 
 /// The limit of a German sign: 274 with the speed behind a dash (a zone of 30 km/h without), 310 the town
@@ -75,21 +80,10 @@ fn speed(text: &str) -> Option<f64> {
     (speed > 0.0 && speed <= MAXIMUM).then_some(speed)
 }
 
-/// The limit in Germany where none is given [km/h]: 130 on a motorway (where it is only advised), 7 in a play
-/// street, otherwise 100 outside of towns and 50 inside.
-fn german_default(lanelet: &Tags) -> f64 {
-    match (lanelet.get("subtype"), lanelet.get("location")) {
-        (Some("highway"), _) => 130.0,
-        (Some("play_street"), _) => 7.0,
-        (_, Some("nonurban")) => 100.0,
-        _ => 50.0,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::osm::Member;
+    use crate::lanelet2::parse::parse;
 
     #[test]
     fn speeds_are_km_per_hour_unless_they_have_a_unit() {
@@ -103,51 +97,34 @@ mod tests {
         }
     }
 
-    #[test]
-    fn german_defaults_hold_without_a_tag() {
-        let limit =
-            |subtype, location| german_default(&Tags::from([("subtype", subtype), ("location", location)]));
-        assert_eq!(limit("road", "urban"), 50.0);
-        assert_eq!(limit("road", "nonurban"), 100.0);
-        assert_eq!(limit("highway", "nonurban"), 130.0);
-        assert_eq!(limit("play_street", "urban"), 7.0);
-        assert_eq!(german_default(&Tags::default()), 50.0);
-    }
-
-    fn limit_of(lanelet: Relation, rule: Relation) -> (f64, Vec<Problem>) {
-        let sign = Tags::from([("subtype", "de274-60")]);
+    /// The limit of a lanelet with these tags, whose rule has those; the rule refers to a sign of 60 km/h.
+    fn limit_of(lanelet: &str, rule: &str) -> (f64, Vec<Problem>) {
+        let text = format!(
+            "<osm><node id='1' x='0' y='0'/><way id='4'><tag k='subtype' v='de274-60'/></way>\n\n\n\n\
+             <relation id='8'><member type='relation' ref='2' role='regulatory_element'/>{lanelet}</relation>\
+             <relation id='2'><member type='way' ref='4' role='refers'/>{rule}</relation></osm>"
+        );
         let mut problems = Vec::new();
-        let limit = limit(&lanelet, |_| Some(&rule), |_| Some(&sign), &mut problems);
+        let document = parse(text.as_bytes(), &mut problems).unwrap();
+        let (lookup, _) = Lookup::new(&document, None, &mut problems).unwrap();
+        let limit = limit(&document, &lookup, &document.relations[0], Law::Germany, &mut problems);
         (limit, problems)
     }
 
     #[test]
     fn a_rule_outranks_the_tag() {
-        let member = |kind: &str, role: &str| vec![Member { kind: kind.into(), role: role.into(), id: 2 }];
-        let lanelet = || Relation {
-            members: member("relation", "regulatory_element"),
-            tags: Tags::from([("speed_limit", "70")]),
-            ..Relation::default()
-        };
-        let by_sign = Relation {
-            members: member("way", "refers"),
-            tags: Tags::from([("subtype", "speed_limit")]),
-            ..Relation::default()
-        };
-        assert_eq!(limit_of(lanelet(), by_sign), (60.0, vec![]));
-        let by_tag =
-            |tag| Relation { tags: Tags::from([("subtype", "speed_limit"), tag]), ..Relation::default() };
-        assert_eq!(limit_of(lanelet(), by_tag(("sign_type", "de274"))), (30.0, vec![]));
-        assert_eq!(limit_of(lanelet(), by_tag(("max_speed", "20 mph"))), (20.0 * 1.609344, vec![]));
-        let other = Relation { tags: Tags::from([("subtype", "traffic_light")]), ..Relation::default() };
-        assert_eq!(limit_of(lanelet(), other), (70.0, vec![]));
+        let tag = "<tag k='speed_limit' v='70'/>";
+        let rule = "<tag k='subtype' v='speed_limit'/>";
+        assert_eq!(limit_of(tag, rule), (60.0, vec![]));
+        assert_eq!(limit_of(tag, &format!("{rule}<tag k='sign_type' v='de274'/>")), (30.0, vec![]));
+        let miles = format!("{rule}<tag k='max_speed' v='20 mph'/>");
+        assert_eq!(limit_of(tag, &miles), (20.0 * 1.609344, vec![]));
+        assert_eq!(limit_of(tag, "<tag k='subtype' v='traffic_light'/>"), (70.0, vec![]));
     }
 
     #[test]
     fn a_limit_that_is_none_is_a_problem() {
-        let lanelet =
-            Relation { id: 8, line: 5, tags: Tags::from([("speed_limit", "-3")]), ..Relation::default() };
-        let (limit, problems) = limit_of(lanelet, Relation::default());
+        let (limit, problems) = limit_of("<tag k='speed_limit' v='-3'/>", "");
         assert_eq!(limit, 50.0);
         assert_eq!(
             problems[0].to_string(),

@@ -1,81 +1,123 @@
-//! Drawings written as Lanelet2 maps.
+//! OSM elements written as XML.
 
-use std::fmt::{self, Write};
+use std::fmt::{self, Display, Write};
 
 use laneweave_network::DrivingSide;
 
-use super::projection::Utm;
-use super::rules::line_subtype;
-use crate::drawing::{Drawing, Edge, Lane};
+use super::osm::{Document, Tags};
 
-/// Where the origin of a drawing is put on the earth: latitude and longitude [°].
-const ORIGIN: (f64, f64) = (49.0, 8.4);
+impl Document<'_> {
+    /// The text of a file with these elements, which is read again as the same ones: ids, tags, coordinates, nodes and
+    /// members, whether or not this program knows what they mean.
+    pub fn write(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string never fails.
+        let _ = self.write_to(&mut text);
+        text
+    }
 
-/// The text of a Lanelet2 map with this drawing, which is read again as the same network.
-///
-/// Nodes have exact metric coordinates (`local_x`, `local_y`, `ele`), and latitude and longitude for other
-/// programs, rounded to about a micrometre; these mean little further than some hundred kilometres from the
-/// origin. Lanelets keep their ids; borders and points get those that come after.
-pub fn write(drawing: &Drawing) -> String {
-    let mut text = String::new();
-    // Writing to a string never fails.
-    let _ = write_to(&mut text, drawing);
-    text
-}
-
-fn write_to(out: &mut impl Write, drawing: &Drawing) -> fmt::Result {
-    let first_border = 1 + drawing.lanes.iter().map(|it| it.id).max().unwrap_or(0);
-    let first_point = first_border + drawing.borders.len() as i64;
-    let side = match drawing.driving_side {
-        DrivingSide::Left => "left",
-        DrivingSide::Right => "right",
-    };
-    writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
-    writeln!(out, r#"<osm version="0.6" generator="laneweave">"#)?;
-    writeln!(out, r#"<MetaInfo format_version="1" map_version="1" driving_side="{side}"/>"#)?;
-    write_nodes(out, drawing, first_point)?;
-    for (border, id) in drawing.borders.iter().zip(first_border..) {
-        write!(out, r#"<way id="{id}">"#)?;
-        for point in &border.points {
-            write!(out, r#"<nd ref="{}"/>"#, first_point + i64::from(*point))?;
+    fn write_to(&self, out: &mut impl Write) -> fmt::Result {
+        writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
+        writeln!(out, r#"<osm version="0.6" generator="laneweave">"#)?;
+        if let Some(side) = self.driving_side {
+            let side = match side {
+                DrivingSide::Left => "left",
+                DrivingSide::Right => "right",
+            };
+            writeln!(out, r#"<MetaInfo format_version="1" map_version="1" driving_side="{side}"/>"#)?;
         }
-        write_tag(out, "type", "line_thin")?;
-        write_tag(out, "subtype", line_subtype(border.crossing))?;
-        writeln!(out, "</way>")?;
+        for node in &self.nodes {
+            write!(out, r#"<node id="{}""#, node.id)?;
+            let coordinates =
+                [("lat", node.lat), ("lon", node.lon), ("x", node.x), ("y", node.y), ("ele", node.ele)];
+            for (key, value) in coordinates.iter().filter_map(|(key, it)| Some((key, (*it)?))) {
+                write!(out, r#" {key}="{value}""#)?;
+            }
+            element(out, "node", self.tags(node.tags), &[], |_, ()| Ok(()))?;
+        }
+        for way in &self.ways {
+            write!(out, r#"<way id="{}""#, way.id)?;
+            element(out, "way", self.tags(way.tags), self.nodes_of(way), |out, id| {
+                write!(out, r#"<nd ref="{id}"/>"#)
+            })?;
+        }
+        for relation in &self.relations {
+            write!(out, r#"<relation id="{}""#, relation.id)?;
+            element(out, "relation", self.tags(relation.tags), self.members_of(relation), |out, member| {
+                let (kind, role) = (Escaped(&member.kind), Escaped(&member.role));
+                write!(out, r#"<member type="{kind}" ref="{}" role="{role}"/>"#, member.id)
+            })?;
+        }
+        writeln!(out, "</osm>")
     }
-    for lane in &drawing.lanes {
-        write_lanelet(out, lane, first_border)?;
-    }
-    writeln!(out, "</osm>")
 }
 
-fn write_nodes(out: &mut impl Write, drawing: &Drawing, first: i64) -> fmt::Result {
-    let utm = Utm::around(ORIGIN.0, ORIGIN.1);
-    for (point, id) in drawing.points.iter().zip(first..) {
-        let (latitude, longitude) = utm.map_or(ORIGIN, |it| it.inverse(point.x, point.y));
-        write!(out, r#"<node id="{id}" lat="{latitude:.11}" lon="{longitude:.11}">"#)?;
-        write_tag(out, "local_x", point.x)?;
-        write_tag(out, "local_y", point.y)?;
-        write_tag(out, "ele", point.z)?;
-        writeln!(out, "</node>")?;
+/// Writes what follows the attributes of an element: its parts, then its tags.
+fn element<W: Write, P>(
+    out: &mut W,
+    name: &str,
+    tags: Tags,
+    parts: &[P],
+    part: impl Fn(&mut W, &P) -> fmt::Result,
+) -> fmt::Result {
+    if parts.is_empty() && tags.0.is_empty() {
+        return writeln!(out, "/>");
     }
-    Ok(())
+    write!(out, ">")?;
+    parts.iter().try_for_each(|it| part(out, it))?;
+    for (key, value) in tags.0 {
+        write!(out, r#"<tag k="{}" v="{}"/>"#, Escaped(key), Escaped(value))?;
+    }
+    writeln!(out, "</{name}>")
 }
 
-fn write_lanelet(out: &mut impl Write, lane: &Lane, first_border: i64) -> fmt::Result {
-    let border = |edge: Edge| first_border + i64::from(edge.border);
-    write!(out, r#"<relation id="{}">"#, lane.id)?;
-    write!(out, r#"<member type="way" ref="{}" role="left"/>"#, border(lane.left))?;
-    write!(out, r#"<member type="way" ref="{}" role="right"/>"#, border(lane.right))?;
-    write_tag(out, "type", "lanelet")?;
-    write_tag(out, "subtype", "highway")?;
-    write_tag(out, "location", "nonurban")?;
-    write_tag(out, "one_way", "yes")?;
-    write_tag(out, "participant:vehicle", "yes")?;
-    write_tag(out, "speed_limit", lane.limit_kmh)?;
-    writeln!(out, "</relation>")
+/// Text as the value of an attribute.
+struct Escaped<'a>(&'a str);
+
+impl Display for Escaped<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for letter in self.0.chars() {
+            match letter {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                // A reader takes plain ones for spaces.
+                '\n' | '\r' | '\t' => write!(f, "&#{};", letter as u32)?,
+                letter => f.write_char(letter)?,
+            }
+        }
+        Ok(())
+    }
 }
 
-fn write_tag(out: &mut impl Write, key: &str, value: impl fmt::Display) -> fmt::Result {
-    write!(out, r#"<tag k="{key}" v="{value}"/>"#)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_again_as_the_same() {
+        let text = concat!(
+            "<osm><MetaInfo driving_side='left'/><node id='-1' lat='49.25' lon='8.1' ele='-0.5'/>",
+            "<node id='2' x='1e-7' y='123456.789012345'><tag k='a' v='&lt;&amp;&quot;&#10;>'/></node>",
+            "<way id='3'/><way id='4'><nd ref='2'/></way><way id='5'><tag k='t' v=''/></way>",
+            "<relation id='6'><member type='way' ref='4' role='l&gt;r'/></relation>",
+            "<relation id='7'><member type='node' ref='2' role=''/><tag k='type' v='ä'/></relation></osm>",
+        );
+        let (document, _) = Document::parse(text.as_bytes()).unwrap();
+        let written = document.write();
+        let (again, problems) = Document::parse(written.as_bytes()).unwrap();
+        assert!(problems.is_empty());
+        // Lines differ; all else is the same, to the last bit and letter.
+        assert_eq!(again.write(), written);
+        assert_eq!(
+            (&again.tags, &again.members, &again.references),
+            (&document.tags, &document.members, &document.references)
+        );
+        assert_eq!(again.driving_side, document.driving_side);
+        for (a, b) in again.nodes.iter().zip(&document.nodes) {
+            assert_eq!((a.id, a.lat, a.lon, a.x, a.y, a.ele), (b.id, b.lat, b.lon, b.x, b.y, b.ele));
+        }
+        assert_eq!((again.nodes.len(), again.ways.len(), again.relations.len()), (2, 3, 2));
+    }
 }

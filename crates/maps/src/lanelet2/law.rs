@@ -1,0 +1,69 @@
+//! Speed limits that hold where a map gives none.
+
+use super::osm::Tags;
+use crate::format::Law;
+
+/// Kilometres an hour in a mile an hour.
+pub(super) const KMH_PER_MPH: f64 = 1.609_344;
+
+impl Law {
+    /// The limit of a lanelet with these tags [km/h].
+    pub(super) fn limit(self, lanelet: Tags) -> f64 {
+        let (subtype, location) = (lanelet.get("subtype"), lanelet.get("location"));
+        match self {
+            Law::Germany => germany(subtype, location),
+            Law::UnitedStates => KMH_PER_MPH * united_states(subtype, location),
+        }
+    }
+}
+
+/// Germany [km/h], as the reference library has it: 130 on a motorway (where it is only advised), 7 in a play street,
+/// otherwise 100 outside of towns and 50 inside (StVO §3, §18, §42; Autobahn-Richtgeschwindigkeits-Verordnung).
+fn germany(subtype: Option<&str>, location: Option<&str>) -> f64 {
+    match (subtype, location) {
+        (Some("highway"), _) => 130.0,
+        (Some("play_street"), _) => 7.0,
+        (_, Some("nonurban")) => 100.0,
+        _ => 50.0,
+    }
+}
+
+/// The United States [mph], where each state has its own law. On ordinary roads the Uniform Vehicle Code (2000, §11-801.1):
+/// 30 in an urban district, 55 elsewhere. On freeways the commonest limits of the states: 65 in towns and 70 outside.
+/// In a play street, for which there is no such rule, 15.
+fn united_states(subtype: Option<&str>, location: Option<&str>) -> f64 {
+    match (subtype, location) {
+        (Some("highway"), Some("urban")) => 65.0,
+        (Some("highway"), _) => 70.0,
+        (Some("play_street"), _) => 15.0,
+        (_, Some("nonurban")) => 55.0,
+        _ => 30.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanelet2::osm::tags;
+
+    fn limit(law: Law, subtype: &'static str, location: &'static str) -> f64 {
+        law.limit(Tags(&tags([("subtype", subtype), ("location", location)])))
+    }
+
+    #[test]
+    fn german_defaults_hold_without_a_tag() {
+        assert_eq!(limit(Law::Germany, "road", "urban"), 50.0);
+        assert_eq!(limit(Law::Germany, "road", "nonurban"), 100.0);
+        assert_eq!(limit(Law::Germany, "highway", "nonurban"), 130.0);
+        assert_eq!(limit(Law::Germany, "play_street", "urban"), 7.0);
+        assert_eq!(Law::Germany.limit(Tags(&[])), 50.0);
+    }
+
+    #[test]
+    fn american_defaults_are_in_miles() {
+        let mph = |subtype, location| (limit(Law::UnitedStates, subtype, location) / 1.609344).round();
+        assert_eq!([mph("road", "urban"), mph("road", "nonurban")], [30.0, 55.0]);
+        assert_eq!([mph("highway", "urban"), mph("highway", "nonurban")], [65.0, 70.0]);
+        assert_eq!(mph("play_street", "urban"), 15.0);
+    }
+}

@@ -1,0 +1,92 @@
+//! Elements by their ids, and where nodes lie.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use laneweave_network::Point;
+
+use super::osm::{Document, Node, Relation};
+use super::place::Frame;
+use crate::error::MapError;
+use crate::problem::Problem;
+
+/// Finds the elements of a document. Of several with the same id the first one counts.
+pub(super) struct Lookup<'a> {
+    document: &'a Document<'a>,
+    nodes: HashMap<i64, u32>,
+    ways: HashMap<i64, u32>,
+    relations: HashMap<i64, u32>,
+    frame: Frame,
+}
+
+impl<'a> Lookup<'a> {
+    /// Finds the elements of `document`; positions are relative to `origin` [°], or to one of its own. Elements that share
+    /// an id become problems. Also returns the geographic origin, if the map is projected.
+    ///
+    /// # Errors
+    /// If `origin` is no place that the projection covers.
+    pub(super) fn new(
+        document: &'a Document<'a>,
+        origin: Option<(f64, f64)>,
+        problems: &mut Vec<Problem>,
+    ) -> Result<(Lookup<'a>, Option<(f64, f64)>), MapError> {
+        let nodes = by_id(document.nodes.iter().map(|it| (it.id, it.line)), "node", problems);
+        let ways = by_id(document.ways.iter().map(|it| (it.id, it.line)), "way", problems);
+        let relations = by_id(document.relations.iter().map(|it| (it.id, it.line)), "relation", problems);
+        let (frame, origin) = Frame::of(document, origin)?;
+        Ok((Lookup { document, nodes, ways, relations, frame }, origin))
+    }
+
+    /// The place in the document of the node with this id.
+    pub(super) fn node(&self, id: i64) -> Option<usize> {
+        self.nodes.get(&id).map(|it| *it as usize)
+    }
+
+    /// The place in the document of the way with this id.
+    pub(super) fn way(&self, id: i64) -> Option<usize> {
+        self.ways.get(&id).map(|it| *it as usize)
+    }
+
+    /// The place in the document of the relation with this id.
+    pub(super) fn relation(&self, id: i64) -> Option<usize> {
+        self.relations.get(&id).map(|it| *it as usize)
+    }
+
+    /// Whether no relation before this one has its id.
+    pub(super) fn is_first(&self, relation: &Relation) -> bool {
+        self.relation(relation.id).is_some_and(|it| std::ptr::eq(&self.document.relations[it], relation))
+    }
+
+    /// Where `node` lies, if it has a position on earth.
+    pub(super) fn place(&self, node: &Node) -> Option<Point> {
+        self.frame.place(node, self.document.tags(node.tags))
+    }
+
+    /// Where the node with this id lies.
+    pub(super) fn point(&self, id: i64) -> Option<Point> {
+        self.place(&self.document.nodes[self.node(id)?])
+    }
+}
+
+/// Where each id stands.
+fn by_id(
+    elements: impl ExactSizeIterator<Item = (i64, usize)>,
+    kind: &str,
+    problems: &mut Vec<Problem>,
+) -> HashMap<i64, u32> {
+    let mut places = HashMap::with_capacity(elements.len());
+    for (place, (id, line)) in elements.enumerate() {
+        match places.entry(id) {
+            Entry::Vacant(entry) => {
+                entry.insert(place as u32);
+            }
+            Entry::Occupied(_) => problems.push(Problem {
+                element: format!("{kind} {id}"),
+                line: Some(line),
+                what: format!("another {kind} above has the same id, so this one is left out"),
+                remedy: "give it an id of its own".into(),
+            }),
+        }
+    }
+    places
+}

@@ -1,0 +1,244 @@
+//! OSM XML read into a document.
+
+use std::borrow::Cow;
+
+use laneweave_network::DrivingSide;
+
+use super::osm::{Document, Member, Node, Relation, Span, Way, number};
+use crate::error::MapError;
+use crate::problem::Problem;
+use crate::xml::{Element, Token, Tokens};
+
+/// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
+pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, MapError> {
+    let mut tokens = Tokens::of(bytes)?;
+    let mut parser = Parser { document: Document::default(), open: None, problems };
+    let mut has_root = false;
+    loop {
+        match tokens.next()? {
+            Token::Open(element) => match tokens.depth() {
+                1 if element.name == "osm" => has_root = true,
+                1 => return Err(MapError::NotOsm { line: element.line, found: element.name.into() }),
+                2 => parser.open(&element)?,
+                3 => parser.add(&element)?,
+                _ => {}
+            },
+            Token::Close if tokens.depth() == 1 => parser.close(),
+            Token::Close | Token::Text => {}
+            Token::End if has_root => return Ok(parser.document),
+            Token::End => return Err(MapError::NotOsm { line: tokens.line(), found: String::new() }),
+        }
+    }
+}
+
+struct Parser<'a, 'p> {
+    document: Document<'a>,
+    open: Option<Open>,
+    problems: &'p mut Vec<Problem>,
+}
+
+/// The element that is being read, and where its tags and its members or nodes begin.
+struct Open {
+    element: Kind,
+    first_tag: usize,
+    first_part: usize,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Node(Node),
+    Way { id: i64, line: usize },
+    Relation { id: i64, line: usize },
+}
+
+impl<'a> Parser<'a, '_> {
+    /// Begins a node, way or relation; notes what `MetaInfo` says.
+    fn open(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+        match element.name {
+            "node" | "way" | "relation" => self.begin(element),
+            "MetaInfo" => {
+                for attribute in element.attributes() {
+                    match attribute? {
+                        ("driving_side", side) if side == "left" => {
+                            self.document.driving_side = Some(DrivingSide::Left);
+                        }
+                        ("driving_side", side) if side == "right" => {
+                            self.document.driving_side = Some(DrivingSide::Right);
+                        }
+                        _ => {}
+                    }
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn begin(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+        let mut node = Node { line: element.line, ..Node::default() };
+        let mut id: Option<Cow<str>> = None;
+        for attribute in element.attributes() {
+            let (key, value) = attribute?;
+            match key {
+                "id" => id = id.or(Some(value)),
+                // Editors leave what was deleted in the file until it is uploaded.
+                "action" if value == "delete" => return Ok(()),
+                "lat" => node.lat = node.lat.or(Some(number(&value))),
+                "lon" => node.lon = node.lon.or(Some(number(&value))),
+                "x" => node.x = node.x.or(Some(number(&value))),
+                "y" => node.y = node.y.or(Some(number(&value))),
+                "ele" => node.ele = node.ele.or(Some(number(&value))),
+                _ => {}
+            }
+        }
+        let Some(number) = id.as_deref().and_then(|it| it.parse().ok()) else {
+            self.problems.push(Problem {
+                element: format!("{} {}", element.name, id.unwrap_or_default()).trim_end().into(),
+                line: Some(element.line),
+                what: "its id is missing or no whole number, so it is left out".into(),
+                remedy: "give it an id of its own".into(),
+            });
+            return Ok(());
+        };
+        let line = element.line;
+        let (element, first_part) = match element.name {
+            "node" => (Kind::Node(Node { id: number, ..node }), 0),
+            "way" => (Kind::Way { id: number, line }, self.document.references.len()),
+            _ => (Kind::Relation { id: number, line }, self.document.members.len()),
+        };
+        self.open = Some(Open { element, first_tag: self.document.tags.len(), first_part });
+        Ok(())
+    }
+
+    /// Adds a tag, a node of a way, or a member of a relation.
+    fn add(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+        let Some(Open { element: into, .. }) = self.open else { return Ok(()) };
+        match (element.name, into) {
+            ("tag", _) => self.add_tag(element),
+            ("nd", Kind::Way { .. }) | ("member", Kind::Relation { .. }) => self.add_part(element, into),
+            _ => Ok(()),
+        }
+    }
+
+    fn add_tag(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+        let (mut key, mut value) = (None, None);
+        for attribute in element.attributes() {
+            match attribute? {
+                ("k", it) => key = key.or(Some(it)),
+                ("v", it) => value = value.or(Some(it)),
+                _ => {}
+            }
+        }
+        if let (Some(key), Some(value)) = (key, value) {
+            self.document.tags.push((key, value));
+        }
+        Ok(())
+    }
+
+    fn add_part(&mut self, element: &Element<'a>, into: Kind) -> Result<(), MapError> {
+        let (mut reference, mut kind, mut role) = (None, None, None);
+        for attribute in element.attributes() {
+            match attribute? {
+                ("ref", it) => reference = reference.or(Some(it)),
+                ("type", it) => kind = kind.or(Some(it)),
+                ("role", it) => role = role.or(Some(it)),
+                _ => {}
+            }
+        }
+        let id = reference.as_deref().and_then(|it| it.parse().ok());
+        match (id, into) {
+            (Some(id), Kind::Way { .. }) => self.document.references.push(id),
+            (Some(id), _) => self.document.members.push(Member {
+                kind: kind.unwrap_or_default(),
+                role: role.unwrap_or_default(),
+                id,
+            }),
+            (None, _) => self.problems.push(Problem {
+                element: match into {
+                    Kind::Node(it) => format!("node {}", it.id),
+                    Kind::Way { id, .. } => format!("way {id}"),
+                    Kind::Relation { id, .. } => format!("relation {id}"),
+                },
+                line: Some(element.line),
+                what: "a member's ref is missing or no whole number, so that member is left out".into(),
+                remedy: "refer to the id of an element".into(),
+            }),
+        }
+        Ok(())
+    }
+
+    /// Keeps the element that was being read.
+    fn close(&mut self) {
+        let document = &mut self.document;
+        let Some(Open { element, first_tag, first_part }) = self.open.take() else { return };
+        let tags = Span::since(first_tag, document.tags.len());
+        match element {
+            Kind::Node(node) => document.nodes.push(Node { tags, ..node }),
+            Kind::Way { id, line } => {
+                let nodes = Span::since(first_part, document.references.len());
+                document.ways.push(Way { id, line, nodes, tags });
+            }
+            Kind::Relation { id, line } => {
+                let members = Span::since(first_part, document.members.len());
+                document.relations.push(Relation { id, line, members, tags });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (Document<'_>, Vec<Problem>) {
+        let mut problems = Vec::new();
+        let document = parse(text.as_bytes(), &mut problems).unwrap();
+        (document, problems)
+    }
+
+    fn refusal(bytes: &[u8]) -> String {
+        parse(bytes, &mut Vec::new()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn elements_carry_their_ids_lines_and_tags() {
+        let (document, problems) = read(concat!(
+            "\u{feff}<?xml version='1.0'?>\n<osm>\n<MetaInfo driving_side='left'/>\n",
+            "<node id='-1' lat='49' lon='8.5' x='one'>\n<tag k='name' v='a &amp; b'/></node><!-- \n -->\n",
+            "<way id='2'><nd ref='-1'/><nd ref='7'/></way>\n",
+            "<relation id='3'><member type='way' ref='2' role='left'/><tag k='type' v='lanelet'/></relation>\n",
+            "<node id='9' action='delete' lat='0' lon='0'/>\n</osm>\n",
+        ));
+        assert!(problems.is_empty());
+        assert_eq!(document.driving_side, Some(DrivingSide::Left));
+        let node = &document.nodes[0];
+        assert_eq!((document.nodes.len(), node.id, node.line), (1, -1, 4));
+        assert_eq!((node.lat, node.lon, node.y), (Some(49.0), Some(8.5), None));
+        assert!(node.x.unwrap().is_nan());
+        assert_eq!(document.tags(node.tags).get("name"), Some("a & b"));
+        let way = &document.ways[0];
+        assert_eq!((way.line, document.nodes_of(way)), (7, &[-1, 7][..]));
+        let relation = &document.relations[0];
+        assert_eq!(relation.line, 8);
+        assert_eq!(document.members(relation, "way", "left").collect::<Vec<_>>(), [2]);
+        assert!(document.tags(relation.tags).is("type", "lanelet"));
+        assert!(document.tags(relation.tags).any("typ"));
+    }
+
+    #[test]
+    fn elements_without_an_id_are_problems() {
+        let (document, problems) =
+            read("<osm>\n<node lat='1'/>\n<way id='2'>\n<nd ref='x'/></way><relation id='r'/></osm>");
+        assert_eq!((document.nodes.len(), document.ways.len(), document.relations.len()), (0, 1, 0));
+        let places: Vec<_> = problems.iter().map(|it| (it.element.as_str(), it.line.unwrap())).collect();
+        assert_eq!(places, [("node", 2), ("way 2", 4), ("relation r", 4)]);
+    }
+
+    #[test]
+    fn what_is_no_osm_is_refused_with_its_line() {
+        assert_eq!(refusal(b""), "line 1: the outermost element is <>, not <osm>; is this a Lanelet2 map?");
+        assert!(refusal(b"\n<svg/>").starts_with("line 2: the outermost element is <svg>"));
+        assert!(refusal(b"<osm>\n\n<way></node></osm>").starts_with("line 3: not well-formed XML"));
+        assert!(refusal(b"<osm><node id='&unknown;'/></osm>").starts_with("line 1: not well-formed XML"));
+    }
+}
