@@ -1,6 +1,7 @@
 //! Which lanes get in each other's way: those that share ground, seen from above.
 
 use laneweave_network::{LaneletIndex, Polygon};
+use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -18,26 +19,31 @@ type Index = RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>;
 /// Lanes on either side of a border and lanes that follow on each other, in any direction, do not conflict; a two-way lane
 /// conflicts with itself. Heights do not count.
 pub(crate) fn conflicts(drawing: &Drawing, lanes: &[Lane]) -> Vec<Vec<LaneletIndex>> {
-    let outlines: Vec<Option<Polygon>> = lanes.iter().map(|lane| drawing.outline(lane)).collect();
+    let outlines: Vec<Option<Polygon>> = lanes.par_iter().map(|lane| drawing.outline(lane)).collect();
     let boxes = outlines.iter().enumerate().filter_map(|(index, outline)| {
         let [low, high] = outline.as_ref()?.bounds();
         Some(GeomWithData::new(Rectangle::from_corners(low, high), index as u32))
     });
     let index: Index = RTree::bulk_load(boxes.collect());
-    let mut found: Vec<Vec<LaneletIndex>> = vec![Vec::new(); lanes.len()];
-    for (here, outline) in outlines.iter().enumerate() {
-        let Some(outline) = outline else { continue };
-        let [low, high] = outline.bounds();
-        let around = index.locate_in_envelope_intersecting(AABB::from_corners(low, high));
-        for there in around.map(|it| it.data as usize).filter(|it| *it > here).take(MAXIMUM_CONFLICTS) {
-            let other = outlines[there].as_ref();
-            if !are_joined(drawing, &lanes[here], &lanes[there])
-                && other.is_some_and(|other| outline.overlaps(other))
-            {
-                found[here].push(LaneletIndex(there as u32));
-                found[there].push(LaneletIndex(here as u32));
-            }
-        }
+    // Each pair is looked at once, from the lane that comes first.
+    let later: Vec<Vec<LaneletIndex>> = (0..lanes.len())
+        .into_par_iter()
+        .map(|here| {
+            let Some(outline) = &outlines[here] else { return Vec::new() };
+            let [low, high] = outline.bounds();
+            let around = index.locate_in_envelope_intersecting(AABB::from_corners(low, high));
+            let around = around.map(|it| it.data as usize).filter(|it| *it > here).take(MAXIMUM_CONFLICTS);
+            let shares_ground = |there: &usize| {
+                !are_joined(drawing, &lanes[here], &lanes[*there])
+                    && outlines[*there].as_ref().is_some_and(|other| outline.overlaps(other))
+            };
+            around.filter(shares_ground).map(|it| LaneletIndex(it as u32)).collect()
+        })
+        .collect();
+    let mut found = vec![Vec::new(); lanes.len()];
+    for (here, theirs) in later.into_iter().enumerate() {
+        theirs.iter().for_each(|it| found[it.at()].push(LaneletIndex(here as u32)));
+        found[here].extend(theirs);
     }
     for (here, (conflicts, lane)) in found.iter_mut().zip(lanes).enumerate() {
         if lane.is_two_way {

@@ -1,14 +1,16 @@
 //! A map as it is drawn: points, borders through them, and lanes between borders.
 
 use laneweave_network::{DrivingSide, Lanelet, Network, Point, Polygon, Polyline};
+use rayon::prelude::*;
 
 use crate::conflict::conflicts;
+use crate::contents::Contents;
 use crate::error::MapError;
 use crate::format::Map;
 use crate::graph::{self, Graph};
 use crate::problem::Problem;
 use crate::rule::Rule;
-use crate::shape::Shape;
+use crate::shape::{Flaw, Shape};
 
 /// What a map file holds of roads: borders that lanes share, as yet without a graph.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +89,10 @@ impl Drawing {
         let mut lanes = Vec::with_capacity(self.lanes.len());
         let mut lanelets = Vec::with_capacity(self.lanes.len());
         let mut problems = Vec::new();
-        for lane in &self.lanes {
-            match Shape::between(self.polyline(lane.left), self.polyline(lane.right)) {
+        let shape = |lane: &Lane| Shape::between(self.polyline(lane.left), self.polyline(lane.right));
+        let shapes: Vec<Result<Shape, Flaw>> = self.lanes.par_iter().map(shape).collect();
+        for (lane, shape) in self.lanes.iter().zip(shapes) {
+            match shape {
                 Ok(shape) => {
                     lanes.push(*lane);
                     lanelets.push(bare(lane, shape));
@@ -108,7 +112,8 @@ impl Drawing {
         graph::link(&mut lanelets, &nodes);
         let graph = Graph { nodes, conflicting: conflicts(self, &lanes) };
         let network = Network::new(lanelets, self.driving_side)?;
-        Ok(Map { network, graph, rules: self.rules.clone(), problems, origin: None })
+        let rules = self.rules.clone();
+        Ok(Map { network, graph, rules, contents: Contents::default(), problems, origin: None })
     }
 
     /// The points at which a lane between these borders begins, on its left and on its right.

@@ -35,6 +35,11 @@ pub enum MapError {
         /// The largest size that is read [B].
         limit: u64,
     },
+    /// It is called compressed but cannot be unpacked.
+    #[error(
+        "the file cannot be unpacked ({0}); compress it again, or take .gz off its name if it is not compressed"
+    )]
+    Compressed(io::Error),
     /// It is no text.
     #[error("line {line}: the bytes are not UTF-8 text; save the map as UTF-8 XML")]
     NotText {

@@ -1,11 +1,14 @@
 //! The formats of map files, and reading a file in the one that its extension names.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::Path;
+
+use flate2::read::MultiGzDecoder;
 
 use laneweave_network::{DrivingSide, Network};
 
+use crate::contents::Contents;
 use crate::error::MapError;
 use crate::graph::Graph;
 use crate::lanelet2;
@@ -21,6 +24,8 @@ pub struct Map {
     pub graph: Graph,
     /// What orders traffic beside the lanelets themselves.
     pub rules: Vec<Rule>,
+    /// What else the file holds.
+    pub contents: Contents,
     /// What could not be used as it stands, in order of lines.
     pub problems: Vec<Problem>,
     /// Latitude and longitude of the local frame's origin [°], if the map was projected.
@@ -65,9 +70,12 @@ pub const FORMATS: &[Format] =
     &[Format { name: "Lanelet2", extensions: &["osm", "osm_xy"], read: lanelet2::read }];
 
 /// Largest file that is read [B].
-pub(crate) const MAXIMUM_SIZE: u64 = 512 << 20;
+pub(crate) const MAXIMUM_SIZE: u64 = 2 << 30;
 
-/// Reads the map file at `path` in the format that its extension names.
+/// Ending of the names of compressed files.
+const COMPRESSED: &str = ".gz";
+
+/// Reads the map file at `path` in the format that its extension names; `.gz` behind it means that it is compressed.
 ///
 /// # Errors
 /// If it cannot be read, is of no known format, breaks its format's rules, or has no lanelet for vehicles.
@@ -79,15 +87,29 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     if metadata.is_dir() {
         return Err(MapError::Folder);
     }
-    let format = format_of(path)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let format = format_of(name.strip_suffix(COMPRESSED).unwrap_or(&name))?;
+    let too_large = |bytes| MapError::TooLarge { bytes, limit: MAXIMUM_SIZE };
     if metadata.len() > MAXIMUM_SIZE {
-        return Err(MapError::TooLarge { bytes: metadata.len(), limit: MAXIMUM_SIZE });
+        return Err(too_large(metadata.len()));
     }
-    (format.read)(&fs::read(path).map_err(MapError::Unreadable)?, options)
+    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    let file = File::open(path).map_err(MapError::Unreadable)?;
+    if name.ends_with(COMPRESSED) {
+        // However much it unpacks to, no more than this is kept.
+        let unpacked = MultiGzDecoder::new(file).take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes);
+        unpacked.map_err(MapError::Compressed)?;
+    } else {
+        file.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes).map_err(MapError::Unreadable)?;
+    }
+    if bytes.len() as u64 > MAXIMUM_SIZE {
+        return Err(too_large(bytes.len() as u64));
+    }
+    (format.read)(&bytes, options)
 }
 
-fn format_of(path: &Path) -> Result<&'static Format, MapError> {
-    let found = path.extension().map_or(String::new(), |it| it.to_string_lossy().to_ascii_lowercase());
+fn format_of(name: &str) -> Result<&'static Format, MapError> {
+    let found = Path::new(name).extension().map_or(String::new(), |it| it.to_string_lossy().into_owned());
     FORMATS.iter().find(|format| format.extensions.contains(&found.as_str())).ok_or_else(|| {
         let list = |format: &Format| format!("{} (.{})", format.name, format.extensions.join(", ."));
         let known = FORMATS.iter().map(list).collect::<Vec<_>>().join(", ");

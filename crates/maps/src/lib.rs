@@ -4,7 +4,9 @@
 //! [`Network`](laneweave_network::Network). The generator makes drawings, too, which can be written as a
 //! file.
 
+mod check;
 mod conflict;
+mod contents;
 mod drawing;
 mod error;
 mod format;
@@ -16,6 +18,8 @@ mod rule;
 mod shape;
 mod xml;
 
+pub use check::check;
+pub use contents::Contents;
 pub use drawing::Drawing;
 pub use error::MapError;
 pub use format::{FORMATS, Format, Law, Map, ReadOptions, load};

@@ -9,7 +9,7 @@ mod statistics;
 mod table;
 
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
-pub use figures::{Mark, RateSeries, Sample, rate_density, time_space};
+pub use figures::{Mark, RateSeries, Sample, escaped, rate_density, text_width, time_space};
 pub use rate::{RatePoint, rate_by_density};
 pub use statistics::{Estimate, Interval, geh, mean, poisson_interval, required_replications};
 pub use table::{Cell, Column, Format, Kind, TableError, TableWriter};

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::style::DEFAULT_MIXTURE;
 
 pub use origin::Origin;
-pub use prepare::{Prepared, prepare};
+pub use prepare::{Prepared, open_map, prepare};
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

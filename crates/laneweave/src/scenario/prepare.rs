@@ -9,7 +9,7 @@ use laneweave_network::DrivingSide;
 use laneweave_sim::{Setup, World};
 
 use super::traffic::{demand, mixture};
-use super::{Origin, Scenario};
+use super::{MapOptions, Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
 use crate::style::Population;
@@ -132,16 +132,32 @@ fn threads(scenario: &Scenario, origin: &Origin) -> Result<usize, Fault> {
 }
 
 fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
-    let options = ReadOptions {
-        law: scenario.map_options.law.into(),
-        origin: scenario.map_options.origin.map(|[latitude, longitude]| (latitude, longitude)),
-        driving_side: scenario.map_options.driving_side.map(DrivingSide::from),
-    };
+    let options = ReadOptions::from(&scenario.map_options);
     let read = match origin.map {
         Some(text) => lanelet2::read(text.as_bytes(), &options),
         None => load(&scenario.map, &options),
     };
     read.map_err(|error| map_fault(&error, &scenario.map, origin))
+}
+
+/// Reads the map at `path`, with options of the command.
+///
+/// # Errors
+/// If it cannot be read, or has no lanelet for vehicles.
+pub fn open_map(path: &Path, options: &MapOptions) -> Result<Map, Fault> {
+    let mut origin = Origin::default();
+    origin.replaced("map_options.origin", "--origin");
+    load(path, &ReadOptions::from(options)).map_err(|error| map_fault(&error, path, &origin))
+}
+
+impl From<&MapOptions> for ReadOptions {
+    fn from(options: &MapOptions) -> ReadOptions {
+        ReadOptions {
+            origin: options.origin.map(|[latitude, longitude]| (latitude, longitude)),
+            law: options.law.into(),
+            driving_side: options.driving_side.map(DrivingSide::from),
+        }
+    }
 }
 
 /// What is wrong with the map at `path`: a wrong path has its place in the scenario file, a wrong content in the map.

@@ -130,9 +130,9 @@ impl Draft<'_> {
         if self.points[place] != NONE {
             return Ok(self.points[place]);
         }
-        let node = &self.document.nodes[place];
-        let at = self.lookup.place(node).ok_or_else(|| {
-            let what = format!("node {id} (line {}) of its border has no position on earth", node.line);
+        let at = self.lookup.place(place).ok_or_else(|| {
+            let line = self.document.nodes[place].line;
+            let what = format!("node {id} (line {line}) of its border has no position on earth");
             (what, "give all nodes lat and lon, or all of them local_x and local_y")
         })?;
         let point = self.drawing.points.len() as u32;

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use laneweave_network::Point;
+use rayon::prelude::*;
 
 use super::osm::{Document, Node, Relation};
 use super::place::Frame;
@@ -16,7 +17,8 @@ pub(super) struct Lookup<'a> {
     nodes: HashMap<i64, u32>,
     ways: HashMap<i64, u32>,
     relations: HashMap<i64, u32>,
-    frame: Frame,
+    /// Where each node of the document lies, if it has a position on earth.
+    points: Vec<Option<Point>>,
 }
 
 impl<'a> Lookup<'a> {
@@ -34,7 +36,9 @@ impl<'a> Lookup<'a> {
         let ways = by_id(document.ways.iter().map(|it| (it.id, it.line)), "way", problems);
         let relations = by_id(document.relations.iter().map(|it| (it.id, it.line)), "relation", problems);
         let (frame, origin) = Frame::of(document, origin)?;
-        Ok((Lookup { document, nodes, ways, relations, frame }, origin))
+        let place = |node: &Node| frame.place(node, document.tags(node.tags));
+        let points = document.nodes.par_iter().map(place).collect();
+        Ok((Lookup { document, nodes, ways, relations, points }, origin))
     }
 
     /// The place in the document of the node with this id.
@@ -57,14 +61,14 @@ impl<'a> Lookup<'a> {
         self.relation(relation.id).is_some_and(|it| std::ptr::eq(&self.document.relations[it], relation))
     }
 
-    /// Where `node` lies, if it has a position on earth.
-    pub(super) fn place(&self, node: &Node) -> Option<Point> {
-        self.frame.place(node, self.document.tags(node.tags))
+    /// Where the node at a place in the document lies, if it has a position on earth.
+    pub(super) fn place(&self, node: usize) -> Option<Point> {
+        self.points[node]
     }
 
     /// Where the node with this id lies.
     pub(super) fn point(&self, id: i64) -> Option<Point> {
-        self.place(&self.document.nodes[self.node(id)?])
+        self.place(self.node(id)?)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Lanelet2 maps: OSM XML with nodes, ways as borders, and relations as lanelets.
 
 mod compose;
+mod contents;
 mod draw;
 mod law;
 mod lookup;
@@ -62,7 +63,7 @@ impl<'a> Document<'a> {
             Ok(map) => {
                 problems.extend(map.problems);
                 problems.sort_by_key(|it| it.line);
-                Ok(Map { problems, origin, ..map })
+                Ok(Map { contents: contents::contents(self, &lookup), problems, origin, ..map })
             }
             Err(MapError::NotDrivable { problems: flaws, .. }) => {
                 problems.extend(flaws);

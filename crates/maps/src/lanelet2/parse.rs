@@ -12,7 +12,7 @@ use crate::xml::{Element, Token, Tokens};
 /// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
 pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, MapError> {
     let mut tokens = Tokens::of(bytes)?;
-    let mut parser = Parser { document: Document::default(), open: None, problems };
+    let mut parser = Parser { document: with_room(bytes), open: None, problems };
     let mut has_root = false;
     loop {
         match tokens.next()? {
@@ -28,6 +28,32 @@ pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<
             Token::End if has_root => return Ok(parser.document),
             Token::End => return Err(MapError::NotOsm { line: tokens.line(), found: String::new() }),
         }
+    }
+}
+
+/// A document with room for as many elements as the text seems to hold: arrays of that size take longer to grow than the
+/// elements to count.
+fn with_room<'a>(text: &[u8]) -> Document<'a> {
+    let [mut nodes, mut ways, mut relations, mut references, mut members, mut tags] = [0; 6];
+    for at in memchr::memchr_iter(b'<', text) {
+        match text.get(at + 1..at + 3) {
+            Some(b"no") => nodes += 1,
+            Some(b"wa") => ways += 1,
+            Some(b"re") => relations += 1,
+            Some(b"nd") => references += 1,
+            Some(b"me") => members += 1,
+            Some(b"ta") => tags += 1,
+            _ => {}
+        }
+    }
+    Document {
+        nodes: Vec::with_capacity(nodes),
+        ways: Vec::with_capacity(ways),
+        relations: Vec::with_capacity(relations),
+        references: Vec::with_capacity(references),
+        members: Vec::with_capacity(members),
+        tags: Vec::with_capacity(tags),
+        driving_side: None,
     }
 }
 

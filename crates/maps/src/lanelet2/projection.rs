@@ -4,7 +4,7 @@
 //! third flattening as in Karney (2011), Transverse Mercator with an accuracy of a few nanometers, J. Geodesy
 //! 85, 475. Functions of `libm` give the same bits on every system.
 
-use libm::{asinh, atan, atan2, atanh, cos, cosh, fabs, sin, sinh, sqrt, tan};
+use libm::{asinh, atan, atan2, atanh, cosh, fabs, sincos, sinh, sqrt, tan};
 
 /// Equatorial radius [m].
 const RADIUS: f64 = 6_378_137.0;
@@ -87,8 +87,9 @@ impl Utm {
         }
         let lambda = offset.to_radians();
         let tau = conformal(tan(latitude.to_radians()));
-        let xi = atan2(tau, cos(lambda));
-        let eta = asinh(sin(lambda) / sqrt(tau * tau + cos(lambda) * cos(lambda)));
+        let (sine, cosine) = sincos(lambda);
+        let xi = atan2(tau, cosine);
+        let eta = asinh(sine / sqrt(tau * tau + cosine * cosine));
         let (xi, eta) = corrected(xi, eta, &FORWARD, 1.0);
         let (east, north) = (SCALE * RECTIFYING_RADIUS * eta, SCALE * RECTIFYING_RADIUS * xi);
         Some((east - self.origin.0, north - self.origin.1))
@@ -99,8 +100,9 @@ impl Utm {
         let xi = (y + self.origin.1) / (SCALE * RECTIFYING_RADIUS);
         let eta = (x + self.origin.0) / (SCALE * RECTIFYING_RADIUS);
         let (xi, eta) = corrected(xi, eta, &INVERSE, -1.0);
-        let tau = geodetic(sin(xi) / sqrt(sinh(eta) * sinh(eta) + cos(xi) * cos(xi)));
-        (atan(tau).to_degrees(), atan2(sinh(eta), cos(xi)).to_degrees() + self.meridian)
+        let (sinh, (sine, cosine)) = (sinh(eta), sincos(xi));
+        let tau = geodetic(sine / sqrt(sinh * sinh + cosine * cosine));
+        (atan(tau).to_degrees(), atan2(sinh, cosine).to_degrees() + self.meridian)
     }
 }
 
@@ -137,15 +139,24 @@ fn geodetic(conformal_tau: f64) -> f64 {
     tau
 }
 
-/// ξ ± Σ c_j sin 2jξ cosh 2jη and η ± Σ c_j cos 2jξ sinh 2jη.
+/// ξ ± Σ c_j sin 2jξ cosh 2jη and η ± Σ c_j cos 2jξ sinh 2jη: the real and the imaginary part of ζ ± Σ c_j sin 2jζ with
+/// ζ = ξ + iη, summed by Clenshaw's recurrence b_j = c_j + 2 cos 2ζ b_{j+1} − b_{j+2}, sum = sin 2ζ b_1.
 fn corrected(xi: f64, eta: f64, coefficients: &[f64; 6], sign: f64) -> (f64, f64) {
-    let (mut north, mut east) = (xi, eta);
-    for (coefficient, j) in coefficients.iter().zip(1..) {
-        let twice = 2.0 * f64::from(j);
-        north += sign * coefficient * sin(twice * xi) * cosh(twice * eta);
-        east += sign * coefficient * cos(twice * xi) * sinh(twice * eta);
+    let (sine, cosine) = sincos(2.0 * xi);
+    let (cosh, sinh) = (cosh(2.0 * eta), sinh(2.0 * eta));
+    let twice_cosine = (2.0 * cosine * cosh, -2.0 * sine * sinh);
+    let (mut next, mut after) = ((0.0, 0.0), (0.0, 0.0));
+    for coefficient in coefficients.iter().rev() {
+        let product = times(twice_cosine, next);
+        (next, after) = ((coefficient + product.0 - after.0, product.1 - after.1), next);
     }
-    (north, east)
+    let sum = times((sine * cosh, cosine * sinh), next);
+    (xi + sign * sum.0, eta + sign * sum.1)
+}
+
+/// The product of two complex numbers.
+fn times(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
 }
 
 #[cfg(test)]

@@ -30,8 +30,8 @@ pub(super) struct Drawing {
     svg: String,
 }
 
-/// Width that a label needs on the page [px].
-pub(super) fn text_width(text: &str) -> f64 {
+/// Width that a text of the usual size needs in a figure, about [px].
+pub fn text_width(text: &str) -> f64 {
     text.chars().count() as f64 * CHARACTER_WIDTH * TEXT_SIZE
 }
 
@@ -125,7 +125,7 @@ impl Drawing {
 }
 
 /// Text as XML holds it; control characters, which it cannot hold, become spaces.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

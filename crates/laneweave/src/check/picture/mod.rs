@@ -1,0 +1,104 @@
+//! A picture of a map: lanes with their markings, where vehicles enter and leave, what shares ground, lights and problems.
+//! Parts that lie far from each other have panels of their own.
+
+mod panel;
+mod parts;
+
+use std::collections::HashSet;
+
+use laneweave_maps::{Map, check};
+use laneweave_study::{escaped, text_width};
+
+use panel::Panel;
+use parts::parts;
+
+/// Width of the page [px].
+const WIDTH: f64 = 1400.0;
+/// Around panels [px].
+const MARGIN: f64 = 30.0;
+/// Above the panels, for the title [px].
+const HEAD: f64 = 50.0;
+/// Below the panels, for the legend [px].
+const FOOT: f64 = 40.0;
+/// Highest panel of a page with one, and with several [px].
+const HEIGHTS: [f64; 2] = [1400.0, 700.0];
+/// With more parts than this the map is drawn as one after all.
+const MOST_PANELS: usize = 8;
+
+/// What things look like.
+mod colours {
+    pub(super) const ROAD: &str = "#d9dce0";
+    pub(super) const CONFLICT: &str = "#e8871e";
+    pub(super) const MARKING: &str = "#5a6068";
+    pub(super) const ENTRANCE: &str = "#1a7f37";
+    pub(super) const EXIT: &str = "#1f5fbf";
+    pub(super) const LIGHT: &str = "#c1121f";
+    pub(super) const PRIORITY: &str = "#7b2d8b";
+    pub(super) const PROBLEM: &str = "#d6006c";
+    pub(super) const CROSSWALK: &str = "#8d99a6";
+}
+
+/// The picture of a map as SVG.
+pub fn picture(title: &str, map: &Map) -> String {
+    let (panels, height) = laid_out(map);
+    let suspicions = check(&map.network);
+    let named: HashSet<&str> = map.problems.iter().chain(&suspicions).map(|it| it.element.as_str()).collect();
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" \
+         height=\"{height:.0}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
+         <text x=\"{MARGIN}\" y=\"30\" font-size=\"18\">{}</text>\n",
+        escaped(title)
+    );
+    panels.iter().for_each(|it| it.draw(&mut svg, &named));
+    svg + &legend(height - FOOT + 20.0) + "</svg>\n"
+}
+
+/// The panels in their places, and the height of the page [px].
+fn laid_out(map: &Map) -> (Vec<Panel<'_>>, f64) {
+    let mut parts = parts(&map.network.lanelets);
+    if parts.len() > MOST_PANELS {
+        let all = parts.drain(..).reduce(|(around, mut members), (bounds, others)| {
+            members.extend(others);
+            (around.with(bounds), members)
+        });
+        parts.extend(all);
+    }
+    let columns = parts.len().min(2);
+    let width = (WIDTH - MARGIN * (1.0 + columns as f64)) / columns as f64;
+    let size = [width, HEIGHTS[columns - 1]];
+    let mut panels: Vec<Panel> = parts.into_iter().map(|part| Panel::new(map, part, size)).collect();
+    let mut top = HEAD;
+    for row in panels.chunks_mut(columns) {
+        let height = row.iter().map(Panel::height).fold(0.0, f64::max);
+        for (column, panel) in row.iter_mut().enumerate() {
+            panel.left = MARGIN + column as f64 * (width + MARGIN);
+            panel.top = top;
+        }
+        top += height + MARGIN;
+    }
+    (panels, top + FOOT)
+}
+
+fn legend(y: f64) -> String {
+    let mut svg = String::new();
+    let mut x = MARGIN;
+    for (text, colour) in [
+        ("entrance", colours::ENTRANCE),
+        ("exit", colours::EXIT),
+        ("shared ground", colours::CONFLICT),
+        ("traffic light and its stop line", colours::LIGHT),
+        ("yield or stop", colours::PRIORITY),
+        ("crosswalk", colours::CROSSWALK),
+        ("problem", colours::PROBLEM),
+    ] {
+        svg += &format!(
+            "<rect x=\"{x:.0}\" y=\"{:.0}\" width=\"12\" height=\"12\" fill=\"{colour}\"/>\
+             <text x=\"{:.0}\" y=\"{y:.0}\">{text}</text>\n",
+            y - 11.0,
+            x + 18.0,
+        );
+        x += 40.0 + text_width(text);
+    }
+    svg + &format!("<text x=\"{:.0}\" y=\"{y:.0}\" text-anchor=\"end\">north is up</text>\n", WIDTH - MARGIN)
+}

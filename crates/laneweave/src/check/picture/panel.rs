@@ -1,0 +1,228 @@
+//! One part of a map, drawn to scale.
+
+use std::collections::HashSet;
+use std::fmt::{Arguments, Write};
+
+use laneweave_maps::{Map, Rule, RuleKind};
+use laneweave_network::{Gate, Lanelet, Point, Polyline, Side};
+
+use super::colours;
+use super::parts::Bounds;
+
+/// Longest scale bar [px].
+const LONGEST_BAR: f64 = 160.0;
+/// Room below the map for the scale [px].
+const FOOT: f64 = 34.0;
+
+/// Where a part of the map lies on the page.
+pub(super) struct Panel<'a> {
+    pub(super) map: &'a Map,
+    /// Places of its lanelets in the network.
+    pub(super) lanelets: Vec<usize>,
+    pub(super) bounds: Bounds,
+    /// Upper left corner and width [px].
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) width: f64,
+    /// Pixels in a metre.
+    scale: f64,
+}
+
+impl<'a> Panel<'a> {
+    /// A panel `width` wide and at most `height` high.
+    pub(super) fn new(
+        map: &'a Map,
+        (bounds, lanelets): (Bounds, Vec<usize>),
+        [width, height]: [f64; 2],
+    ) -> Panel<'a> {
+        let [across, down] = bounds.size();
+        let scale = (width / across.max(1.0)).min(height / down.max(1.0));
+        Panel { map, lanelets, bounds, left: 0.0, top: 0.0, width, scale }
+    }
+
+    /// The height that it needs [px].
+    pub(super) fn height(&self) -> f64 {
+        self.scale * self.bounds.size()[1] + FOOT
+    }
+
+    /// Draws all of it.
+    pub(super) fn draw(&self, svg: &mut String, named: &HashSet<&str>) {
+        self.crosswalks(svg);
+        self.lanes(svg);
+        self.rules(svg);
+        let network = &self.map.network;
+        self.gates(svg, &network.entrances, colours::ENTRANCE, true);
+        self.gates(svg, &network.exits, colours::EXIT, false);
+        self.problems(svg, named);
+        self.bar(svg);
+    }
+
+    fn place(&self, point: &Point) -> (f64, f64) {
+        let [across, _] = self.bounds.size();
+        let left = self.left + (self.width - self.scale * across) / 2.0;
+        (
+            left + self.scale * (point.x - self.bounds.low[0]),
+            self.top + self.scale * (self.bounds.high[1] - point.y),
+        )
+    }
+
+    /// The way along points, as SVG writes it.
+    fn path<'p>(&self, points: impl IntoIterator<Item = &'p Point>) -> String {
+        let mut path = String::new();
+        for point in points {
+            let (x, y) = self.place(point);
+            let _ = write!(path, "{}{x:.1} {y:.1}", if path.is_empty() { "M" } else { "L" });
+        }
+        path
+    }
+
+    fn crosswalks(&self, svg: &mut String) {
+        for outline in &self.map.contents.crosswalks {
+            if outline.iter().all(|it| self.bounds.is_near(it)) {
+                let (path, colour) = (self.path(outline), colours::CROSSWALK);
+                add(
+                    svg,
+                    format_args!(
+                        "<path d=\"{path}Z\" fill=\"none\" stroke=\"{colour}\" stroke-dasharray=\"2 2\"/>"
+                    ),
+                );
+            }
+        }
+    }
+
+    fn lanes(&self, svg: &mut String) {
+        for index in &self.lanelets {
+            let [left, right] = borders(&self.map.network.lanelets[*index]);
+            let path = self.path(left.points().iter().chain(right.points().iter().rev()));
+            add(svg, format_args!("<path d=\"{path}Z\" fill=\"{}\"/>", colours::ROAD));
+            if !self.map.graph.conflicting[*index].is_empty() {
+                let colour = colours::CONFLICT;
+                add(svg, format_args!("<path d=\"{path}Z\" fill=\"{colour}\" fill-opacity=\"0.22\"/>"));
+            }
+        }
+        for lanelet in self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]) {
+            for (side, border) in Side::BOTH.into_iter().zip(borders(lanelet)) {
+                let dashes = if lanelet.beside(side).is_some() { " stroke-dasharray=\"4 5\"" } else { "" };
+                let (path, colour) = (self.path(border.points()), colours::MARKING);
+                add(
+                    svg,
+                    format_args!(
+                        "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"0.8\"{dashes}/>"
+                    ),
+                );
+            }
+        }
+    }
+
+    /// Stop lines in the colour of what orders to stop there, and the lights themselves.
+    fn rules(&self, svg: &mut String) {
+        for rule in &self.map.rules {
+            let colour = match rule.kind {
+                RuleKind::TrafficLight => colours::LIGHT,
+                RuleKind::RightOfWay { .. } | RuleKind::AllWayStop { .. } | RuleKind::StopSign => {
+                    colours::PRIORITY
+                }
+                _ => continue,
+            };
+            for line in self.stop_lines(rule).iter().filter(|it| it.iter().all(|p| self.bounds.is_near(p))) {
+                let path = self.path(line);
+                add(
+                    svg,
+                    format_args!(
+                        "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2.5\"/>"
+                    ),
+                );
+            }
+            for sign in rule.signs.iter().filter_map(|it| it.first()) {
+                if self.bounds.is_near(sign) {
+                    let (x, y) = self.place(sign);
+                    add(svg, format_args!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>"));
+                }
+            }
+        }
+    }
+
+    /// Where drivers stop for a rule: at its lines, or else where their lanelets end.
+    fn stop_lines(&self, rule: &Rule) -> Vec<Vec<Point>> {
+        if !rule.stop_lines.is_empty() {
+            return rule.stop_lines.clone();
+        }
+        let stopping = match &rule.kind {
+            RuleKind::RightOfWay { yielding, .. } => yielding,
+            _ => &rule.lanelets,
+        };
+        let own = self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]);
+        let ends = own
+            .filter(|it| stopping.contains(&it.id))
+            .map(|it| borders(it).into_iter().filter_map(|border| border.points().last()).copied().collect());
+        ends.collect()
+    }
+
+    /// An arrow into, or out of, each lane of the gates.
+    fn gates(&self, svg: &mut String, gates: &[Gate], colour: &str, is_entrance: bool) {
+        for chain in gates.iter().flat_map(|it| &it.chains).map(|it| self.map.network.chain(*it)) {
+            let station = if is_entrance { 0.0 } else { chain.length };
+            let at = chain.centre.at(station);
+            if !self.bounds.is_near(&at) {
+                continue;
+            }
+            let (x, y) = self.place(&at);
+            let degrees = -chain.centre.heading(station).to_degrees();
+            // The arrow of an entrance ends where the road begins, that of an exit begins where it ends.
+            let tip = if is_entrance { 0.0 } else { 14.0 };
+            add(
+                svg,
+                format_args!(
+                    "<path transform=\"translate({x:.1} {y:.1}) rotate({degrees:.1})\" fill=\"{colour}\" \
+                 d=\"M{tip} 0l-6 -4v2.5h-8v3h8v2.5z\"/>"
+                ),
+            );
+        }
+    }
+
+    /// A ring around the middle of each lanelet with a problem.
+    fn problems(&self, svg: &mut String, named: &HashSet<&str>) {
+        for lanelet in self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]) {
+            if named.contains(format!("lanelet {}", lanelet.id).as_str()) {
+                let (x, y) = self.place(&lanelet.centre.at(lanelet.length() / 2.0));
+                let radius = (0.4 * self.scale * lanelet.length()).clamp(2.5, 7.0);
+                add(
+                    svg,
+                    format_args!(
+                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>",
+                        colours::PROBLEM
+                    ),
+                );
+            }
+        }
+    }
+
+    /// A bar of round length.
+    fn bar(&self, svg: &mut String) {
+        let metres = [5000.0, 2000.0, 1000.0, 500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0];
+        let length = metres.into_iter().find(|it| it * self.scale <= LONGEST_BAR).unwrap_or(1.0);
+        let end = self.left + self.width;
+        let (x, y) = (end - length * self.scale, self.top + self.height() - 14.0);
+        add(
+            svg,
+            format_args!(
+                "<path d=\"M{x:.1} {0:.1}V{y:.1}H{end:.1}V{0:.1}\" fill=\"none\" stroke=\"black\"/>\
+             <text x=\"{end:.1}\" y=\"{1:.1}\" text-anchor=\"end\">{length} m</text>",
+                y - 5.0,
+                y + 14.0,
+            ),
+        );
+    }
+}
+
+/// Adds an element.
+fn add(svg: &mut String, element: Arguments) {
+    // Writing to a string never fails.
+    let _ = svg.write_fmt(element);
+    svg.push('\n');
+}
+
+/// Left and right border.
+fn borders(lanelet: &Lanelet) -> [&Polyline; 2] {
+    [&lanelet.left_border, &lanelet.right_border]
+}

@@ -1,0 +1,243 @@
+//! What a map holds, in numbers and in words.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write;
+
+use laneweave_maps::{Map, Problem, RuleKind};
+use laneweave_network::{DrivingSide, Gate, Network};
+use serde::Serialize;
+
+const METRES_PER_KM: f64 = 1000.0;
+const KMH_PER_MPS: f64 = 3.6;
+/// Kinds of problems that are listed in words.
+const LISTED: usize = 20;
+
+/// What a map holds. Fields are added, never renamed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Latitude and longitude of the local frame's origin [°]; null for maps with metric coordinates of their own.
+    pub origin: Option<[f64; 2]>,
+    /// `left` or `right`.
+    pub driving_side: &'static str,
+    /// Elements of the file by kind.
+    pub elements: BTreeMap<String, usize>,
+    /// Lanelets that vehicles may use.
+    pub lanelets: usize,
+    /// Of them, those that may be used in both directions.
+    pub two_way: usize,
+    /// Length of all lanelets that vehicles may use [km].
+    pub lane_km: f64,
+    /// Least and greatest speed limit [km/h].
+    pub speed_limits_kmh: [f64; 2],
+    /// Pairs of lanelets that follow on each other.
+    pub following: usize,
+    /// Lanelets from which a change to the left is allowed, and to the right.
+    pub lane_changes: [usize; 2],
+    /// Pairs of lanelets that share ground.
+    pub conflicts: usize,
+    /// Lanes of the simulation: runs of lanelets without a fork or a merge.
+    pub chains: usize,
+    /// Where vehicles come onto the map.
+    pub entrances: Vec<Opening>,
+    /// Where they leave it.
+    pub exits: Vec<Opening>,
+    /// The last lanelets of lanes that end beside a continuing one.
+    pub lane_drops: Vec<i64>,
+    /// Regulatory elements by kind.
+    pub rules: BTreeMap<String, usize>,
+    /// What could not be used as it stands, or is suspicious.
+    pub problems: Vec<Complaint>,
+}
+
+/// An entrance or an exit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Opening {
+    /// Its name: the smallest id of its lanelets.
+    pub id: i64,
+    /// Its number of lanes.
+    pub lanes: usize,
+}
+
+/// A problem.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Complaint {
+    /// The element.
+    pub element: String,
+    /// Its line in the file.
+    pub line: Option<usize>,
+    /// What is wrong, and what was assumed.
+    pub what: String,
+    /// What would mend it.
+    pub remedy: String,
+}
+
+impl Report {
+    /// What `map` holds.
+    pub fn of(map: &Map) -> Report {
+        let Map { network, graph, rules, contents, problems, origin } = map;
+        let Network { lanelets, chains, entrances, exits, lane_drops, driving_side } = network;
+        let limits = lanelets.iter().map(|it| it.speed_limit * KMH_PER_MPS);
+        let bound = |pick: fn(f64, f64) -> f64| tenths(limits.clone().reduce(pick).unwrap_or_default());
+        let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+        for rule in rules.iter().filter(|it| it.kind != RuleKind::SpeedLimit) {
+            *kinds.entry(rule.kind.name().into()).or_default() += 1;
+        }
+        let conflicts: usize = graph.conflicting.iter().map(Vec::len).sum();
+        let two_way = graph.nodes.len() - lanelets.len();
+        Report {
+            origin: origin.map(|(latitude, longitude)| [latitude, longitude]),
+            driving_side: match driving_side {
+                DrivingSide::Left => "left",
+                DrivingSide::Right => "right",
+            },
+            elements: contents.counts.clone(),
+            lanelets: lanelets.len(),
+            two_way,
+            lane_km: (lanelets.iter().map(|it| it.length()).sum::<f64>()).round() / METRES_PER_KM,
+            speed_limits_kmh: [bound(f64::min), bound(f64::max)],
+            following: lanelets.iter().map(|it| it.following.len()).sum(),
+            lane_changes: [
+                lanelets.iter().filter(|it| it.left.is_some()).count(),
+                lanelets.iter().filter(|it| it.right.is_some()).count(),
+            ],
+            // A two-way lanelet is among its own.
+            conflicts: (conflicts - two_way) / 2,
+            chains: chains.len(),
+            entrances: entrances.iter().map(opening).collect(),
+            exits: exits.iter().map(opening).collect(),
+            lane_drops: lane_drops
+                .iter()
+                .filter_map(|it| network.chain(*it).lanelets.last())
+                .map(|it| lanelets[it.at()].id)
+                .collect(),
+            rules: kinds,
+            problems: sorted(problems.iter().map(complaint).chain(suspicions(network)).collect()),
+        }
+    }
+
+    /// The report in words.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        // Writing to a string never fails.
+        let _ = self.write_to(&mut out);
+        out
+    }
+
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        match self.origin {
+            Some([latitude, longitude]) => {
+                writeln!(out, "Coordinates are projected (UTM), relative to {latitude}, {longitude}.")?;
+            }
+            None => writeln!(out, "Coordinates are those of the file, in metres.")?,
+        }
+        writeln!(out, "Traffic drives on the {}.\n", self.driving_side)?;
+        let counted: Vec<String> =
+            self.elements.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        wrapped(out, "The file holds", &counted)?;
+        let [slowest, fastest] = self.speed_limits_kmh;
+        let limits =
+            if slowest == fastest { format!("{slowest}") } else { format!("{slowest} to {fastest}") };
+        let [left, right] = self.lane_changes;
+        writeln!(
+            out,
+            "\nlanelets for vehicles  {}, {} km, speed limits {limits} km/h",
+            self.lanelets, self.lane_km
+        )?;
+        writeln!(out, "of them two-way        {}", self.two_way)?;
+        writeln!(out, "pairs that follow      {}", self.following)?;
+        writeln!(out, "changes allowed        {left} to the left, {right} to the right")?;
+        writeln!(out, "pairs in conflict      {}", self.conflicts)?;
+        writeln!(out, "lanes (chains)         {}", self.chains)?;
+        writeln!(out, "entrances              {}", openings(&self.entrances))?;
+        writeln!(out, "exits                  {}", openings(&self.exits))?;
+        writeln!(out, "lane drops             {}", listed(&self.lane_drops))?;
+        let rules: Vec<String> = self.rules.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        writeln!(
+            out,
+            "rules                  {}",
+            if rules.is_empty() { "none".into() } else { rules.join(", ") }
+        )?;
+        if self.problems.is_empty() {
+            return writeln!(out, "\nNo problems.");
+        }
+        writeln!(out, "\n{} problems:", self.problems.len())?;
+        for alike in self.problems.chunk_by(|a, b| a.what == b.what && a.remedy == b.remedy).take(LISTED) {
+            let Complaint { element, line, what, remedy } = &alike[0];
+            let line = line.map_or(String::new(), |it| format!(" (line {it})"));
+            let others = match alike.len() {
+                1 => String::new(),
+                count => format!(" and {} more", count - 1),
+            };
+            writeln!(out, "  {element}{line}{others}: {what}; {remedy}")?;
+        }
+        writeln!(out, "(--json lists them all.)")
+    }
+}
+
+fn tenths(number: f64) -> f64 {
+    (10.0 * number).round() / 10.0
+}
+
+fn opening(gate: &Gate) -> Opening {
+    Opening { id: gate.id, lanes: gate.chains.len() }
+}
+
+fn complaint(problem: &Problem) -> Complaint {
+    let Problem { element, line, what, remedy } = problem.clone();
+    Complaint { element, line, what, remedy }
+}
+
+/// Problems of one kind beside each other, in the order in which the kinds first came up.
+fn sorted(problems: Vec<Complaint>) -> Vec<Complaint> {
+    let mut kinds: HashMap<(String, String), usize> = HashMap::new();
+    for it in &problems {
+        let next = kinds.len();
+        kinds.entry((it.what.clone(), it.remedy.clone())).or_insert(next);
+    }
+    let mut problems = problems;
+    problems.sort_by_cached_key(|it| kinds.get(&(it.what.clone(), it.remedy.clone())).copied());
+    problems
+}
+
+fn suspicions(network: &Network) -> Vec<Complaint> {
+    laneweave_maps::check(network).iter().map(complaint).collect()
+}
+
+/// The names of entrances or exits with their numbers of lanes, if there are not too many.
+fn openings(all: &[Opening]) -> String {
+    let lanes: usize = all.iter().map(|it| it.lanes).sum();
+    let names: Vec<String> = all.iter().map(|it| it.id.to_string()).collect();
+    match all.len() {
+        0 => "none".into(),
+        _ => format!("{} with {lanes} lanes: {}", all.len(), shortened(&names)),
+    }
+}
+
+fn listed(ids: &[i64]) -> String {
+    let names: Vec<String> = ids.iter().map(i64::to_string).collect();
+    if names.is_empty() { "none".into() } else { format!("{}: {}", names.len(), shortened(&names)) }
+}
+
+/// The first of many names.
+fn shortened(names: &[String]) -> String {
+    const SHOWN: usize = 8;
+    let rest = if names.len() > SHOWN { ", …" } else { "" };
+    names[..names.len().min(SHOWN)].join(", ") + rest
+}
+
+/// Writes a sentence that lists `parts`, in lines of moderate length.
+fn wrapped(out: &mut String, begin: &str, parts: &[String]) -> std::fmt::Result {
+    const WIDTH: usize = 100;
+    let mut line = begin.to_owned();
+    for (index, part) in parts.iter().enumerate() {
+        let end = if index + 1 == parts.len() { "." } else { "," };
+        if line.len() + part.len() > WIDTH {
+            writeln!(out, "{line}")?;
+            line.clear();
+        } else {
+            line.push(' ');
+        }
+        write!(line, "{part}{end}")?;
+    }
+    writeln!(out, "{line}")
+}

@@ -1,0 +1,134 @@
+//! What is suspicious about a network although it can be used: one function for each check.
+
+use std::f64::consts::TAU;
+
+use laneweave_network::{Lanelet, Network, Polyline, Pose};
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use crate::problem::Problem;
+
+/// Lanelets whose ends are nearer than this were probably meant to meet [m].
+const NEARLY: f64 = 1.5;
+/// Directions that differ by less than this go on from each other [rad].
+const STRAIGHT_ON: f64 = 0.5;
+
+/// All that is suspicious.
+pub fn check(network: &Network) -> Vec<Problem> {
+    broken_joints(network)
+}
+
+/// Lanelets that begin, or end, just where another one ends, or begins, without being joined to it, and to nothing else.
+fn broken_joints(network: &Network) -> Vec<Problem> {
+    let lanelets = &network.lanelets;
+    let mut has_previous = vec![false; lanelets.len()];
+    lanelets.iter().flat_map(|it| &it.following).for_each(|it| has_previous[it.at()] = true);
+    let begins = Joints::of(lanelets, |it| first(&it.centre));
+    let ends = Joints::of(lanelets, |it| last(&it.centre));
+    let mut problems = Vec::new();
+    for (lanelet, has_previous) in lanelets.iter().zip(has_previous) {
+        let mut note = |what: String| {
+            problems.push(Problem {
+                element: format!("lanelet {}", lanelet.id),
+                line: None,
+                what,
+                remedy: "join the last points of the one's borders with the first points of the other's"
+                    .into(),
+            });
+        };
+        let next = begins.nearest(last(&lanelet.centre), lanelet);
+        if let Some((next, distance)) = next.filter(|_| lanelet.following.is_empty()) {
+            note(format!("it ends {distance:.2} m from where lanelet {next} begins, and leads nowhere"));
+        }
+        let previous = ends.nearest(first(&lanelet.centre), lanelet);
+        if let Some((previous, distance)) = previous.filter(|_| !has_previous) {
+            note(format!(
+                "it begins {distance:.2} m from where lanelet {previous} ends, and nothing leads there"
+            ));
+        }
+    }
+    problems
+}
+
+/// Where lanelets begin, or where they end.
+struct Joints<'a> {
+    lanelets: &'a [Lanelet],
+    poses: Vec<Pose>,
+    index: RTree<GeomWithData<[f64; 2], u32>>,
+}
+
+impl<'a> Joints<'a> {
+    fn of(lanelets: &'a [Lanelet], pose: impl Fn(&Lanelet) -> Pose) -> Joints<'a> {
+        let poses: Vec<Pose> = lanelets.iter().map(pose).collect();
+        let points = poses.iter().zip(0..).map(|(it, index)| GeomWithData::new([it.at.x, it.at.y], index));
+        Joints { lanelets, index: RTree::bulk_load(points.collect()), poses }
+    }
+
+    /// The lanelet other than `own` whose joint is nearest to `pose` and points the same way, and how far it is [m].
+    fn nearest(&self, pose: Pose, own: &Lanelet) -> Option<(i64, f64)> {
+        let near = self.index.locate_within_distance([pose.at.x, pose.at.y], NEARLY * NEARLY);
+        let found = near.filter_map(|it| {
+            let (other, joint) = (&self.lanelets[it.data as usize], self.poses[it.data as usize]);
+            let goes_on = other.id != own.id && turn(pose, joint) < STRAIGHT_ON;
+            goes_on.then(|| (other.id, joint.at.distance(&pose.at)))
+        });
+        found.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+    }
+}
+
+/// By how much two directions differ [rad].
+fn turn(a: Pose, b: Pose) -> f64 {
+    let turn = (a.heading - b.heading).rem_euclid(TAU);
+    turn.min(TAU - turn)
+}
+
+fn first(line: &Polyline) -> Pose {
+    Pose { at: line.at(0.0), heading: line.heading(0.0) }
+}
+
+fn last(line: &Polyline) -> Pose {
+    Pose { at: line.at(line.length()), heading: line.heading(line.length()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ReadOptions, lanelet2};
+
+    /// Two lanelets one behind the other, of which the second one begins at `x`, with points of its own.
+    fn row(x: f64) -> Vec<String> {
+        let mut text = String::from("<osm>");
+        for (id, (x, y)) in
+            [(0.0, 0.0), (50.0, 0.0), (0.0, 3.0), (50.0, 3.0), (x, 0.0), (99.0, 0.0), (x, 3.0), (99.0, 3.0)]
+                .into_iter()
+                .enumerate()
+        {
+            text += &format!("<node id='{}' x='{x}' y='{y}'/>", id + 1);
+        }
+        for (id, [from, to]) in [(11, [1, 2]), (12, [3, 4]), (13, [5, 6]), (14, [7, 8])] {
+            text += &format!("<way id='{id}'><nd ref='{from}'/><nd ref='{to}'/></way>");
+        }
+        for (id, right) in [(21, 11), (22, 13)] {
+            text += &format!(
+                "<relation id='{id}'><member type='way' ref='{}' role='left'/><member type='way' ref='{right}' \
+                 role='right'/><tag k='type' v='lanelet'/></relation>",
+                right + 1
+            );
+        }
+        let map = lanelet2::read((text + "</osm>").as_bytes(), &ReadOptions::default()).unwrap();
+        check(&map.network).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn lanelets_that_nearly_meet_are_suspicious() {
+        let found = row(50.25);
+        assert_eq!(found.len(), 2);
+        assert!(
+            found[0].starts_with(
+                "lanelet 21: it ends 0.25 m from where lanelet 22 begins, and leads nowhere; join"
+            )
+        );
+        assert!(found[1].starts_with("lanelet 22: it begins 0.25 m from where lanelet 21 ends"));
+        assert!(row(52.0).is_empty());
+    }
+}
