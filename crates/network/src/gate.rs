@@ -66,9 +66,10 @@ fn neighbours(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
 
 /// Chains that have no following one and are no exit: lane drops.
 pub(crate) fn lane_drops(chains: &[Chain], exits: &[Gate]) -> Vec<ChainIndex> {
-    let leaves = |index: ChainIndex| exits.iter().any(|gate| gate.chains.contains(&index));
+    let mut leaves = vec![false; chains.len()];
+    exits.iter().flat_map(|gate| &gate.chains).for_each(|index| leaves[index.at()] = true);
     (0..chains.len())
         .map(|i| ChainIndex(i as u32))
-        .filter(|index| chains[index.at()].following.is_empty() && !leaves(*index))
+        .filter(|index| chains[index.at()].following.is_empty() && !leaves[index.at()])
         .collect()
 }

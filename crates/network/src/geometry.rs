@@ -60,7 +60,9 @@ impl Polyline {
 
     /// A line through `points`; `None` if fewer than two of them differ or one is not finite.
     pub fn new(points: impl IntoIterator<Item = Point>) -> Option<Polyline> {
-        let mut line = Polyline { points: Vec::new(), stations: Vec::new() };
+        let points = points.into_iter();
+        let (least, _) = points.size_hint();
+        let mut line = Polyline { points: Vec::with_capacity(least), stations: Vec::with_capacity(least) };
         for point in points {
             if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
                 return None;

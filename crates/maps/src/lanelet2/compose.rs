@@ -1,11 +1,9 @@
 //! A drawing as the elements of a Lanelet2 map.
 
-use std::fmt::Display;
-
-use super::osm::{Document, Member, Node, Relation, Span, Way};
+use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Way};
 use super::projection::Utm;
 use super::rules::line_subtype;
-use crate::drawing::{Drawing, Edge, Lane};
+use crate::drawing::{Drawing, Lane};
 
 /// Where the origin of a drawing is put on the earth: latitude and longitude [°].
 const ORIGIN: (f64, f64) = (49.0, 8.4);
@@ -23,15 +21,15 @@ pub fn compose(drawing: &Drawing) -> Document<'static> {
     for (point, id) in drawing.points.iter().zip(first_point..) {
         let (latitude, longitude) = utm.map_or(ORIGIN, |it| it.inverse(point.x, point.y));
         let [x, y, z] = [point.x, point.y, point.z].map(|it| it.to_string());
-        let tags = document.tag(&[("local_x", &x), ("local_y", &y), ("ele", &z)]);
-        let (lat, lon) = (Some(rounded(latitude)), Some(rounded(longitude)));
+        let tags = document.keep_tags(&[("local_x", &x), ("local_y", &y), ("ele", &z)]);
+        let [lat, lon] = [latitude, longitude].map(|it| Coordinate::new(rounded(it)));
         document.nodes.push(Node { id, lat, lon, tags, ..Node::default() });
     }
     for (border, id) in drawing.borders.iter().zip(first_border..) {
         let start = document.references.len();
         document.references.extend(border.points.iter().map(|it| first_point + i64::from(*it)));
         let nodes = Span::since(start, document.references.len());
-        let tags = document.tag(&[("type", &"line_thin"), ("subtype", &line_subtype(border.crossing))]);
+        let tags = document.keep_tags(&[("type", &"line_thin"), ("subtype", &line_subtype(border.crossing))]);
         document.ways.push(Way { id, nodes, tags, ..Way::default() });
     }
     for lane in &drawing.lanes {
@@ -48,15 +46,13 @@ fn rounded(degrees: f64) -> f64 {
 impl Document<'static> {
     fn lane(&mut self, lane: &Lane, first_border: i64) {
         let start = self.members.len();
-        let border = |edge: Edge, role: &'static str| Member {
-            kind: "way".into(),
-            role: role.into(),
-            id: first_border + i64::from(edge.border),
-        };
-        self.members.extend([border(lane.left, "left"), border(lane.right, "right")]);
+        for (edge, role) in [(lane.left, "left"), (lane.right, "right")] {
+            let (kind, role) = (self.keep("way"), self.keep(role));
+            self.members.push(Member { id: first_border + i64::from(edge.border), kind, role });
+        }
         let members = Span::since(start, self.members.len());
         let one_way = if lane.is_two_way { "no" } else { "yes" };
-        let tags = self.tag(&[
+        let tags = self.keep_tags(&[
             ("type", &"lanelet"),
             ("subtype", &"highway"),
             ("location", &"nonurban"),
@@ -65,11 +61,5 @@ impl Document<'static> {
             ("speed_limit", &lane.limit_kmh),
         ]);
         self.relations.push(Relation { id: lane.id, members, tags, ..Relation::default() });
-    }
-
-    fn tag(&mut self, tags: &[(&'static str, &dyn Display)]) -> Span {
-        let start = self.tags.len();
-        self.tags.extend(tags.iter().map(|(key, value)| ((*key).into(), value.to_string().into())));
-        Span::since(start, self.tags.len())
     }
 }

@@ -1,8 +1,8 @@
 //! From OSM elements to a drawing: the lanelets that cars may use, with the borders and points they need.
 
-use std::collections::HashMap;
-
+use hashbrown::HashMap;
 use laneweave_network::Point;
+use rayon::prelude::*;
 
 use super::lookup::Lookup;
 use super::orientation::reversals;
@@ -19,49 +19,52 @@ const MAXIMUM_SHARING: u32 = 32;
 /// What is wrong, and what mends it.
 type Flaw = (String, &'static str);
 
-/// The drawing of the document that `lookup` looks into.
+/// The drawing of the document that `lookup` looks into. Its points are the nodes, used or not.
 pub(super) fn draw(
     document: &Document,
-    lookup: &Lookup,
+    lookup: Lookup,
     options: &ReadOptions,
     problems: &mut Vec<Problem>,
 ) -> Drawing {
     let driving_side = options.driving_side.or(document.driving_side).unwrap_or_default();
-    let rules = rules(document, lookup, problems);
+    let rules = rules(document, &lookup, problems);
     let drawing = Drawing { points: Vec::new(), borders: Vec::new(), lanes: Vec::new(), rules, driving_side };
-    let (nodes, ways) = (document.nodes.len(), document.ways.len());
-    let mut draft = Draft { document, lookup, drawing, points: vec![NONE; nodes], borders: vec![NONE; ways] };
-    let mut sharing = Sharing::default();
+    let mut draft = Draft { document, lookup: &lookup, drawing, borders: vec![NONE; document.ways.len()] };
+    let mut found: Vec<(&Relation, Result<[u32; 2], Flaw>)> = Vec::new();
     for relation in document.relations_of_type("lanelet") {
-        let tags = document.tags(relation.tags);
-        if !rules::is_for_cars(tags) || !lookup.is_first(relation) {
-            continue;
-        }
-        let is_two_way = rules::is_two_way(tags);
-        if is_two_way {
-            problems.push(Problem {
-                element: format!("lanelet {}", relation.id),
-                line: Some(relation.line),
-                what: "it may be used in both directions; simulated traffic uses the forward one only".into(),
-                remedy: "draw a lanelet for each direction".into(),
-            });
-        }
-        let edges = draft.edges(relation);
-        match edges.and_then(|edges| sharing.admit(&draft.drawing, edges).map(|()| edges)) {
-            Ok([left, right]) => {
-                let limit_kmh = speed::limit(document, lookup, relation, options.law, problems);
-                let line = Some(relation.line);
-                draft.drawing.lanes.push(Lane { id: relation.id, line, left, right, is_two_way, limit_kmh });
-            }
-            Err((what, remedy)) => problems.push(Problem {
-                element: format!("lanelet {}", relation.id),
-                line: Some(relation.line),
-                what: format!("{what}, so it is left out"),
-                remedy: remedy.into(),
-            }),
+        if rules::is_for_cars(document.tags(relation.tags)) && lookup.is_first(relation) {
+            found.push((relation, draft.borders_of(relation)));
         }
     }
-    draft.drawing
+    let oriented =
+        |(relation, borders): (_, Result<_, Flaw>)| (relation, borders.map(|it| draft.oriented(it)));
+    let found: Vec<(&Relation, Result<[Edge; 2], Flaw>)> = found.into_par_iter().map(oriented).collect();
+    let mut sharing = Sharing::default();
+    for (relation, edges) in found {
+        let mut note = |what: &str, remedy: &str| {
+            problems.push(Problem {
+                element: format!("lanelet {}", relation.id),
+                line: Some(relation.line as usize),
+                what: what.into(),
+                remedy: remedy.into(),
+            });
+        };
+        let is_two_way = rules::is_two_way(document.tags(relation.tags));
+        if is_two_way {
+            let what = "it may be used in both directions; simulated traffic uses the forward one only";
+            note(what, "draw a lanelet for each direction");
+        }
+        match edges.and_then(|edges| sharing.admit(&draft.drawing, edges).map(|()| edges)) {
+            Ok([left, right]) => {
+                let limit_kmh = speed::limit(document, &lookup, relation, options.law, problems);
+                let line = Some(relation.line as usize);
+                draft.drawing.lanes.push(Lane { id: relation.id, line, left, right, is_two_way, limit_kmh });
+            }
+            Err((what, remedy)) => note(&format!("{what}, so it is left out"), remedy),
+        }
+    }
+    let drawing = draft.drawing;
+    Drawing { points: lookup.into_points(), ..drawing }
 }
 
 /// Where something of the document is not in the drawing.
@@ -72,23 +75,25 @@ struct Draft<'a> {
     document: &'a Document<'a>,
     lookup: &'a Lookup<'a>,
     drawing: Drawing,
-    /// For each node of the document its place in the drawing.
-    points: Vec<u32>,
     /// For each way of the document its place in the drawing.
     borders: Vec<u32>,
 }
 
 impl Draft<'_> {
     /// The left and the right border of a lanelet.
-    fn edges(&mut self, relation: &Relation) -> Result<[Edge; 2], Flaw> {
+    fn borders_of(&mut self, relation: &Relation) -> Result<[u32; 2], Flaw> {
         let [left, right] = [self.way(relation, "left")?, self.way(relation, "right")?];
-        let (left, right) = (self.border(left)?, self.border(right)?);
+        Ok([self.border(left)?, self.border(right)?])
+    }
+
+    /// The borders of a lanelet, run in its direction of travel.
+    fn oriented(&self, [left, right]: [u32; 2]) -> [Edge; 2] {
         let line = |border: u32| -> Vec<Point> {
             let points = &self.drawing.borders[border as usize].points;
-            points.iter().map(|it| self.drawing.points[*it as usize]).collect()
+            points.iter().filter_map(|it| self.lookup.place(*it as usize)).collect()
         };
         let (left_reversed, right_reversed) = reversals(&line(left), &line(right));
-        Ok([Edge { border: left, reversed: left_reversed }, Edge { border: right, reversed: right_reversed }])
+        [Edge { border: left, reversed: left_reversed }, Edge { border: right, reversed: right_reversed }]
     }
 
     /// The way that borders a lanelet on `side`.
@@ -127,18 +132,12 @@ impl Draft<'_> {
             let what = format!("its border, way {}, runs through node {id}, which is missing", way.id);
             (what, "add the node or take it out of the way")
         })?;
-        if self.points[place] != NONE {
-            return Ok(self.points[place]);
-        }
-        let at = self.lookup.place(place).ok_or_else(|| {
+        if self.lookup.place(place).is_none() {
             let line = self.document.nodes[place].line;
             let what = format!("node {id} (line {line}) of its border has no position on earth");
-            (what, "give all nodes lat and lon, or all of them local_x and local_y")
-        })?;
-        let point = self.drawing.points.len() as u32;
-        self.drawing.points.push(at);
-        self.points[place] = point;
-        Ok(point)
+            return Err((what, "give all nodes lat and lon, or all of them local_x and local_y"));
+        }
+        Ok(place as u32)
     }
 }
 

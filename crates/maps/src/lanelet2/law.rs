@@ -44,10 +44,10 @@ fn united_states(subtype: Option<&str>, location: Option<&str>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::osm::tags;
+    use crate::lanelet2::osm::with_tags;
 
     fn limit(law: Law, subtype: &'static str, location: &'static str) -> f64 {
-        law.limit(Tags(&tags([("subtype", subtype), ("location", location)])))
+        with_tags([("subtype", subtype), ("location", location)], |it| law.limit(it))
     }
 
     #[test]
@@ -56,7 +56,7 @@ mod tests {
         assert_eq!(limit(Law::Germany, "road", "nonurban"), 100.0);
         assert_eq!(limit(Law::Germany, "highway", "nonurban"), 130.0);
         assert_eq!(limit(Law::Germany, "play_street", "urban"), 7.0);
-        assert_eq!(Law::Germany.limit(Tags(&[])), 50.0);
+        assert_eq!(with_tags([], |it| Law::Germany.limit(it)), 50.0);
     }
 
     #[test]

@@ -1,8 +1,7 @@
 //! Elements by their ids, and where nodes lie.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
-
+use hashbrown::HashMap;
+use hashbrown::hash_map::Entry;
 use laneweave_network::Point;
 use rayon::prelude::*;
 
@@ -17,9 +16,12 @@ pub(super) struct Lookup<'a> {
     nodes: HashMap<i64, u32>,
     ways: HashMap<i64, u32>,
     relations: HashMap<i64, u32>,
-    /// Where each node of the document lies, if it has a position on earth.
-    points: Vec<Option<Point>>,
+    /// Where each node of the document lies; see [`Lookup::place`].
+    points: Vec<Point>,
 }
+
+/// Where a node without a position lies.
+const NOWHERE: Point = Point { x: f64::NAN, y: f64::NAN, z: f64::NAN };
 
 impl<'a> Lookup<'a> {
     /// Finds the elements of `document`; positions are relative to `origin` [°], or to one of its own. Elements that share
@@ -32,12 +34,18 @@ impl<'a> Lookup<'a> {
         origin: Option<(f64, f64)>,
         problems: &mut Vec<Problem>,
     ) -> Result<(Lookup<'a>, Option<(f64, f64)>), MapError> {
-        let nodes = by_id(document.nodes.iter().map(|it| (it.id, it.line)), "node", problems);
-        let ways = by_id(document.ways.iter().map(|it| (it.id, it.line)), "way", problems);
-        let relations = by_id(document.relations.iter().map(|it| (it.id, it.line)), "relation", problems);
         let (frame, origin) = Frame::of(document, origin)?;
-        let place = |node: &Node| frame.place(node, document.tags(node.tags));
-        let points = document.nodes.par_iter().map(place).collect();
+        let place = |node: &Node| frame.place(node, document.tags(node.tags)).unwrap_or(NOWHERE);
+        let (points, [nodes, ways, relations]) = rayon::join(
+            || document.nodes.par_iter().map(place).collect(),
+            || {
+                [
+                    by_id(document.nodes.iter().map(|it| (it.id, it.line)), "node", problems),
+                    by_id(document.ways.iter().map(|it| (it.id, it.line)), "way", problems),
+                    by_id(document.relations.iter().map(|it| (it.id, it.line)), "relation", problems),
+                ]
+            },
+        );
         Ok((Lookup { document, nodes, ways, relations, points }, origin))
     }
 
@@ -63,7 +71,12 @@ impl<'a> Lookup<'a> {
 
     /// Where the node at a place in the document lies, if it has a position on earth.
     pub(super) fn place(&self, node: usize) -> Option<Point> {
-        self.points[node]
+        Some(self.points[node]).filter(|it| !it.x.is_nan())
+    }
+
+    /// Where all nodes lie, in the order of the document.
+    pub(super) fn into_points(self) -> Vec<Point> {
+        self.points
     }
 
     /// Where the node with this id lies.
@@ -74,7 +87,7 @@ impl<'a> Lookup<'a> {
 
 /// Where each id stands.
 fn by_id(
-    elements: impl ExactSizeIterator<Item = (i64, usize)>,
+    elements: impl ExactSizeIterator<Item = (i64, u32)>,
     kind: &str,
     problems: &mut Vec<Problem>,
 ) -> HashMap<i64, u32> {
@@ -86,7 +99,7 @@ fn by_id(
             }
             Entry::Occupied(_) => problems.push(Problem {
                 element: format!("{kind} {id}"),
-                line: Some(line),
+                line: Some(line as usize),
                 what: format!("another {kind} above has the same id, so this one is left out"),
                 remedy: "give it an id of its own".into(),
             }),

@@ -56,19 +56,22 @@ impl<'a> Document<'a> {
     ///
     /// # Errors
     /// If it holds no lanelet that cars may use.
-    pub fn map(&self, mut problems: Vec<Problem>, options: &ReadOptions) -> Result<Map, MapError> {
-        let (lookup, origin) = Lookup::new(self, options.origin, &mut problems)?;
-        let drawing = draw::draw(self, &lookup, options, &mut problems);
+    pub fn map(self, mut problems: Vec<Problem>, options: &ReadOptions) -> Result<Map, MapError> {
+        let (lookup, origin) = Lookup::new(&self, options.origin, &mut problems)?;
+        let contents = contents::contents(&self, &lookup);
+        let drawing = draw::draw(&self, lookup, options, &mut problems);
+        let lanelets = self.relations_of_type("lanelet").count();
+        // Its memory serves the network.
+        drop(self);
         match drawing.build() {
             Ok(map) => {
                 problems.extend(map.problems);
                 problems.sort_by_key(|it| it.line);
-                Ok(Map { contents: contents::contents(self, &lookup), problems, origin, ..map })
+                Ok(Map { contents, problems, origin, ..map })
             }
             Err(MapError::NotDrivable { problems: flaws, .. }) => {
                 problems.extend(flaws);
                 problems.sort_by_key(|it| it.line);
-                let lanelets = self.relations_of_type("lanelet").count();
                 Err(MapError::NotDrivable { lanelets, problems })
             }
             Err(error) => Err(error),

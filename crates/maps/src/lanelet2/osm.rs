@@ -1,29 +1,51 @@
 //! OSM as plain data: nodes, ways and relations with their tags, ids and lines.
 
-use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
 
 use laneweave_network::DrivingSide;
 
-/// What an OSM file holds. Text is borrowed from the file; what belongs to one element lies together in an array for all.
-#[derive(Debug, Default, PartialEq)]
+/// What an OSM file holds. What belongs to one element lies together in an array for all, and text stays where it is in the
+/// file, so that a document takes little more memory than its file.
+#[derive(Debug, Default)]
 pub struct Document<'a> {
+    /// The text of the file.
+    pub(super) text: &'a str,
+    /// Text that does not stand in the file as it is meant.
+    pub(super) own_text: String,
     pub(super) nodes: Vec<Node>,
     pub(super) ways: Vec<Way>,
     pub(super) relations: Vec<Relation>,
     /// Ids of the nodes of ways.
     pub(super) references: Vec<i64>,
-    pub(super) members: Vec<Member<'a>>,
-    pub(super) tags: Vec<Tag<'a>>,
+    pub(super) members: Vec<Member>,
+    pub(super) tags: Vec<Tag>,
     /// The attribute `driving_side` of the element `MetaInfo`.
     pub(super) driving_side: Option<DrivingSide>,
 }
 
+/// A piece of a document's text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Text {
+    /// Where it begins; from [`Text::OWN`] on counted in the document's own text.
+    start: u32,
+    length: u32,
+}
+
+impl Text {
+    /// Files are no larger than this.
+    const OWN: u32 = 1 << 31;
+}
+
 /// A key and its value.
-pub(super) type Tag<'a> = (Cow<'a, str>, Cow<'a, str>);
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tag {
+    pub(super) key: Text,
+    pub(super) value: Text,
+}
 
 /// From where to where an element's part of an array goes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Span {
     start: u32,
     end: u32,
@@ -40,51 +62,110 @@ impl Span {
     }
 }
 
+/// A coordinate that may be missing, or given but no number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coordinate(f64);
+
+impl Coordinate {
+    /// Not a number in a way in which no reading of a number ends.
+    const MISSING: u64 = 0x7ff8_dead_dead_dead;
+
+    pub(super) const NONE: Coordinate = Coordinate(f64::from_bits(Coordinate::MISSING));
+
+    /// The coordinate; not a number where it is unreadable.
+    pub(super) fn new(value: f64) -> Coordinate {
+        Coordinate(if value.is_nan() { f64::NAN } else { value })
+    }
+
+    /// The coordinate, if one is given.
+    pub(super) fn get(self) -> Option<f64> {
+        (self.0.to_bits() != Coordinate::MISSING).then_some(self.0)
+    }
+}
+
 /// A point of the map.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) id: i64,
-    pub(super) line: usize,
-    /// Its attributes `lat`, `lon`, `x`, `y` and `ele`; not a number where one is unreadable.
-    pub(super) lat: Option<f64>,
-    pub(super) lon: Option<f64>,
-    pub(super) x: Option<f64>,
-    pub(super) y: Option<f64>,
-    pub(super) ele: Option<f64>,
+    /// Its attributes of these names.
+    pub(super) lat: Coordinate,
+    pub(super) lon: Coordinate,
+    pub(super) x: Coordinate,
+    pub(super) y: Coordinate,
+    pub(super) ele: Coordinate,
+    pub(super) line: u32,
     pub(super) tags: Span,
 }
 
+impl Default for Node {
+    fn default() -> Node {
+        let [lat, lon, x, y, ele] = [Coordinate::NONE; 5];
+        Node { id: 0, lat, lon, x, y, ele, line: 0, tags: Span::default() }
+    }
+}
+
 /// A line through nodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
     pub(super) id: i64,
-    pub(super) line: usize,
+    pub(super) line: u32,
     pub(super) nodes: Span,
     pub(super) tags: Span,
 }
 
 /// Members in their roles.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Relation {
     pub(super) id: i64,
-    pub(super) line: usize,
+    pub(super) line: u32,
     pub(super) members: Span,
     pub(super) tags: Span,
 }
 
 /// What plays a role in a relation.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Member<'a> {
-    /// `node`, `way` or `relation`.
-    pub(super) kind: Cow<'a, str>,
-    pub(super) role: Cow<'a, str>,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Member {
     pub(super) id: i64,
+    /// `node`, `way` or `relation`.
+    pub(super) kind: Text,
+    pub(super) role: Text,
 }
 
 impl<'a> Document<'a> {
+    /// Keeps a text: where it is if it stands in the file.
+    pub(super) fn keep(&mut self, text: &str) -> Text {
+        let length = text.len() as u32;
+        let place = (text.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
+        if place.saturating_add(text.len()) <= self.text.len() {
+            return Text { start: place as u32, length };
+        }
+        let start = Text::OWN + self.own_text.len() as u32;
+        self.own_text.push_str(text);
+        Text { start, length }
+    }
+
+    /// Keeps the tags of an element.
+    pub(super) fn keep_tags(&mut self, tags: &[(&str, &dyn Display)]) -> Span {
+        let start = self.tags.len();
+        for (key, value) in tags {
+            let tag = Tag { key: self.keep(key), value: self.keep(&value.to_string()) };
+            self.tags.push(tag);
+        }
+        Span::since(start, self.tags.len())
+    }
+
+    /// What a text says.
+    pub(super) fn get(&self, text: Text) -> &str {
+        let (from, start) = match text.start.checked_sub(Text::OWN) {
+            Some(start) => (self.own_text.as_str(), start),
+            None => (self.text, text.start),
+        };
+        &from[start as usize..(start + text.length) as usize]
+    }
+
     /// The tags of an element.
     pub(super) fn tags(&self, span: Span) -> Tags<'_> {
-        Tags(&self.tags[span.range()])
+        Tags { document: self, tags: &self.tags[span.range()] }
     }
 
     /// The ids of a way's nodes.
@@ -93,7 +174,7 @@ impl<'a> Document<'a> {
     }
 
     /// All members of a relation.
-    pub(super) fn members_of(&self, relation: &Relation) -> &[Member<'a>] {
+    pub(super) fn members_of(&self, relation: &Relation) -> &[Member] {
         &self.members[relation.members.range()]
     }
 
@@ -104,7 +185,8 @@ impl<'a> Document<'a> {
         kind: &'static str,
         role: &'static str,
     ) -> impl Iterator<Item = i64> {
-        self.members_of(relation).iter().filter(move |it| it.kind == kind && it.role == role).map(|it| it.id)
+        let all = self.members_of(relation).iter();
+        all.filter(move |it| self.get(it.role) == role && self.get(it.kind) == kind).map(|it| it.id)
     }
 
     /// The relations with this `type`.
@@ -115,32 +197,43 @@ impl<'a> Document<'a> {
 
 /// The tags of one element. Where a key is given twice the first one counts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tags<'d>(pub(super) &'d [Tag<'d>]);
+pub(super) struct Tags<'d> {
+    document: &'d Document<'d>,
+    tags: &'d [Tag],
+}
 
 impl<'d> Tags<'d> {
+    /// Keys and values in their order.
+    pub(super) fn all(self) -> impl Iterator<Item = (&'d str, &'d str)> {
+        self.tags.iter().map(move |it| (self.document.get(it.key), self.document.get(it.value)))
+    }
+
     /// The value of `key`.
-    pub(super) fn get(&self, key: &str) -> Option<&'d str> {
-        self.0.iter().find(|(k, _)| k == key).map(|(_, value)| value.as_ref())
+    pub(super) fn get(self, key: &str) -> Option<&'d str> {
+        let tag = self.tags.iter().find(|it| self.document.get(it.key) == key);
+        tag.map(|it| self.document.get(it.value))
     }
 
     /// Whether `key` has this value.
-    pub(super) fn is(&self, key: &str, value: &str) -> bool {
+    pub(super) fn is(self, key: &str, value: &str) -> bool {
         self.get(key) == Some(value)
     }
 
     /// Whether any key begins with `prefix`.
-    pub(super) fn any(&self, prefix: &str) -> bool {
-        self.0.iter().any(|(key, _)| key.starts_with(prefix))
+    pub(super) fn any(self, prefix: &str) -> bool {
+        self.all().any(|(key, _)| key.starts_with(prefix))
     }
-}
-
-/// Tags for tests.
-#[cfg(test)]
-pub(super) fn tags<const N: usize>(tags: [(&'static str, &'static str); N]) -> [Tag<'static>; N] {
-    tags.map(|(key, value)| (key.into(), value.into()))
 }
 
 /// A coordinate; not a number where it is unreadable.
 pub(super) fn number(text: &str) -> f64 {
     text.trim().parse().unwrap_or(f64::NAN)
+}
+
+/// What `of` says of an element with these tags.
+#[cfg(test)]
+pub(super) fn with_tags<const N: usize, T>(tags: [(&str, &str); N], of: impl FnOnce(Tags) -> T) -> T {
+    let mut document = Document::default();
+    let span = document.keep_tags(&tags.each_ref().map(|(key, value)| (*key, value as &dyn Display)));
+    of(document.tags(span))
 }

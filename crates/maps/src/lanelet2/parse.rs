@@ -4,15 +4,22 @@ use std::borrow::Cow;
 
 use laneweave_network::DrivingSide;
 
-use super::osm::{Document, Member, Node, Relation, Span, Way, number};
+use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Tag, Way, number};
 use crate::error::MapError;
 use crate::problem::Problem;
 use crate::xml::{Element, Token, Tokens};
 
+/// Sets a coordinate that was not set before.
+fn set(coordinate: &mut Coordinate, text: &str) {
+    if coordinate.get().is_none() {
+        *coordinate = Coordinate::new(number(text));
+    }
+}
+
 /// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
 pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, MapError> {
     let mut tokens = Tokens::of(bytes)?;
-    let mut parser = Parser { document: with_room(bytes), open: None, problems };
+    let mut parser = Parser { document: with_room(tokens.text()), open: None, problems };
     let mut has_root = false;
     loop {
         match tokens.next()? {
@@ -33,10 +40,10 @@ pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<
 
 /// A document with room for as many elements as the text seems to hold: arrays of that size take longer to grow than the
 /// elements to count.
-fn with_room<'a>(text: &[u8]) -> Document<'a> {
+fn with_room(text: &str) -> Document<'_> {
     let [mut nodes, mut ways, mut relations, mut references, mut members, mut tags] = [0; 6];
-    for at in memchr::memchr_iter(b'<', text) {
-        match text.get(at + 1..at + 3) {
+    for at in memchr::memchr_iter(b'<', text.as_bytes()) {
+        match text.as_bytes().get(at + 1..at + 3) {
             Some(b"no") => nodes += 1,
             Some(b"wa") => ways += 1,
             Some(b"re") => relations += 1,
@@ -47,6 +54,8 @@ fn with_room<'a>(text: &[u8]) -> Document<'a> {
         }
     }
     Document {
+        text,
+        own_text: String::new(),
         nodes: Vec::with_capacity(nodes),
         ways: Vec::with_capacity(ways),
         relations: Vec::with_capacity(relations),
@@ -73,8 +82,8 @@ struct Open {
 #[derive(Clone, Copy)]
 enum Kind {
     Node(Node),
-    Way { id: i64, line: usize },
-    Relation { id: i64, line: usize },
+    Way { id: i64, line: u32 },
+    Relation { id: i64, line: u32 },
 }
 
 impl<'a> Parser<'a, '_> {
@@ -101,7 +110,7 @@ impl<'a> Parser<'a, '_> {
     }
 
     fn begin(&mut self, element: &Element<'a>) -> Result<(), MapError> {
-        let mut node = Node { line: element.line, ..Node::default() };
+        let mut node = Node { line: element.line as u32, ..Node::default() };
         let mut id: Option<Cow<str>> = None;
         for attribute in element.attributes() {
             let (key, value) = attribute?;
@@ -109,11 +118,11 @@ impl<'a> Parser<'a, '_> {
                 "id" => id = id.or(Some(value)),
                 // Editors leave what was deleted in the file until it is uploaded.
                 "action" if value == "delete" => return Ok(()),
-                "lat" => node.lat = node.lat.or(Some(number(&value))),
-                "lon" => node.lon = node.lon.or(Some(number(&value))),
-                "x" => node.x = node.x.or(Some(number(&value))),
-                "y" => node.y = node.y.or(Some(number(&value))),
-                "ele" => node.ele = node.ele.or(Some(number(&value))),
+                "lat" => set(&mut node.lat, &value),
+                "lon" => set(&mut node.lon, &value),
+                "x" => set(&mut node.x, &value),
+                "y" => set(&mut node.y, &value),
+                "ele" => set(&mut node.ele, &value),
                 _ => {}
             }
         }
@@ -126,7 +135,7 @@ impl<'a> Parser<'a, '_> {
             });
             return Ok(());
         };
-        let line = element.line;
+        let line = element.line as u32;
         let (element, first_part) = match element.name {
             "node" => (Kind::Node(Node { id: number, ..node }), 0),
             "way" => (Kind::Way { id: number, line }, self.document.references.len()),
@@ -156,7 +165,8 @@ impl<'a> Parser<'a, '_> {
             }
         }
         if let (Some(key), Some(value)) = (key, value) {
-            self.document.tags.push((key, value));
+            let tag = Tag { key: self.document.keep(&key), value: self.document.keep(&value) };
+            self.document.tags.push(tag);
         }
         Ok(())
     }
@@ -174,11 +184,11 @@ impl<'a> Parser<'a, '_> {
         let id = reference.as_deref().and_then(|it| it.parse().ok());
         match (id, into) {
             (Some(id), Kind::Way { .. }) => self.document.references.push(id),
-            (Some(id), _) => self.document.members.push(Member {
-                kind: kind.unwrap_or_default(),
-                role: role.unwrap_or_default(),
-                id,
-            }),
+            (Some(id), _) => {
+                let kind = self.document.keep(&kind.unwrap_or_default());
+                let role = self.document.keep(&role.unwrap_or_default());
+                self.document.members.push(Member { id, kind, role });
+            }
             (None, _) => self.problems.push(Problem {
                 element: match into {
                     Kind::Node(it) => format!("node {}", it.id),
@@ -239,8 +249,8 @@ mod tests {
         assert_eq!(document.driving_side, Some(DrivingSide::Left));
         let node = &document.nodes[0];
         assert_eq!((document.nodes.len(), node.id, node.line), (1, -1, 4));
-        assert_eq!((node.lat, node.lon, node.y), (Some(49.0), Some(8.5), None));
-        assert!(node.x.unwrap().is_nan());
+        assert_eq!((node.lat.get(), node.lon.get(), node.y.get()), (Some(49.0), Some(8.5), None));
+        assert!(node.x.get().unwrap().is_nan());
         assert_eq!(document.tags(node.tags).get("name"), Some("a & b"));
         let way = &document.ways[0];
         assert_eq!((way.line, document.nodes_of(way)), (7, &[-1, 7][..]));

@@ -37,12 +37,12 @@ impl Frame {
         }) {
             return Ok((Frame::Local, None));
         }
-        if nodes().all(|it| it.x.is_some() && it.y.is_some()) {
+        if nodes().all(|it| it.x.get().is_some() && it.y.get().is_some()) {
             return Ok((Frame::Metric, None));
         }
         // Adding zero leaves no negative zero.
         let rounded = |degrees: f64| (degrees * 10.0).round() / 10.0 + 0.0;
-        let mut places = nodes().filter_map(|it| Some((rounded(it.lat?), rounded(it.lon?))));
+        let mut places = nodes().filter_map(|it| Some((rounded(it.lat.get()?), rounded(it.lon.get()?))));
         let origin = origin.or_else(|| places.find(|at| Utm::around(at.0, at.1).is_some()));
         let origin = origin.unwrap_or((0.0, 0.0));
         let utm = Utm::around(origin.0, origin.1).ok_or(MapError::Origin(origin.0, origin.1))?;
@@ -55,10 +55,10 @@ impl Frame {
         let tag = |key| tags.get(key).map(number);
         let (x, y) = match self {
             Frame::Local => (tag("local_x")?, tag("local_y")?),
-            Frame::Metric => (node.x?, node.y?),
-            Frame::Projected(utm) => utm.forward(node.lat?, node.lon?)?,
+            Frame::Metric => (node.x.get()?, node.y.get()?),
+            Frame::Projected(utm) => utm.forward(node.lat.get()?, node.lon.get()?)?,
         };
-        let z = tag("ele").or(node.ele).unwrap_or(0.0);
+        let z = tag("ele").or(node.ele.get()).unwrap_or(0.0);
         let in_range = [x, y, z].iter().all(|it| it.abs() <= MAXIMUM_COORDINATE);
         in_range.then(|| Point::new(x, y, z))
     }
@@ -67,6 +67,7 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanelet2::osm::{Coordinate, with_tags};
     use crate::lanelet2::parse::parse;
 
     const NODE: &str = "<node id='1' lat='49.04' lon='8.44' x='1' y='2' ele='3'>";
@@ -107,10 +108,12 @@ mod tests {
 
     #[test]
     fn points_that_are_no_place_have_none() {
-        for (x, ele) in [(f64::NAN, None), (5e7, None), (f64::INFINITY, None), (0.0, Some(f64::NAN))] {
-            let node = Node { x: Some(x), y: Some(0.0), ele, ..Node::default() };
-            assert_eq!(Frame::Metric.place(&node, Tags(&[])), None);
+        let none = Coordinate::NONE;
+        let unreadable = Coordinate::new(f64::NAN);
+        for (x, ele) in [(f64::NAN, none), (5e7, none), (f64::INFINITY, none), (0.0, unreadable)] {
+            let node = Node { x: Coordinate::new(x), y: Coordinate::new(0.0), ele, ..Node::default() };
+            assert_eq!(with_tags([], |tags| Frame::Metric.place(&node, tags)), None);
         }
-        assert_eq!(Frame::Metric.place(&Node::default(), Tags(&[])), None);
+        assert_eq!(with_tags([], |tags| Frame::Metric.place(&Node::default(), tags)), None);
     }
 }

@@ -30,7 +30,7 @@ pub(super) fn rules(document: &Document, lookup: &Lookup, problems: &mut Vec<Pro
         let place = lanelets.first().and_then(|it| lookup.relation(*it));
         problems.push(Problem {
             element: format!("lanelet {}", lanelets.first().copied().unwrap_or_default()),
-            line: place.map(|it| document.relations[it].line),
+            line: place.map(|it| document.relations[it].line as usize),
             what: format!("its regulatory element {id} is missing, so nothing is regulated by it"),
             remedy: "add the element or take it out of the lanelet's members".into(),
         });
@@ -62,7 +62,14 @@ impl Reader<'_> {
                 "name it as regulatory_element in the lanelets whose drivers heed it",
             );
         }
-        Rule { id: self.relation.id, line: Some(self.relation.line), kind, lanelets, stop_lines, signs }
+        Rule {
+            id: self.relation.id,
+            line: Some(self.relation.line as usize),
+            kind,
+            lanelets,
+            stop_lines,
+            signs,
+        }
     }
 
     fn kind(&mut self) -> RuleKind {
@@ -129,7 +136,7 @@ impl Reader<'_> {
     fn complain(&mut self, what: &str, remedy: &str) {
         self.problems.push(Problem {
             element: format!("regulatory element {}", self.relation.id),
-            line: Some(self.relation.line),
+            line: Some(self.relation.line as usize),
             what: what.into(),
             remedy: remedy.into(),
         });

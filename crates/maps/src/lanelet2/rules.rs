@@ -75,39 +75,39 @@ fn flag(tags: Tags, key: &str) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::osm::tags;
+    use crate::lanelet2::osm::with_tags;
 
     #[test]
     fn the_subtype_tells_who_may_use_a_lanelet() {
         for subtype in ["road", "highway", "play_street", "exit"] {
-            assert!(is_for_cars(Tags(&tags([("subtype", subtype)]))), "{subtype}");
+            assert!(with_tags([("subtype", subtype)], is_for_cars), "{subtype}");
         }
         for subtype in ["walkway", "crosswalk", "bicycle_lane", "bus_lane", "emergency_lane", "stairs", "x"] {
-            assert!(!is_for_cars(Tags(&tags([("subtype", subtype)]))), "{subtype}");
+            assert!(!with_tags([("subtype", subtype)], is_for_cars), "{subtype}");
         }
-        assert!(is_for_cars(Tags(&[])));
+        assert!(with_tags([], is_for_cars));
     }
 
     #[test]
     fn named_participants_outrank_the_subtype() {
-        assert!(is_for_cars(Tags(&tags([("subtype", "walkway"), ("participant:vehicle", "yes")]))));
-        assert!(is_for_cars(Tags(&tags([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")]))));
-        assert!(!is_for_cars(Tags(&tags([("subtype", "road"), ("participant:bicycle", "yes")]))));
-        assert!(!is_for_cars(Tags(&tags([("subtype", "road"), ("participant:vehicle", "no")]))));
+        assert!(with_tags([("subtype", "walkway"), ("participant:vehicle", "yes")], is_for_cars));
+        assert!(with_tags([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")], is_for_cars));
+        assert!(!with_tags([("subtype", "road"), ("participant:bicycle", "yes")], is_for_cars));
+        assert!(!with_tags([("subtype", "road"), ("participant:vehicle", "no")], is_for_cars));
     }
 
     #[test]
     fn lanelets_run_one_way_unless_they_say_otherwise() {
-        assert!(!is_two_way(Tags(&[])));
-        assert!(!is_two_way(Tags(&tags([("one_way:bicycle", "no")]))));
-        assert!(is_two_way(Tags(&tags([("one_way", "no")]))));
-        assert!(is_two_way(Tags(&tags([("one_way:vehicle", "no")]))));
+        assert!(!with_tags([], is_two_way));
+        assert!(!with_tags([("one_way:bicycle", "no")], is_two_way));
+        assert!(with_tags([("one_way", "no")], is_two_way));
+        assert!(with_tags([("one_way:vehicle", "no")], is_two_way));
     }
 
     #[test]
     fn the_painted_line_tells_who_may_cross() {
         let line = |kind, subtype| {
-            let crossing = crossing(Tags(&tags([("type", kind), ("subtype", subtype)])));
+            let crossing = with_tags([("type", kind), ("subtype", subtype)], crossing);
             (crossing.to_left, crossing.to_right)
         };
         for kind in ["line_thin", "line_thick"] {
@@ -123,8 +123,8 @@ mod tests {
     #[test]
     fn lane_change_tags_outrank_the_line() {
         let over = |key, value| {
-            let tags = tags([("type", "line_thin"), ("subtype", "dashed"), (key, value)]);
-            (crossing(Tags(&tags)).to_left, crossing(Tags(&tags)).to_right)
+            let crossing = with_tags([("type", "line_thin"), ("subtype", "dashed"), (key, value)], crossing);
+            (crossing.to_left, crossing.to_right)
         };
         assert_eq!(over("lane_change", "yes"), (true, true));
         assert_eq!(over("lane_change", "no"), (false, false));
@@ -139,8 +139,8 @@ mod tests {
         for to_left in [false, true] {
             for to_right in [false, true] {
                 let wanted = Crossing { to_left, to_right };
-                let tags = tags([("type", "line_thin"), ("subtype", line_subtype(wanted))]);
-                assert_eq!(crossing(Tags(&tags)), wanted);
+                let tags = [("type", "line_thin"), ("subtype", line_subtype(wanted))];
+                assert_eq!(with_tags(tags, crossing), wanted);
             }
         }
     }

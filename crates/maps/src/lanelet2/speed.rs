@@ -27,8 +27,9 @@ pub(super) fn limit(
         .members(lanelet, "relation", "regulatory_element")
         .filter_map(|id| Some(&document.relations[lookup.relation(id)?]))
         .filter(|it| document.tags(it.tags).is("subtype", "speed_limit"));
-    let by_rule = rules.map(|rule| (sign_text(document, lookup, rule), rule.line, "speed limit rule"));
-    let by_tag = KEYS.into_iter().filter_map(|key| Some((tags.get(key)?, lanelet.line, key)));
+    let by_rule =
+        rules.map(|rule| (sign_text(document, lookup, rule), rule.line as usize, "speed limit rule"));
+    let by_tag = KEYS.into_iter().filter_map(|key| Some((tags.get(key)?, lanelet.line as usize, key)));
     let default = law.limit(tags);
     for (text, line, source) in by_rule.chain(by_tag) {
         if let Some(limit) = sign_limit(text).or_else(|| speed(text)) {
@@ -36,7 +37,7 @@ pub(super) fn limit(
         }
         problems.push(Problem {
             element: format!("lanelet {}", lanelet.id),
-            line: Some(line),
+            line: Some(line as usize),
             what: format!("its {source} {text:?} is no speed above 0 and up to {MAXIMUM} km/h"),
             remedy: format!("write it like 50, 50 km/h, 30 mph or 14 m/s; without one {default} km/h holds"),
         });
