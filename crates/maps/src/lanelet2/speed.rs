@@ -37,7 +37,7 @@ pub(super) fn limit(
         }
         problems.push(Problem {
             element: format!("lanelet {}", lanelet.id),
-            line: Some(line as usize),
+            line: Some(line),
             what: format!("its {source} {text:?} is no speed above 0 and up to {MAXIMUM} km/h"),
             remedy: format!("write it like 50, 50 km/h, 30 mph or 14 m/s; without one {default} km/h holds"),
         });
