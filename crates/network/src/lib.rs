@@ -3,6 +3,7 @@
 //! A map's lanelets become [`Chain`]s, the lanes of the simulation: maximal fork-free runs of lanelets.
 //! Lanelet ids appear in input and output only.
 
+mod alongside;
 mod build;
 mod chain;
 mod gate;
@@ -10,6 +11,7 @@ mod geometry;
 mod lanelet;
 mod polygon;
 
+pub use alongside::Alongside;
 pub use build::{Network, NetworkError};
 pub use chain::{Beside, Chain, ChainIndex, Limit};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};

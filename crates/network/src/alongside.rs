@@ -1,0 +1,253 @@
+//! Lanelets that lie side by side although they share no border, so that the graph does not know them as
+//! neighbours: their facing borders were drawn twice, or meet only after a fork.
+
+use std::collections::HashMap;
+
+use crate::build::Network;
+use crate::geometry::{Point, Polyline};
+use crate::lanelet::{Lanelet, LaneletIndex, Side};
+
+/// A stretch on which two lanelets of one direction lie side by side without a common border.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alongside {
+    /// The lanelet on the left.
+    pub left: LaneletIndex,
+    /// The lanelet on the right.
+    pub right: LaneletIndex,
+    /// First and last station of the stretch along the left lanelet's centre line [m].
+    pub on_left: [f64; 2],
+    /// First and last station of the stretch along the right lanelet's centre line [m].
+    pub on_right: [f64; 2],
+}
+
+/// Facing borders are at most this far apart [m]. Ours: drawn twice, they differ by decimetres; a kerb or a hatched
+/// area is wider.
+const MAXIMUM_GAP: f64 = 0.75;
+/// Lanes side by side overlap by this at most [m]. Ours: those of a fork or a merge that overlap by more are one lane
+/// there, without a line between them.
+const MAXIMUM_OVERLAP: f64 = 0.3;
+/// A shorter stretch is no place to change lanes [m]. Ours.
+const MINIMUM_STRETCH: f64 = 5.0;
+/// Borders of lanes side by side point in one direction up to this angle [rad]. Ours: lanes that cross, or part
+/// at a fork, do so at larger ones.
+const MAXIMUM_ANGLE: f64 = 0.1;
+/// Lanes on bridges are further above each other [m].
+const MAXIMUM_HEIGHT: f64 = 2.0;
+/// Distance of the samples along a border [m].
+const SAMPLE: f64 = 1.0;
+
+impl Network {
+    /// All stretches on which lanelets lie side by side in the same direction without being neighbours in the
+    /// graph, ordered by their lanelets, then along the left one.
+    ///
+    /// Pure geometry: the right border of one runs at most 0.75 m from the left border of the other, or
+    /// overlaps it by 0.3 m at most, parallel up to 6°, for at least 5 m.
+    pub fn alongside(&self) -> Vec<Alongside> {
+        let lanelets = &self.lanelets;
+        let left_borders = Samples::of(lanelets, Side::Left);
+        let mut facing: Vec<Facing> = Vec::new();
+        for (index, lanelet) in lanelets.iter().enumerate() {
+            let left = LaneletIndex(index as u32);
+            for sample in samples(left, &lanelet.right_border) {
+                let others = left_borders.facing(&sample).filter(|it| !are_neighbours(lanelets, left, it.of));
+                facing.extend(others.map(|it| Facing {
+                    left,
+                    right: it.of,
+                    on_left: sample.station,
+                    on_right: it.station,
+                }));
+            }
+        }
+        facing
+            .sort_by(|a, b| (a.left, a.right).cmp(&(b.left, b.right)).then(a.on_left.total_cmp(&b.on_left)));
+        let runs = facing
+            .chunk_by(|a, b| (a.left, a.right) == (b.left, b.right) && b.on_left - a.on_left < 2.5 * SAMPLE);
+        runs.filter_map(|run| stretch(lanelets, run)).collect()
+    }
+}
+
+/// A point on the right border of `left` that faces one on the left border of `right`, by stations along these
+/// borders [m].
+struct Facing {
+    left: LaneletIndex,
+    right: LaneletIndex,
+    on_left: f64,
+    on_right: f64,
+}
+
+/// The stretch of successive facing points, if it is long enough on both borders.
+fn stretch(lanelets: &[Lanelet], run: &[Facing]) -> Option<Alongside> {
+    let (first, last) = (run.first()?, run.last()?);
+    let (left, right) = (&lanelets[first.left.at()], &lanelets[first.right.at()]);
+    let is_long = |from: f64, to: f64| to - from >= MINIMUM_STRETCH;
+    if !(is_long(first.on_left, last.on_left) && is_long(first.on_right, last.on_right)) {
+        return None;
+    }
+    let along = |lanelet: &Lanelet, border: &Polyline, from: f64, to: f64| {
+        let scale = lanelet.length() / border.length();
+        [from * scale, to * scale]
+    };
+    Some(Alongside {
+        left: first.left,
+        right: first.right,
+        on_left: along(left, &left.right_border, first.on_left, last.on_left),
+        on_right: along(right, &right.left_border, first.on_right, last.on_right),
+    })
+}
+
+fn are_neighbours(lanelets: &[Lanelet], left: LaneletIndex, right: LaneletIndex) -> bool {
+    let (there, here) = (&lanelets[left.at()], &lanelets[right.at()]);
+    let to_right = [there.right, there.adjacent_right];
+    let to_left = [here.left, here.adjacent_left];
+    left == right || to_right.contains(&Some(right)) || to_left.contains(&Some(left))
+}
+
+/// A point of a border.
+#[derive(Clone, Copy)]
+struct Sample {
+    of: LaneletIndex,
+    /// Along the border [m].
+    station: f64,
+    at: Point,
+    /// Unit vector of the border's direction.
+    direction: (f64, f64),
+}
+
+fn samples(of: LaneletIndex, border: &Polyline) -> impl Iterator<Item = Sample> {
+    let pieces = (border.length() / SAMPLE).ceil().max(1.0) as usize;
+    (0..=pieces).map(move |i| {
+        let station = border.length() * i as f64 / pieces as f64;
+        let heading = border.heading(station);
+        Sample { of, station, at: border.at(station), direction: (heading.cos(), heading.sin()) }
+    })
+}
+
+/// Samples of the borders on one side of all lanelets, in a grid.
+struct Samples {
+    cells: HashMap<(i64, i64), Vec<Sample>>,
+}
+
+impl Samples {
+    /// Size of a cell [m]: what faces a sample lies in its own cell or one beside it.
+    const CELL: f64 = 2.0;
+
+    fn of(lanelets: &[Lanelet], side: Side) -> Samples {
+        let mut cells: HashMap<_, Vec<Sample>> = HashMap::new();
+        for (index, lanelet) in lanelets.iter().enumerate() {
+            let border = match side {
+                Side::Left => &lanelet.left_border,
+                Side::Right => &lanelet.right_border,
+            };
+            for sample in samples(LaneletIndex(index as u32), border) {
+                cells.entry(Samples::cell(&sample.at)).or_default().push(sample);
+            }
+        }
+        Samples { cells }
+    }
+
+    fn cell(at: &Point) -> (i64, i64) {
+        ((at.x / Samples::CELL).floor() as i64, (at.y / Samples::CELL).floor() as i64)
+    }
+
+    /// Samples opposite of `sample`, which is one of a right border, on borders that run beside it in its direction.
+    fn facing<'a>(&'a self, sample: &'a Sample) -> impl Iterator<Item = &'a Sample> {
+        let (column, row) = Samples::cell(&sample.at);
+        let cells = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| (column + dx, row + dy)));
+        cells.filter_map(|cell| self.cells.get(&cell)).flatten().filter(|other| {
+            let (dx, dy) = (other.at.x - sample.at.x, other.at.y - sample.at.y);
+            let (cos, sin) = sample.direction;
+            let (ahead, aside) = (dx * cos + dy * sin, dy * cos - dx * sin);
+            let (c, s) = other.direction;
+            let (turn, towards) = (cos * s - sin * c, cos * c + sin * s);
+            ahead.abs() <= 0.5 * SAMPLE
+                && (-MAXIMUM_GAP..=MAXIMUM_OVERLAP).contains(&aside)
+                && towards > 0.0
+                && turn.abs() <= MAXIMUM_ANGLE.sin()
+                && (other.at.z - sample.at.z).abs() <= MAXIMUM_HEIGHT
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanelet::DrivingSide;
+
+    fn line(points: [(f64, f64); 2]) -> Polyline {
+        Polyline::new(points.map(|(x, y)| Point::new(x, y, 0.0))).unwrap()
+    }
+
+    /// A lanelet 4 m wide to the right of the line `from` → `to`.
+    fn lanelet(id: i64, from: (f64, f64), to: (f64, f64)) -> Lanelet {
+        let left_border = line([from, to]);
+        let shifted = |station: f64| left_border.beside(station, -4.0);
+        let right_border = Polyline::new([shifted(0.0), shifted(left_border.length())]).unwrap();
+        Lanelet {
+            id,
+            centre: Polyline::between(&left_border, &right_border).unwrap(),
+            left_border,
+            right_border,
+            speed_limit: 30.0,
+            following: Vec::new(),
+            left: None,
+            right: None,
+            adjacent_left: None,
+            adjacent_right: None,
+        }
+    }
+
+    fn found(lanelets: Vec<Lanelet>) -> Vec<Alongside> {
+        Network::new(lanelets, DrivingSide::Right).unwrap().alongside()
+    }
+
+    #[test]
+    fn lanes_with_a_border_drawn_twice_lie_side_by_side() {
+        let upper = lanelet(1, (0.0, 4.0), (100.0, 4.0));
+        for gap in [-0.25, 0.0, 0.7] {
+            let lower = lanelet(2, (40.0, -gap), (80.0, -gap));
+            let pairs = found(vec![lower, upper.clone()]);
+            assert_eq!(
+                pairs,
+                [Alongside {
+                    left: LaneletIndex(1),
+                    right: LaneletIndex(0),
+                    on_left: [40.0, 80.0],
+                    on_right: [0.0, 40.0]
+                }]
+            );
+        }
+    }
+
+    #[test]
+    fn lanes_that_keep_apart_oppose_or_cross_each_other_do_not() {
+        let upper = lanelet(1, (0.0, 4.0), (100.0, 4.0));
+        for (from, to) in [
+            ((0.0, -0.8), (100.0, -0.8)),
+            ((0.0, 0.4), (100.0, 0.4)),
+            ((100.0, -4.0), (0.0, -4.0)),
+            ((40.0, 6.0), (60.0, -6.0)),
+            ((0.0, 4.0), (100.0, 4.0)),
+            ((97.0, 0.0), (150.0, 0.0)),
+        ] {
+            assert_eq!(found(vec![upper.clone(), lanelet(2, from, to)]), [], "{from:?} to {to:?}");
+        }
+    }
+
+    #[test]
+    fn neighbours_in_the_graph_are_not_named_again() {
+        let mut upper = lanelet(1, (0.0, 4.0), (100.0, 4.0));
+        let lower = lanelet(2, (0.0, 0.0), (100.0, 0.0));
+        assert_eq!(found(vec![upper.clone(), lower.clone()]).len(), 1);
+        upper.adjacent_right = Some(LaneletIndex(1));
+        assert_eq!(found(vec![upper, lower]), []);
+    }
+
+    #[test]
+    fn lanes_on_a_bridge_are_not_beside_those_below() {
+        let upper = lanelet(1, (0.0, 4.0), (100.0, 4.0));
+        let mut lower = lanelet(2, (0.0, 0.0), (100.0, 0.0));
+        let raised = lower.left_border.points().iter().map(|it| Point::new(it.x, it.y, 6.0));
+        lower.left_border = Polyline::new(raised).unwrap();
+        assert_eq!(found(vec![upper, lower]), []);
+    }
+}

@@ -1,0 +1,69 @@
+//! Cleaning: what no road user can have done is mended, or cut out, and reported.
+
+mod motion;
+mod positions;
+mod report;
+
+use crate::recording::{Recording, RoadUser, State, Track};
+use report::Noted;
+pub use report::{CleaningReport, Example, Finding};
+
+/// Cleans a recording, whatever its source.
+///
+/// In this order, for each track: a size that no road user has is replaced by the usual one of its class; states with
+/// numbers that are not finite, and further states of one frame, are left out; so are single states far off the path,
+/// and where the path itself jumps, the track is split; missing frames are interpolated up to 1 s, and a longer gap
+/// splits the track; then a speed that contradicts the positions by more than 5 m/s is taken from smoothed positions,
+/// and a heading more than 45° off the direction of motion from these.
+pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
+    let mut report = CleaningReport {
+        states: recording.tracks.iter().map(|it| it.states.len()).sum(),
+        ..Default::default()
+    };
+    let step = recording.step;
+    let mut tracks = Vec::with_capacity(recording.tracks.len());
+    for track in recording.tracks {
+        let mut noted = Noted { report: &mut report, track: track.id, step };
+        let (length, width) = size(&track, &mut noted);
+        let states = readable(track.states, &mut noted);
+        for mut states in positions::parts(states, step, &mut noted) {
+            motion::mend(&mut states, step, &mut noted);
+            tracks.push(Track { id: track.id, class: track.class, length, width, states });
+        }
+    }
+    (Recording { step, tracks }, report)
+}
+
+/// The track's length and width, or the usual ones.
+fn size(track: &Track, noted: &mut Noted<'_>) -> (f64, f64) {
+    // Road trains are up to 25 m long, those of some countries 30 m [m].
+    let (lengths, widths) = match track.class {
+        RoadUser::Pedestrian | RoadUser::Bicycle | RoadUser::Other => (0.1..=30.0, 0.1..=4.0),
+        _ => (1.0..=30.0, 0.4..=4.0),
+    };
+    if lengths.contains(&track.length) && widths.contains(&track.width) {
+        return (track.length, track.width);
+    }
+    noted.add(|report| &mut report.sizes, track.states.first().map_or(0, |it| it.frame));
+    track.class.usual_size()
+}
+
+/// States with finite numbers in order of frames, each frame once.
+fn readable(mut states: Vec<State>, noted: &mut Noted<'_>) -> Vec<State> {
+    states.retain(|it| {
+        let is_finite = [it.x, it.y, it.speed, it.heading].iter().all(|number| number.is_finite());
+        if !is_finite {
+            noted.add(|report| &mut report.not_finite, it.frame);
+        }
+        is_finite
+    });
+    states.sort_by_key(|it| it.frame);
+    states.dedup_by(|later, kept| {
+        let is_again = later.frame == kept.frame;
+        if is_again {
+            noted.add(|report| &mut report.duplicates, later.frame);
+        }
+        is_again
+    });
+    states
+}

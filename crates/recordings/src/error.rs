@@ -1,0 +1,76 @@
+//! Why a file is no recording at all.
+
+use thiserror::Error;
+
+/// Why a recording cannot be read. Messages name the place inside the file and the remedy, not the file.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum RecordingError {
+    /// It is larger than any recording this program can hold.
+    #[error("the file has {bytes} bytes, the limit is {limit}; cut the recording into shorter ones")]
+    TooLarge {
+        /// Its size [B].
+        bytes: u64,
+        /// The largest size that is read [B].
+        limit: u64,
+    },
+    /// A column is missing that cannot be done without.
+    #[error("line 1: the column {column} is missing; name it in the header, which has: {found}")]
+    MissingColumn {
+        /// Its name.
+        column: &'static str,
+        /// The header as it stands, cut if it is long.
+        found: String,
+    },
+    /// No row can be used.
+    #[error("none of its {rows} rows can be used{}; add rows of tracks below the header", first(.problem))]
+    Empty {
+        /// Rows in the file.
+        rows: usize,
+        /// What is wrong with the first one.
+        problem: Option<String>,
+    },
+    /// All rows are of one frame, so that the time between frames is not known.
+    #[error("line {line}: all rows are of the frame {frame}; a recording needs two frames at least")]
+    OneFrame {
+        /// The first row.
+        line: usize,
+        /// The frame.
+        frame: i64,
+    },
+    /// The frames come too fast or too slowly.
+    #[error(
+        "line {line}: frames are {step_ms} ms apart from here on; correct timestamp_ms or frame_id, \
+         so that it is {from} to {to} ms"
+    )]
+    Step {
+        /// The row of the first frame.
+        line: usize,
+        /// The time between frames [ms].
+        step_ms: f64,
+        /// The least time that is read [ms].
+        from: f64,
+        /// The greatest time that is read [ms].
+        to: f64,
+    },
+    /// A time does not agree with the number of its frame.
+    #[error(
+        "line {line}: frame {frame} is at {found_ms} ms, but should be at {expected_ms} ms with {step_ms} ms \
+         between frames; correct timestamp_ms or frame_id"
+    )]
+    Timestamp {
+        /// The row.
+        line: usize,
+        /// Its frame.
+        frame: i64,
+        /// Its time [ms].
+        found_ms: i64,
+        /// The time by the first and the last frame [ms].
+        expected_ms: f64,
+        /// The time between frames by the first and the last frame [ms].
+        step_ms: f64,
+    },
+}
+
+fn first(problem: &Option<String>) -> String {
+    problem.as_ref().map_or(String::new(), |it| format!(" (the first problem is {it})"))
+}

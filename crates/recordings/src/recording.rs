@@ -1,0 +1,94 @@
+//! Recorded traffic as plain data.
+
+/// Recorded traffic in the metric frame of its map.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// Time between frames [s].
+    pub step: f64,
+    /// The road users. Parts of a track that was interrupted have the same id.
+    pub tracks: Vec<Track>,
+}
+
+/// One road user through its frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// Its id in the file.
+    pub id: i64,
+    /// What it is.
+    pub class: RoadUser,
+    /// Length [m].
+    pub length: f64,
+    /// Width [m].
+    pub width: f64,
+    /// In order of frames, each frame at most once.
+    pub states: Vec<State>,
+}
+
+/// Where a road user is in one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Number of the frame: its time is frame × step.
+    pub frame: i64,
+    /// Centre, east [m].
+    pub x: f64,
+    /// Centre, north [m].
+    pub y: f64,
+    /// Speed [m/s].
+    pub speed: f64,
+    /// Counter-clockwise from east [rad].
+    pub heading: f64,
+}
+
+/// What kind of road user.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RoadUser {
+    /// A passenger car or van.
+    Car,
+    /// A truck or lorry.
+    Truck,
+    /// A bus.
+    Bus,
+    /// A motorcycle.
+    Motorcycle,
+    /// A bicycle.
+    Bicycle,
+    /// Somebody on foot.
+    Pedestrian,
+    /// Anything else, or not told apart.
+    Other,
+}
+
+impl RoadUser {
+    /// Whether it drives on lanes by the rules of motor traffic.
+    pub fn is_vehicle(self) -> bool {
+        matches!(self, RoadUser::Car | RoadUser::Truck | RoadUser::Bus | RoadUser::Motorcycle)
+    }
+
+    /// Usual length and width [m], for those whose size is not known. Ours.
+    pub fn usual_size(self) -> (f64, f64) {
+        match self {
+            RoadUser::Car => (4.5, 1.8),
+            RoadUser::Truck => (10.0, 2.5),
+            RoadUser::Bus => (12.0, 2.55),
+            RoadUser::Motorcycle => (2.2, 0.8),
+            RoadUser::Bicycle => (1.8, 0.6),
+            RoadUser::Pedestrian | RoadUser::Other => (0.6, 0.6),
+        }
+    }
+}
+
+impl Recording {
+    /// First and last frame in which somebody is there.
+    pub fn frames(&self) -> Option<(i64, i64)> {
+        let first = self.tracks.iter().filter_map(|it| it.states.first()).map(|it| it.frame).min()?;
+        let last = self.tracks.iter().filter_map(|it| it.states.last()).map(|it| it.frame).max()?;
+        Some((first, last))
+    }
+}
+
+impl Track {
+    /// The place in `states` of its state in `frame`.
+    pub fn at(&self, frame: i64) -> Option<usize> {
+        self.states.binary_search_by_key(&frame, |it| it.frame).ok()
+    }
+}

@@ -1,0 +1,116 @@
+//! A real road, where it is at hand: six streams and 934 vehicles in 480 s.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use laneweave_maps::{Map, ReadOptions, load};
+use laneweave_network::LaneletIndex;
+use laneweave_recordings::{Kind, LaneChange, Matched, Recording, clean, interaction, lane_changes};
+
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/mona_east/");
+
+fn map(file: &str) -> Option<Map> {
+    let path = Path::new(DATA).join(file);
+    if !path.exists() {
+        eprintln!("skipped: {file} is not there");
+        return None;
+    }
+    let options = ReadOptions { origin: Some((0.0, 0.0)), ..ReadOptions::default() };
+    Some(load(&path, &options).expect("the map is sound"))
+}
+
+fn recording() -> Option<Recording> {
+    let path = Path::new(DATA).join("vehicle_tracks_000.csv");
+    let Ok(bytes) = std::fs::read(path) else {
+        eprintln!("skipped: the tracks are not there");
+        return None;
+    };
+    let (recording, problems) = interaction::read(&bytes).expect("the tracks are sound");
+    assert_eq!(problems, []);
+    Some(recording)
+}
+
+#[test]
+fn lanelets_whose_common_border_was_drawn_twice_lie_alongside() {
+    for file in ["map.osm", "map.osm_xy"] {
+        let Some(Map { network, .. }) = map(file) else { return };
+        let id = |it: LaneletIndex| network.lanelets[it.at()].id;
+        let pairs: BTreeSet<_> = network.alongside().iter().map(|it| (id(it.left), id(it.right))).collect();
+        for wanted in [(556, 223), (223, 338), (482, 285)] {
+            assert!(pairs.contains(&wanted), "{wanted:?} in {file}");
+        }
+        // The two directions of the road, between 285 and 298, and the fan behind 307 from end to end.
+        for other in [(285, 298), (298, 285), (338, 375), (375, 338)] {
+            assert!(!pairs.contains(&other), "{other:?} in {file}");
+        }
+    }
+}
+
+#[test]
+fn all_tracks_are_read_and_few_states_are_mended() {
+    let Some(recording) = recording() else { return };
+    assert_eq!((recording.step, recording.tracks.len(), recording.frames()), (0.2, 934, Some((1, 2400))));
+    let (cleaned, report) = clean(recording);
+    assert_eq!(report.states, 92_058);
+    let share = report.speeds.count as f64 / report.states as f64;
+    assert!((0.001..0.02).contains(&share), "{report}");
+    assert!(report.headings.count + report.outliers.count + report.jumps.count < 50, "{report}");
+    // Nothing is left to mend.
+    let (again, report) = clean(cleaned.clone());
+    assert!(report.jumps.count + report.long_gaps.count + report.speeds.count == 0, "{report}");
+    assert_eq!(again.tracks.len(), cleaned.tracks.len());
+}
+
+#[test]
+fn nearly_every_state_is_in_a_lane_and_goes_on_where_lanes_lead() {
+    let (Some(map), Some(recording)) = (map("map.osm_xy"), recording()) else { return };
+    let (recording, _) = clean(recording);
+    let matched = Matched::new(&map.network, &recording);
+    let states = matched.places.iter().flatten().count();
+    let placed: Vec<_> = matched.places.iter().flatten().flatten().collect();
+    assert!(placed.len() as f64 > 0.999 * states as f64, "{} of {states}", placed.len());
+    let is_inside = |place: &&&laneweave_recordings::Place| {
+        let lanelet = &map.network.lanelets[place.lanelet.at()];
+        place.offset.abs() <= 0.5 * lanelet.width(place.station)
+    };
+    let inside = placed.iter().filter(is_inside).count();
+    assert!(inside as f64 > 0.99 * placed.len() as f64, "{inside} of {}", placed.len());
+}
+
+#[test]
+fn a_frame_shows_who_follows_whom() {
+    let (Some(map), Some(recording)) = (map("map.osm_xy"), recording()) else { return };
+    let (recording, _) = clean(recording);
+    let matched = Matched::new(&map.network, &recording);
+    let frame = matched.frame(1200);
+    let there = recording.tracks.iter().filter(|it| it.at(1200).is_some()).count();
+    assert!(frame.len() == there && there > 20, "{} of {there}", frame.len());
+    for pair in frame.windows(2).filter(|pair| pair[0].place.lanelet == pair[1].place.lanelet) {
+        let gap = pair[1].place.station - pair[0].place.station;
+        assert!(gap > 0.4 * (pair[0].track.length + pair[1].track.length), "{pair:?}");
+    }
+    assert!(frame.iter().all(|it| it.acceleration.abs() < 6.0));
+}
+
+#[test]
+fn its_lane_changes_are_found() {
+    let Some(recording) = recording() else { return };
+    let (recording, _) = clean(recording);
+    let mut found: Vec<Vec<(i64, i64, i64)>> = Vec::new();
+    for file in ["map.osm", "map.osm_xy"] {
+        let Some(Map { network, .. }) = map(file) else { return };
+        let changes = lane_changes(&Matched::new(&network, &recording));
+        // 138 by an independent count, of which 109 along the graph.
+        let count = |has: fn(&LaneChange) -> bool| changes.iter().filter(|it| has(it)).count();
+        assert!((125..=150).contains(&changes.len()), "{}", changes.len());
+        let along_graph = count(|it| it.along_graph);
+        assert!((85..=115).contains(&along_graph), "{along_graph}");
+        let kinds = [Kind::Discretionary, Kind::Route, Kind::Unknown]
+            .map(|kind| changes.iter().filter(|it| it.kind == kind).count());
+        assert!(kinds[0] >= 50 && kinds[1] >= 25, "{kinds:?}");
+        assert!(count(|it| it.returned_after.is_some()) <= 5);
+        let id = |it: LaneletIndex| network.lanelets[it.at()].id;
+        found.push(changes.iter().map(|it| (it.vehicle, id(it.from), id(it.to))).collect());
+    }
+    assert_eq!(found[0], found[1], "the same place in degrees and in metres");
+}
