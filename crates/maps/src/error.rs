@@ -6,6 +6,7 @@ use laneweave_network::NetworkError;
 use thiserror::Error;
 
 use crate::problem::Problem;
+use crate::xml::XmlError;
 
 /// Why a map cannot be read. Messages name the place inside the file and the remedy, not the file.
 #[derive(Debug, Error)]
@@ -57,6 +58,16 @@ pub enum MapError {
         /// Its name, empty if the file has none.
         found: String,
     },
+    /// It is XML of another kind than its format's.
+    #[error("line {line}: the outermost element is <{found}>, not <{expected}>; choose a map of that kind")]
+    OtherXml {
+        /// Where the element begins.
+        line: usize,
+        /// Its name, empty if the file has none.
+        found: String,
+        /// The name that was expected.
+        expected: &'static str,
+    },
     /// The origin given for the projection is no place on earth that UTM covers.
     #[error("the origin ({0}, {1}) is no latitude within ±84° and longitude within ±180°; correct it")]
     Origin(f64, f64),
@@ -68,12 +79,32 @@ pub enum MapError {
         /// Why they were left out; those not meant for vehicles are not listed.
         problems: Vec<Problem>,
     },
+    /// No lanelet of a CommonRoad map is left that vehicles can use.
+    #[error("none of its {lanelets} lanelets can be used by vehicles{}; {NO_LANE}", first(.problems))]
+    NoLane {
+        /// Lanelets in the file.
+        lanelets: usize,
+        /// Why they were left out; those not meant for vehicles are not listed.
+        problems: Vec<Problem>,
+    },
     /// The lanelets do not make a network.
     #[error(transparent)]
     Network(#[from] NetworkError),
 }
 
 const NOT_DRIVABLE: &str = "give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes";
+
+const NO_LANE: &str = "give lanelets two bounds and a laneletType for cars, such as urban";
+
+impl From<XmlError> for MapError {
+    fn from(error: XmlError) -> MapError {
+        match error {
+            XmlError::NotText { line } => MapError::NotText { line },
+            XmlError::Broken { line, what } => MapError::Xml { line, what },
+            XmlError::OtherRoot { line, found, expected } => MapError::OtherXml { line, found, expected },
+        }
+    }
+}
 
 fn first(problems: &[Problem]) -> String {
     problems.first().map_or(String::new(), |it| format!(" (the first problem is {it})"))

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use laneweave_network::{DrivingSide, Network};
 
+use crate::commonroad;
 use crate::error::MapError;
 use crate::lanelet2;
 use crate::problem::Problem;
@@ -43,8 +44,10 @@ pub struct Format {
 }
 
 /// The formats that can be read.
-pub const FORMATS: &[Format] =
-    &[Format { name: "Lanelet2", extensions: &["osm", "osm_xy"], read: lanelet2::read }];
+pub const FORMATS: &[Format] = &[
+    Format { name: "Lanelet2", extensions: &["osm", "osm_xy"], read: lanelet2::read },
+    Format { name: "CommonRoad", extensions: &["xml"], read: commonroad::read },
+];
 
 /// Largest file that is read [B].
 pub(crate) const MAXIMUM_SIZE: u64 = 512 << 20;

@@ -4,6 +4,7 @@
 //! [`Network`](laneweave_network::Network). The generator makes drawings, too, which can be written as a
 //! file.
 
+pub mod commonroad;
 mod drawing;
 mod error;
 mod format;
@@ -12,6 +13,7 @@ mod graph;
 pub mod lanelet2;
 mod problem;
 mod shape;
+pub mod xml;
 
 pub use drawing::Drawing;
 pub use error::MapError;

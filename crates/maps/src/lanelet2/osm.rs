@@ -3,12 +3,12 @@
 use std::fmt::{self, Display};
 
 use laneweave_network::DrivingSide;
-use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
-use quick_xml::reader::Reader;
 
 use crate::error::MapError;
 use crate::problem::Problem;
+pub(super) use crate::xml::number;
+use crate::xml::{MAXIMUM_DEPTH, Xml, attributes, broken};
 
 /// What an OSM file holds.
 #[derive(Debug, Default)]
@@ -102,16 +102,9 @@ impl<const N: usize> From<[(&str, &str); N]> for Tags {
     }
 }
 
-/// Elements nested deeper than this are refused; OSM itself has three levels.
-const MAXIMUM_DEPTH: usize = 32;
-
 /// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
 pub(super) fn parse(bytes: &[u8], problems: &mut Vec<Problem>) -> Result<Document, MapError> {
-    let text = std::str::from_utf8(bytes)
-        .map_err(|error| MapError::NotText { line: 1 + count_lines(&bytes[..error.valid_up_to()]) })?;
-    // The reader does not count a byte order mark.
-    let text = text.trim_start_matches('\u{feff}');
-    let mut xml = Xml { reader: Reader::from_str(text), text, counted: 0, line: 1 };
+    let mut xml = Xml::new(bytes)?;
     let mut document = Document::default();
     let mut depth = 0;
     let mut building: Option<Building> = None;
@@ -129,7 +122,7 @@ pub(super) fn parse(bytes: &[u8], problems: &mut Vec<Problem>) -> Result<Documen
                 continue;
             }
             Event::Eof if depth > 0 => {
-                return Err(MapError::Xml { line, what: "the file ends inside an element".into() });
+                return Err(broken(line, "the file ends inside an element").into());
             }
             Event::Eof if !found_root => return Err(MapError::NotOsm { line, found: String::new() }),
             Event::Eof => return Ok(document),
@@ -146,7 +139,7 @@ pub(super) fn parse(bytes: &[u8], problems: &mut Vec<Problem>) -> Result<Documen
                     building.add(start, line, problems)?;
                 }
             }
-            MAXIMUM_DEPTH => return Err(broken(line, "elements are nested too deeply")),
+            MAXIMUM_DEPTH => return Err(broken(line, "elements are nested too deeply").into()),
             _ => {}
         }
         if !is_empty {
@@ -155,34 +148,6 @@ pub(super) fn parse(bytes: &[u8], problems: &mut Vec<Problem>) -> Result<Documen
             document.keep(building.take());
         }
     }
-}
-
-/// Events with the lines in which they begin.
-struct Xml<'a> {
-    reader: Reader<&'a [u8]>,
-    text: &'a str,
-    counted: usize,
-    line: usize,
-}
-
-impl<'a> Xml<'a> {
-    fn next(&mut self) -> Result<(Event<'a>, usize), MapError> {
-        let start = self.reader.buffer_position() as usize;
-        let event = self.reader.read_event();
-        let at = if event.is_ok() { start } else { self.reader.error_position() as usize };
-        let at = at.clamp(self.counted, self.text.len());
-        self.line += count_lines(&self.text.as_bytes()[self.counted..at]);
-        self.counted = at;
-        event.map(|event| (event, self.line)).map_err(|error| broken(self.line, error))
-    }
-}
-
-fn count_lines(bytes: &[u8]) -> usize {
-    bytes.iter().filter(|it| **it == b'\n').count()
-}
-
-fn broken(line: usize, what: impl Display) -> MapError {
-    MapError::Xml { line, what: what.to_string() }
 }
 
 /// The element that is being read.
@@ -295,30 +260,6 @@ impl Display for Building {
             Building::Relation(it) => write!(f, "relation {}", it.id),
         }
     }
-}
-
-/// The values of some attributes. Where one is given twice the first one counts: to look for such doubles
-/// would take time quadratic in their number.
-fn attributes<const N: usize>(
-    start: &BytesStart,
-    line: usize,
-    keys: [&str; N],
-) -> Result<[Option<String>; N], MapError> {
-    let mut values = [const { None }; N];
-    for attribute in start.attributes().with_checks(false) {
-        let attribute = attribute.map_err(|error| broken(line, error))?;
-        let Some(place) = keys.iter().position(|key| *key == attribute.key.as_ref()) else { continue };
-        if values[place].is_none() {
-            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
-            values[place] = Some(value.map_err(|error| broken(line, error))?.into_owned());
-        }
-    }
-    Ok(values)
-}
-
-/// A coordinate; not a number where it is unreadable.
-pub(super) fn number(text: &str) -> f64 {
-    text.trim().parse().unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]
