@@ -54,8 +54,8 @@ fn is_limit(speed: f64) -> bool {
 /// The limit of a lanelet [m/s].
 ///
 /// Its own element `speedLimit` comes first, then the lowest limit on its signs, then [`german_default`] for
-/// its types. For a lanelet without types, or with nothing but `urban`, the scenario's tags count: version 2020a
-/// demands a type, and files made from older ones say `urban` even on a motorway.
+/// its types. For a lanelet without types, or with nothing but `urban`, the scenario's tags count: version
+/// 2020a demands a type, and files made from older ones say `urban` even on a motorway.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
@@ -87,7 +87,7 @@ pub(super) fn limit(
 }
 
 /// The limit in Germany where none is given [km/h]: 50 in towns, 130 on a motorway (where it is only advised),
-/// 100 on other roads outside of towns, and 50 where nothing is known.
+/// 100 on other roads out of town, and 50 where nothing is known.
 fn german_default(kinds: &[String]) -> f64 {
     let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
     if any(&["urban"]) {

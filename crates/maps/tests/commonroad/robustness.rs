@@ -106,13 +106,17 @@ fn ten_thousand_mutated_files_never_panic() {
         let mut bytes = text.clone();
         for _ in 0..=dice.roll(4) {
             let from = dice.roll(bytes.len());
-            let to = (from + dice.roll(8)).min(bytes.len());
-            bytes.splice(from..to, SCRAP[dice.roll(SCRAP.len())].bytes());
+            if bytes[from].is_ascii_digit() {
+                bytes[from] = b"-.0e9x"[dice.roll(6)];
+            } else if dice.roll(2) == 0 {
+                let to = (from + dice.roll(8)).min(bytes.len());
+                bytes.splice(from..to, SCRAP[dice.roll(SCRAP.len())].bytes());
+            }
         }
         read_nevertheless += usize::from(commonroad::read(&bytes, &ReadOptions::default()).is_ok());
     }
     // Some mutations only touch numbers and names.
-    assert!((400..9_600).contains(&read_nevertheless), "{read_nevertheless}");
+    assert!((1_000..9_000).contains(&read_nevertheless), "{read_nevertheless}");
 }
 
 #[test]
