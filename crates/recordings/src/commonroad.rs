@@ -1,7 +1,8 @@
 //! CommonRoad recordings: the dynamic obstacles of XML in the versions 2018b and 2020a.
 //!
-//! Values given as an interval are taken in its middle, positions given as an area at its centre. A state without
-//! a velocity gets that of the way from the state before, or to the next one. The first frame is number 0.
+//! Values given as an interval are taken in its middle, positions given as an area at its centre. A state
+//! without a velocity gets that of the way from the state before, or to the next one. The first frame is
+//! number 0.
 //!
 //! Static obstacles, obstacles that nobody saw and planning problems are passed over, occupancy sets, too: they
 //! say where somebody may be. The map is read by [`laneweave_maps::commonroad`].
@@ -19,8 +20,9 @@ use obstacle::Obstacle;
 
 /// Largest file that is read [B].
 const MAXIMUM_SIZE: u64 = 512 << 20;
-/// Reads the road users of a CommonRoad file. Those that cannot be used as they stand are left out and listed as
-/// problems, as are states.
+
+/// Reads the road users of a CommonRoad file. Those that cannot be used as they stand are left out and listed
+/// as problems, as are states.
 ///
 /// # Errors
 /// If it is no CommonRoad XML, does not say the time between frames, or has no road user with a state.

@@ -82,7 +82,7 @@ impl Links {
             .iter()
             .filter(|id| place(**id, places).is_some_and(|it| !self.by_successor.contains(&(it, here))));
         let ahead = listed("successor", ahead).map(|it| {
-            let what = format!("its {it} does not name it as a predecessor; it follows nevertheless");
+            let what = format!("its {it} does not name it as a predecessor; the successor counts");
             element.problem(what, "add the predecessor there, or take out the successor here")
         });
         let behind = listed("predecessor", behind).map(|it| {
