@@ -106,11 +106,16 @@ impl Drawing {
             }
         }
         if lanelets.is_empty() {
-            return Err(MapError::NotDrivable { lanelets: self.lanes.len(), problems });
+            let remedy = "draw lanes between borders of some length";
+            return Err(MapError::NotDrivable { lanelets: self.lanes.len(), problems, remedy });
         }
         let nodes = graph::nodes(self, &lanes);
         graph::link(&mut lanelets, &nodes);
-        let graph = Graph { nodes, conflicting: conflicts(self, &lanes) };
+        let outlines: Vec<Option<Polygon>> = lanes.par_iter().map(|lane| self.outline(lane)).collect();
+        let are_joined = |a: usize, b: usize| self.are_joined(&lanes[a], &lanes[b]);
+        let mut conflicting = conflicts(&outlines, are_joined);
+        graph::add_two_way(&mut conflicting, &nodes);
+        let graph = Graph { nodes, conflicting };
         let network = Network::new(lanelets, self.driving_side)?;
         let rules = self.rules.clone();
         Ok(Map { network, graph, rules, contents: Contents::default(), problems, origin: None })
@@ -136,6 +141,21 @@ impl Drawing {
         let points = &self.borders[edge.border as usize].points;
         let (first, last) = (points[0], points[points.len() - 1]);
         if edge.reversed { (last, first) } else { (first, last) }
+    }
+
+    /// Whether two lanes lie on either side of a border, or one begins or ends where the other does in some direction of travel.
+    fn are_joined(&self, a: &Lane, b: &Lane) -> bool {
+        let is_beside = a.left == b.right || a.right == b.left;
+        let is_opposite = a.left == b.left.reversed() || a.right == b.right.reversed();
+        let start = |lane: &Lane| self.starts(lane.left, lane.right);
+        let finish = |lane: &Lane| self.finishes(lane.left, lane.right);
+        let turned = |(left, right): (u32, u32)| (right, left);
+        is_beside
+            || is_opposite
+            || finish(a) == start(b)
+            || finish(b) == start(a)
+            || finish(a) == turned(finish(b))
+            || start(a) == turned(start(b))
     }
 
     /// Who may cross `edge`, seen in the direction of travel.

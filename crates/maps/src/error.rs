@@ -6,6 +6,7 @@ use laneweave_network::NetworkError;
 use thiserror::Error;
 
 use crate::problem::Problem;
+use crate::xml::XmlError;
 
 /// Why a map cannot be read. Messages name the place inside the file and the remedy, not the file.
 #[derive(Debug, Error)]
@@ -40,45 +41,26 @@ pub enum MapError {
         "the file cannot be unpacked ({0}); compress it again, or take .gz off its name if it is not compressed"
     )]
     Compressed(io::Error),
-    /// It is no text.
-    #[error("line {line}: the bytes are not UTF-8 text; save the map as UTF-8 XML")]
-    NotText {
-        /// Where the text ends.
-        line: usize,
-    },
-    /// It is no well-formed XML.
-    #[error("line {line}: not well-formed XML ({what}); save the map again, or mend this line")]
-    Xml {
-        /// Where it breaks.
-        line: usize,
-        /// How.
-        what: String,
-    },
-    /// It is XML of another kind.
-    #[error("line {line}: the outermost element is <{found}>, not <osm>; is this a Lanelet2 map?")]
-    NotOsm {
-        /// Where the element begins.
-        line: usize,
-        /// Its name, empty if the file has none.
-        found: String,
-    },
+    /// It is not the XML that its format is.
+    #[error(transparent)]
+    Xml(#[from] XmlError),
     /// The origin given for the projection is no place on earth that UTM covers.
     #[error("the origin ({0}, {1}) is no latitude within ±84° and longitude within ±180°; correct it")]
     Origin(f64, f64),
     /// No lanelet is left that vehicles can use.
-    #[error("none of its {lanelets} lanelets can be used by vehicles{}; {NOT_DRIVABLE}", first(.problems))]
+    #[error("none of its {lanelets} lanelets can be used by vehicles{}; {remedy}", first(.problems))]
     NotDrivable {
         /// Lanelets in the file.
         lanelets: usize,
         /// Why they were left out; those not meant for vehicles are not listed.
         problems: Vec<Problem>,
+        /// What would make them roads.
+        remedy: &'static str,
     },
     /// The lanelets do not make a network.
     #[error(transparent)]
     Network(#[from] NetworkError),
 }
-
-const NOT_DRIVABLE: &str = "give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes";
 
 fn first(problems: &[Problem]) -> String {
     problems.first().map_or(String::new(), |it| format!(" (the first problem is {it})"))

@@ -8,6 +8,7 @@ use flate2::read::MultiGzDecoder;
 
 use laneweave_network::{DrivingSide, Network};
 
+use crate::commonroad;
 use crate::contents::Contents;
 use crate::error::MapError;
 use crate::graph::Graph;
@@ -66,8 +67,10 @@ pub struct Format {
 }
 
 /// The formats that can be read.
-pub const FORMATS: &[Format] =
-    &[Format { name: "Lanelet2", extensions: &["osm", "osm_xy"], read: lanelet2::read }];
+pub const FORMATS: &[Format] = &[
+    Format { name: "Lanelet2", extensions: &["osm", "osm_xy"], read: lanelet2::read },
+    Format { name: "CommonRoad", extensions: &["xml"], read: commonroad::read },
+];
 
 /// Largest file that is read [B].
 pub(crate) const MAXIMUM_SIZE: u64 = 2 << 30;

@@ -1,7 +1,8 @@
 //! The routing graph: which lanelets follow each other, which lie side by side, and which get in each other's way.
 
-use laneweave_network::{Lanelet, LaneletIndex};
+use laneweave_network::{Lanelet, LaneletIndex, Polygon};
 
+use crate::conflict::conflicts;
 use crate::drawing::{Drawing, Edge, Lane};
 
 /// A lanelet's place in [`Graph::nodes`].
@@ -47,11 +48,41 @@ pub struct Node {
 }
 
 impl Graph {
+    /// The graph of lanelets that are linked already, all of them driven in their own direction.
+    pub(crate) fn of(lanelets: &[Lanelet]) -> Graph {
+        let index = |it: LaneletIndex| NodeIndex(it.0);
+        let mut nodes: Vec<Node> = (0..lanelets.len()).map(|it| node(it, false)).collect();
+        for (here, lanelet) in lanelets.iter().enumerate() {
+            for next in &lanelet.following {
+                nodes[next.at()].previous.push(NodeIndex(here as u32));
+            }
+            let node = &mut nodes[here];
+            node.following = lanelet.following.iter().copied().map(index).collect();
+            [node.left, node.right] = [lanelet.left, lanelet.right].map(|it| it.map(index));
+            [node.adjacent_left, node.adjacent_right] =
+                [lanelet.adjacent_left, lanelet.adjacent_right].map(|it| it.map(index));
+        }
+        let outlines: Vec<Option<Polygon>> = lanelets.iter().map(outline).collect();
+        let knows = |a: usize, b: usize| {
+            let Lanelet { following, left, right, adjacent_left, adjacent_right, .. } = &lanelets[a];
+            let beside = [left, right, adjacent_left, adjacent_right];
+            following.iter().chain(beside.into_iter().flatten()).any(|it| it.at() == b)
+        };
+        let conflicting = conflicts(&outlines, |a, b| knows(a, b) || knows(b, a));
+        Graph { nodes, conflicting }
+    }
+
     /// The node of a lanelet driven backwards, if it may be.
     pub fn backward(&self, lanelet: LaneletIndex) -> Option<&Node> {
         let backward = &self.nodes[self.conflicting.len()..];
         backward.binary_search_by_key(&lanelet, |it| it.lanelet).ok().map(|it| &backward[it])
     }
+}
+
+/// What a lanelet covers.
+fn outline(lanelet: &Lanelet) -> Option<Polygon> {
+    let [left, right] = [&lanelet.left_border, &lanelet.right_border].map(|it| it.points());
+    Polygon::new(left.iter().chain(right.iter().rev()).copied())
 }
 
 /// The links between `lanes`.
@@ -122,6 +153,14 @@ fn sorted<K: Ord>(ways: &[Way], key: impl Fn(&Way) -> K) -> Vec<(K, NodeIndex)> 
 fn with<K: Ord>(ways: &[(K, NodeIndex)], key: K) -> impl Iterator<Item = NodeIndex> {
     let from = ways.partition_point(|(it, _)| *it < key);
     ways[from..].iter().take_while(move |(it, _)| *it == key).map(|(_, index)| *index)
+}
+
+/// A two-way lanelet gets in its own way.
+pub(crate) fn add_two_way(conflicting: &mut [Vec<LaneletIndex>], nodes: &[Node]) {
+    for lanelet in nodes.iter().filter(|it| it.is_backward).map(|it| it.lanelet) {
+        let own = &mut conflicting[lanelet.at()];
+        own.insert(own.partition_point(|it| *it < lanelet), lanelet);
+    }
 }
 
 /// Links `lanelets`, which are those of the forward `nodes`, with each other; simulated traffic uses lanelets in their own

@@ -5,6 +5,7 @@
 //! file.
 
 mod check;
+pub mod commonroad;
 mod conflict;
 mod contents;
 mod drawing;
@@ -16,7 +17,7 @@ pub mod lanelet2;
 mod problem;
 mod rule;
 mod shape;
-mod xml;
+pub mod xml;
 
 pub use check::check;
 pub use contents::Contents;

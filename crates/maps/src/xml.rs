@@ -1,25 +1,57 @@
-//! XML as a stream of elements with their lines. Names, attributes and text are borrowed from the file.
+//! XML as a stream of elements with their lines, within limits: what all formats that are XML share. Names and attributes are
+//! borrowed from the file.
 
 use std::borrow::Cow;
 use std::fmt::Display;
 
 use quick_xml::XmlVersion;
-use quick_xml::events::Event;
+use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::attributes::Attributes;
+use quick_xml::events::{BytesRef, Event};
 use quick_xml::reader::Reader;
-
-use crate::error::MapError;
+use thiserror::Error;
 
 /// Elements nested deeper than this are refused; no map format comes near.
 const MAXIMUM_DEPTH: usize = 32;
+
+/// Why a file is not the XML that was expected.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum XmlError {
+    /// It is no text.
+    #[error("line {line}: the bytes are not UTF-8 text; save the file as UTF-8 XML")]
+    NotText {
+        /// Where the text ends.
+        line: usize,
+    },
+    /// It is no well-formed XML.
+    #[error("line {line}: not well-formed XML ({what}); save the file again, or mend this line")]
+    Broken {
+        /// Where it breaks.
+        line: usize,
+        /// How.
+        what: String,
+    },
+    /// It is XML of another kind.
+    #[error(
+        "line {line}: the outermost element is <{found}>, not <{expected}>; is this a file of another format?"
+    )]
+    OtherRoot {
+        /// Where the element begins.
+        line: usize,
+        /// Its name, empty if the file has none.
+        found: String,
+        /// The name that was expected.
+        expected: &'static str,
+    },
+}
 
 /// What comes next in an XML file.
 #[derive(Debug)]
 pub(crate) enum Token<'a> {
     /// An element begins; an empty one is closed by a token of its own, too.
     Open(Element<'a>),
-    /// Text inside an element, as it stands.
-    Text,
+    /// Text inside an element; it may come in several pieces.
+    Text(Cow<'a, str>),
     /// The innermost open element ends.
     Close,
     /// The file ends, with every element closed.
@@ -28,9 +60,11 @@ pub(crate) enum Token<'a> {
 
 /// The beginning of an element.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Element<'a> {
-    pub(crate) name: &'a str,
-    pub(crate) line: usize,
+pub struct Element<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The line in which it begins.
+    pub line: usize,
     /// Name and attributes as they stand.
     content: &'a str,
 }
@@ -38,9 +72,7 @@ pub(crate) struct Element<'a> {
 impl<'a> Element<'a> {
     /// Its attributes in order, unescaped. One that is given twice comes twice: to look for such doubles would take time
     /// quadratic in their number.
-    pub(crate) fn attributes(
-        &self,
-    ) -> impl Iterator<Item = Result<(&'a str, Cow<'a, str>), MapError>> + use<'a> {
+    pub fn attributes(&self) -> impl Iterator<Item = Result<(&'a str, Cow<'a, str>), XmlError>> + use<'a> {
         let line = self.line;
         let mut attributes = Attributes::new(self.content, self.name.len());
         attributes.with_checks(false);
@@ -57,6 +89,79 @@ impl<'a> Element<'a> {
             Ok((attribute.key.0, value))
         })
     }
+    /// The values of the attributes with these keys.
+    ///
+    /// # Errors
+    /// If they are not well-formed.
+    pub fn values<const N: usize>(&self, keys: [&str; N]) -> Result<[Option<Cow<'a, str>>; N], XmlError> {
+        let mut values = [const { None }; N];
+        for attribute in self.attributes() {
+            let (key, value) = attribute?;
+            if let Some(place) = keys.iter().position(|it| *it == key).filter(|it| values[*it].is_none()) {
+                values[place] = Some(value);
+            }
+        }
+        Ok(values)
+    }
+}
+
+impl XmlError {
+    /// The line of which it complains.
+    pub fn line(&self) -> usize {
+        match self {
+            XmlError::NotText { line } | XmlError::Broken { line, .. } | XmlError::OtherRoot { line, .. } => {
+                *line
+            }
+        }
+    }
+}
+
+/// What reads a document as [`walk`] goes through it.
+///
+/// A path names an element by those around it, without the outermost one: `lanelet/leftBound/point`. That of
+/// the outermost element itself is empty.
+pub trait Visitor {
+    /// An element begins.
+    ///
+    /// # Errors
+    /// If its attributes are not well-formed.
+    fn open(&mut self, path: &str, element: &Element) -> Result<(), XmlError>;
+
+    /// An element ends; `text` is what stands between its last child, or else its beginning, and its end.
+    fn close(&mut self, path: &str, text: &str);
+}
+
+/// Goes through a document whose outermost element is `root`.
+///
+/// # Errors
+/// If it is not well-formed, is nested too deeply, uses an entity of its own, or has another outermost
+/// element.
+pub fn walk(bytes: &[u8], root: &'static str, visitor: &mut impl Visitor) -> Result<(), XmlError> {
+    let mut tokens = Tokens::of(bytes, root)?;
+    let (mut path, mut text) = (String::new(), String::new());
+    // Lengths of the paths around the element.
+    let mut around: Vec<usize> = Vec::new();
+    loop {
+        match tokens.next()? {
+            Token::Open(element) => {
+                let is_root = around.is_empty();
+                around.push(path.len());
+                if !is_root {
+                    path.push_str(if path.is_empty() { "" } else { "/" });
+                    path.push_str(element.name);
+                }
+                text.clear();
+                visitor.open(&path, &element)?;
+            }
+            Token::Text(it) => text.push_str(&it),
+            Token::Close => {
+                visitor.close(&path, text.trim());
+                text.clear();
+                path.truncate(around.pop().unwrap_or(0));
+            }
+            Token::End => return Ok(()),
+        }
+    }
 }
 
 fn is_plain(value: &str) -> bool {
@@ -67,6 +172,8 @@ fn is_plain(value: &str) -> bool {
 pub(crate) struct Tokens<'a> {
     reader: Reader<&'a [u8]>,
     text: &'a str,
+    root: &'static str,
+    has_root: bool,
     /// Up to where lines were counted, and the line there.
     counted: usize,
     line: usize,
@@ -76,16 +183,17 @@ pub(crate) struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
-    /// The tokens of a file with these `bytes`.
+    /// The tokens of a file with these `bytes`, whose outermost element is to be `root`.
     ///
     /// # Errors
     /// If they are no UTF-8 text.
-    pub(crate) fn of(bytes: &'a [u8]) -> Result<Tokens<'a>, MapError> {
+    pub(crate) fn of(bytes: &'a [u8], root: &'static str) -> Result<Tokens<'a>, XmlError> {
         let text = std::str::from_utf8(bytes)
-            .map_err(|error| MapError::NotText { line: 1 + lines(&bytes[..error.valid_up_to()]) })?;
+            .map_err(|error| XmlError::NotText { line: 1 + lines(&bytes[..error.valid_up_to()]) })?;
         // The reader does not count a byte order mark.
         let text = text.trim_start_matches('\u{feff}');
-        Ok(Tokens { reader: Reader::from_str(text), text, counted: 0, line: 1, depth: 0, is_empty: false })
+        let reader = Reader::from_str(text);
+        Ok(Tokens { reader, text, root, has_root: false, counted: 0, line: 1, depth: 0, is_empty: false })
     }
 
     /// All of the file's text.
@@ -98,16 +206,11 @@ impl<'a> Tokens<'a> {
         self.depth
     }
 
-    /// The line of the last token.
-    pub(crate) fn line(&self) -> usize {
-        self.line
-    }
-
     /// The next token.
     ///
     /// # Errors
     /// If the file is no well-formed XML from here on, or nests too deeply.
-    pub(crate) fn next(&mut self) -> Result<Token<'a>, MapError> {
+    pub(crate) fn next(&mut self) -> Result<Token<'a>, XmlError> {
         if std::mem::take(&mut self.is_empty) {
             self.depth -= 1;
             return Ok(Token::Close);
@@ -132,10 +235,17 @@ impl<'a> Tokens<'a> {
                     self.depth -= 1;
                     return Ok(Token::Close);
                 }
-                Event::Text(_) if self.depth > 0 => return Ok(Token::Text),
+                Event::Text(_) if self.depth > 0 => {
+                    return Ok(Token::Text(Cow::Borrowed(&self.text[start..end])));
+                }
+                Event::CData(text) => return Ok(Token::Text(text.into_inner())),
+                Event::GeneralRef(reference) => {
+                    return resolved(&reference, self.line).map(|it| Token::Text(it.into()));
+                }
                 Event::Eof if self.depth > 0 => {
                     return Err(broken(self.line, "the file ends inside an element"));
                 }
+                Event::Eof if !self.has_root => return Err(self.other_root("")),
                 Event::Eof => return Ok(Token::End),
                 _ => {}
             }
@@ -143,13 +253,26 @@ impl<'a> Tokens<'a> {
     }
 
     /// The element whose markup stands from `start` to `end`, of which the closing sign is left out.
-    fn open(&mut self, start: usize, end: usize, name: usize) -> Result<Token<'a>, MapError> {
+    fn open(&mut self, start: usize, end: usize, name: usize) -> Result<Token<'a>, XmlError> {
         if self.depth == MAXIMUM_DEPTH {
             return Err(broken(self.line, "elements are nested too deeply"));
         }
-        self.depth += 1;
         let content = &self.text[start + 1..end];
-        Ok(Token::Open(Element { name: &content[..name], line: self.line, content }))
+        let name = &content[..name];
+        if self.depth == 0 {
+            if std::mem::replace(&mut self.has_root, true) {
+                return Err(broken(self.line, "there is a second outermost element"));
+            }
+            if name != self.root {
+                return Err(self.other_root(name));
+            }
+        }
+        self.depth += 1;
+        Ok(Token::Open(Element { name, line: self.line, content }))
+    }
+
+    fn other_root(&self, found: &str) -> XmlError {
+        XmlError::OtherRoot { line: self.line, found: found.into(), expected: self.root }
     }
 
     fn count_to(&mut self, at: usize) {
@@ -163,56 +286,95 @@ fn lines(bytes: &[u8]) -> usize {
     memchr::memchr_iter(b'\n', bytes).count()
 }
 
+/// The text for which `reference` stands. What a document defines itself is refused: such entities can grow without bound.
+fn resolved(reference: &BytesRef, line: usize) -> Result<String, XmlError> {
+    match reference.resolve_char_ref().map_err(|error| broken(line, error))? {
+        Some(character) => Ok(character.into()),
+        None => match resolve_predefined_entity(reference) {
+            Some(known) => Ok(known.into()),
+            None => Err(broken(line, format_args!("the entity &{}; is unknown", &**reference))),
+        },
+    }
+}
+
 /// `what` makes the file no well-formed XML in `line`.
-pub(crate) fn broken(line: usize, what: impl Display) -> MapError {
-    MapError::Xml { line, what: what.to_string() }
+fn broken(line: usize, what: impl Display) -> XmlError {
+    XmlError::Broken { line, what: what.to_string() }
+}
+
+/// The number that `text` is; not a number where it is unreadable.
+pub fn number(text: &str) -> f64 {
+    text.trim().parse().unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn all(text: &str) -> Vec<String> {
-        let mut tokens = Tokens::of(text.as_bytes()).unwrap();
-        let mut found = Vec::new();
-        loop {
-            match tokens.next() {
-                Ok(Token::Open(element)) => {
-                    let attributes: Vec<_> =
-                        element.attributes().map(|it| it.unwrap()).map(|(k, v)| format!("{k}={v}")).collect();
-                    found.push(format!("{} {} {}", element.line, element.name, attributes.join(",")));
-                }
-                Ok(Token::Text) => found.push("text".into()),
-                Ok(Token::Close) => found.push("close".into()),
-                Ok(Token::End) => return found,
-                Err(error) => {
-                    found.push(error.to_string());
-                    return found;
-                }
-            }
+    /// Notes what it sees.
+    #[derive(Default)]
+    struct Notes(Vec<String>);
+
+    impl Visitor for Notes {
+        fn open(&mut self, path: &str, element: &Element) -> Result<(), XmlError> {
+            let [id] = element.values(["id"])?;
+            self.0.push(format!("{}: <{path} {}>", element.line, id.unwrap_or_default()));
+            Ok(())
+        }
+
+        fn close(&mut self, path: &str, text: &str) {
+            self.0.push(format!("{path}={text}"));
         }
     }
 
+    fn refusal(text: &str) -> String {
+        walk(text.as_bytes(), "r", &mut Notes::default()).unwrap_err().to_string()
+    }
+
     #[test]
-    fn tokens_come_in_order_with_their_lines() {
+    fn elements_come_with_path_line_and_text() {
+        let mut notes = Notes::default();
+        let text = concat!(
+            "\u{feff}<?xml version='1.0'?>\n<r id='0'>\n <a>\n",
+            "  <b id='&lt;'/> 1&#46;<![CDATA[5]]>&amp; </a>\n</r>\n"
+        );
+        walk(text.as_bytes(), "r", &mut notes).unwrap();
+        assert_eq!(notes.0, ["2: < 0>", "3: <a >", "4: <a/b <>", "a/b=", "a=1.5&", "="]);
+    }
+
+    #[test]
+    fn what_is_no_such_document_is_refused_with_its_line() {
         assert_eq!(
-            all("\u{feff}<?xml version='1.0'?>\n<a x='1' y=\"a &amp; b\">\n<b/>t<!-- \n --></a>"),
-            ["2 a x=1,y=a & b", "text", "3 b ", "close", "text", "close"]
+            refusal("\n<osm/>"),
+            "line 2: the outermost element is <osm>, not <r>; is this a file of another format?"
+        );
+        assert!(refusal("").starts_with("line 1: the outermost element is <>"));
+        assert!(refusal("<r/>\n<r/>").starts_with("line 2: not well-formed XML (there is a second"));
+        assert!(refusal("<r>\n<a>").starts_with("line 2: not well-formed XML (the file ends inside"));
+        assert!(refusal("<r>\n\n</a></r>").starts_with("line 3: not well-formed XML"));
+        assert!(refusal(&"<r>".repeat(33)).contains("nested too deeply"));
+        assert!(refusal("<r>\n<a>&#0;</a></r>").starts_with("line 2: not well-formed XML"));
+    }
+
+    #[test]
+    fn entities_of_a_documents_own_are_not_expanded() {
+        let bomb = "<!DOCTYPE r [<!ENTITY a 'aa'>\n<!ENTITY b '&a;&a;'>]>\n<r>\n<a>&b;</a></r>";
+        assert_eq!(
+            refusal(bomb),
+            "line 4: not well-formed XML (the entity &b; is unknown); save the file again, or mend this line"
         );
     }
 
     #[test]
-    fn what_is_not_well_formed_is_refused_with_its_line() {
-        assert!(all("<a>\n\n<b></c></a>").last().unwrap().starts_with("line 3: not well-formed XML"));
-        assert!(all("<a>\n<b>").last().unwrap().contains("line 2: not well-formed XML (the file ends"));
-        assert!(all(&"<a>".repeat(33)).last().unwrap().contains("nested too deeply"));
-        assert!(Tokens::of(b"<a>\n\xff</a>").err().unwrap().to_string().starts_with("line 2: the bytes"));
+    fn the_names_and_closings_of_empty_elements_do_not_mix() {
+        let mut notes = Notes::default();
+        walk(b"<r ><a id='/'/><b id='>'  /><c/></r >", "r", &mut notes).unwrap();
+        assert_eq!(notes.0, ["1: < >", "1: <a />", "a=", "1: <b >>", "b=", "1: <c >", "c=", "="]);
     }
 
     #[test]
-    fn the_names_and_closings_of_empty_elements_do_not_mix() {
-        assert_eq!(all("<a/>"), ["1 a ", "close"]);
-        assert_eq!(all("<a x='/'/>"), ["1 a x=/", "close"]);
-        assert_eq!(all("<a ><b x='>'  /></a >"), ["1 a ", "1 b x=>", "close", "close"]);
+    fn bytes_that_are_no_text_are_refused_with_their_line() {
+        let error = walk(b"<r>\n\xff</r>", "r", &mut Notes::default()).unwrap_err();
+        assert!(error.to_string().starts_with("line 2: the bytes are not UTF-8"));
     }
 }

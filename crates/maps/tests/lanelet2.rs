@@ -131,7 +131,7 @@ fn a_map_without_lanes_for_cars_is_refused() {
          give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes"
     );
     let error = read(&TWO_LANES.replace("<node", "<other")).unwrap_err();
-    let MapError::NotDrivable { lanelets: 2, problems } = &error else { panic!("{error}") };
+    let MapError::NotDrivable { lanelets: 2, problems, .. } = &error else { panic!("{error}") };
     assert_eq!(problems.len(), 2);
     assert!(
         error.to_string().contains("(the first problem is lanelet 21 (line 11): its border, way 12, runs")
@@ -158,7 +158,7 @@ fn files_that_cannot_be_read_say_why() {
     assert_eq!(refusal(root), "this is a folder; name a map file inside it");
     assert_eq!(
         refusal(&root.join("Cargo.toml")),
-        "no map format has the extension \"toml\"; known are Lanelet2 (.osm, .osm_xy)"
+        "no map format has the extension \"toml\"; known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
     );
     let file = std::env::temp_dir().join(format!("laneweave-maps-{}.OSM", std::process::id()));
     fs::write(&file, "[package]").unwrap();

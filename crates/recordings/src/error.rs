@@ -1,5 +1,9 @@
 //! Why a file is no recording at all.
 
+use std::fmt::Display;
+
+use laneweave_maps::Problem;
+use laneweave_maps::xml::XmlError;
 use thiserror::Error;
 
 /// Why a recording cannot be read. Messages name the place inside the file and the remedy, not the file.
@@ -21,9 +25,28 @@ pub enum RecordingError {
         /// The header as it stands, cut if it is long.
         found: String,
     },
-    /// No row can be used.
-    #[error("none of its {rows} rows can be used{}; add rows of tracks below the header", first(.problem))]
+    /// It is not the XML that its format is.
+    #[error(transparent)]
+    Xml(#[from] XmlError),
+    /// It does not say the time between frames, or says no number above zero.
+    #[error("line {line}: {element} has no time between frames above 0 s; give it the attribute {attribute}")]
+    NoStep {
+        /// Where the element begins.
+        line: usize,
+        /// The element that should say it.
+        element: &'static str,
+        /// The attribute in which it should.
+        attribute: &'static str,
+    },
+    /// No road user in it can be used.
+    #[error("no road user moves in it{}; choose a recording with trajectories", first(problems.first()))]
     Empty {
+        /// Why road users were left out.
+        problems: Vec<Problem>,
+    },
+    /// No row can be used.
+    #[error("none of its {rows} rows can be used{}; add rows of tracks below the header", first(problem.as_ref()))]
+    NoRows {
         /// Rows in the file.
         rows: usize,
         /// What is wrong with the first one.
@@ -71,6 +94,6 @@ pub enum RecordingError {
     },
 }
 
-fn first(problem: &Option<String>) -> String {
-    problem.as_ref().map_or(String::new(), |it| format!(" (the first problem is {it})"))
+fn first(problem: Option<&impl Display>) -> String {
+    problem.map_or(String::new(), |it| format!(" (the first problem is {it})"))
 }

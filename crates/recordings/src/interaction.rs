@@ -124,7 +124,7 @@ impl Reader {
     /// The time between frames [s], with which all timestamps must agree.
     fn step(&self) -> Result<f64, RecordingError> {
         let times = || self.tracks.iter().flat_map(|it| &it.times);
-        let empty = || RecordingError::Empty {
+        let empty = || RecordingError::NoRows {
             rows: self.rows,
             problem: self.problems.first().map(|it| it.to_string()),
         };

@@ -1,10 +1,11 @@
 //! Recorded traffic: read, cleaned, matched to the map, and its lane changes found.
 //!
-//! A file becomes a [`Recording`] ([`interaction::read`]); [`clean()`] mends what no road user can have done;
+//! A file becomes a [`Recording`] ([`interaction::read`], [`commonroad::read`]); [`clean()`] mends what no road user can have done;
 //! [`Matched`] says in which lanelet each vehicle is, and who is there in a frame; [`lane_changes`] finds who changes.
 
 mod changes;
 mod clean;
+pub mod commonroad;
 mod error;
 pub mod interaction;
 mod joints;

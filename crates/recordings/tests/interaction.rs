@@ -143,6 +143,6 @@ fn a_file_without_usable_rows_is_refused() {
     );
     assert!(matches!(
         interaction::read(HEADER.as_bytes()),
-        Err(RecordingError::Empty { rows: 0, problem: None })
+        Err(RecordingError::NoRows { rows: 0, problem: None })
     ));
 }

@@ -163,9 +163,7 @@ impl From<&MapOptions> for ReadOptions {
 /// What is wrong with the map at `path`: a wrong path has its place in the scenario file, a wrong content in the map.
 fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     let line = match error {
-        MapError::NotText { line } | MapError::Xml { line, .. } | MapError::NotOsm { line, .. } => {
-            Some(*line)
-        }
+        MapError::Xml(error) => Some(error.line()),
         _ => None,
     };
     let message = error.to_string();

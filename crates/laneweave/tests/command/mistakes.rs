@@ -39,7 +39,8 @@ fn maps_that_are_none() {
     assert!(refusal(&folder, "run empty.osm").contains("can be used by vehicles; give roads the tags"));
     assert!(refusal(&folder, "run other.osm").starts_with("other.osm:1: the outermost element is <gml>"));
     assert!(
-        refusal(&folder, "run map.xodr").ends_with("known are Lanelet2 (.osm, .osm_xy), scenario (.toml)")
+        refusal(&folder, "run map.xodr")
+            .ends_with("known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml), scenario (.toml)")
     );
 }
 

@@ -49,7 +49,8 @@ impl<'a> Document<'a> {
             return Err(MapError::TooLarge { bytes: bytes.len() as u64, limit: MAXIMUM_SIZE });
         }
         let mut problems = Vec::new();
-        parse::parse(bytes, &mut problems).map(|document| (document, problems))
+        let document = parse::parse(bytes, &mut problems)?;
+        Ok((document, problems))
     }
 
     /// The map of these elements, with the `problems` that are known already and what else cannot be used as it stands.
@@ -72,7 +73,9 @@ impl<'a> Document<'a> {
             Err(MapError::NotDrivable { problems: flaws, .. }) => {
                 problems.extend(flaws);
                 problems.sort_by_key(|it| it.line);
-                Err(MapError::NotDrivable { lanelets, problems })
+                const REMEDY: &str =
+                    "give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes";
+                Err(MapError::NotDrivable { lanelets, problems, remedy: REMEDY })
             }
             Err(error) => Err(error),
         }

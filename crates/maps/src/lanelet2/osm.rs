@@ -225,11 +225,6 @@ impl<'d> Tags<'d> {
     }
 }
 
-/// A coordinate; not a number where it is unreadable.
-pub(super) fn number(text: &str) -> f64 {
-    text.trim().parse().unwrap_or(f64::NAN)
-}
-
 /// What `of` says of an element with these tags.
 #[cfg(test)]
 pub(super) fn with_tags<const N: usize, T>(tags: [(&str, &str); N], of: impl FnOnce(Tags) -> T) -> T {

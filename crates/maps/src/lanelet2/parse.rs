@@ -4,10 +4,9 @@ use std::borrow::Cow;
 
 use laneweave_network::DrivingSide;
 
-use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Tag, Way, number};
-use crate::error::MapError;
+use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Tag, Way};
 use crate::problem::Problem;
-use crate::xml::{Element, Token, Tokens};
+use crate::xml::{Element, Token, Tokens, XmlError, number};
 
 /// Sets a coordinate that was not set before.
 fn set(coordinate: &mut Coordinate, text: &str) {
@@ -17,23 +16,19 @@ fn set(coordinate: &mut Coordinate, text: &str) {
 }
 
 /// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
-pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, MapError> {
-    let mut tokens = Tokens::of(bytes)?;
+pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, XmlError> {
+    let mut tokens = Tokens::of(bytes, "osm")?;
     let mut parser = Parser { document: with_room(tokens.text()), open: None, problems };
-    let mut has_root = false;
     loop {
         match tokens.next()? {
             Token::Open(element) => match tokens.depth() {
-                1 if element.name == "osm" => has_root = true,
-                1 => return Err(MapError::NotOsm { line: element.line, found: element.name.into() }),
                 2 => parser.open(&element)?,
                 3 => parser.add(&element)?,
                 _ => {}
             },
             Token::Close if tokens.depth() == 1 => parser.close(),
-            Token::Close | Token::Text => {}
-            Token::End if has_root => return Ok(parser.document),
-            Token::End => return Err(MapError::NotOsm { line: tokens.line(), found: String::new() }),
+            Token::Close | Token::Text(_) => {}
+            Token::End => return Ok(parser.document),
         }
     }
 }
@@ -88,7 +83,7 @@ enum Kind {
 
 impl<'a> Parser<'a, '_> {
     /// Begins a node, way or relation; notes what `MetaInfo` says.
-    fn open(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+    fn open(&mut self, element: &Element<'a>) -> Result<(), XmlError> {
         match element.name {
             "node" | "way" | "relation" => self.begin(element),
             "MetaInfo" => {
@@ -109,7 +104,7 @@ impl<'a> Parser<'a, '_> {
         }
     }
 
-    fn begin(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+    fn begin(&mut self, element: &Element<'a>) -> Result<(), XmlError> {
         let mut node = Node { line: element.line as u32, ..Node::default() };
         let mut id: Option<Cow<str>> = None;
         for attribute in element.attributes() {
@@ -146,7 +141,7 @@ impl<'a> Parser<'a, '_> {
     }
 
     /// Adds a tag, a node of a way, or a member of a relation.
-    fn add(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+    fn add(&mut self, element: &Element<'a>) -> Result<(), XmlError> {
         let Some(Open { element: into, .. }) = self.open else { return Ok(()) };
         match (element.name, into) {
             ("tag", _) => self.add_tag(element),
@@ -155,7 +150,7 @@ impl<'a> Parser<'a, '_> {
         }
     }
 
-    fn add_tag(&mut self, element: &Element<'a>) -> Result<(), MapError> {
+    fn add_tag(&mut self, element: &Element<'a>) -> Result<(), XmlError> {
         let (mut key, mut value) = (None, None);
         for attribute in element.attributes() {
             match attribute? {
@@ -171,7 +166,7 @@ impl<'a> Parser<'a, '_> {
         Ok(())
     }
 
-    fn add_part(&mut self, element: &Element<'a>, into: Kind) -> Result<(), MapError> {
+    fn add_part(&mut self, element: &Element<'a>, into: Kind) -> Result<(), XmlError> {
         let (mut reference, mut kind, mut role) = (None, None, None);
         for attribute in element.attributes() {
             match attribute? {
@@ -272,7 +267,10 @@ mod tests {
 
     #[test]
     fn what_is_no_osm_is_refused_with_its_line() {
-        assert_eq!(refusal(b""), "line 1: the outermost element is <>, not <osm>; is this a Lanelet2 map?");
+        assert_eq!(
+            refusal(b""),
+            "line 1: the outermost element is <>, not <osm>; is this a file of another format?"
+        );
         assert!(refusal(b"\n<svg/>").starts_with("line 2: the outermost element is <svg>"));
         assert!(refusal(b"<osm>\n\n<way></node></osm>").starts_with("line 3: not well-formed XML"));
         assert!(refusal(b"<osm><node id='&unknown;'/></osm>").starts_with("line 1: not well-formed XML"));

@@ -2,9 +2,10 @@
 
 use laneweave_network::Point;
 
-use super::osm::{Document, Node, Tags, number};
+use super::osm::{Document, Node, Tags};
 use super::projection::Utm;
 use crate::error::MapError;
+use crate::xml::number;
 
 /// Which of the coordinates that nodes may have are used, for all nodes of a map alike.
 #[derive(Clone, Copy, Debug, PartialEq)]

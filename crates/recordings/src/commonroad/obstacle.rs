@@ -1,0 +1,274 @@
+//! One obstacle of a CommonRoad file: its shape and states, which become a track.
+
+use laneweave_maps::Problem;
+use laneweave_maps::xml::number;
+
+use crate::recording::{RoadUser, State, Track};
+
+/// Points further from the origin are none on earth [m].
+const MAXIMUM_COORDINATE: f64 = 4.1e7;
+/// Nobody moves faster on a road [m/s].
+const MAXIMUM_SPEED: f64 = 150.0;
+/// Directions beyond are slips of the pen: the format's range is one turn either way [rad].
+const MAXIMUM_ANGLE: f64 = 100.0;
+/// No road user is longer or wider [m].
+const MAXIMUM_EXTENT: f64 = 400.0;
+/// No recording has more frames.
+const MAXIMUM_FRAME: f64 = 1e8;
+
+/// The element `dynamicObstacle`, in version 2018b `obstacle`, while it is read.
+#[derive(Default)]
+pub(super) struct Obstacle {
+    pub(super) id: i64,
+    pub(super) line: usize,
+    pub(super) is_static: bool,
+    /// Its type, such as `car`.
+    pub(super) kind: String,
+    /// Its first shape, and how many it has.
+    shape: Shape,
+    shapes: usize,
+    /// The state that is being read.
+    moment: Moment,
+    states: Vec<State>,
+    flaws: Flaws,
+    has_occupancies: bool,
+}
+
+/// A rectangle or circle; zero where nothing is said.
+#[derive(Default)]
+struct Shape {
+    /// [m]
+    length: f64,
+    /// [m]
+    width: f64,
+    /// Against the direction of the obstacle [rad].
+    orientation: f64,
+    /// Centre, ahead of and left of the obstacle's position [m].
+    ahead: f64,
+    left: f64,
+}
+
+/// States that cannot be used.
+#[derive(Default)]
+struct Flaws {
+    number: usize,
+    /// Line of the first, and why.
+    first: (usize, &'static str),
+}
+
+impl Obstacle {
+    pub(super) fn new(id: i64, line: usize, is_static: bool) -> Obstacle {
+        Obstacle { id, line, is_static, ..Obstacle::default() }
+    }
+
+    /// Begins a state or a shape.
+    pub(super) fn open(&mut self, part: &str, line: usize) {
+        match part {
+            "initialState" | "trajectory/state" => self.moment = Moment { line, ..Moment::default() },
+            "occupancySet" => self.has_occupancies = true,
+            _ if part.strip_prefix("shape/").is_some_and(|it| !it.contains('/')) => self.shapes += 1,
+            _ => {}
+        }
+    }
+
+    /// Takes in the text of an element inside.
+    pub(super) fn close(&mut self, part: &str, text: &str) {
+        match part {
+            "role" => self.is_static = text == "static",
+            "type" => self.kind = text.into(),
+            "initialState" | "trajectory/state" => match self.moment.state() {
+                Ok(state) => self.states.push(state),
+                Err(flaw) => self.flaws.add(self.moment.line, flaw),
+            },
+            _ => {
+                if let Some(leaf) = part.strip_prefix("shape/").filter(|_| self.shapes == 1) {
+                    self.shape.take(leaf, number(text));
+                }
+                let inside = part.strip_prefix("initialState/");
+                if let Some(leaf) = inside.or_else(|| part.strip_prefix("trajectory/state/")) {
+                    self.moment.take(leaf, number(text));
+                }
+            }
+        }
+    }
+
+    /// Its track, with frames `step` apart [s].
+    pub(super) fn track(mut self, step: f64, problems: &mut Vec<Problem>) -> Option<Track> {
+        if self.has_occupancies {
+            let what = "its occupancy set is passed over";
+            problems.push(self.problem(what, "give it a trajectory if it was seen"));
+        }
+        let is_extent = |it: f64| it > 0.0 && it <= MAXIMUM_EXTENT;
+        if !(is_extent(self.shape.length) && is_extent(self.shape.width) && self.shape.is_near()) {
+            let what = "its first shape is no rectangle or circle of a road user's size, so it is left out";
+            problems.push(self.problem(what, "give it a rectangle with length and width in m"));
+            return None;
+        }
+        if self.shapes > 1 {
+            let what = format!("only the first of its {} shapes is used", self.shapes);
+            problems.push(self.problem(what, "give it one rectangle"));
+        }
+        self.states.sort_by_key(|it| it.frame);
+        let given = self.states.len();
+        self.states.dedup_by_key(|it| it.frame);
+        for _ in self.states.len()..given {
+            self.flaws.add(self.line, "another one has the same time");
+        }
+        self.states.iter_mut().for_each(|it| self.shape.centre(it));
+        fill_speeds(&mut self.states, step);
+        let given = self.states.len();
+        self.states.retain(|it| it.speed.abs() <= MAXIMUM_SPEED);
+        for _ in self.states.len()..given {
+            self.flaws.add(self.line, "no velocity up to 150 m/s follows from it or its neighbours");
+        }
+        problems.extend(self.flaws.what().map(|it| self.problem(it, "correct or delete them")));
+        if self.states.is_empty() {
+            problems.push(self.problem("it has no state, so it is left out", "give it a trajectory"));
+            return None;
+        }
+        let Shape { length, width, .. } = self.shape;
+        Some(Track { id: self.id, class: self.class(), length, width, states: self.states })
+    }
+
+    /// What it is, by its type.
+    pub(super) fn class(&self) -> RoadUser {
+        match self.kind.as_str() {
+            "car" | "taxi" | "priorityVehicle" => RoadUser::Car,
+            "truck" => RoadUser::Truck,
+            "bus" => RoadUser::Bus,
+            "motorcycle" => RoadUser::Motorcycle,
+            "bicycle" => RoadUser::Bicycle,
+            "pedestrian" => RoadUser::Pedestrian,
+            _ => RoadUser::Other,
+        }
+    }
+
+    pub(super) fn problem(&self, what: impl Into<String>, remedy: &str) -> Problem {
+        Problem {
+            element: format!("obstacle {}", self.id),
+            line: Some(self.line),
+            what: what.into(),
+            remedy: remedy.into(),
+        }
+    }
+}
+
+impl Shape {
+    fn take(&mut self, leaf: &str, value: f64) {
+        match leaf {
+            "rectangle/length" => self.length = value,
+            "rectangle/width" => self.width = value,
+            "circle/radius" => (self.length, self.width) = (2.0 * value, 2.0 * value),
+            "rectangle/orientation" => self.orientation = value,
+            "rectangle/center/x" | "circle/center/x" => self.ahead = value,
+            "rectangle/center/y" | "circle/center/y" => self.left = value,
+            _ => {}
+        }
+    }
+
+    /// Whether it lies around the obstacle's position.
+    fn is_near(&self) -> bool {
+        let is_near = |it: f64| it.abs() <= MAXIMUM_EXTENT;
+        is_near(self.ahead) && is_near(self.left) && self.orientation.abs() <= MAXIMUM_ANGLE
+    }
+
+    /// Moves a state from the obstacle's position to the centre of its shape.
+    fn centre(&self, state: &mut State) {
+        let (sin, cos) = state.heading.sin_cos();
+        state.x += cos * self.ahead - sin * self.left;
+        state.y += sin * self.ahead + cos * self.left;
+        state.heading += self.orientation;
+    }
+}
+
+/// A state while it is read.
+#[derive(Default)]
+struct Moment {
+    line: usize,
+    x: Option<f64>,
+    y: Option<f64>,
+    orientation: Value,
+    velocity: Value,
+    time: Value,
+}
+
+/// A value that is exact or an interval.
+#[derive(Default)]
+struct Value {
+    exact: Option<f64>,
+    start: Option<f64>,
+    end: Option<f64>,
+}
+
+impl Value {
+    fn take(&mut self, leaf: &str, value: f64) {
+        match leaf {
+            "exact" => self.exact = Some(value),
+            "intervalStart" => self.start = Some(value),
+            "intervalEnd" => self.end = Some(value),
+            _ => {}
+        }
+    }
+
+    fn middle(&self) -> Option<f64> {
+        self.exact.or_else(|| Some(0.5 * (self.start? + self.end?)))
+    }
+}
+
+impl Moment {
+    fn take(&mut self, leaf: &str, value: f64) {
+        match leaf.split_once('/') {
+            Some(("position", "point/x" | "rectangle/center/x" | "circle/center/x")) => {
+                self.x = self.x.or(Some(value));
+            }
+            Some(("position", "point/y" | "rectangle/center/y" | "circle/center/y")) => {
+                self.y = self.y.or(Some(value));
+            }
+            Some(("orientation", leaf)) => self.orientation.take(leaf, value),
+            Some(("velocity", leaf)) => self.velocity.take(leaf, value),
+            Some(("time", leaf)) => self.time.take(leaf, value),
+            _ => {}
+        }
+    }
+
+    /// The state, whose speed is not a number where it is missing, or what is wrong with it.
+    fn state(&self) -> Result<State, &'static str> {
+        let within = |value: Option<f64>, limit: f64| value.filter(|it| it.abs() <= limit);
+        let time = self.time.exact.or_else(|| self.time.middle().map(f64::round));
+        let frame = within(time, MAXIMUM_FRAME).filter(|it| *it >= 0.0 && it.fract() == 0.0);
+        Ok(State {
+            frame: frame.ok_or("its time is no whole number of steps")? as i64,
+            x: within(self.x, MAXIMUM_COORDINATE).ok_or("it has no position")?,
+            y: within(self.y, MAXIMUM_COORDINATE).ok_or("it has no position")?,
+            speed: self.velocity.middle().unwrap_or(f64::NAN),
+            heading: within(self.orientation.middle(), MAXIMUM_ANGLE).ok_or("it has no orientation")?,
+        })
+    }
+}
+
+impl Flaws {
+    fn add(&mut self, line: usize, why: &'static str) {
+        if self.number == 0 {
+            self.first = (line, why);
+        }
+        self.number += 1;
+    }
+
+    fn what(&self) -> Option<String> {
+        let (line, why) = self.first;
+        let number = self.number;
+        (number > 0).then(|| format!("{number} of its states are left out (the first, line {line}: {why})"))
+    }
+}
+
+/// Speeds, where they are missing, from the way since the state before, or else to the next one.
+fn fill_speeds(states: &mut [State], step: f64) {
+    for here in 0..states.len() {
+        let (from, to) = if here == 0 { (0, 1) } else { (here - 1, here) };
+        if states[here].speed.is_nan() && to < states.len() {
+            let (from, to) = (states[from], states[to]);
+            let time = (to.frame - from.frame) as f64 * step;
+            states[here].speed = (to.x - from.x).hypot(to.y - from.y) / time;
+        }
+    }
+}
