@@ -19,5 +19,6 @@ pub use source::Source;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;
 pub use laneweave_network as network;
+pub use laneweave_recordings as recordings;
 pub use laneweave_sim as sim;
 pub use laneweave_study as study;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use laneweave_network::{Lanelet, Network, Polyline, Pose};
+use laneweave_network::{Lanelet, LaneletIndex, Network, Polyline, Pose};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
@@ -15,7 +15,26 @@ const STRAIGHT_ON: f64 = 0.5;
 
 /// All that is suspicious.
 pub fn check(network: &Network) -> Vec<Problem> {
-    broken_joints(network)
+    let mut problems = broken_joints(network);
+    problems.extend(double_borders(network));
+    problems
+}
+
+/// Lanelets that run side by side along borders of their own, so that nobody can change between them.
+fn double_borders(network: &Network) -> impl Iterator<Item = Problem> {
+    network.alongside().into_iter().map(|it| {
+        let id = |lanelet: LaneletIndex| network.lanelets[lanelet.at()].id;
+        let length = it.on_left[1] - it.on_left[0];
+        Problem {
+            element: format!("lanelet {}", id(it.left)),
+            line: None,
+            what: format!(
+                "lanelet {} lies beside it on the right for {length:.0} m, but they share no border, so nobody changes between them",
+                id(it.right)
+            ),
+            remedy: "let both use the same way as border, or leave it if there is a kerb".into(),
+        }
+    })
 }
 
 /// Lanelets that begin, or end, just where another one ends, or begins, without being joined to it, and to nothing else.
@@ -38,7 +57,9 @@ fn broken_joints(network: &Network) -> Vec<Problem> {
         };
         let next = begins.nearest(last(&lanelet.centre), lanelet);
         if let Some((next, distance)) = next.filter(|_| lanelet.following.is_empty()) {
-            note(format!("it ends {distance:.2} m from where lanelet {next} begins, and leads nowhere"));
+            note(format!(
+                "it ends {distance:.2} m from where lanelet {next} begins, but shares no points with it, so it leads nowhere"
+            ));
         }
         let previous = ends.nearest(first(&lanelet.centre), lanelet);
         if let Some((previous, distance)) = previous.filter(|_| !has_previous) {
@@ -123,11 +144,9 @@ mod tests {
     fn lanelets_that_nearly_meet_are_suspicious() {
         let found = row(50.25);
         assert_eq!(found.len(), 2);
-        assert!(
-            found[0].starts_with(
-                "lanelet 21: it ends 0.25 m from where lanelet 22 begins, and leads nowhere; join"
-            )
-        );
+        assert!(found[0].starts_with(
+            "lanelet 21: it ends 0.25 m from where lanelet 22 begins, but shares no points with it"
+        ));
         assert!(found[1].starts_with("lanelet 22: it begins 0.25 m from where lanelet 21 ends"));
         assert!(row(52.0).is_empty());
     }

@@ -1,9 +1,11 @@
-//! What a map holds, as far as one can tell without driving on it.
+//! What a map or a recording holds, as far as one can tell without driving on it.
 
 mod graph;
 mod picture;
+mod recording;
 mod report;
 
 pub use graph::GraphJson;
 pub use picture::picture;
+pub use recording::{ChangeRow, RecordingReport, open_recording};
 pub use report::{Complaint, Opening, Report};

@@ -1,7 +1,7 @@
 //! What a map holds, in numbers and in words.
 
 use std::collections::{BTreeMap, HashMap};
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 use laneweave_maps::{Map, Problem, RuleKind};
 use laneweave_network::{DrivingSide, Gate, Network};
@@ -111,7 +111,7 @@ impl Report {
                 .map(|it| lanelets[it.at()].id)
                 .collect(),
             rules: kinds,
-            problems: sorted(problems.iter().map(complaint).chain(suspicions(network)).collect()),
+            problems: sorted(problems.iter().map(Complaint::from).chain(suspicions(network)).collect()),
         }
     }
 
@@ -123,7 +123,7 @@ impl Report {
         out
     }
 
-    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+    fn write_to(&self, out: &mut String) -> fmt::Result {
         match self.origin {
             Some([latitude, longitude]) => {
                 writeln!(out, "Coordinates are projected (UTM), relative to {latitude}, {longitude}.")?;
@@ -182,9 +182,19 @@ fn opening(gate: &Gate) -> Opening {
     Opening { id: gate.id, lanes: gate.chains.len() }
 }
 
-fn complaint(problem: &Problem) -> Complaint {
-    let Problem { element, line, what, remedy } = problem.clone();
-    Complaint { element, line, what, remedy }
+impl From<&Problem> for Complaint {
+    fn from(problem: &Problem) -> Complaint {
+        let Problem { element, line, what, remedy } = problem.clone();
+        Complaint { element, line, what, remedy }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Complaint { element, line, what, remedy } = self;
+        let line = line.map_or(String::new(), |it| format!(" (line {it})"));
+        write!(f, "{element}{line}: {what}; {remedy}")
+    }
 }
 
 /// Problems of one kind beside each other, in the order in which the kinds first came up.
@@ -200,7 +210,7 @@ fn sorted(problems: Vec<Complaint>) -> Vec<Complaint> {
 }
 
 fn suspicions(network: &Network) -> Vec<Complaint> {
-    laneweave_maps::check(network).iter().map(complaint).collect()
+    laneweave_maps::check(network).iter().map(Complaint::from).collect()
 }
 
 /// The names of entrances or exits with their numbers of lanes, if there are not too many.
@@ -226,7 +236,7 @@ fn shortened(names: &[String]) -> String {
 }
 
 /// Writes a sentence that lists `parts`, in lines of moderate length.
-fn wrapped(out: &mut String, begin: &str, parts: &[String]) -> std::fmt::Result {
+fn wrapped(out: &mut String, begin: &str, parts: &[String]) -> fmt::Result {
     const WIDTH: usize = 100;
     let mut line = begin.to_owned();
     for (index, part) in parts.iter().enumerate() {

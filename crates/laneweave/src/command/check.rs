@@ -1,10 +1,10 @@
 //! `laneweave check`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use laneweave::Fault;
-use laneweave::check::{GraphJson, Report, picture};
+use laneweave::check::{GraphJson, RecordingReport, Report, open_recording, picture};
 use laneweave::output::write_whole;
 use laneweave::scenario::{MapOptions, open_map};
 use serde::Serialize;
@@ -13,8 +13,13 @@ use super::say;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The map file (Lanelet2: .osm, or compressed: .osm.gz).
-    map: PathBuf,
+    /// A map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz), or with --map a recording (INTERACTION: .csv,
+    /// CommonRoad: .xml).
+    #[arg(value_name = "MAP|RECORDING")]
+    file: PathBuf,
+    /// The map of the recording.
+    #[arg(long, value_name = "MAP", conflicts_with_all = ["graph", "svg"])]
+    map: Option<PathBuf>,
     #[command(flatten)]
     options: Reading,
     /// Print the report as one JSON object.
@@ -61,18 +66,62 @@ fn law(text: &str) -> Result<laneweave::scenario::Law, String> {
 
 impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let map = open_map(&self.map, &self.options.options())?;
+        match &self.map {
+            Some(map) => self.recording(map),
+            None => self.map(),
+        }
+    }
+
+    fn map(&self) -> Result<(), Fault> {
+        if self.file.extension().is_some_and(|it| it == "csv") {
+            return Err(Fault::new(
+                self.file.display(),
+                "a recording needs the map of its place",
+                "add --map MAP",
+            ));
+        }
+        let map = open_map(&self.file, &self.options.options())?;
         let report = Report::of(&map);
         if let Some(path) = &self.graph {
             write_whole(path, &json(&GraphJson(&map))?)?;
         }
         if let Some(path) = &self.svg {
-            let name = self.map.file_name().unwrap_or_default().to_string_lossy();
+            let name = self.file.file_name().unwrap_or_default().to_string_lossy();
             write_whole(path, &picture(&name, &map))?;
         }
+        // A CommonRoad file may hold both.
+        let recording = match self.file.extension().is_some_and(|it| it == "xml") {
+            true => open_recording(&self.file).ok(),
+            false => None,
+        };
+        let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
+        if self.json {
+            say(&json(&Both { map: report, recording })?);
+            return Ok(());
+        }
+        say(&report.to_text());
+        if let Some(recording) = recording {
+            say(&format!("\nTracks in the same file:\n{}", recording.to_text()));
+        }
+        Ok(())
+    }
+
+    fn recording(&self, map: &Path) -> Result<(), Fault> {
+        let (recording, problems) = open_recording(&self.file)?;
+        let map = open_map(map, &self.options.options())?;
+        let report = RecordingReport::of(recording, &problems, &map.network);
         say(&if self.json { json(&report)? } else { report.to_text() });
         Ok(())
     }
+}
+
+/// A map, and the recording in the same file if there is one.
+#[derive(Serialize)]
+struct Both {
+    #[serde(flatten)]
+    map: Report,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recording: Option<RecordingReport>,
 }
 
 fn json(value: &impl Serialize) -> Result<String, Fault> {
