@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use laneweave_maps::{Map, ReadOptions, load};
+use laneweave_maps::lanelet2::{self, Document};
+use laneweave_maps::{Map, ReadOptions, Rule, load};
 use laneweave_network::Lanelet;
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
@@ -35,26 +36,46 @@ fn counts(map: &Map) -> Counts {
     ]
 }
 
+const MAPS: [(&str, Counts); 11] = [
+    ("lanelet2/crossroads_with_stoplines.osm", [79, 100, 0, 0, 0, 0, 176, 0]),
+    ("lanelet2/four_track_highway.osm", [36, 28, 16, 16, 6, 6, 0, 0]),
+    ("lanelet2/intersection.osm", [58, 57, 10, 10, 9, 9, 104, 0]),
+    // The reference adds four successors that are two-way lanelets run backwards, which traffic does not use here.
+    ("lanelet2/karlsruhe.osm", [328, 313, 57, 56, 54, 55, 298, 60]),
+    ("lanelet2/karlsruhe_roundabout.osm", [232, 225, 53, 52, 52, 53, 175, 1]),
+    ("lanelet2/kashiwanoha.osm", [77, 93, 3, 3, 0, 0, 168, 0]),
+    ("lanelet2/tianjin.osm", [62, 66, 2, 2, 26, 26, 576, 4]),
+    ("lanelet2/town10.osm", [128, 160, 27, 27, 10, 10, 452, 0]),
+    ("lanelet2/xian.osm", [52, 48, 6, 6, 16, 16, 196, 0]),
+    ("recordings/mona_east/map.osm", [34, 20, 12, 12, 0, 0, 40, 0]),
+    ("recordings/mona_east/map.osm_xy", [34, 20, 12, 12, 0, 0, 40, 0]),
+];
+
 #[test]
 fn graphs_agree_with_the_reference_library() {
-    let expected: [(&str, Counts); 11] = [
-        ("lanelet2/crossroads_with_stoplines.osm", [79, 100, 0, 0, 0, 0, 176, 0]),
-        ("lanelet2/four_track_highway.osm", [36, 28, 16, 16, 6, 6, 0, 0]),
-        ("lanelet2/intersection.osm", [58, 57, 10, 10, 9, 9, 104, 0]),
-        // The reference adds four successors that are two-way lanelets run backwards, which traffic does not use here.
-        ("lanelet2/karlsruhe.osm", [328, 313, 57, 56, 54, 55, 298, 60]),
-        ("lanelet2/karlsruhe_roundabout.osm", [232, 225, 53, 52, 52, 53, 175, 1]),
-        ("lanelet2/kashiwanoha.osm", [77, 93, 3, 3, 0, 0, 168, 0]),
-        ("lanelet2/tianjin.osm", [62, 66, 2, 2, 26, 26, 576, 4]),
-        ("lanelet2/town10.osm", [128, 160, 27, 27, 10, 10, 452, 0]),
-        ("lanelet2/xian.osm", [52, 48, 6, 6, 16, 16, 196, 0]),
-        ("recordings/mona_east/map.osm", [34, 20, 12, 12, 0, 0, 40, 0]),
-        ("recordings/mona_east/map.osm_xy", [34, 20, 12, 12, 0, 0, 40, 0]),
-    ];
-    for (file, expected) in expected {
+    for (file, expected) in MAPS {
         if let Some(map) = read(file) {
             assert_eq!(counts(&map), expected, "{file}");
         }
+    }
+}
+
+#[test]
+fn a_map_that_is_written_and_read_again_is_the_same() {
+    for (file, _) in MAPS {
+        let Ok(bytes) = std::fs::read(Path::new(DATA).join(file)) else { continue };
+        let (document, problems) = Document::parse(&bytes).unwrap();
+        let text = document.write();
+        let map = document.map(problems, &ReadOptions::default()).unwrap();
+        let again = lanelet2::read(text.as_bytes(), &ReadOptions::default()).unwrap();
+        // Lanelets, chains, entrances and all the rest, to the last bit.
+        assert_eq!(format!("{:?}", again.network), format!("{:?}", map.network), "{file}");
+        assert_eq!((&again.graph, &again.contents, again.origin), (&map.graph, &map.contents, map.origin));
+        let lineless = |map: &Map| -> Vec<Rule> {
+            map.rules.iter().map(|it| Rule { line: None, ..it.clone() }).collect()
+        };
+        assert_eq!(lineless(&again), lineless(&map), "{file}");
+        assert_eq!(again.problems.len(), map.problems.len(), "{file}");
     }
 }
 

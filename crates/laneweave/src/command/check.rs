@@ -124,7 +124,7 @@ struct Both {
     recording: Option<RecordingReport>,
 }
 
-fn json(value: &impl Serialize) -> Result<String, Fault> {
+pub(super) fn json(value: &impl Serialize) -> Result<String, Fault> {
     let text = serde_json::to_string_pretty(value);
     text.map(|it| it + "\n").map_err(|error| Fault::new("JSON", error, "report this as a bug"))
 }

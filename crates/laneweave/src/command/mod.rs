@@ -3,6 +3,7 @@
 mod check;
 mod generate;
 mod progress;
+mod routes;
 mod run;
 mod styles;
 
@@ -27,8 +28,10 @@ pub(crate) struct Cli {
 enum Command {
     /// Simulate a scenario, or a bare map.
     Run(run::Arguments),
-    /// Say what a map holds, and what is wrong with it.
+    /// Say what a map or a recording holds, and what is wrong with it.
     Check(check::Arguments),
+    /// Name the sensible ways from one lanelet of a map to another.
+    Routes(routes::Arguments),
     /// Make a map.
     #[command(subcommand)]
     Generate(generate::Kind),
@@ -49,6 +52,7 @@ impl Cli {
             }
             Some(Command::Run(arguments)) => arguments.execute(started),
             Some(Command::Check(arguments)) => arguments.execute(),
+            Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Generate(kind)) => kind.execute(),
             Some(Command::Styles(deed)) => deed.execute(),
             Some(Command::Schema) => {

@@ -1,0 +1,145 @@
+//! `laneweave routes`.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use laneweave::Fault;
+use laneweave::maps::{By, Map, NodeIndex, Route, Sense, routes};
+use laneweave::scenario::open_map;
+use serde::Serialize;
+
+use super::check::{Reading, json};
+use super::say;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The map file.
+    map: PathBuf,
+    /// Id of the lanelet at whose beginning the ways begin.
+    #[arg(allow_negative_numbers = true)]
+    from: i64,
+    /// Id of the lanelet at whose end they end.
+    #[arg(allow_negative_numbers = true)]
+    to: i64,
+    #[command(flatten)]
+    reading: Reading,
+    /// Most ways that are named.
+    #[arg(long, value_name = "N", default_value_t = Sense::default().most)]
+    most: usize,
+    /// They take at most so many times as long as the fastest one.
+    #[arg(long, value_name = "TIMES", default_value_t = Sense::default().longest)]
+    longest: f64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The ways, as JSON.
+#[derive(Serialize)]
+struct Ways {
+    routes: Vec<Way>,
+}
+
+/// A way: its lanelets in order. Of lanelets between which lanes are changed only the last counts as driven.
+#[derive(Serialize)]
+struct Way {
+    length_m: f64,
+    free_travel_time_s: f64,
+    lane_changes: usize,
+    lanelets: Vec<Leg>,
+}
+
+#[derive(Serialize)]
+struct Leg {
+    id: i64,
+    /// `following`, or the side of the lane change by which it is reached.
+    by: &'static str,
+    /// It is driven against its direction.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    backward: bool,
+}
+
+impl Arguments {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        if !(self.longest >= 1.0) {
+            return Err(Fault::new(
+                "--longest",
+                format!("{} times as long", self.longest),
+                "choose 1 or more",
+            ));
+        }
+        let map = open_map(&self.map, &self.reading.options())?;
+        let [from, to] = [("FROM", self.from), ("TO", self.to)].map(|(name, id)| find(&map, name, id));
+        let sense = Sense { most: self.most, longest: self.longest };
+        let found: Vec<Way> = routes(&map, from?, to?, sense).iter().map(|it| Way::of(it, &map)).collect();
+        say(&if self.json { json(&Ways { routes: found })? } else { text(&found, self.from, self.to) });
+        Ok(())
+    }
+}
+
+/// The node of the lanelet with this id.
+fn find(map: &Map, name: &str, id: i64) -> Result<NodeIndex, Fault> {
+    let lanelets = &map.network.lanelets;
+    let place = lanelets.iter().position(|it| it.id == id).map(|it| NodeIndex(it as u32));
+    place.ok_or_else(|| {
+        let nearest = lanelets.iter().map(|it| it.id).min_by_key(|it| it.abs_diff(id)).unwrap_or_default();
+        let remedy =
+            format!("choose another of its {} lanelets; the nearest id is {nearest}", lanelets.len());
+        Fault::new(name, format!("vehicles can use no lanelet {id} on this map"), remedy)
+    })
+}
+
+impl Way {
+    fn of(route: &Route, map: &Map) -> Way {
+        let legs = route.steps.iter().map(|step| {
+            let node = &map.graph.nodes[step.node.at()];
+            Leg {
+                id: map.network.lanelets[node.lanelet.at()].id,
+                by: match step.by {
+                    By::Following => "following",
+                    By::Left => "left",
+                    By::Right => "right",
+                },
+                backward: node.is_backward,
+            }
+        });
+        Way {
+            length_m: route.length,
+            free_travel_time_s: route.time,
+            lane_changes: route.steps.iter().filter(|it| it.by != By::Following).count(),
+            lanelets: legs.collect(),
+        }
+    }
+}
+
+fn text(ways: &[Way], from: i64, to: i64) -> String {
+    if ways.is_empty() {
+        return format!(
+            "No way leads from lanelet {from} to lanelet {to}; `laneweave check` names broken joints.\n"
+        );
+    }
+    let mut out = String::new();
+    for (number, way) in ways.iter().enumerate() {
+        // Writing to a string never fails.
+        let _ = write!(
+            out,
+            "{}. {:.0} m, {:.1} s at the speed limits, {} lane changes:\n  ",
+            number + 1,
+            way.length_m,
+            way.free_travel_time_s,
+            way.lane_changes
+        );
+        for (place, leg) in way.lanelets.iter().enumerate() {
+            let link = match leg.by {
+                "following" if place == 0 => "",
+                "following" => " → ",
+                "left" => " ↰ ",
+                _ => " ↱ ",
+            };
+            let _ = write!(out, "{link}{}{}", leg.id, if leg.backward { " backwards" } else { "" });
+        }
+        out.push('\n');
+    }
+    out + "(→ goes on, ↰ change to the left, ↱ to the right)\n"
+}
