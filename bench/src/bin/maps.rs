@@ -7,7 +7,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Instant;
 
-use laneweave::maps::{ReadOptions, lanelet2};
+use laneweave::maps::{ReadOptions, lanelet2, load};
 
 /// The allocator of the command.
 #[global_allocator]
@@ -24,7 +24,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(path)?;
     measure("as it is", &text, TIMES)?;
     if let Some(megabytes) = arguments.next() {
-        measure("tiled", &tiled(&text, (megabytes.parse::<f64>()? * 1e6) as usize), 1)?;
+        let text = tiled(&text, (megabytes.parse::<f64>()? * 1e6) as usize);
+        measure("tiled", &text, 1)?;
+        measure_file(text)?;
     }
     Ok(())
 }
@@ -50,6 +52,21 @@ fn measure(name: &str, text: &str, times: u32) -> Result<(), Box<dyn Error>> {
          memory at most",
         megabytes / (elements + network)
     ));
+    Ok(())
+}
+
+/// Reads the text from a file, as the command does.
+fn measure_file(text: String) -> Result<(), Box<dyn Error>> {
+    let file = std::env::temp_dir().join(format!("laneweave-bench-{}.osm", std::process::id()));
+    std::fs::write(&file, &text)?;
+    let megabytes = text.len() as f64 / 1e6;
+    drop(text);
+    let start = Instant::now();
+    let map = load(&file, &ReadOptions::default());
+    let seconds = start.elapsed().as_secs_f64();
+    std::fs::remove_file(&file)?;
+    let lanelets = map?.network.lanelets.len();
+    say(&format!("from a file: {lanelets} lanelets in {seconds:.2} s: {:.0} MB/s", megabytes / seconds));
     Ok(())
 }
 

@@ -7,7 +7,7 @@ use rstar::{AABB, RTree};
 
 /// With no more others than this a lane conflicts, so that lanes drawn on one heap do not take time with the square of
 /// their number. The ramps of the largest junction do not come near.
-const MAXIMUM_CONFLICTS: usize = 256;
+pub(crate) const MAXIMUM_CONFLICTS: usize = 256;
 
 /// Places of lanes, by where they lie.
 type Index = RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>;

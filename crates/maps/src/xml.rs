@@ -106,6 +106,16 @@ impl<'a> Element<'a> {
 }
 
 impl XmlError {
+    /// The same error so many lines further on.
+    pub(crate) fn moved(mut self, lines: usize) -> XmlError {
+        match &mut self {
+            XmlError::NotText { line } | XmlError::Broken { line, .. } | XmlError::OtherRoot { line, .. } => {
+                *line += lines;
+            }
+        }
+        self
+    }
+
     /// The line of which it complains.
     pub fn line(&self) -> usize {
         match self {
@@ -137,8 +147,8 @@ pub trait Visitor {
 /// If it is not well-formed, is nested too deeply, uses an entity of its own, or has another outermost
 /// element.
 pub fn walk(bytes: &[u8], root: &'static str, visitor: &mut impl Visitor) -> Result<(), XmlError> {
-    let mut tokens = Tokens::of(bytes, root)?;
-    let (mut path, mut text) = (String::new(), String::new());
+    let mut tokens = Tokens::of(text(bytes)?, root);
+    let (mut path, mut content) = (String::new(), String::new());
     // Lengths of the paths around the element.
     let mut around: Vec<usize> = Vec::new();
     loop {
@@ -150,18 +160,28 @@ pub fn walk(bytes: &[u8], root: &'static str, visitor: &mut impl Visitor) -> Res
                     path.push_str(if path.is_empty() { "" } else { "/" });
                     path.push_str(element.name);
                 }
-                text.clear();
+                content.clear();
                 visitor.open(&path, &element)?;
             }
-            Token::Text(it) => text.push_str(&it),
+            Token::Text(it) => content.push_str(&it),
             Token::Close => {
-                visitor.close(&path, text.trim());
-                text.clear();
+                visitor.close(&path, content.trim());
+                content.clear();
                 path.truncate(around.pop().unwrap_or(0));
             }
             Token::End => return Ok(()),
         }
     }
+}
+
+/// The text of a file, without its byte order mark, which the reader does not count.
+///
+/// # Errors
+/// If the bytes are no UTF-8.
+pub(crate) fn text(bytes: &[u8]) -> Result<&str, XmlError> {
+    let text = std::str::from_utf8(bytes);
+    let text = text.map_err(|error| XmlError::NotText { line: 1 + lines(&bytes[..error.valid_up_to()]) })?;
+    Ok(text.trim_start_matches('\u{feff}'))
 }
 
 fn is_plain(value: &str) -> bool {
@@ -183,22 +203,29 @@ pub(crate) struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
-    /// The tokens of a file with these `bytes`, whose outermost element is to be `root`.
-    ///
-    /// # Errors
-    /// If they are no UTF-8 text.
-    pub(crate) fn of(bytes: &'a [u8], root: &'static str) -> Result<Tokens<'a>, XmlError> {
-        let text = std::str::from_utf8(bytes)
-            .map_err(|error| XmlError::NotText { line: 1 + lines(&bytes[..error.valid_up_to()]) })?;
-        // The reader does not count a byte order mark.
-        let text = text.trim_start_matches('\u{feff}');
+    /// The tokens of a file with this text, whose outermost element is to be `root`.
+    pub(crate) fn of(text: &'a str, root: &'static str) -> Tokens<'a> {
         let reader = Reader::from_str(text);
-        Ok(Tokens { reader, text, root, has_root: false, counted: 0, line: 1, depth: 0, is_empty: false })
+        Tokens { reader, text, root, has_root: false, counted: 0, line: 1, depth: 0, is_empty: false }
     }
 
-    /// All of the file's text.
-    pub(crate) fn text(&self) -> &'a str {
-        self.text
+    /// The tokens of the rest of a file that begins inside of its outermost element, between two others. Lines are counted
+    /// from there.
+    pub(crate) fn inside(rest: &'a str, root: &'static str) -> Tokens<'a> {
+        let mut tokens = Tokens { has_root: true, depth: 1, ..Tokens::of(rest, root) };
+        tokens.reader.config_mut().allow_unmatched_ends = true;
+        tokens
+    }
+
+    /// Where in the text the next token begins.
+    pub(crate) fn position(&self) -> usize {
+        self.reader.buffer_position() as usize
+    }
+
+    /// How many lines end before the next token.
+    pub(crate) fn lines(&mut self) -> usize {
+        self.count_to(self.position());
+        self.line - 1
     }
 
     /// How many elements are open.
@@ -231,7 +258,12 @@ impl<'a> Tokens<'a> {
                     self.is_empty = true;
                     return self.open(start, end - 2, length);
                 }
-                Event::End(_) => {
+                Event::End(element) => {
+                    // The reader knows the others.
+                    if self.depth == 0 || self.depth == 1 && element.name().as_ref() != self.root {
+                        let what = format!("</{}> ends what did not begin", element.name().as_ref());
+                        return Err(broken(self.line, what));
+                    }
                     self.depth -= 1;
                     return Ok(Token::Close);
                 }

@@ -35,6 +35,11 @@ pub(super) struct Text {
 impl Text {
     /// Files are no larger than this.
     const OWN: u32 = 1 << 31;
+
+    /// The same text when as much stands before the document's own text.
+    fn moved(self, by: usize) -> Text {
+        if self.start < Text::OWN { self } else { Text { start: self.start + by as u32, ..self } }
+    }
 }
 
 /// A key and its value.
@@ -55,6 +60,10 @@ impl Span {
     /// What was added to an array since it had `start` items.
     pub(super) fn since(start: usize, length: usize) -> Span {
         Span { start: start as u32, end: length as u32 }
+    }
+
+    fn moved(self, by: usize) -> Span {
+        Span { start: self.start + by as u32, end: self.end + by as u32 }
     }
 
     fn range(self) -> Range<usize> {
@@ -152,6 +161,39 @@ impl<'a> Document<'a> {
             self.tags.push(tag);
         }
         Span::since(start, self.tags.len())
+    }
+
+    /// Adds the elements of another part of the same file, which comes `lines` later.
+    pub(super) fn append(&mut self, other: Document<'a>, lines: usize) {
+        let own = self.own_text.len();
+        let [tags, references, members] = [self.tags.len(), self.references.len(), self.members.len()];
+        let lines = lines as u32;
+        self.own_text += &other.own_text;
+        self.tags
+            .extend(other.tags.iter().map(|it| Tag { key: it.key.moved(own), value: it.value.moved(own) }));
+        self.references.extend(&other.references);
+        self.members.extend(other.members.iter().map(|it| Member {
+            kind: it.kind.moved(own),
+            role: it.role.moved(own),
+            ..*it
+        }));
+        let node = |it: &Node| Node { line: it.line + lines, tags: it.tags.moved(tags), ..*it };
+        self.nodes.extend(other.nodes.iter().map(node));
+        let way = |it: &Way| Way {
+            line: it.line + lines,
+            nodes: it.nodes.moved(references),
+            tags: it.tags.moved(tags),
+            ..*it
+        };
+        self.ways.extend(other.ways.iter().map(way));
+        let relation = |it: &Relation| Relation {
+            line: it.line + lines,
+            members: it.members.moved(members),
+            tags: it.tags.moved(tags),
+            ..*it
+        };
+        self.relations.extend(other.relations.iter().map(relation));
+        self.driving_side = other.driving_side.or(self.driving_side);
     }
 
     /// What a text says.

@@ -1,12 +1,13 @@
 //! OSM XML read into a document.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use laneweave_network::DrivingSide;
 
 use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Tag, Way};
 use crate::problem::Problem;
-use crate::xml::{Element, Token, Tokens, XmlError, number};
+use crate::xml::{self, Element, Token, Tokens, XmlError, number};
 
 /// Sets a coordinate that was not set before.
 fn set(coordinate: &mut Coordinate, text: &str) {
@@ -15,10 +16,65 @@ fn set(coordinate: &mut Coordinate, text: &str) {
     }
 }
 
+/// Files that are shorter are read in one go [B].
+const WORTH_SHARING: usize = 4 << 20;
+
 /// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
+///
+/// Of a large file two halves are read at once. The second one is taken to begin between two elements; when the first one gets
+/// there and finds it otherwise, it goes on to the end, and the second is forgotten.
 pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, XmlError> {
-    let mut tokens = Tokens::of(bytes, "osm")?;
-    let mut parser = Parser { document: with_room(tokens.text()), open: None, problems };
+    let text = xml::text(bytes)?;
+    let cut = Some(text.len()).filter(|it| *it >= WORTH_SHARING).and_then(|it| element_after(text, it / 2));
+    parse_cut(text, cut.unwrap_or(text.len()), problems)
+}
+
+fn parse_cut<'a>(text: &'a str, cut: usize, problems: &mut Vec<Problem>) -> Result<Document<'a>, XmlError> {
+    let second = || match &text[cut..] {
+        "" => None,
+        rest => Some(part(text, Tokens::inside(rest, ROOT), cut..text.len())),
+    };
+    let (first, second) = rayon::join(|| part(text, Tokens::of(text, ROOT), 0..cut), second);
+    let mut first = first?;
+    problems.append(&mut first.problems);
+    if let (true, Some(second)) = (first.is_cut, second) {
+        let second = second.map_err(|error| error.moved(first.lines))?;
+        let moved = |it: Problem| Problem { line: it.line.map(|line| line + first.lines), ..it };
+        problems.extend(second.problems.into_iter().map(moved));
+        first.document.append(second.document, first.lines);
+    }
+    Ok(first.document)
+}
+
+/// The outermost element.
+const ROOT: &str = "osm";
+
+/// Where, from `start` on, a line begins with what looks like an element of the file.
+fn element_after(text: &str, start: usize) -> Option<usize> {
+    memchr::memchr_iter(b'\n', &text.as_bytes()[start..]).map(|it| start + it + 1).find_map(|line| {
+        let rest = text.get(line..)?;
+        let element = rest.trim_start_matches([' ', '\t']);
+        let is_one = ["<node ", "<way ", "<relation "].iter().any(|it| element.starts_with(it));
+        is_one.then_some(text.len() - element.len())
+    })
+}
+
+/// Part of a file.
+struct Part<'a> {
+    document: Document<'a>,
+    problems: Vec<Problem>,
+    /// It ends where it was cut, not at the end of the file.
+    is_cut: bool,
+    /// Lines that end in it.
+    lines: usize,
+}
+
+/// Reads the part of the text at `place`; beyond it, if it ends inside of something.
+fn part<'a>(text: &'a str, mut tokens: Tokens<'a>, place: Range<usize>) -> Result<Part<'a>, XmlError> {
+    let mut problems = Vec::new();
+    let document = with_room(text, place.clone());
+    let mut parser = Parser { document, open: None, problems: &mut problems };
+    let mut is_cut = false;
     loop {
         match tokens.next()? {
             Token::Open(element) => match tokens.depth() {
@@ -28,17 +84,24 @@ pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<
             },
             Token::Close if tokens.depth() == 1 => parser.close(),
             Token::Close | Token::Text(_) => {}
-            Token::End => return Ok(parser.document),
+            Token::End => break,
+        }
+        if tokens.position() == place.len() && tokens.depth() == 1 && place.end < text.len() {
+            is_cut = true;
+            break;
         }
     }
+    let document = parser.document;
+    Ok(Part { document, problems, is_cut, lines: tokens.lines() })
 }
 
-/// A document with room for as many elements as the text seems to hold: arrays of that size take longer to grow than the
-/// elements to count.
-fn with_room(text: &str) -> Document<'_> {
+/// A document with room for as many elements as this part of the text seems to hold: arrays of that size take longer to grow
+/// than the elements to count.
+fn with_room(text: &str, part: Range<usize>) -> Document<'_> {
     let [mut nodes, mut ways, mut relations, mut references, mut members, mut tags] = [0; 6];
-    for at in memchr::memchr_iter(b'<', text.as_bytes()) {
-        match text.as_bytes().get(at + 1..at + 3) {
+    let bytes = &text.as_bytes()[part];
+    for at in memchr::memchr_iter(b'<', bytes) {
+        match bytes.get(at + 1..at + 3) {
             Some(b"no") => nodes += 1,
             Some(b"wa") => ways += 1,
             Some(b"re") => relations += 1,
@@ -274,5 +337,46 @@ mod tests {
         assert!(refusal(b"\n<svg/>").starts_with("line 2: the outermost element is <svg>"));
         assert!(refusal(b"<osm>\n\n<way></node></osm>").starts_with("line 3: not well-formed XML"));
         assert!(refusal(b"<osm><node id='&unknown;'/></osm>").starts_with("line 1: not well-formed XML"));
+    }
+
+    #[test]
+    fn two_halves_are_read_like_one_whole_wherever_the_file_is_cut() {
+        let text = concat!(
+            "<?xml version='1.0'?>\n<osm>\n<node id='1' lat='1'>\n<tag k='a&amp;b' v='1'/></node>\n<!--\n",
+            "<node id='8'/> -->\n<MetaInfo driving_side='right'/>\n<way id='2'><nd ref='1'/>\n<nd ref='x'/></way>\n",
+            "<node id='3'><tag k='&lt;' v='&gt;'/></node><relation id='4'><member ref='2' role='&quot;'/></relation>\n",
+            "<node/>\n<relation id='5'/>\n<MetaInfo driving_side='left'/></osm>\n",
+        );
+        let all = |cut: usize| {
+            let mut problems = Vec::new();
+            let document = parse_cut(text, cut, &mut problems).unwrap();
+            let lines: Vec<u32> = document.nodes.iter().map(|it| it.line).collect();
+            let others: Vec<u32> = document.ways.iter().map(|it| it.line).collect();
+            (document.write(), lines, others, document.relations.last().unwrap().line, problems)
+        };
+        let whole = all(text.len());
+        assert_eq!((whole.1.as_slice(), whole.2.as_slice(), whole.3), (&[3, 10][..], &[8][..], 12));
+        assert_eq!(whole.4.iter().map(|it| it.line.unwrap()).collect::<Vec<_>>(), [9, 11]);
+        for cut in 0..text.len() {
+            assert_eq!(all(cut), whole, "cut at {cut}");
+        }
+    }
+
+    #[test]
+    fn what_breaks_in_the_second_half_is_refused_with_its_line() {
+        let text = "<osm>\n<node id='1'/>\n<node id='2'/>\n</way>\n</osm>";
+        let refusal = |cut| parse_cut(text, cut, &mut Vec::new()).unwrap_err();
+        assert_eq!(refusal(text.len()).line(), 4);
+        for cut in (0..text.len()).filter(|it| text[*it..].starts_with("<node")) {
+            assert_eq!(refusal(cut).line(), 4, "{}", refusal(cut));
+        }
+    }
+
+    #[test]
+    fn a_large_file_is_cut_before_an_element() {
+        let text = "<osm>\n <!-- -->\n\t <way id='1'/>\n<node id='2'/></osm>";
+        assert_eq!(element_after(text, 0), text.find("<way"));
+        assert_eq!(element_after(text, 25), text.find("<node"));
+        assert_eq!(element_after(text, 40), None);
     }
 }
