@@ -39,7 +39,7 @@ fn check_survives_mutated_maps() {
     let (first, second) = thread::scope(|scope| {
         let run = |from: u32| (from..MAPS).step_by(2).map(|it| survives(&maps, it)).sum::<usize>();
         let other = scope.spawn(move || run(1));
-        (run(0), other.join().unwrap())
+        (run(0), other.join().expect("it ends"))
     });
     // Many are still maps, so what comes after reading is tried, too.
     assert!(first + second > MAPS as usize / 5, "only {} could be read", first + second);
@@ -56,7 +56,7 @@ fn originals() -> Vec<String> {
     };
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/lanelet2");
     let real = ["xian.osm", "tianjin.osm"].map(|it| std::fs::read_to_string(data.join(it)));
-    let mut maps = vec![lanelet2::write(&motorway(&small).unwrap())];
+    let mut maps = vec![lanelet2::write(&motorway(&small).expect("the motorway is possible"))];
     maps.extend(real.into_iter().flatten().map(|it| it.replace('\'', "\"")));
     maps
 }

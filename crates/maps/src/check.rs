@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use laneweave_network::{Lanelet, LaneletIndex, Network, Polyline, Pose};
+use laneweave_network::{Alongside, Lanelet, LaneletIndex, Network, Polyline, Pose};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
@@ -13,6 +13,9 @@ const NEARLY: f64 = 1.5;
 /// Directions that differ by less than this go on from each other [rad].
 const STRAIGHT_ON: f64 = 0.5;
 
+/// Lanelets of a fork or a merge that run beside each other for less of their length are meant so.
+const SIDE_BY_SIDE: f64 = 0.6;
+
 /// All that is suspicious.
 pub fn check(network: &Network) -> Vec<Problem> {
     let mut problems = broken_joints(network);
@@ -20,9 +23,21 @@ pub fn check(network: &Network) -> Vec<Problem> {
     problems
 }
 
-/// Lanelets that run side by side along borders of their own, so that nobody can change between them.
+/// Lanelets that run side by side along borders of their own, so that nobody can change between them. Where lanes part or
+/// come together they do so for a while.
 fn double_borders(network: &Network) -> impl Iterator<Item = Problem> {
-    network.alongside().into_iter().map(|it| {
+    let mut previous: Vec<Vec<LaneletIndex>> = vec![Vec::new(); network.lanelets.len()];
+    for (lanelet, index) in network.lanelets.iter().zip(0..) {
+        lanelet.following.iter().for_each(|it| previous[it.at()].push(LaneletIndex(index)));
+    }
+    let parts_or_meets = move |it: &Alongside| {
+        let [left, right] = [it.left, it.right].map(|it| &network.lanelets[it.at()]);
+        let share = (it.on_left[1] - it.on_left[0]) / left.length().min(right.length());
+        share < SIDE_BY_SIDE
+            && (are_together(network, &left.following, &right.following)
+                || are_together(network, &previous[it.left.at()], &previous[it.right.at()]))
+    };
+    network.alongside().into_iter().filter(move |it| !parts_or_meets(it)).map(|it| {
         let id = |lanelet: LaneletIndex| network.lanelets[lanelet.at()].id;
         let length = it.on_left[1] - it.on_left[0];
         Problem {
@@ -34,6 +49,14 @@ fn double_borders(network: &Network) -> impl Iterator<Item = Problem> {
             ),
             remedy: "let both use the same way as border, or leave it if there is a kerb".into(),
         }
+    })
+}
+
+/// Whether one of the lanelets on the left is one of those on the right, or its neighbour.
+fn are_together(network: &Network, left: &[LaneletIndex], right: &[LaneletIndex]) -> bool {
+    left.iter().any(|it| {
+        let Lanelet { right: beside, adjacent_right, .. } = &network.lanelets[it.at()];
+        right.contains(it) || [beside, adjacent_right].into_iter().flatten().any(|it| right.contains(it))
     })
 }
 

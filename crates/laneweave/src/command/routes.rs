@@ -62,7 +62,7 @@ struct Leg {
 
 impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        if !(self.longest >= 1.0) {
+        if self.longest.is_nan() || self.longest < 1.0 {
             return Err(Fault::new(
                 "--longest",
                 format!("{} times as long", self.longest),

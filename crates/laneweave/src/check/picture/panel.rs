@@ -66,12 +66,22 @@ impl<'a> Panel<'a> {
         )
     }
 
-    /// The way along points, as SVG writes it.
+    /// The way along points, as SVG writes it, without points that nobody sees.
     fn path<'p>(&self, points: impl IntoIterator<Item = &'p Point>) -> String {
+        /// A point is seen if it lies so far from the straight way between those around it [px].
+        const VISIBLE: f64 = 0.15;
+        let places: Vec<(f64, f64)> = points.into_iter().map(|it| self.place(it)).collect();
         let mut path = String::new();
-        for point in points {
-            let (x, y) = self.place(point);
-            let _ = write!(path, "{}{x:.1} {y:.1}", if path.is_empty() { "M" } else { "L" });
+        let mut last = None;
+        for (index, (x, y)) in places.iter().copied().enumerate() {
+            let straight = last.zip(places.get(index + 1)).map(|((x0, y0), (x1, y1)): ((f64, f64), _)| {
+                let (dx, dy) = (x1 - x0, y1 - y0);
+                (dx * (y - y0) - dy * (x - x0)).abs() < VISIBLE * dx.hypot(dy)
+            });
+            if straight != Some(true) {
+                let _ = write!(path, "{}{x:.1} {y:.1}", if path.is_empty() { "M" } else { "L" });
+                last = Some((x, y));
+            }
         }
         path
     }
