@@ -1,0 +1,137 @@
+//! `check` and `routes`.
+
+use std::fs;
+use std::io::Write;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use serde_json::{Value, json};
+
+use crate::program::{Folder, maps};
+
+fn answer(folder: &Folder, line: &str) -> Value {
+    let run = folder.laneweave(line);
+    assert_eq!((run.code(), run.errors().as_str()), (0, ""), "{line}");
+    serde_json::from_str(&run.text()).unwrap()
+}
+
+fn refusal(folder: &Folder, line: &str) -> String {
+    let run = folder.laneweave(line);
+    assert_eq!((run.code(), run.text().as_str()), (2, ""), "{line}: {}", run.errors());
+    run.errors().trim_end().to_owned()
+}
+
+#[test]
+fn check_tells_what_a_map_holds() {
+    let folder = Folder::new();
+    let report = answer(&folder, "check MAPS/ramps.osm --json");
+    assert_eq!(
+        (&report["lanelets"], &report["two_way"], &report["origin"]),
+        (&96.into(), &0.into(), &Value::Null)
+    );
+    assert_eq!(report["entrances"].as_array().unwrap().len(), 2);
+    assert_eq!(report["exits"].as_array().unwrap().len(), 3);
+    assert_eq!((report["lane_drops"].as_array().unwrap().len(), &report["conflicts"]), (1, &0.into()));
+    assert_eq!(report["elements"]["lanelet highway"], 96);
+    assert!(report["problems"].as_array().unwrap().is_empty());
+    let text = folder.laneweave("check MAPS/ramps.osm").text();
+    assert!(text.contains("lanelets for vehicles  96, ") && text.ends_with("\nNo problems.\n"), "{text}");
+}
+
+#[test]
+fn check_writes_the_graph_and_a_picture() {
+    let folder = Folder::new();
+    answer(&folder, "check MAPS/lane_drop.osm --json --graph g.json --svg m.svg");
+    let graph: Value = serde_json::from_str(&folder.read("g.json")).unwrap();
+    assert_eq!(graph["2"]["left"], 3);
+    assert_eq!(graph["2"]["right"], 1);
+    assert_eq!((&graph["1"]["right"], &graph["1"]["adjacent_right"]), (&Value::Null, &Value::Null));
+    assert_eq!((&graph["1"]["following"], &graph["4"]["previous"]), (&json!([4]), &json!([1])));
+    assert!((graph["1"]["speed_limit_mps"].as_f64().unwrap() - 120.0 / 3.6).abs() < 1e-9);
+    assert!(graph["1"].get("backward").is_none());
+    let picture = folder.read("m.svg");
+    assert!(picture.starts_with("<svg") && picture.contains(">lane_drop.osm</text>"));
+}
+
+#[test]
+fn compressed_maps_are_maps() {
+    let text = fs::read(maps().join("on_ramp.osm")).unwrap();
+    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+    packed.write_all(&text).unwrap();
+    let packed = packed.finish().unwrap();
+    let folder = Folder::new();
+    fs::write(folder.path().join("m.osm.gz"), &packed).unwrap();
+    fs::write(folder.path().join("half.osm.gz"), &packed[..packed.len() / 2]).unwrap();
+    assert_eq!(answer(&folder, "check m.osm.gz --json"), answer(&folder, "check MAPS/on_ramp.osm --json"));
+    assert!(
+        refusal(&folder, "check half.osm.gz").starts_with("error: half.osm.gz: the file cannot be unpacked")
+    );
+}
+
+#[test]
+fn the_origin_moves_a_projected_map() {
+    let mut map = String::from("<osm>");
+    for (id, lat, lon) in [(1, 49.0, 8.44), (2, 49.0, 8.45), (3, 49.0001, 8.44), (4, 49.0001, 8.45)] {
+        map += &format!("<node id='{id}' lat='{lat}' lon='{lon}'/>");
+    }
+    map += "<way id='5'><nd ref='1'/><nd ref='2'/></way><way id='6'><nd ref='3'/><nd ref='4'/></way>
+        <relation id='7'><member type='way' ref='6' role='left'/><member type='way' ref='5' role='right'/>
+        <tag k='type' v='lanelet'/><tag k='subtype' v='highway'/></relation></osm>";
+    let folder = Folder::new().with("m.osm", &map);
+    assert_eq!(answer(&folder, "check m.osm --json")["origin"], json!([49.0, 8.4]));
+    let other = answer(&folder, "check m.osm --json --origin 49.5,-8 --law usa");
+    assert_eq!(other["origin"], json!([49.5, -8.0]));
+    assert_eq!(other["speed_limits_kmh"], json!([112.7, 112.7]));
+    assert_eq!(
+        refusal(&folder, "check m.osm --origin 95,8"),
+        "error: --origin: the origin (95, 8) is no latitude within ±84° and longitude within ±180°; correct it"
+    );
+    assert!(refusal(&folder, "check m.osm --origin 49").contains("write LAT,LON, such as 49,8.4"));
+    assert!(refusal(&folder, "check m.osm --law mars").contains("choose germany or usa"));
+}
+
+#[test]
+fn a_recording_needs_its_map() {
+    let rows: String =
+        (1..=50).map(|i| format!("1,{i},{}00,car,{},5.2,20,0,0,4.5,1.8\n", i, 100 + 2 * i)).collect();
+    let header = "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n";
+    let folder = Folder::new().with("t.csv", &format!("{header}{rows}")).with("u.csv", "track_id,x\n1,2\n");
+    let report = answer(&folder, "check t.csv --map MAPS/motorway_2_lanes.osm --json");
+    assert_eq!(
+        (&report["tracks"]["car"], &report["states"], &report["unmatched"]),
+        (&1.into(), &50.into(), &0.into())
+    );
+    assert_eq!(report["lane_changes"].as_array().unwrap().len(), 0);
+    let text = folder.laneweave("check t.csv --map MAPS/motorway_2_lanes.osm").text();
+    assert!(text.ends_with("\nNobody changed lanes.\n"), "{text}");
+    assert_eq!(
+        refusal(&folder, "check t.csv"),
+        "error: t.csv: a recording needs the map of its place; add --map MAP"
+    );
+    assert!(
+        refusal(&folder, "check u.csv --map MAPS/ramps.osm").starts_with("error: u.csv: line 1: the column")
+    );
+    assert!(
+        refusal(&folder, "check none.csv --map MAPS/ramps.osm")
+            .starts_with("error: none.csv: cannot be read")
+    );
+    assert!(refusal(&folder, "check t.csv --map t.csv").contains("known are Lanelet2"));
+}
+
+#[test]
+fn routes_lead_from_lanelet_to_lanelet() {
+    let folder = Folder::new();
+    let found = answer(&folder, "routes MAPS/motorway_3_lanes.osm 1 75 --json");
+    let way = &found["routes"][0];
+    assert_eq!((found["routes"].as_array().unwrap().len(), &way["lane_changes"]), (1, &2.into()));
+    assert!((way["length_m"].as_f64().unwrap() - 5000.0).abs() < 1e-6);
+    assert!((way["free_travel_time_s"].as_f64().unwrap() - 150.0).abs() < 1e-6);
+    assert_eq!(way["lanelets"].as_array().unwrap().len(), 27);
+    let none = folder.laneweave("routes MAPS/motorway_3_lanes.osm 75 1");
+    assert_eq!(none.code(), 0);
+    assert!(none.text().starts_with("No way leads from lanelet 75 to lanelet 1"));
+    assert_eq!(
+        refusal(&folder, "routes MAPS/motorway_3_lanes.osm 1 76"),
+        "error: TO: vehicles can use no lanelet 76 on this map; choose another of its 75 lanelets; the nearest id is 75"
+    );
+}
