@@ -184,13 +184,12 @@ fn link(chains: &mut [Chain], lanelets: &[Lanelet], place: &[(ChainIndex, usize)
         }
     }
     for index in 0..chains.len() {
-        let siblings: Vec<ChainIndex> = chains[index]
-            .previous
-            .iter()
-            .flat_map(|back| &chains[back.at()].following)
-            .filter(|it| it.at() != index)
-            .copied()
-            .collect();
+        let previous = chains[index].previous.iter();
+        let mut siblings: Vec<ChainIndex> =
+            previous.flat_map(|back| &chains[back.at()].following).copied().collect();
+        siblings.sort_unstable();
+        siblings.dedup();
+        siblings.retain(|it| it.at() != index);
         let clearance =
             siblings.iter().map(|it| clearance(&chains[index], &chains[it.at()])).fold(0.0, f64::max);
         chains[index].fork_clearance = clearance;
@@ -222,11 +221,14 @@ fn stretches(
 fn clearance(chain: &Chain, sibling: &Chain) -> f64 {
     const APART: f64 = 3.0;
     const STEP: f64 = 2.0;
+    /// Chains that have not parted by then were drawn twice; ours, so that they do not take time with their length.
+    const LONGEST_FORK: f64 = 500.0;
+    let end = chain.length.min(LONGEST_FORK);
     let mut station = 0.0;
-    while station < chain.length && chain.centre.at(station).distance(&sibling.centre.at(station)) < APART {
+    while station < end && chain.centre.at(station).distance(&sibling.centre.at(station)) < APART {
         station += STEP;
     }
-    station.min(chain.length)
+    station.min(end)
 }
 
 #[cfg(test)]
@@ -296,6 +298,30 @@ mod tests {
         assert_eq!(network.chains.len(), 1);
         assert_eq!(network.chains[0].following, [ChainIndex(0)]);
         assert!(network.entrances.is_empty() && network.exits.is_empty());
+    }
+
+    #[test]
+    fn chains_that_fork_without_parting_touch_for_500_m() {
+        // Each of 32 lanelets is followed by all of 32 others, which lie on one heap.
+        let mut all: Vec<Lanelet> = (0..32).map(|i| lanelet(i, 0.0, 100.0, 0.0)).collect();
+        all.extend((32..64).map(|i| lanelet(i, 100.0, 20_000.0, 0.0)));
+        for lanelet in &mut all[..32] {
+            lanelet.following = (32..64).map(LaneletIndex).collect();
+        }
+        let network = Network::new(all, DrivingSide::Right).unwrap();
+        let clearances: Vec<f64> = network.chains.iter().map(|it| it.fork_clearance).collect();
+        assert_eq!(clearances, [[0.0; 32], [500.0; 32]].concat());
+    }
+
+    #[test]
+    fn chains_of_a_fork_touch_until_they_are_3_m_apart() {
+        let mut all = vec![lanelet(1, 0.0, 100.0, 0.0), lanelet(2, 100.0, 300.0, 0.0)];
+        let branch = Polyline::new([Point::new(100.0, 2.0, 0.0), Point::new(300.0, 22.0, 0.0)]).unwrap();
+        all.push(Lanelet { id: 3, centre: branch, ..all[1].clone() });
+        all[0].following = vec![LaneletIndex(1), LaneletIndex(2)];
+        let network = Network::new(all, DrivingSide::Right).unwrap();
+        // Along both they part by 3 m in 30 m; every second metre is looked at.
+        assert_eq!(network.chains.iter().map(|it| it.fork_clearance).collect::<Vec<_>>(), [0.0, 32.0, 32.0]);
     }
 
     #[test]

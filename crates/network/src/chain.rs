@@ -37,7 +37,7 @@ pub struct Chain {
     pub right: Vec<Beside>,
     /// It ends beside a continuing chain: who is on it has to change lanes.
     pub is_lane_drop: bool,
-    /// How far from its start its vehicles still touch those on chains that fork off with it [m].
+    /// How far from its start its vehicles still touch those on chains that fork off with it [m], 500 m at most.
     pub fork_clearance: f64,
 }
 
