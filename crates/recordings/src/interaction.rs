@@ -5,6 +5,7 @@
 
 mod header;
 mod row;
+mod write;
 
 use std::collections::HashMap;
 
@@ -15,6 +16,7 @@ use crate::problems::Problems;
 use crate::recording::{Recording, State, Track};
 use header::Header;
 use row::Row;
+pub use write::write;
 
 /// Largest file that is read [B].
 const MAXIMUM_SIZE: u64 = 512 << 20;

@@ -40,6 +40,11 @@ pub(crate) fn motion(states: &[State], at: usize, reach: f64, step: f64) -> Moti
     Motion { x, y, vx, vy }
 }
 
+/// Speed at `states[at]` [m/s], by the speeds up to `reach` [s] before and after.
+pub(crate) fn speed(states: &[State], at: usize, reach: f64, step: f64) -> f64 {
+    line(window(states, at, reach, step), &states[at], step, |it| it.speed).0
+}
+
 /// Acceleration at `states[at]` [m/s²], by the speeds up to `reach` [s] before and after.
 pub(crate) fn acceleration(states: &[State], at: usize, reach: f64, step: f64) -> f64 {
     line(window(states, at, reach, step), &states[at], step, |it| it.speed).1

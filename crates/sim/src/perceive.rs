@@ -9,7 +9,7 @@ use crate::scene::{LaneSight, Scene, Spot, Viewpoint};
 use crate::traffic::{Car, Phase};
 
 /// What a driver knows when it considers the lane on `side`; `None` where it may not change to one.
-pub fn perceive<'a>(scene: &'a Scene, me: Spot, side: Side) -> Option<Situation<'a>> {
+pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation<'a>> {
     let outlook = Outlook::new(scene, me);
     let beside = outlook.beside(side)?;
     let hint = scene.lanes[beside.chain.at()].ahead_of(beside.across(outlook.from.x));
@@ -32,8 +32,8 @@ pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
 }
 
 /// A driver's view of its own lane, from which it considers both sides.
-pub(crate) struct Outlook<'a> {
-    scene: &'a Scene<'a>,
+pub(crate) struct Outlook<'s, 'a> {
+    scene: &'s Scene<'a>,
     car: &'a Car,
     me: Driver<'a>,
     from: Viewpoint,
@@ -41,9 +41,9 @@ pub(crate) struct Outlook<'a> {
     here: LaneView<'a>,
 }
 
-impl<'a> Outlook<'a> {
+impl<'s, 'a> Outlook<'s, 'a> {
     /// Looks along the driver's own lane.
-    pub(crate) fn new(scene: &'a Scene<'a>, spot: Spot) -> Outlook<'a> {
+    pub(crate) fn new(scene: &'s Scene<'a>, spot: Spot) -> Outlook<'s, 'a> {
         let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length);

@@ -1,7 +1,15 @@
-//! Whatever the bytes, reading, cleaning and matching end without a panic.
+//! Whatever the bytes, reading, cleaning, matching and perceiving end without a panic.
 
+use std::sync::LazyLock;
+
+use laneweave::style::Population;
 use laneweave_maps::generate::{Motorway, motorway};
-use laneweave_recordings::{Matched, Recording, RoadUser, State, Track, clean, interaction, lane_changes};
+use laneweave_models::Style;
+use laneweave_network::{Network, Side};
+use laneweave_recordings::{
+    Assumed, Matched, Recording, Replay, RoadUser, State, Track, clean, interaction, lane_changes,
+};
+use laneweave_sim::Navigator;
 use proptest::prelude::*;
 
 fn small_file() -> String {
@@ -15,17 +23,38 @@ fn small_file() -> String {
     text
 }
 
+static CHARACTERS: LazyLock<Vec<Style>> =
+    LazyLock::new(|| Population::usual(1).expect("built-in styles").characters);
+
 fn use_it(recording: Recording) {
-    let (recording, report) = clean(recording);
-    assert!(report.to_string().starts_with(&format!("{} states", report.states)));
     let road = Motorway { lanes: 2, length_m: 100.0, ..Motorway::default() };
     let network = motorway(&road).expect("it fits").build().expect("it has lanes").network;
+    perceive(&network, &recording);
+    let (recording, report) = clean(recording);
+    perceive(&network, &recording);
+    assert!(report.to_string().starts_with(&format!("{} states", report.states)));
     let matched = Matched::new(&network, &recording);
     for change in lane_changes(&matched) {
         assert!(change.time.is_finite() && change.seen_after >= 0.8);
     }
     for frame in -1..13 {
         assert!(matched.frame(frame).is_sorted_by_key(|it| (it.place.lanelet, it.place.station)));
+    }
+}
+
+/// Looks at a recording as its drivers see it.
+fn perceive(network: &Network, recording: &Recording) {
+    let matched = Matched::new(network, recording);
+    let navigator = Navigator::new(network);
+    let assume = |track| Assumed::by_its_speeds(&matched, track, 0);
+    let changes = lane_changes(&matched);
+    let replay = Replay::new(&matched, &changes, &navigator, &CHARACTERS, assume).expect("they are drivers");
+    for number in -1..13 {
+        let frame = replay.frame(number);
+        for vehicle in frame.vehicles() {
+            let sides = Side::BOTH.into_iter().filter_map(|side| frame.perceive(vehicle, side)).count();
+            assert!(sides <= 1, "there are two lanes");
+        }
     }
 }
 

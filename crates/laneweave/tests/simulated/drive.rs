@@ -1,0 +1,191 @@
+//! Simulated traffic as a camera would see it, and what its drivers knew.
+
+use std::collections::{BTreeMap, HashMap};
+use std::f64::consts::TAU;
+
+use laneweave::style::Population;
+use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_recordings::{Recording, RoadUser, State, Track};
+use laneweave_sim::{
+    Body, Class, Demand, Event, Purpose, Random, Setup, Vehicle, VehicleId, World, perceive,
+};
+
+use crate::view::View;
+
+/// Time between steps, which are frames [s].
+pub(crate) const STEP: f64 = 0.04;
+/// Standard deviation of the positions' noise along each axis [m].
+const NOISE: f64 = 0.1;
+/// Vehicles per hour on the road and on the ramp.
+const ON_ROAD: f64 = 2300.0;
+const ON_RAMP: f64 = 220.0;
+/// Vehicles that stay on the road for one that leaves it.
+const STAYING: f64 = 9.0;
+/// Share of trucks.
+const TRUCKS: f64 = 0.1;
+/// Simulated time before the recording, of the recording, and after it until its last changes are done [s].
+const WARM_UP: f64 = 120.0;
+const RECORDED: f64 = 660.0;
+const AFTERWARDS: f64 = 30.0;
+/// Between these times what drivers know is kept once in a while [s]. Before, changes are under way that began
+/// before the recording; after, it ends before all have left the map.
+const FIRST_KEPT: f64 = 10.0;
+const LAST_KEPT: f64 = 480.0;
+const EVERY: f64 = 5.0;
+
+/// What the simulator knew.
+pub(crate) struct Truth {
+    pub(crate) network: Network,
+    pub(crate) characters: Vec<Style>,
+    /// For each vehicle its character.
+    pub(crate) character_of: HashMap<i64, u32>,
+    /// The lane changes that were made, by the time of the recording.
+    pub(crate) changes: Vec<Made>,
+    /// What drivers knew.
+    pub(crate) instants: Vec<Instant>,
+}
+
+/// A lane change that was made: when it began, crossed the line and ended [s].
+pub(crate) struct Made {
+    pub(crate) vehicle: i64,
+    pub(crate) began: f64,
+    pub(crate) time: f64,
+    pub(crate) ended: f64,
+}
+
+/// One instant of the simulation.
+pub(crate) struct Instant {
+    pub(crate) frame: i64,
+    /// In order of vehicles.
+    pub(crate) stands: Vec<Stand>,
+    pub(crate) samples: Vec<Sample>,
+}
+
+/// Where a vehicle is.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Stand {
+    pub(crate) vehicle: i64,
+    pub(crate) chain: ChainIndex,
+    pub(crate) is_between_lanes: bool,
+}
+
+/// What a driver knew of a side.
+pub(crate) struct Sample {
+    pub(crate) vehicle: i64,
+    pub(crate) side: Side,
+    pub(crate) view: Option<View>,
+}
+
+/// The usual drivers on three lanes with trucks, an on-ramp and an off-ramp, and the recording of them.
+pub(crate) fn drive(seed: u64) -> (Truth, Recording) {
+    let mut world = world(seed);
+    let steps = |seconds: f64| (seconds / STEP).round() as i64;
+    (0..steps(WARM_UP)).for_each(|_| world.step());
+    let began = world.clock().time();
+    let noise = Random::new(seed + 1);
+    let mut camera = Camera { noise, tracks: BTreeMap::new(), character_of: HashMap::new() };
+    let (mut changes, mut instants) = (Vec::new(), Vec::new());
+    for frame in 0..=steps(RECORDED + AFTERWARDS) {
+        if frame <= steps(RECORDED) {
+            camera.see(&world, frame);
+        }
+        if (steps(FIRST_KEPT)..=steps(LAST_KEPT)).contains(&frame) && frame % steps(EVERY) == 0 {
+            instants.push(instant(&world, frame));
+        }
+        world.step();
+        for event in world.events() {
+            let Event::LaneChange(it) = event else { continue };
+            let (vehicle, time) = (i64::from(it.vehicle), it.time - began);
+            if it.is_completed && (0.0..=RECORDED).contains(&time) {
+                let start = it.started - began;
+                changes.push(Made { vehicle, began: start, time, ended: start + it.duration });
+            }
+        }
+    }
+    let Camera { tracks, character_of, .. } = camera;
+    let recording = Recording { step: STEP, tracks: tracks.into_values().collect() };
+    let characters = Population::usual(seed).expect("built-in styles").characters;
+    let network = world.network().clone();
+    (Truth { network, characters, character_of, changes, instants }, recording)
+}
+
+fn world(seed: u64) -> World {
+    let (on_ramp_at, off_ramp_at) = (vec![700.0], vec![2200.0]);
+    let road = Motorway { length_m: 3000.0, on_ramp_at, off_ramp_at, ..Motorway::default() };
+    let network = motorway(&road).expect("it fits").build().expect("it has lanes").network;
+    let Population { characters, shares } = Population::usual(seed).expect("built-in styles");
+    let by_lanes = |gates: &[laneweave_network::Gate], road, ramp| {
+        gates.iter().map(|it| if it.chains.len() > 1 { road } else { ramp }).collect()
+    };
+    let demand = Demand {
+        rates: by_lanes(&network.entrances, ON_ROAD, ON_RAMP),
+        destinations: by_lanes(&network.exits, STAYING, 1.0),
+        trucks: TRUCKS,
+        population: shares,
+    };
+    World::new(network, characters, demand, Setup { step: STEP, seed, threads: 1 }).expect("it makes sense")
+}
+
+/// What sees the road from above, not quite exactly.
+struct Camera {
+    noise: Random,
+    /// By vehicle.
+    tracks: BTreeMap<VehicleId, Track>,
+    character_of: HashMap<i64, u32>,
+}
+
+impl Camera {
+    /// Writes down where everybody is.
+    fn see(&mut self, world: &World, frame: i64) {
+        let mut vehicles: Vec<Vehicle> = world.vehicles().collect();
+        vehicles.sort_by_key(Vehicle::id);
+        for vehicle in vehicles {
+            let (id, pose) = (vehicle.id(), vehicle.pose());
+            self.character_of.insert(i64::from(id), vehicle.car.character);
+            let track = self.tracks.entry(id).or_insert_with(|| track(&vehicle));
+            let [dx, dy] = error(&self.noise, id, frame as u32);
+            let (x, y) = (pose.at.x + dx, pose.at.y + dy);
+            let state = State { frame, x, y, speed: vehicle.speed(), heading: pose.heading };
+            track.states.push(state);
+        }
+    }
+}
+
+/// Independent normal numbers for both axes [m], by Box and Muller.
+fn error(noise: &Random, vehicle: VehicleId, frame: u32) -> [f64; 2] {
+    let draw = |purpose| noise.uniform(vehicle, purpose, frame);
+    let radius = NOISE * (-2.0 * draw(Purpose::Arrival).ln()).sqrt();
+    let angle = TAU * draw(Purpose::Class);
+    [radius * angle.cos(), radius * angle.sin()]
+}
+
+fn track(vehicle: &Vehicle) -> Track {
+    let class = vehicle.car.class;
+    let road_user = if class == Class::Truck { RoadUser::Truck } else { RoadUser::Car };
+    let Body { length, width, .. } = *class.body();
+    Track { id: i64::from(vehicle.id()), class: road_user, length, width, states: Vec::new() }
+}
+
+/// Who stands where, and what everybody knows.
+fn instant(world: &World, frame: i64) -> Instant {
+    let scene = world.scene();
+    let mut vehicles: Vec<Vehicle> = world.vehicles().collect();
+    vehicles.sort_by_key(Vehicle::id);
+    let id = |it: &Vehicle| i64::from(it.id());
+    let stand = |it: &Vehicle| Stand {
+        vehicle: id(it),
+        chain: it.spot.chain,
+        is_between_lanes: it.car.phase.is_between_lanes(),
+    };
+    let sample = |it: &Vehicle, side| {
+        let view = perceive(&scene, it.spot, side).as_ref().map(View::of);
+        Sample { vehicle: id(it), side, view }
+    };
+    Instant {
+        frame,
+        stands: vehicles.iter().map(stand).collect(),
+        samples: vehicles.iter().flat_map(|it| Side::BOTH.map(|side| sample(it, side))).collect(),
+    }
+}

@@ -1,0 +1,121 @@
+//! Simulated traffic, written as a recording with 10 cm of noise at 25 Hz and read again, shows its lane changes and what
+//! its drivers knew.
+
+mod drive;
+mod view;
+
+use std::collections::{BTreeMap, HashSet};
+use std::sync::LazyLock;
+
+use drive::{Made, STEP, Stand, Truth, drive};
+use laneweave_recordings::{
+    Assumed, Frame, LaneChange, Matched, Recording, Replay, clean, extents, interaction, lane_changes,
+};
+use laneweave_sim::Navigator;
+use view::View;
+
+/// What was simulated, and what a reader of the file has of it.
+static DRIVEN: LazyLock<(Truth, Recording)> = LazyLock::new(|| {
+    let (truth, seen) = drive(1);
+    let mut file = Vec::new();
+    interaction::write(&seen, &mut file).expect("memory can be written to");
+    let (recording, problems) = interaction::read(&file).expect("it is a recording");
+    assert_eq!(problems, []);
+    (truth, clean(recording).0)
+});
+
+/// A change is found if its crossing is off by so much at most [s].
+const FOUND_WITHIN: f64 = 0.5;
+/// A vehicle that is seen shorter after a crossing has not changed lanes [s].
+const STAY: f64 = 0.8;
+
+/// The change that was found for one that was made.
+fn found<'a>(changes: &'a [LaneChange], made: &Made) -> Option<(usize, &'a LaneChange)> {
+    let is_it = |it: &LaneChange| it.vehicle == made.vehicle && (it.time - made.time).abs() <= FOUND_WITHIN;
+    changes.iter().enumerate().find(|(_, it)| is_it(it))
+}
+
+#[test]
+fn its_lane_changes_are_found_and_hardly_any_that_was_not_made() {
+    let (truth, recording) = &*DRIVEN;
+    let changes = lane_changes(&Matched::new(&truth.network, recording));
+    let last_seen = |vehicle: i64| {
+        let last = recording.tracks.iter().find(|it| it.id == vehicle)?.states.last()?;
+        Some(last.frame as f64 * STEP)
+    };
+    let counts = |it: &&Made| last_seen(it.vehicle).is_some_and(|last| last - it.time >= STAY);
+    let made = truth.changes.iter().filter(counts).count();
+    let hits = truth.changes.iter().filter(counts).filter(|it| found(&changes, it).is_some()).count();
+    let explained: HashSet<usize> =
+        truth.changes.iter().filter_map(|it| found(&changes, it)).map(|(index, _)| index).collect();
+    let invented = changes.len() - explained.len();
+    let figures = format!("{made} made, {hits} of them found, {} found, {invented} invented", changes.len());
+    assert!(made >= 300, "{figures}");
+    assert!(hits * 100 >= made * 99 && invented * 100 <= changes.len(), "{figures}");
+}
+
+#[test]
+fn changes_begin_and_end_when_they_did_to_a_tenth_of_a_second() {
+    let (truth, recording) = &*DRIVEN;
+    let matched = Matched::new(&truth.network, recording);
+    let changes = lane_changes(&matched);
+    let extents = extents(&matched, &changes);
+    let mut errors: Vec<f64> = Vec::new();
+    for made in &truth.changes {
+        let Some((index, _)) = found(&changes, made) else { continue };
+        errors.push((extents[index].began - made.began).abs());
+        errors.push((extents[index].ended - made.ended).abs());
+    }
+    errors.sort_by(f64::total_cmp);
+    let quantile = |percent: usize| errors[errors.len() * percent / 100];
+    assert!(quantile(50) < 0.04 && quantile(90) < 0.1, "{} {}", quantile(50), quantile(90));
+}
+
+#[test]
+fn a_recorded_driver_knows_what_the_simulated_one_knew() {
+    let (truth, recording) = &*DRIVEN;
+    let matched = Matched::new(&truth.network, recording);
+    let navigator = Navigator::new(&truth.network);
+    let assume = |track: usize| {
+        let character = truth.character_of[&recording.tracks[track].id];
+        Assumed { character, speed_factor: truth.characters[character as usize].speed_factor }
+    };
+    let changes = lane_changes(&matched);
+    let replay = Replay::new(&matched, &changes, &navigator, &truth.characters, assume).expect("drivers");
+    let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();
+    for instant in &truth.instants {
+        let frame = replay.frame(instant.frame);
+        // A change is known to have begun, crossed the line or ended a frame or two too early or late; one that leaves
+        // the map before it counts is not known.
+        let differs = stands(&frame) != instant.stands;
+        for sample in &instant.samples {
+            let seen = frame.perceive(sample.vehicle, sample.side).as_ref().map(View::of);
+            let outcome = match (&seen, &sample.view) {
+                (None, None) => continue,
+                (Some(seen), Some(known)) if seen.agrees(known) => "agree",
+                _ if differs => "while a lane change begins, crosses or ends",
+                // Simulated drivers heed a new limit when they consider lanes next.
+                (Some(seen), Some(known)) if seen.desired != known.desired => "new limit",
+                // A vehicle is at the edge of what counts, or exactly alongside.
+                _ => "edge",
+            };
+            *outcomes.entry(outcome).or_default() += 1;
+        }
+    }
+    let samples: usize = outcomes.values().sum();
+    let count = |outcome: &str| outcomes.get(outcome).copied().unwrap_or(0);
+    assert!(samples >= 2000, "{outcomes:?}");
+    assert!(count("agree") * 100 >= samples * 99, "{outcomes:?}");
+    assert!((count("new limit") + count("edge")) * 200 <= samples, "{outcomes:?}");
+}
+
+/// Who stands where, and who is between lanes, in a recorded frame.
+fn stands(frame: &Frame<'_>) -> Vec<Stand> {
+    let scene = frame.scene();
+    let stand = |vehicle: i64| {
+        let spot = frame.spot(vehicle)?;
+        let is_between_lanes = scene.car(spot).phase.is_between_lanes();
+        Some(Stand { vehicle, chain: spot.chain, is_between_lanes })
+    };
+    frame.vehicles().filter_map(stand).collect()
+}

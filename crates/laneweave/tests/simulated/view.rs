@@ -1,0 +1,101 @@
+//! What a driver knows, in plain numbers.
+
+use laneweave_models::change::{LaneView, Situation};
+
+/// How much gaps and distances to go [m], speeds [m/s] and times to go [s] may differ, and mean spacings relatively: what
+/// 10 cm of noise and smoothing allow.
+const GAP: f64 = 0.5;
+const REMAINING: f64 = 1.0;
+const SPEED: f64 = 0.3;
+const TIME: f64 = 0.1;
+const SPACING: f64 = 0.01;
+
+/// A situation in numbers that can be compared.
+#[derive(Clone, Debug)]
+pub(crate) struct View {
+    pub(crate) speed: f64,
+    pub(crate) desired: f64,
+    pub(crate) section: f64,
+    pub(crate) lanes: [Lane; 2],
+}
+
+/// The own lane, or the one beside.
+#[derive(Clone, Debug)]
+pub(crate) struct Lane {
+    ahead: Option<Neighbour>,
+    behind: Option<Neighbour>,
+    prospect: f64,
+    mean_spacing: f64,
+    mean_speed: f64,
+    changes: u32,
+    remaining: f64,
+    onward: f64,
+}
+
+/// The leader or the follower.
+#[derive(Clone, Copy, Debug)]
+struct Neighbour {
+    gap: f64,
+    speed: f64,
+}
+
+impl View {
+    pub(crate) fn of(situation: &Situation) -> View {
+        View {
+            speed: situation.me.pace.speed,
+            desired: situation.me.pace.desired,
+            section: situation.section,
+            lanes: [&situation.here, &situation.there].map(Lane::of),
+        }
+    }
+
+    /// Seen and known are the same but for noise.
+    pub(crate) fn agrees(&self, known: &View) -> bool {
+        near(self.speed, known.speed, SPEED)
+            && self.desired == known.desired
+            && near(self.section, known.section, REMAINING)
+            && self.lanes.iter().zip(&known.lanes).all(|(seen, known)| seen.agrees(known))
+    }
+}
+
+impl Lane {
+    fn of(lane: &LaneView) -> Lane {
+        Lane {
+            ahead: lane.ahead.map(|it| Neighbour { gap: it.gap, speed: it.speed }),
+            behind: lane.behind.map(|it| Neighbour { gap: it.gap, speed: it.driver.pace.speed }),
+            prospect: lane.prospect,
+            mean_spacing: lane.flow.spacing,
+            mean_speed: lane.flow.speed,
+            changes: lane.route.changes,
+            remaining: lane.route.remaining,
+            onward: lane.route.onward,
+        }
+    }
+
+    fn agrees(&self, known: &Lane) -> bool {
+        Neighbour::agree(self.ahead, known.ahead)
+            && Neighbour::agree(self.behind, known.behind)
+            && near(self.prospect, known.prospect, SPEED)
+            && near(self.mean_spacing, known.mean_spacing, SPACING * known.mean_spacing)
+            && near(self.mean_speed, known.mean_speed, SPEED)
+            && self.changes == known.changes
+            && near(self.remaining, known.remaining, REMAINING)
+            && near(self.onward, known.onward, TIME)
+    }
+}
+
+impl Neighbour {
+    fn agree(seen: Option<Neighbour>, known: Option<Neighbour>) -> bool {
+        match (seen, known) {
+            (Some(seen), Some(known)) => {
+                near(seen.gap, known.gap, GAP) && near(seen.speed, known.speed, SPEED)
+            }
+            (seen, known) => seen.is_none() && known.is_none(),
+        }
+    }
+}
+
+/// Infinite ones are near each other, too.
+fn near(one: f64, other: f64, bound: f64) -> bool {
+    one == other || (one - other).abs() <= bound
+}

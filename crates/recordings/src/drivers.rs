@@ -1,0 +1,166 @@
+//! Recorded drivers: what they are about, as far as their way shows, and what has to be assumed of them.
+
+use std::collections::HashMap;
+
+use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_sim::{Class, Destination, Navigator};
+
+use crate::changes::LaneChange;
+use crate::matching::Matched;
+use crate::recording::RoadUser;
+use crate::sideways::{Extent, extents, last_before};
+
+/// What is assumed of a recorded driver, because no recording shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assumed {
+    /// Its place in the table of characters.
+    pub character: u32,
+    /// Its desired speed as a share of the one that the limit and its class allow, which for a simulated driver is that
+    /// of its style.
+    pub speed_factor: f64,
+}
+
+/// Least speed factor of a driver, also of one who only stands.
+const LEAST_FACTOR: f64 = 0.1;
+
+impl Assumed {
+    /// A driver of `character` who wants to drive as it did for most of the time that it was seen: its speed factor is
+    /// that which it stayed below for 85 % of that time, at least 0.1 and at most 1. Who was held up all the time wants too
+    /// little.
+    pub fn by_its_speeds(matched: &Matched<'_>, track: usize, character: u32) -> Assumed {
+        let (track, places) = (&matched.recording.tracks[track], &matched.places[track]);
+        let class = class_of(track.class);
+        let mut factors: Vec<f64> = track
+            .states
+            .iter()
+            .zip(places)
+            .filter_map(|(state, place)| {
+                let limit = matched.network.lanelets[place.as_ref()?.lanelet.at()].speed_limit;
+                Some(state.speed / allowed(class, limit)).filter(|it| it.is_finite())
+            })
+            .collect();
+        factors.sort_by(f64::total_cmp);
+        let usual = factors.get(factors.len() * 85 / 100).copied().unwrap_or(1.0);
+        Assumed { character, speed_factor: usual.clamp(LEAST_FACTOR, 1.0) }
+    }
+}
+
+/// A track's driver.
+pub(crate) struct Driver {
+    pub(crate) assumed: Assumed,
+    pub(crate) class: Class,
+    pub(crate) destination: Destination,
+    /// The chains of its way in order, each with the number of the first state there.
+    pub(crate) chains: Vec<(usize, ChainIndex)>,
+    /// Its lane changes.
+    pub(crate) changes: Vec<Change>,
+}
+
+/// A lane change of a driver.
+pub(crate) struct Change {
+    pub(crate) side: Side,
+    pub(crate) extent: Extent,
+    /// Number of the last state that is matched to the old lane.
+    pub(crate) last_before: Option<usize>,
+}
+
+impl Driver {
+    /// Its desired speed under `limit` [m/s].
+    pub(crate) fn desired(&self, limit: f64) -> f64 {
+        allowed(self.class, limit) * self.assumed.speed_factor
+    }
+
+    /// Onto which of `following` it goes on from where it is in state number `at`. Where branches still overlap the match
+    /// may begin with another one: the last counts.
+    pub(crate) fn next(&self, at: usize, following: &[ChainIndex]) -> Option<ChainIndex> {
+        let later = self.chains.iter().filter(|(first, _)| *first > at).map(|(_, chain)| *chain);
+        let is_following = |it: &ChainIndex| following.contains(it);
+        later.skip_while(|it| !is_following(it)).take_while(is_following).last()
+    }
+}
+
+/// The drivers of all tracks.
+pub(crate) fn drivers(
+    matched: &Matched<'_>,
+    changes: &[LaneChange],
+    navigator: &Navigator,
+    stands: &[(ChainIndex, f64)],
+    assume: impl Fn(usize) -> Assumed,
+) -> Vec<Driver> {
+    let goals = goals(matched, navigator, stands);
+    let mut drivers: Vec<Driver> = Vec::with_capacity(matched.places.len());
+    for (index, (track, places)) in matched.recording.tracks.iter().zip(&matched.places).enumerate() {
+        let mut chains: Vec<(usize, ChainIndex)> = Vec::new();
+        for (at, place) in places.iter().enumerate() {
+            let chain = place.map(|it| stands[it.lanelet.at()].0);
+            chains.extend(
+                chain.filter(|it| chains.last().is_none_or(|(_, last)| last != it)).map(|it| (at, it)),
+            );
+        }
+        drivers.push(Driver {
+            assumed: assume(index),
+            class: class_of(track.class),
+            destination: goals.get(&track.id).copied().flatten(),
+            chains,
+            changes: Vec::new(),
+        });
+    }
+    for (change, extent) in changes.iter().zip(extents(matched, changes)) {
+        let last_before = last_before(matched, change);
+        drivers[change.track].changes.push(Change { side: change.side, extent, last_before });
+    }
+    drivers
+}
+
+/// Where each vehicle goes: to the exit that is easiest from where it was last seen. A vehicle that left the map was there.
+fn goals(
+    matched: &Matched<'_>,
+    navigator: &Navigator,
+    stands: &[(ChainIndex, f64)],
+) -> HashMap<i64, Destination> {
+    let mut last_seen: HashMap<i64, (i64, ChainIndex, f64)> = HashMap::new();
+    for (track, places) in matched.recording.tracks.iter().zip(&matched.places) {
+        let last =
+            track.states.iter().zip(places).rev().find_map(|(state, it)| it.map(|it| (state.frame, it)));
+        let Some((frame, place)) = last else { continue };
+        let (chain, start) = stands[place.lanelet.at()];
+        let seen = last_seen.entry(track.id).or_insert((frame, chain, start + place.station));
+        if frame > seen.0 {
+            *seen = (frame, chain, start + place.station);
+        }
+    }
+    last_seen.into_iter().map(|(id, (_, chain, x))| (id, easiest(navigator, chain, x))).collect()
+}
+
+/// The exit that from `x` on `chain` needs the fewest lane changes, and of several the least time.
+pub(crate) fn easiest(navigator: &Navigator, chain: ChainIndex, x: f64) -> Destination {
+    let changes = |destination: Destination| navigator.waypoint(destination, chain).changes;
+    let reachable = navigator.reachable(chain, x);
+    let easiest = reachable.min_by(|(a, time_of_a), (b, time_of_b)| {
+        changes(*a).cmp(&changes(*b)).then(time_of_a.total_cmp(time_of_b))
+    });
+    easiest.and_then(|(destination, _)| destination)
+}
+
+/// For each lanelet its chain, and where it starts along that [m].
+pub(crate) fn stands(network: &Network) -> Vec<(ChainIndex, f64)> {
+    let mut stands = vec![(ChainIndex(0), 0.0); network.lanelets.len()];
+    for (chain, index) in network.chains.iter().zip(0..) {
+        for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
+            stands[lanelet.at()] = (ChainIndex(index), *start);
+        }
+    }
+    stands
+}
+
+/// The speed [m/s] that a class may drive under `limit` [m/s].
+fn allowed(class: Class, limit: f64) -> f64 {
+    limit.min(class.body().top_speed)
+}
+
+fn class_of(road_user: RoadUser) -> Class {
+    match road_user {
+        RoadUser::Truck | RoadUser::Bus => Class::Truck,
+        _ => Class::Car,
+    }
+}

@@ -1,0 +1,46 @@
+//! Writes track files.
+
+use std::io::{self, Write};
+
+use super::header::COLUMNS;
+use crate::recording::{Recording, RoadUser, Track};
+
+/// Writes a recording as a track file, numbers to the millimetre, as the dataset gives them.
+///
+/// # Errors
+/// If `out` cannot be written to.
+pub fn write(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "{}", COLUMNS.join(","))?;
+    for track in &recording.tracks {
+        write_track(track, recording.step, out)?;
+    }
+    Ok(())
+}
+
+fn write_track(track: &Track, step: f64, out: &mut impl Write) -> io::Result<()> {
+    let Track { id, length, width, .. } = track;
+    let class = name(track.class);
+    for state in &track.states {
+        let time_ms = (state.frame as f64 * step * 1000.0).round() as i64;
+        let (vx, vy) = (state.speed * state.heading.cos(), state.speed * state.heading.sin());
+        writeln!(
+            out,
+            "{id},{},{time_ms},{class},{:.3},{:.3},{vx:.3},{vy:.3},{:.3},{length:.2},{width:.2}",
+            state.frame, state.x, state.y, state.heading
+        )?;
+    }
+    Ok(())
+}
+
+/// The dataset's name of a class.
+fn name(class: RoadUser) -> &'static str {
+    match class {
+        RoadUser::Car => "car",
+        RoadUser::Truck => "truck",
+        RoadUser::Bus => "bus",
+        RoadUser::Motorcycle => "motorcycle",
+        RoadUser::Bicycle => "bicycle",
+        RoadUser::Pedestrian => "pedestrian",
+        RoadUser::Other => "pedestrian/bicycle",
+    }
+}

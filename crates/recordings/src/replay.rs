@@ -1,0 +1,210 @@
+//! Recorded traffic as its drivers see it: each frame is a [`Scene`], in which `perceive` gives the situation of a driver
+//! as it does in a simulated one.
+//!
+//! Observed: place, speed, acceleration, length; from what came later, where a vehicle goes, and from when to when it
+//! changes lanes, during which it stands in both. Assumed by the caller: the driver's character and desired speed. Not to
+//! be seen in a recording: who waits for a gap, so that [`Situation::merging`] stays empty, and who accepts a shorter
+//! gap for now.
+
+use laneweave_models::Style;
+use laneweave_models::change::Situation;
+use laneweave_network::{ChainIndex, LaneletIndex, Point, Side};
+use laneweave_sim::{Across, Navigator, Scene, Seen, Snapshot, Spot, VehicleId, perceive};
+use thiserror::Error;
+
+use crate::changes::LaneChange;
+use crate::drivers::{Assumed, Driver, drivers, easiest, stands};
+use crate::lanes::{self, Foot};
+use crate::matching::Matched;
+use crate::smooth;
+
+/// Positions and speeds are smoothed over so much before and after [s].
+const REACH: f64 = 0.25;
+/// Speeds are taken from so much before and after to find an acceleration [s].
+const ACCELERATION_REACH: f64 = 0.5;
+/// No front bumper is further ahead of where its centre is on a lanelet [m].
+const FARTHEST: f64 = 50.0;
+
+/// A recording whose frames can be looked at as scenes.
+pub struct Replay<'a> {
+    matched: &'a Matched<'a>,
+    navigator: &'a Navigator,
+    characters: &'a [Style],
+    /// For each lanelet its chain, and where it starts along that [m].
+    stands: Vec<(ChainIndex, f64)>,
+    /// For each track its driver.
+    drivers: Vec<Driver>,
+}
+
+/// What was assumed of a driver cannot be.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum ReplayError {
+    /// A character is not in the table.
+    #[error("vehicle {vehicle} is given the character {character}, but there are {count}, from 0 on")]
+    Character {
+        /// Id of the track.
+        vehicle: i64,
+        /// Its character.
+        character: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A desired speed makes no sense.
+    #[error("vehicle {vehicle} is given the speed factor {factor}; choose a number above 0")]
+    SpeedFactor {
+        /// Id of the track.
+        vehicle: i64,
+        /// Its speed factor.
+        factor: f64,
+    },
+}
+
+impl<'a> Replay<'a> {
+    /// A recording with all its lane `changes`, seen by drivers of `characters` who find their ways by `navigator`.
+    /// `assume` says for each track, by its place in the recording, what its driver is like.
+    ///
+    /// Each vehicle goes where it went. Where the recording ends before it left the map, it is taken to go to the exit that
+    /// needs the fewest lane changes from there, and of several the least time; so it is as long as permitted changes do
+    /// not lead where it went.
+    ///
+    /// # Errors
+    /// If somebody is given a character that there is not, or a desired speed not above 0.
+    pub fn new(
+        matched: &'a Matched<'a>,
+        changes: &[LaneChange],
+        navigator: &'a Navigator,
+        characters: &'a [Style],
+        assume: impl Fn(usize) -> Assumed,
+    ) -> Result<Replay<'a>, ReplayError> {
+        let stands = stands(matched.network);
+        let drivers = drivers(matched, changes, navigator, &stands, assume);
+        for (track, driver) in matched.recording.tracks.iter().zip(&drivers) {
+            let (vehicle, Assumed { character, speed_factor: factor }) = (track.id, driver.assumed);
+            if character as usize >= characters.len() {
+                return Err(ReplayError::Character { vehicle, character, count: characters.len() });
+            }
+            if !(factor > 0.0 && factor.is_finite()) {
+                return Err(ReplayError::SpeedFactor { vehicle, factor });
+            }
+        }
+        Ok(Replay { matched, navigator, characters, stands, drivers })
+    }
+
+    /// The instant of `frame`. A vehicle is there from its first state with a place until its front bumper passes an
+    /// exit.
+    pub fn frame(&self, frame: i64) -> Frame<'_> {
+        let tracks = self.matched.recording.tracks.iter().enumerate();
+        let present = tracks.filter_map(|(track, it)| Some((track, it.at(frame)?)));
+        let seen: Vec<Seen> = present.filter_map(|(track, at)| self.seen(track, at)).collect();
+        let mut ids: Vec<(i64, VehicleId)> =
+            seen.iter().map(|it| (self.matched.recording.tracks[it.id as usize].id, it.id)).collect();
+        ids.sort_unstable();
+        Frame { replay: self, snapshot: Snapshot::new(self.matched.network, seen), ids }
+    }
+
+    /// A track's vehicle in its state number `at`.
+    fn seen(&self, track: usize, at: usize) -> Option<Seen> {
+        let lanelet = self.matched.places[track][at]?.lanelet;
+        let (driver, step) = (&self.drivers[track], self.matched.recording.step);
+        let (id, track) = (track as VehicleId, &self.matched.recording.tracks[track]);
+        let motion = smooth::motion(&track.states, at, REACH, step);
+        let centre = Point::new(motion.x, motion.y, 0.0);
+        let half = 0.5 * track.length;
+        let foot = lanes::foot(&self.matched.network.lanelets[lanelet.at()], &centre)?;
+        let (chain, x) = self.onward(driver, at, self.front(lanelet, &foot, half)?)?;
+        let time = track.states[at].frame as f64 * step;
+        let change = driver.changes.iter().find_map(|it| {
+            let progress = it.extent.progress(time)?;
+            let is_across = it.last_before.is_none_or(|last| at > last);
+            let to_other = if is_across { it.side.opposite() } else { it.side };
+            let (lanelet, foot) = self.beside(lanelet, to_other, &centre)?;
+            let other = self.onward(driver, at, self.front(lanelet, &foot, half)?)?;
+            (other.0 != chain).then_some(Across { side: it.side, progress, other })
+        });
+        let leads_on = self.navigator.waypoint(driver.destination, chain).leads_on(x);
+        Some(Seen {
+            id,
+            chain,
+            x,
+            speed: smooth::speed(&track.states, at, REACH, step),
+            acceleration: smooth::acceleration(&track.states, at, ACCELERATION_REACH, step),
+            length: track.length,
+            class: driver.class,
+            character: driver.assumed.character,
+            desired: driver.desired(self.matched.network.chain(chain).limit(x)),
+            destination: if leads_on { driver.destination } else { easiest(self.navigator, chain, x) },
+            change,
+        })
+    }
+
+    /// Chain and station [m] of the front bumper, `half` a vehicle's length ahead of the foot of its centre on `lanelet`.
+    fn front(&self, lanelet: LaneletIndex, foot: &Foot, half: f64) -> Option<(ChainIndex, f64)> {
+        let (chain, start) = self.stands[lanelet.at()];
+        let beyond = if foot.station > 0.0 { foot.beyond } else { -foot.beyond };
+        // Written so that numbers that are none are refused.
+        let is_near = beyond.abs() + half <= FARTHEST;
+        is_near.then_some((chain, start + foot.station + beyond + half))
+    }
+
+    /// The same place where it lies beyond the end of the chain: on the chain onto which the driver goes on. `None` beyond
+    /// an exit.
+    fn onward(
+        &self,
+        driver: &Driver,
+        at: usize,
+        (mut chain, mut x): (ChainIndex, f64),
+    ) -> Option<(ChainIndex, f64)> {
+        let network = self.matched.network;
+        while x > network.chain(chain).length {
+            let following = &network.chain(chain).following;
+            let by_route = || self.navigator.waypoint(driver.destination, chain).next;
+            let Some(next) = driver.next(at, following).or_else(by_route) else {
+                let is_exit = network.exits.iter().any(|it| it.chains.contains(&chain));
+                return (!is_exit).then_some((chain, x));
+            };
+            x -= network.chain(chain).length;
+            chain = next;
+        }
+        Some((chain, x))
+    }
+
+    /// The lanelet on `side` of `lanelet`, and where `centre` lies along it.
+    fn beside(&self, lanelet: LaneletIndex, side: Side, centre: &Point) -> Option<(LaneletIndex, Foot)> {
+        let beside = self.matched.moves.beside(lanelet).iter().filter(|it| it.change.side == side);
+        let foot = |it: LaneletIndex| lanes::foot(&self.matched.network.lanelets[it.at()], centre);
+        let feet = beside.filter_map(|it| Some((it.lanelet, foot(it.lanelet)?)));
+        feet.min_by(|a, b| a.1.beyond.total_cmp(&b.1.beyond))
+    }
+}
+
+/// One instant of a recording.
+pub struct Frame<'r> {
+    replay: &'r Replay<'r>,
+    snapshot: Snapshot,
+    /// Ids of the vehicles in order, with their names in the scene.
+    ids: Vec<(i64, VehicleId)>,
+}
+
+impl Frame<'_> {
+    /// The instant as a scene, in which a vehicle is named by its track's place in the recording.
+    pub fn scene(&self) -> Scene<'_> {
+        let Replay { matched, navigator, characters, .. } = self.replay;
+        self.snapshot.scene(matched.network, navigator, characters)
+    }
+
+    /// Ids of the vehicles that are there, in order.
+    pub fn vehicles(&self) -> impl Iterator<Item = i64> {
+        self.ids.iter().map(|(id, _)| *id)
+    }
+
+    /// Where in the scene a vehicle's main entry stands.
+    pub fn spot(&self, vehicle: i64) -> Option<Spot> {
+        let found = self.ids.binary_search_by_key(&vehicle, |(id, _)| *id).ok()?;
+        self.snapshot.spot(self.ids[found].1)
+    }
+
+    /// What the driver of a vehicle knows when it considers the lane on `side`; `None` where it may not change to one.
+    pub fn perceive(&self, vehicle: i64, side: Side) -> Option<Situation<'_>> {
+        perceive(&self.scene(), self.spot(vehicle)?, side)
+    }
+}
