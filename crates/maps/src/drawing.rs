@@ -95,7 +95,9 @@ impl Drawing {
             match shape {
                 Ok(shape) => {
                     lanes.push(*lane);
-                    lanelets.push(bare(lane, shape));
+                    let Shape { left, right, centre } = shape;
+                    let limit = lane.limit_kmh / KMH_PER_MPS;
+                    lanelets.push(Lanelet::alone(lane.id, [left, right, centre], limit));
                 }
                 Err(flaw) => problems.push(Problem {
                     element: format!("lanelet {}", lane.id),
@@ -185,21 +187,5 @@ impl Drawing {
 
     fn polyline(&self, edge: Edge) -> Option<Polyline> {
         Polyline::new(self.along(edge))
-    }
-}
-
-/// The lanelet of `lane` with nothing around it yet.
-fn bare(lane: &Lane, shape: Shape) -> Lanelet {
-    Lanelet {
-        id: lane.id,
-        left_border: shape.left,
-        right_border: shape.right,
-        centre: shape.centre,
-        speed_limit: lane.limit_kmh / KMH_PER_MPS,
-        following: Vec::new(),
-        left: None,
-        right: None,
-        adjacent_left: None,
-        adjacent_right: None,
     }
 }

@@ -182,18 +182,8 @@ mod tests {
         let left_border = line([from, to]);
         let shifted = |station: f64| left_border.beside(station, -4.0);
         let right_border = Polyline::new([shifted(0.0), shifted(left_border.length())]).unwrap();
-        Lanelet {
-            id,
-            centre: Polyline::between(&left_border, &right_border).unwrap(),
-            left_border,
-            right_border,
-            speed_limit: 30.0,
-            following: Vec::new(),
-            left: None,
-            right: None,
-            adjacent_left: None,
-            adjacent_right: None,
-        }
+        let centre = Polyline::between(&left_border, &right_border).unwrap();
+        Lanelet::alone(id, [left_border, right_border, centre], 30.0)
     }
 
     fn found(lanelets: Vec<Lanelet>) -> Vec<Alongside> {

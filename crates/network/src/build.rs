@@ -239,18 +239,8 @@ mod tests {
     fn lanelet(id: i64, from: f64, to: f64, lane: f64) -> Lanelet {
         let line = |y: f64| Polyline::new([Point::new(from, y, 0.0), Point::new(to, y, 0.0)]).unwrap();
         let (left_border, right_border) = (line(4.0 * lane + 4.0), line(4.0 * lane));
-        Lanelet {
-            id,
-            centre: Polyline::between(&left_border, &right_border).unwrap(),
-            left_border,
-            right_border,
-            speed_limit: 30.0,
-            following: Vec::new(),
-            left: None,
-            right: None,
-            adjacent_left: None,
-            adjacent_right: None,
-        }
+        let centre = Polyline::between(&left_border, &right_border).unwrap();
+        Lanelet::alone(id, [left_border, right_border, centre], 30.0)
     }
 
     /// Two lanes of three lanelets each; the left lane's last one is missing, so it is a lane drop.

@@ -89,6 +89,22 @@ pub struct Lanelet {
 }
 
 impl Lanelet {
+    /// A lanelet with nothing around it.
+    pub fn alone(id: i64, [left_border, right_border, centre]: [Polyline; 3], speed_limit: f64) -> Lanelet {
+        Lanelet {
+            id,
+            left_border,
+            right_border,
+            centre,
+            speed_limit,
+            following: Vec::new(),
+            left: None,
+            right: None,
+            adjacent_left: None,
+            adjacent_right: None,
+        }
+    }
+
     /// Length of the centre line [m].
     pub fn length(&self) -> f64 {
         self.centre.length()

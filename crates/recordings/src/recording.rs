@@ -64,6 +64,19 @@ impl RoadUser {
         matches!(self, RoadUser::Car | RoadUser::Truck | RoadUser::Bus | RoadUser::Motorcycle)
     }
 
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            RoadUser::Car => "car",
+            RoadUser::Truck => "truck",
+            RoadUser::Bus => "bus",
+            RoadUser::Motorcycle => "motorcycle",
+            RoadUser::Bicycle => "bicycle",
+            RoadUser::Pedestrian => "pedestrian",
+            RoadUser::Other => "other",
+        }
+    }
+
     /// Usual length and width [m], for those whose size is not known. Ours.
     pub fn usual_size(self) -> (f64, f64) {
         match self {

@@ -7,8 +7,7 @@ use std::path::Path;
 use laneweave_maps::Problem;
 use laneweave_network::{Network, Side};
 use laneweave_recordings::{
-    CleaningReport, Kind, LaneChange, Matched, Recording, RoadUser, clean, commonroad, interaction,
-    lane_changes,
+    CleaningReport, Kind, LaneChange, Matched, Recording, clean, commonroad, interaction, lane_changes,
 };
 use serde::Serialize;
 
@@ -106,14 +105,13 @@ impl RecordingReport {
         changes.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.vehicle.cmp(&b.vehicle)));
         let mut tracks: BTreeMap<&'static str, usize> = BTreeMap::new();
         let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
-        recording.tracks.iter().for_each(|it| *tracks.entry(class(it.class)).or_default() += 1);
+        recording.tracks.iter().for_each(|it| *tracks.entry(it.class.name()).or_default() += 1);
         changes.iter().for_each(|it| *kinds.entry(kind(it.kind)).or_default() += 1);
         let places = matched.places.iter().zip(&recording.tracks).filter(|(_, it)| it.class.is_vehicle());
         let (states, unmatched) = places.fold((0, 0), |(states, unmatched), (places, _)| {
             (states + places.len(), unmatched + places.iter().filter(|it| it.is_none()).count())
         });
-        let frames = || recording.tracks.iter().flat_map(|it| &it.states).map(|it| it.frame);
-        let span = frames().max().zip(frames().min()).map_or(0, |(last, first)| last - first);
+        let span = recording.frames().map_or(0, |(first, last)| last - first);
         RecordingReport {
             step_s: recording.step,
             duration_s: span as f64 * recording.step,
@@ -235,17 +233,5 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Discretionary => "discretionary",
         Kind::Route => "route",
         Kind::Unknown => "unknown",
-    }
-}
-
-fn class(class: RoadUser) -> &'static str {
-    match class {
-        RoadUser::Car => "car",
-        RoadUser::Truck => "truck",
-        RoadUser::Bus => "bus",
-        RoadUser::Motorcycle => "motorcycle",
-        RoadUser::Bicycle => "bicycle",
-        RoadUser::Pedestrian => "pedestrian",
-        RoadUser::Other => "other",
     }
 }

@@ -90,18 +90,7 @@ fn shaped<'a>(
 fn bare(element: &LaneletElement, problems: &mut Vec<Problem>) -> Option<Lanelet> {
     let line = |points: &[Point]| Polyline::new(points.iter().copied());
     match Shape::between(line(&element.left.points), line(&element.right.points)) {
-        Ok(shape) => Some(Lanelet {
-            id: element.id,
-            left_border: shape.left,
-            right_border: shape.right,
-            centre: shape.centre,
-            speed_limit: 0.0,
-            following: Vec::new(),
-            left: None,
-            right: None,
-            adjacent_left: None,
-            adjacent_right: None,
-        }),
+        Ok(Shape { left, right, centre }) => Some(Lanelet::alone(element.id, [left, right, centre], 0.0)),
         Err(flaw) => {
             let what = format!("{}, so it is left out", flaw.what);
             problems.push(element.problem(what, flaw.remedy));

@@ -32,15 +32,10 @@ fn write_track(track: &Track, step: f64, out: &mut impl Write) -> io::Result<()>
     Ok(())
 }
 
-/// The dataset's name of a class.
+/// The dataset's name of a class; it has one for those on foot and by bicycle who are not told apart.
 fn name(class: RoadUser) -> &'static str {
     match class {
-        RoadUser::Car => "car",
-        RoadUser::Truck => "truck",
-        RoadUser::Bus => "bus",
-        RoadUser::Motorcycle => "motorcycle",
-        RoadUser::Bicycle => "bicycle",
-        RoadUser::Pedestrian => "pedestrian",
         RoadUser::Other => "pedestrian/bicycle",
+        class => class.name(),
     }
 }
