@@ -14,6 +14,9 @@ use thiserror::Error;
 /// Elements nested deeper than this are refused; no map format comes near.
 const MAXIMUM_DEPTH: usize = 32;
 
+/// Longer names are refused [B], since each element is known by its own and those around it.
+const MAXIMUM_NAME: usize = 128;
+
 /// Why a file is not the XML that was expected.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum XmlError {
@@ -289,6 +292,9 @@ impl<'a> Tokens<'a> {
         if self.depth == MAXIMUM_DEPTH {
             return Err(broken(self.line, "elements are nested too deeply"));
         }
+        if name > MAXIMUM_NAME {
+            return Err(broken(self.line, "the name of an element is too long"));
+        }
         let content = &self.text[start + 1..end];
         let name = &content[..name];
         if self.depth == 0 {
@@ -386,6 +392,17 @@ mod tests {
         assert!(refusal("<r>\n\n</a></r>").starts_with("line 3: not well-formed XML"));
         assert!(refusal(&"<r>".repeat(33)).contains("nested too deeply"));
         assert!(refusal("<r>\n<a>&#0;</a></r>").starts_with("line 2: not well-formed XML"));
+    }
+
+    #[test]
+    fn names_are_no_longer_than_128_bytes() {
+        let named = |length: usize| format!("<r>\n<{}/></r>", "a".repeat(length));
+        assert_eq!(walk(named(128).as_bytes(), "r", &mut Notes::default()), Ok(()));
+        assert_eq!(
+            refusal(&named(129)),
+            "line 2: not well-formed XML (the name of an element is too long); \
+             save the file again, or mend this line"
+        );
     }
 
     #[test]

@@ -138,7 +138,7 @@ impl Visitor for Drafts<'_> {
                 (Building::Sign(sign), Some(("trafficSign", "trafficSignElement"))) => {
                     sign.shown.push((String::new(), None));
                 }
-                (_, Some(("scenarioTags", tag))) => self.document.tags.push(tag.into()),
+                (_, Some(("scenarioTags", tag))) if !tag.contains('/') => self.document.tags.push(tag.into()),
                 _ => {}
             },
         }
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn lanelets_carry_what_the_file_says() {
         let (document, problems) = read(concat!(
-            "<scenarioTags><urban/></scenarioTags>\n<lanelet id='7'>",
+            "<scenarioTags><urban><odd/></urban></scenarioTags>\n<lanelet id='7'>",
             "<leftBound><point><x>1</x><y> 2.5 </y><z>3</z></point>",
             "<lineMarking>dashed</lineMarking></leftBound>",
             "<rightBound><point><x>1</x><y>-</y></point><point><x>1e9</x></point></rightBound>",

@@ -65,6 +65,7 @@ fn shaped<'a>(
     problems: &mut Vec<Problem>,
 ) -> (Vec<&'a LaneletElement>, Places, Vec<Lanelet>) {
     let signs = SpeedSigns::of(&document.signs, problems);
+    let of_scenario = speed::german_default(&document.tags);
     let (mut elements, mut places, mut lanelets) = (Vec::new(), Places::new(), Vec::new());
     for element in &document.lanelets {
         let Entry::Vacant(place) = places.entry(element.id) else {
@@ -75,7 +76,7 @@ fn shaped<'a>(
         let lanelet = if rules::is_for_cars(element) { bare(element, problems) } else { None };
         place.insert(lanelet.as_ref().map(|_| LaneletIndex(lanelets.len() as u32)));
         let Some(mut lanelet) = lanelet else { continue };
-        lanelet.speed_limit = speed::limit(element, &signs, document, problems);
+        lanelet.speed_limit = speed::limit(element, &signs, of_scenario, problems);
         elements.push(element);
         lanelets.push(lanelet);
         if rules::is_two_way(element) {

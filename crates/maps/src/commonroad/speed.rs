@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::document::{Document, LaneletElement, Sign, problem};
+use super::document::{LaneletElement, Sign, problem};
 use crate::drawing::KMH_PER_MPS;
 use crate::problem::Problem;
 
@@ -54,17 +54,16 @@ fn is_limit(speed: f64) -> bool {
 /// The limit of a lanelet [m/s].
 ///
 /// Its own element `speedLimit` comes first, then the lowest limit on its signs, then [`german_default`] for
-/// its types. For a lanelet without types, or with nothing but `urban`, the scenario's tags count: version
-/// 2020a demands a type, and files made from older ones say `urban` even on a motorway.
+/// its types. For a lanelet without types, or with nothing but `urban`, the one `of_scenario` counts, that for the
+/// scenario's tags [km/h]: version 2020a demands a type, and files made from older ones say `urban` even on a motorway.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
-    document: &Document,
+    of_scenario: f64,
     problems: &mut Vec<Problem>,
 ) -> f64 {
     let says_little = lanelet.types.iter().all(|it| it == "urban");
-    let kinds = if says_little { &document.tags } else { &lanelet.types };
-    let default = german_default(kinds);
+    let default = if says_little { of_scenario } else { german_default(&lanelet.types) };
     match lanelet.speed_limit {
         Some(limit) if is_limit(limit) => return limit,
         Some(_) => {
@@ -88,7 +87,7 @@ pub(super) fn limit(
 
 /// The limit in Germany where none is given [km/h]: 50 in towns, 130 on a motorway (where it is only advised),
 /// 100 on other roads out of town, and 50 where nothing is known.
-fn german_default(kinds: &[String]) -> f64 {
+pub(super) fn german_default(kinds: &[String]) -> f64 {
     let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
     if any(&["urban"]) {
         50.0
@@ -115,11 +114,10 @@ mod tests {
 
     /// The limit [km/h], rounded, and the problems.
     fn limit_of(lanelet: LaneletElement, signs: &[Sign], tags: &[&str]) -> (f64, Vec<String>) {
-        let tags = tags.iter().map(|it| it.to_string()).collect();
+        let tags: Vec<String> = tags.iter().map(|it| it.to_string()).collect();
         let mut problems = Vec::new();
         let signs = SpeedSigns::of(signs, &mut problems);
-        let document = Document { tags, ..Document::default() };
-        let limit = limit(&lanelet, &signs, &document, &mut problems);
+        let limit = limit(&lanelet, &signs, german_default(&tags), &mut problems);
         ((limit * KMH_PER_MPS).round(), problems.iter().map(Problem::to_string).collect())
     }
 

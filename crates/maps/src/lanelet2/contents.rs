@@ -7,18 +7,33 @@ use laneweave_network::Point;
 use super::lookup::Lookup;
 use super::orientation::reversals;
 use super::osm::{Document, Relation};
+use super::sharing::{MAXIMUM_SHARING, Sharing};
 use crate::contents::Contents;
+use crate::problem::Problem;
 
 /// Counts the elements of a document by type and subtype, and finds its crosswalks.
-pub(super) fn contents(document: &Document, lookup: &Lookup) -> Contents {
+pub(super) fn contents(document: &Document, lookup: &Lookup, problems: &mut Vec<Problem>) -> Contents {
     let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    let mut crosswalks = Vec::new();
+    let (mut crosswalks, mut shared) = (Vec::new(), Sharing::default());
     for relation in &document.relations {
         let tags = document.tags(relation.tags);
         let kind = (tags.get("type").unwrap_or("relation"), tags.get("subtype").unwrap_or_default());
         *counts.entry(kind).or_default() += 1;
-        if kind == ("lanelet", "crosswalk") {
-            crosswalks.extend(outline(document, lookup, relation));
+        if kind != ("lanelet", "crosswalk") {
+            continue;
+        }
+        let Some(borders) = borders(document, lookup, relation) else { continue };
+        if borders.map(|it| shared.admits(it)) == [true; 2] {
+            crosswalks.extend(outline(document, lookup, borders));
+        } else {
+            problems.push(Problem {
+                element: format!("lanelet {}", relation.id),
+                line: Some(relation.line as usize),
+                what: format!(
+                    "{MAXIMUM_SHARING} others share a border of this crosswalk, so it is not drawn"
+                ),
+                remedy: "delete lanelets that were drawn twice".into(),
+            });
         }
     }
     let named = |((kind, subtype), count): ((&str, &str), usize)| {
@@ -29,13 +44,18 @@ pub(super) fn contents(document: &Document, lookup: &Lookup) -> Contents {
     Contents { counts: counts.into_iter().map(named).chain(elements).collect(), crosswalks }
 }
 
-/// The ground that a lanelet covers, if both of its borders are there.
-fn outline(document: &Document, lookup: &Lookup, lanelet: &Relation) -> Option<Vec<Point>> {
-    let line = |side| -> Option<Vec<Point>> {
-        let way = lookup.way(document.members(lanelet, "way", side).next()?)?;
+/// The places of the left and the right border of a lanelet, if both are there.
+fn borders(document: &Document, lookup: &Lookup, lanelet: &Relation) -> Option<[usize; 2]> {
+    let way = |side| lookup.way(document.members(lanelet, "way", side).next()?);
+    Some([way("left")?, way("right")?])
+}
+
+/// The ground between two ways, if all their nodes have a position.
+fn outline(document: &Document, lookup: &Lookup, [left, right]: [usize; 2]) -> Option<Vec<Point>> {
+    let line = |way: usize| -> Option<Vec<Point>> {
         document.nodes_of(&document.ways[way]).iter().map(|it| lookup.point(*it)).collect()
     };
-    let (mut left, mut right) = (line("left")?, line("right")?);
+    let (mut left, mut right) = (line(left)?, line(right)?);
     if left.len() < 2 || right.len() < 2 {
         return None;
     }

@@ -1,6 +1,5 @@
 //! From OSM elements to a drawing: the lanelets that cars may use, with the borders and points they need.
 
-use hashbrown::HashMap;
 use laneweave_network::Point;
 use rayon::prelude::*;
 
@@ -8,13 +7,12 @@ use super::lookup::Lookup;
 use super::orientation::reversals;
 use super::osm::{Document, Relation, Way};
 use super::regulation::rules;
-use super::{rules, speed};
+use super::rules;
+use super::sharing::{MAXIMUM_SHARING, Sharing};
+use super::speed::SpeedRules;
 use crate::drawing::{Border, Drawing, Edge, Lane};
 use crate::format::ReadOptions;
 use crate::problem::Problem;
-
-/// No more lanelets than this share a border, a start or an end; the links between them grow with the square.
-const MAXIMUM_SHARING: u32 = 32;
 
 /// What is wrong, and what mends it.
 type Flaw = (String, &'static str);
@@ -29,7 +27,8 @@ pub(super) fn draw(
     let driving_side = options.driving_side.or(document.driving_side).unwrap_or_default();
     let rules = rules(document, &lookup, problems);
     let drawing = Drawing { points: Vec::new(), borders: Vec::new(), lanes: Vec::new(), rules, driving_side };
-    let mut draft = Draft { document, lookup: &lookup, drawing, borders: vec![NONE; document.ways.len()] };
+    let (borders, shared) = (vec![NONE; document.ways.len()], Sharing::default());
+    let mut draft = Draft { document, lookup: &lookup, drawing, borders, shared };
     let mut found: Vec<(&Relation, Result<[u32; 2], Flaw>)> = Vec::new();
     for relation in document.relations_of_type("lanelet") {
         if rules::is_for_cars(document.tags(relation.tags)) && lookup.is_first(relation) {
@@ -39,7 +38,8 @@ pub(super) fn draw(
     let oriented =
         |(relation, borders): (_, Result<_, Flaw>)| (relation, borders.map(|it| draft.oriented(it)));
     let found: Vec<(&Relation, Result<[Edge; 2], Flaw>)> = found.into_par_iter().map(oriented).collect();
-    let mut sharing = Sharing::default();
+    let speed_rules = SpeedRules::of(document, &lookup);
+    let mut ends = Ends::default();
     for (relation, edges) in found {
         let mut note = |what: &str, remedy: &str| {
             problems.push(Problem {
@@ -54,9 +54,9 @@ pub(super) fn draw(
             let what = "it may be used in both directions; simulated traffic uses the forward one only";
             note(what, "draw a lanelet for each direction");
         }
-        match edges.and_then(|edges| sharing.admit(&draft.drawing, edges).map(|()| edges)) {
+        match edges.and_then(|edges| ends.admit(&draft.drawing, edges)) {
             Ok([left, right]) => {
-                let limit_kmh = speed::limit(document, &lookup, relation, options.law, problems);
+                let limit_kmh = speed_rules.limit(relation, options.law, problems);
                 let line = Some(relation.line as usize);
                 draft.drawing.lanes.push(Lane { id: relation.id, line, left, right, is_two_way, limit_kmh });
             }
@@ -77,12 +77,18 @@ struct Draft<'a> {
     drawing: Drawing,
     /// For each way of the document its place in the drawing.
     borders: Vec<u32>,
+    /// How many lanelets each way borders, by its place in the document.
+    shared: Sharing<usize>,
 }
 
 impl Draft<'_> {
     /// The left and the right border of a lanelet.
     fn borders_of(&mut self, relation: &Relation) -> Result<[u32; 2], Flaw> {
         let [left, right] = [self.way(relation, "left")?, self.way(relation, "right")?];
+        // Before anything is done that takes time with the length of a border.
+        if [left, right].map(|it| self.shared.admits(it)) != [true; 2] {
+            return Err(drawn_twice());
+        }
         Ok([self.border(left)?, self.border(right)?])
     }
 
@@ -141,29 +147,22 @@ impl Draft<'_> {
     }
 }
 
-/// How many lanes share a border, a start, or an end.
+/// How many lanes share a start, or an end.
 #[derive(Default)]
-struct Sharing {
-    borders: HashMap<u32, u32>,
-    starts: HashMap<(u32, u32), u32>,
-    finishes: HashMap<(u32, u32), u32>,
+struct Ends {
+    starts: Sharing<(u32, u32)>,
+    finishes: Sharing<(u32, u32)>,
 }
 
-impl Sharing {
-    fn admit(&mut self, drawing: &Drawing, [left, right]: [Edge; 2]) -> Result<(), Flaw> {
-        let mut is_full = false;
-        let mut count = |count: &mut u32| {
-            is_full |= *count >= MAXIMUM_SHARING;
-            *count += 1;
-        };
-        count(self.borders.entry(left.border).or_default());
-        count(self.borders.entry(right.border).or_default());
-        count(self.starts.entry(drawing.starts(left, right)).or_default());
-        count(self.finishes.entry(drawing.finishes(left, right)).or_default());
-        if is_full {
-            let what = format!("{MAXIMUM_SHARING} others share its start, its end or a border");
-            return Err((what, "delete lanelets that were drawn twice"));
-        }
-        Ok(())
+impl Ends {
+    fn admit(&mut self, drawing: &Drawing, [left, right]: [Edge; 2]) -> Result<[Edge; 2], Flaw> {
+        let (start, finish) = (drawing.starts(left, right), drawing.finishes(left, right));
+        let admitted = [self.starts.admits(start), self.finishes.admits(finish)] == [true; 2];
+        if admitted { Ok([left, right]) } else { Err(drawn_twice()) }
     }
+}
+
+fn drawn_twice() -> Flaw {
+    let what = format!("{MAXIMUM_SHARING} others share its start, its end or a border");
+    (what, "delete lanelets that were drawn twice")
 }

@@ -237,6 +237,9 @@ impl<'a> Document<'a> {
     }
 }
 
+/// With so many of its tags an element is looked at, which is far more than any has.
+const MAXIMUM_TAGS: usize = 256;
+
 /// The tags of one element. Where a key is given twice the first one counts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tags<'d> {
@@ -252,7 +255,7 @@ impl<'d> Tags<'d> {
 
     /// The value of `key`.
     pub(super) fn get(self, key: &str) -> Option<&'d str> {
-        let tag = self.tags.iter().find(|it| self.document.get(it.key) == key);
+        let tag = self.tags.iter().take(MAXIMUM_TAGS).find(|it| self.document.get(it.key) == key);
         tag.map(|it| self.document.get(it.value))
     }
 
@@ -263,7 +266,7 @@ impl<'d> Tags<'d> {
 
     /// Whether any key begins with `prefix`.
     pub(super) fn any(self, prefix: &str) -> bool {
-        self.all().any(|(key, _)| key.starts_with(prefix))
+        self.all().take(MAXIMUM_TAGS).any(|(key, _)| key.starts_with(prefix))
     }
 }
 
@@ -273,4 +276,22 @@ pub(super) fn with_tags<const N: usize, T>(tags: [(&str, &str); N], of: impl FnO
     let mut document = Document::default();
     let span = document.keep_tags(&tags.each_ref().map(|(key, value)| (*key, value as &dyn Display)));
     of(document.tags(span))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_element_is_known_by_its_first_256_tags() {
+        let names: Vec<String> = (0..300).map(|it| format!("key {it}")).collect();
+        let mut document = Document::default();
+        let tags: Vec<(&str, &dyn Display)> =
+            names.iter().map(|it| (it.as_str(), &1 as &dyn Display)).collect();
+        let span = document.keep_tags(&tags);
+        let tags = document.tags(span);
+        assert_eq!((tags.get("key 255"), tags.get("key 256")), (Some("1"), None));
+        assert!(tags.any("key 255") && !tags.any("key 256"));
+        assert_eq!(tags.all().count(), 300);
+    }
 }

@@ -6,6 +6,7 @@ use laneweave_network::Point;
 
 use super::lookup::Lookup;
 use super::osm::{Document, Relation};
+use super::sharing::{MAXIMUM_SHARING, Sharing};
 use crate::problem::Problem;
 use crate::rule::{Rule, RuleKind};
 
@@ -17,10 +18,10 @@ pub(super) fn rules(document: &Document, lookup: &Lookup, problems: &mut Vec<Pro
             heeding.entry(rule).or_default().push(lanelet.id);
         }
     }
-    let mut rules = Vec::new();
+    let (mut rules, mut shared) = (Vec::new(), Sharing::default());
     for relation in document.relations_of_type("regulatory_element").filter(|it| lookup.is_first(it)) {
         let lanelets = heeding.remove(&relation.id).unwrap_or_default();
-        let reader = Reader { document, lookup, relation, problems };
+        let reader = Reader { document, lookup, relation, shared: &mut shared, problems };
         rules.push(reader.rule(lanelets));
     }
     let mut missing: Vec<(i64, Vec<i64>)> =
@@ -43,6 +44,8 @@ struct Reader<'a> {
     document: &'a Document<'a>,
     lookup: &'a Lookup<'a>,
     relation: &'a Relation,
+    /// How many rules name each way, by its place in the document.
+    shared: &'a mut Sharing<usize>,
     problems: &'a mut Vec<Problem>,
 }
 
@@ -114,13 +117,23 @@ impl Reader<'_> {
     /// The ways in `role` that the map has.
     fn lines(&mut self, role: &'static str) -> Vec<Vec<Point>> {
         let named: Vec<i64> = self.document.members(self.relation, "way", role).collect();
-        let mut lines = Vec::new();
+        let (mut lines, mut left_out) = (Vec::new(), 0);
         for id in named {
             let way = self.lookup.way(id);
             if let Some(way) = way.filter(|_| self.is_there(id, way, "way", role)) {
+                if !self.shared.admits(way) {
+                    left_out += 1;
+                    continue;
+                }
                 let nodes = self.document.nodes_of(&self.document.ways[way]);
                 lines.push(nodes.iter().filter_map(|it| self.lookup.point(*it)).collect());
             }
+        }
+        if left_out > 0 {
+            let what = format!(
+                "{left_out} of its {role} are ways that {MAXIMUM_SHARING} others name already, so it does without"
+            );
+            self.complain(&what, "name each way once");
         }
         lines
     }

@@ -1,5 +1,7 @@
 //! Speed limits of lanelets.
 
+use std::collections::HashMap;
+
 use super::law::KMH_PER_MPH;
 use super::lookup::Lookup;
 use super::osm::{Document, Relation};
@@ -10,43 +12,74 @@ use crate::problem::Problem;
 /// Limits above are slips of the pen [km/h].
 const MAXIMUM: f64 = 500.0;
 
-/// The limit of a lanelet [km/h].
-///
-/// Its first rule of the subtype `speed_limit` that can be understood comes first, then its tags, then what the law of the
-/// land says.
-pub(super) fn limit(
-    document: &Document,
-    lookup: &Lookup,
-    lanelet: &Relation,
-    law: Law,
-    problems: &mut Vec<Problem>,
-) -> f64 {
-    const KEYS: [&str; 3] = ["speed_limit:vehicle:car", "speed_limit:vehicle", "speed_limit"];
-    let tags = document.tags(lanelet.tags);
-    let rules = document
-        .members(lanelet, "relation", "regulatory_element")
-        .filter_map(|id| Some(&document.relations[lookup.relation(id)?]))
-        .filter(|it| document.tags(it.tags).is("subtype", "speed_limit"));
-    let by_rule =
-        rules.map(|rule| (sign_text(document, lookup, rule), rule.line as usize, "speed limit rule"));
-    let by_tag = KEYS.into_iter().filter_map(|key| Some((tags.get(key)?, lanelet.line as usize, key)));
-    let default = law.limit(tags);
-    for (text, line, source) in by_rule.chain(by_tag) {
-        if let Some(limit) = sign_limit(text).or_else(|| speed(text)) {
-            return limit;
-        }
-        problems.push(Problem {
-            element: format!("lanelet {}", lanelet.id),
-            line: Some(line),
-            what: format!("its {source} {text:?} is no speed above 0 and up to {MAXIMUM} km/h"),
-            remedy: format!("write it like 50, 50 km/h, 30 mph or 14 m/s; without one {default} km/h holds"),
-        });
+/// What the speed limit rules of a document say.
+pub(super) struct SpeedRules<'d> {
+    document: &'d Document<'d>,
+    lookup: &'d Lookup<'d>,
+    /// By their places in the document.
+    rules: HashMap<usize, Said<'d>>,
+}
+
+/// A speed limit as it is written.
+#[derive(Clone, Copy)]
+struct Said<'d> {
+    line: u32,
+    text: &'d str,
+    /// What that means [km/h].
+    limit: Option<f64>,
+}
+
+impl<'d> Said<'d> {
+    fn new(line: u32, text: &'d str) -> Said<'d> {
+        Said { line, text: excerpt(text), limit: sign_limit(text).or_else(|| speed(text)) }
     }
-    default
+}
+
+impl<'d> SpeedRules<'d> {
+    /// Reads the rules of the subtype `speed_limit`, each once, however many lanelets name it.
+    pub(super) fn of(document: &'d Document<'d>, lookup: &'d Lookup<'d>) -> SpeedRules<'d> {
+        let all = document.relations.iter().enumerate();
+        let rules = all.filter(|(_, it)| document.tags(it.tags).is("subtype", "speed_limit"));
+        let rules = rules.map(|(place, it)| (place, Said::new(it.line, sign_text(document, lookup, it))));
+        SpeedRules { document, lookup, rules: rules.collect() }
+    }
+
+    /// The limit of a lanelet [km/h].
+    ///
+    /// Its first rule that can be understood comes first, then its tags, then what the law of the land says.
+    pub(super) fn limit(&self, lanelet: &Relation, law: Law, problems: &mut Vec<Problem>) -> f64 {
+        const KEYS: [&str; 3] = ["speed_limit:vehicle:car", "speed_limit:vehicle", "speed_limit"];
+        let tags = self.document.tags(lanelet.tags);
+        let rules = self.document.members(lanelet, "relation", "regulatory_element");
+        let by_rule = rules.filter_map(|id| self.rules.get(&self.lookup.relation(id)?));
+        let by_rule = by_rule.map(|said| (*said, "speed limit rule"));
+        let by_tag = KEYS.into_iter().filter_map(|key| Some((Said::new(lanelet.line, tags.get(key)?), key)));
+        let default = law.limit(tags);
+        for (Said { line, text, limit }, source) in by_rule.chain(by_tag) {
+            if let Some(limit) = limit {
+                return limit;
+            }
+            problems.push(Problem {
+                element: format!("lanelet {}", lanelet.id),
+                line: Some(line as usize),
+                what: format!("its {source} {text:?} is no speed above 0 and up to {MAXIMUM} km/h"),
+                remedy: format!(
+                    "write it like 50, 50 km/h, 30 mph or 14 m/s; without one {default} km/h holds"
+                ),
+            });
+        }
+        default
+    }
+}
+
+/// The beginning of a text, for messages.
+fn excerpt(text: &str) -> &str {
+    const LETTERS: usize = 40;
+    text.char_indices().nth(LETTERS).map_or(text, |(end, _)| &text[..end])
 }
 
 /// What a rule says: by a tag of its own, or by the sign to which it refers.
-fn sign_text<'d>(document: &'d Document, lookup: &Lookup, rule: &Relation) -> &'d str {
+fn sign_text<'d>(document: &'d Document<'d>, lookup: &Lookup, rule: &Relation) -> &'d str {
     let tags = document.tags(rule.tags);
     let own = ["sign_type", "speed_limit", "max_speed"].into_iter().find_map(|key| tags.get(key));
     let signs = document.members(rule, "way", "refers").filter_map(|id| lookup.way(id));
@@ -108,7 +141,8 @@ mod tests {
         let mut problems = Vec::new();
         let document = parse(text.as_bytes(), &mut problems).unwrap();
         let (lookup, _) = Lookup::new(&document, None, &mut problems).unwrap();
-        let limit = limit(&document, &lookup, &document.relations[0], Law::Germany, &mut problems);
+        let rules = SpeedRules::of(&document, &lookup);
+        let limit = rules.limit(&document.relations[0], Law::Germany, &mut problems);
         (limit, problems)
     }
 
@@ -121,6 +155,15 @@ mod tests {
         let miles = format!("{rule}<tag k='max_speed' v='20 mph'/>");
         assert_eq!(limit_of(tag, &miles), (20.0 * 1.609344, vec![]));
         assert_eq!(limit_of(tag, "<tag k='subtype' v='traffic_light'/>"), (70.0, vec![]));
+    }
+
+    #[test]
+    fn a_long_text_is_a_problem_that_begins_like_it() {
+        let rule =
+            format!("<tag k='subtype' v='speed_limit'/><tag k='sign_type' v='{}'/>", "ä".repeat(100_000));
+        let (limit, problems) = limit_of("", &rule);
+        assert_eq!(limit, 50.0);
+        assert!(problems[0].what.contains(&format!("speed limit rule \"{}\" is no speed", "ä".repeat(40))));
     }
 
     #[test]
