@@ -3,7 +3,7 @@
 use laneweave_network::{DrivingSide, Lanelet, Network, Point, Polygon, Polyline};
 use rayon::prelude::*;
 
-use crate::conflict::{MAXIMUM_CONFLICTS, conflicts};
+use crate::conflict::conflicts;
 use crate::contents::Contents;
 use crate::error::MapError;
 use crate::format::Map;
@@ -115,19 +115,10 @@ impl Drawing {
         graph::link(&mut lanelets, &nodes);
         let outlines: Vec<Option<Polygon>> = lanes.par_iter().map(|lane| self.outline(lane)).collect();
         let are_joined = |a: usize, b: usize| self.are_joined(&lanes[a], &lanes[b]);
-        let mut conflicting = conflicts(&outlines, are_joined);
-        graph::add_two_way(&mut conflicting, &nodes);
-        for (lane, _) in lanes.iter().zip(&conflicting).filter(|(_, it)| it.len() >= MAXIMUM_CONFLICTS) {
-            problems.push(Problem {
-                element: format!("lanelet {}", lane.id),
-                line: lane.line,
-                what: format!(
-                    "it shares ground with {MAXIMUM_CONFLICTS} others or more, of which some are passed over"
-                ),
-                remedy: "delete lanelets that were drawn twice".into(),
-            });
-        }
-        let graph = Graph { nodes, conflicting };
+        let mut conflicts = conflicts(&outlines, are_joined);
+        problems.extend(conflicts.problems(|it| (lanes[it.at()].id, lanes[it.at()].line)));
+        graph::add_two_way(&mut conflicts.with, &nodes);
+        let graph = Graph { nodes, conflicting: conflicts.with };
         let network = Network::new(lanelets, self.driving_side)?;
         let rules = self.rules.clone();
         Ok(Map { network, graph, rules, contents: Contents::default(), problems, origin: None })

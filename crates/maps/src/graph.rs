@@ -4,6 +4,7 @@ use laneweave_network::{Lanelet, LaneletIndex, Polygon};
 
 use crate::conflict::conflicts;
 use crate::drawing::{Drawing, Edge, Lane};
+use crate::problem::Problem;
 
 /// A lanelet's place in [`Graph::nodes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,8 +49,8 @@ pub struct Node {
 }
 
 impl Graph {
-    /// The graph of lanelets that are linked already, all of them driven in their own direction.
-    pub(crate) fn of(lanelets: &[Lanelet]) -> Graph {
+    /// The graph of lanelets that are linked already, all of them driven in their own direction, and what is wrong with it.
+    pub(crate) fn of(lanelets: &[Lanelet]) -> (Graph, Vec<Problem>) {
         let index = |it: LaneletIndex| NodeIndex(it.0);
         let mut nodes: Vec<Node> = (0..lanelets.len()).map(|it| node(it, false)).collect();
         for (here, lanelet) in lanelets.iter().enumerate() {
@@ -68,14 +69,16 @@ impl Graph {
             let beside = [left, right, adjacent_left, adjacent_right];
             following.iter().chain(beside.into_iter().flatten()).any(|it| it.at() == b)
         };
-        let conflicting = conflicts(&outlines, |a, b| knows(a, b) || knows(b, a));
-        Graph { nodes, conflicting }
+        let conflicts = conflicts(&outlines, |a, b| knows(a, b) || knows(b, a));
+        let problems = conflicts.problems(|it| (lanelets[it.at()].id, None));
+        (Graph { nodes, conflicting: conflicts.with }, problems)
     }
 
     /// The node of a lanelet driven backwards, if it may be.
-    pub fn backward(&self, lanelet: LaneletIndex) -> Option<&Node> {
-        let backward = &self.nodes[self.conflicting.len()..];
-        backward.binary_search_by_key(&lanelet, |it| it.lanelet).ok().map(|it| &backward[it])
+    pub fn backward(&self, lanelet: LaneletIndex) -> Option<NodeIndex> {
+        let forward = self.conflicting.len();
+        let found = self.nodes[forward..].binary_search_by_key(&lanelet, |it| it.lanelet).ok();
+        found.map(|it| NodeIndex((forward + it) as u32))
     }
 }
 

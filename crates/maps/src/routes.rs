@@ -68,6 +68,9 @@ const MOST_PARTIAL: usize = 200_000;
 /// The sensible ways from `from` to `to`, the fastest first.
 pub fn routes(map: &Map, from: NodeIndex, to: NodeIndex, sense: Sense) -> Vec<Route> {
     let search = Search::new(map, to);
+    if !search.remaining[from.at()].is_finite() {
+        return Vec::new();
+    }
     let mut found: Vec<Route> = Vec::new();
     let mut open = BinaryHeap::from([Reverse(search.start(from))]);
     let mut latest = f64::INFINITY;
@@ -82,6 +85,10 @@ pub fn routes(map: &Map, from: NodeIndex, to: NodeIndex, sense: Sense) -> Vec<Ro
         } else {
             open.extend(search.onward(&partial).into_iter().map(Reverse));
         }
+    }
+    if found.is_empty() {
+        // Some ways lead back to where they began.
+        found.push(search.fastest(from));
     }
     found
 }
@@ -226,12 +233,33 @@ impl<'a> Search<'a> {
             node = entered(node).unwrap_or(from);
         }
         steps.reverse();
+        Some(self.measured(steps))
+    }
+
+    /// The fastest way from `from`, from where one leads to the goal.
+    fn fastest(&self, from: NodeIndex) -> Route {
+        let mut steps = vec![Step { node: from, by: By::Following }];
+        let mut node = from;
+        while node != self.goal {
+            let left = self.remaining[node.at()];
+            let following = self.graph.nodes[node.at()].following.iter();
+            let onward = following.map(|it| (*it, By::Following, self.times[node.at()]));
+            let beside = self.beside(node).map(|(it, by)| (it, by, CHANGE));
+            let next = onward.chain(beside).find(|(it, _, cost)| self.remaining[it.at()] + cost == left);
+            let Some((next, by, _)) = next else { break };
+            steps.push(Step { node: next, by });
+            node = next;
+        }
+        self.measured(steps)
+    }
+
+    fn measured(&self, steps: Vec<Step>) -> Route {
         // Of the lanelets of one section only the last one is driven to its end.
         let driven = steps.iter().zip(steps.iter().skip(1).map(|it| it.by).chain([By::Following]));
         let driven: Vec<NodeIndex> =
             driven.filter(|(_, next)| *next == By::Following).map(|(it, _)| it.node).collect();
         let sum = |of: &[f64]| driven.iter().map(|it| of[it.at()]).sum();
-        Some(Route { length: sum(&self.lengths), time: sum(&self.times), steps })
+        Route { length: sum(&self.lengths), time: sum(&self.times), steps }
     }
 }
 
@@ -329,6 +357,28 @@ mod tests {
             .map(|it| map.network.lanelets[map.graph.nodes[it.node.at()].lanelet.at()].id)
             .collect();
         assert_eq!(ids, [2, 4, 6, 8, 10]);
+    }
+
+    #[test]
+    fn there_is_a_way_exactly_where_the_graph_leads() {
+        let road = Motorway {
+            on_ramp_at: vec![500.0],
+            off_ramp_at: vec![1500.0],
+            length_m: 2500.0,
+            ..Motorway::default()
+        };
+        let map = map(&road);
+        for to in (0..map.graph.nodes.len() as u32).map(NodeIndex) {
+            let search = Search::new(&map, to);
+            for from in (0..map.graph.nodes.len() as u32).step_by(7).map(NodeIndex) {
+                let leads = search.remaining[from.at()].is_finite();
+                assert_eq!(!routes(&map, from, to, Sense::default()).is_empty(), leads);
+                if leads {
+                    let fastest = search.fastest(from);
+                    assert_eq!((fastest.steps[0].node, fastest.steps.last().unwrap().node), (from, to));
+                }
+            }
+        }
     }
 
     #[test]

@@ -74,7 +74,7 @@ impl GraphJson<'_> {
             adjacent_right,
             length_m: it.length(),
             speed_limit_mps: it.speed_limit,
-            backward: self.0.graph.backward(lanelet).map(|node| self.links(node)),
+            backward: self.0.graph.backward(lanelet).map(|it| self.links(&nodes[it.at()])),
         }
     }
 }

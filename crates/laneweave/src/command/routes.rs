@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use laneweave::Fault;
 use laneweave::maps::{By, Map, NodeIndex, Route, Sense, routes};
+use laneweave::network::LaneletIndex;
 use laneweave::scenario::open_map;
 use serde::Serialize;
 
@@ -69,20 +70,33 @@ impl Arguments {
                 "choose 1 or more",
             ));
         }
+        if self.most == 0 {
+            return Err(Fault::new("--most", "no ways at all", "choose 1 or more"));
+        }
         let map = open_map(&self.map, &self.reading.options())?;
         let [from, to] = [("FROM", self.from), ("TO", self.to)].map(|(name, id)| find(&map, name, id));
         let sense = Sense { most: self.most, longest: self.longest };
-        let found: Vec<Way> = routes(&map, from?, to?, sense).iter().map(|it| Way::of(it, &map)).collect();
+        let (from, to) = (from?, to?);
+        // Two-way lanelets may be driven either way.
+        let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (*from, *to)));
+        let mut found: Vec<Route> = pairs.flat_map(|(from, to)| routes(&map, from, to, sense)).collect();
+        found.sort_by(|a, b| a.time.total_cmp(&b.time));
+        found.truncate(self.most);
+        let found: Vec<Way> = found.iter().map(|it| Way::of(it, &map)).collect();
         say(&if self.json { json(&Ways { routes: found })? } else { text(&found, self.from, self.to) });
         Ok(())
     }
 }
 
-/// The node of the lanelet with this id.
-fn find(map: &Map, name: &str, id: i64) -> Result<NodeIndex, Fault> {
+/// The nodes of the lanelet with this id.
+fn find(map: &Map, name: &str, id: i64) -> Result<Vec<NodeIndex>, Fault> {
     let lanelets = &map.network.lanelets;
-    let place = lanelets.iter().position(|it| it.id == id).map(|it| NodeIndex(it as u32));
-    place.ok_or_else(|| {
+    let place = lanelets.iter().position(|it| it.id == id).map(|it| it as u32);
+    let nodes = place.map(|it| {
+        let backward = map.graph.backward(LaneletIndex(it));
+        [NodeIndex(it)].into_iter().chain(backward).collect()
+    });
+    nodes.ok_or_else(|| {
         let nearest = lanelets.iter().map(|it| it.id).min_by_key(|it| it.abs_diff(id)).unwrap_or_default();
         let remedy =
             format!("choose another of its {} lanelets; the nearest id is {nearest}", lanelets.len());

@@ -48,12 +48,13 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     let document = document::parse(bytes, &mut problems)?;
     let (elements, places, mut lanelets) = shaped(&document, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);
-    problems.sort_by_key(|it| it.line);
     if lanelets.is_empty() {
         let remedy = "give lanelets two bounds and a laneletType for cars, such as urban";
         return Err(MapError::NotDrivable { lanelets: document.lanelets.len(), problems, remedy });
     }
-    let graph = Graph::of(&lanelets);
+    let (graph, heaps) = Graph::of(&lanelets);
+    problems.extend(heaps);
+    problems.sort_by_key(|it| it.line);
     let network = Network::new(lanelets, options.driving_side.unwrap_or_default())?;
     let (rules, contents) = (Vec::new(), Contents::default());
     Ok(Map { network, graph, rules, contents, problems, origin: None })
