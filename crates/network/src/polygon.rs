@@ -67,10 +67,16 @@ impl Polygon {
         let near = |polygon: &Polygon| -> Vec<usize> {
             (0..polygon.points.len()).filter(|it| polygon.edge(*it).reaches(low, high)).collect()
         };
-        let (mine, theirs) = (near(self), near(other));
+        let (mine, mut theirs) = (near(self), near(other));
+        // From west to east, so that each edge is held against those only that are not further west than any is long.
+        theirs.sort_by(|a, b| other.edge(*a).low()[0].total_cmp(&other.edge(*b).low()[0]));
+        let longest = theirs.iter().map(|it| other.edge(*it)).map(|it| it.high()[0] - it.low()[0]);
+        // Rounding must not hide a touch.
+        let longest = 1.001 * longest.fold(0.0, f64::max);
         for i in &mine {
             let edge = self.edge(*i);
-            for j in &theirs {
+            let first = theirs.partition_point(|j| other.edge(*j).low()[0] < edge.low()[0] - longest);
+            for j in theirs[first..].iter().take_while(|j| other.edge(**j).low()[0] <= edge.high()[0]) {
                 let across = other.edge(*j);
                 if edge.reaches(across.low(), across.high()) && self.meets_at(*i, other, *j) {
                     return true;

@@ -7,5 +7,5 @@ mod report;
 
 pub use graph::GraphJson;
 pub use picture::picture;
-pub use recording::{ChangeRow, RecordingReport, open_recording};
+pub use recording::{ChangeRow, RecordingReport, extension, open_recording, tracks};
 pub use report::{Complaint, Opening, Report};

@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use laneweave_maps::Problem;
 use laneweave_network::{Network, Side};
 use laneweave_recordings::{
-    CleaningReport, Kind, LaneChange, Matched, Recording, clean, commonroad, interaction, lane_changes,
+    CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, interaction,
+    lane_changes,
 };
 use serde::Serialize;
 
@@ -74,26 +77,53 @@ pub struct ChangeRow {
     pub seen_after_s: f64,
 }
 
+/// The extension of a file's name, in lower case.
+pub fn extension(path: &Path) -> String {
+    path.extension().map_or(String::new(), |it| it.to_string_lossy().to_ascii_lowercase())
+}
+
 /// Reads a recording: CommonRoad (.xml) or the layout of the INTERACTION dataset (.csv).
 ///
 /// # Errors
 /// If it cannot be read, or is of neither format.
 pub fn open_recording(path: &Path) -> Result<(Recording, Vec<Problem>), Fault> {
-    let extension = path.extension().map_or("".into(), |it| it.to_string_lossy().to_ascii_lowercase());
-    let read: fn(&[u8]) -> _ = match extension.as_str() {
+    let read: fn(&[u8]) -> _ = match extension(path).as_str() {
         "csv" => interaction::read,
         "xml" => commonroad::read,
-        _ => {
-            let what = format!("no format of recordings has the extension {extension:?}");
+        other => {
+            let what = format!("no format of recordings has the extension {other:?}");
             return Err(Fault::new(path.display(), what, "known are INTERACTION (.csv), CommonRoad (.xml)"));
         }
     };
-    let bytes = std::fs::read(path).map_err(|error| Fault::refused(path, "read", &error))?;
-    read(&bytes).map_err(|error| {
-        let message = error.to_string();
-        let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "mend the file"));
-        Fault::new(path.display(), what, remedy)
-    })
+    read(&content(path)?).map_err(|error| fault(path, &error))
+}
+
+/// Reads the tracks of a CommonRoad file, if it has any.
+///
+/// # Errors
+/// If it has some that cannot be read.
+pub fn tracks(path: &Path) -> Result<Option<(Recording, Vec<Problem>)>, Fault> {
+    match commonroad::read(&content(path)?) {
+        Ok(recording) => Ok(Some(recording)),
+        Err(RecordingError::Empty { .. }) => Ok(None),
+        Err(error) => Err(fault(path, &error)),
+    }
+}
+
+/// The content of a file, or as much of it as tells that it is too large.
+fn content(path: &Path) -> Result<Vec<u8>, Fault> {
+    /// A little more than any reader takes [B].
+    const MOST: u64 = 1 << 30;
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|it| it.take(MOST).read_to_end(&mut bytes));
+    read.map_err(|error| Fault::refused(path, "read", &error))?;
+    Ok(bytes)
+}
+
+fn fault(path: &Path, error: &RecordingError) -> Fault {
+    let message = error.to_string();
+    let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "mend the file"));
+    Fault::new(path.display(), what, remedy)
 }
 
 impl RecordingReport {
@@ -111,6 +141,7 @@ impl RecordingReport {
         let (states, unmatched) = places.fold((0, 0), |(states, unmatched), (places, _)| {
             (states + places.len(), unmatched + places.iter().filter(|it| it.is_none()).count())
         });
+        let elsewhere = (2 * unmatched > states).then(|| elsewhere(&recording, network));
         let span = recording.frames().map_or(0, |(first, last)| last - first);
         RecordingReport {
             step_s: recording.step,
@@ -118,13 +149,13 @@ impl RecordingReport {
             tracks,
             states,
             unmatched,
-            veh_km: (distance(&recording)).round() / METRES_PER_KM,
+            veh_km: distance(&matched).round() / METRES_PER_KM,
             cleaning: counts(&cleaning),
             lane_changes_by_kind: kinds,
             lane_changes_along_graph: changes.iter().filter(|it| it.along_graph).count(),
             lane_changes_undone: changes.iter().filter(|it| it.returned_after.is_some()).count(),
             lane_changes: changes.iter().map(|it| row(it, network)).collect(),
-            problems: problems.iter().map(Complaint::from).collect(),
+            problems: elsewhere.into_iter().chain(problems.iter().map(Complaint::from)).collect(),
         }
     }
 
@@ -192,7 +223,7 @@ impl RecordingReport {
 
     fn write_problems(&self, out: &mut String) -> std::fmt::Result {
         if !self.problems.is_empty() {
-            writeln!(out, "\n{} problems:", self.problems.len())?;
+            writeln!(out, "\nProblems ({}; --json lists all):", self.problems.len())?;
         }
         self.problems.iter().take(LISTED).try_for_each(|it| writeln!(out, "  {it}"))
     }
@@ -203,10 +234,34 @@ fn counts(cleaning: &CleaningReport) -> BTreeMap<&'static str, usize> {
     found.map(|(name, it)| (name, it.count)).collect()
 }
 
-/// What vehicles drove in all [m].
-fn distance(recording: &Recording) -> f64 {
-    let vehicles = recording.tracks.iter().filter(|it| it.class.is_vehicle());
-    vehicles.flat_map(|it| it.states.windows(2)).map(|it| (it[1].x - it[0].x).hypot(it[1].y - it[0].y)).sum()
+/// What vehicles drove on the map in all [m].
+fn distance(matched: &Matched) -> f64 {
+    let tracks = matched.recording.tracks.iter().zip(&matched.places);
+    let moves = tracks.flat_map(|(track, places)| track.states.windows(2).zip(places.windows(2)));
+    let on_the_map = moves.filter(|(_, places)| places.iter().all(Option::is_some));
+    on_the_map.map(|(it, _)| (it[1].x - it[0].x).hypot(it[1].y - it[0].y)).sum()
+}
+
+/// A recording of another place, or in another frame, is on no lanelet.
+fn elsewhere(recording: &Recording, network: &Network) -> Complaint {
+    let span = |points: &mut dyn Iterator<Item = (f64, f64)>| {
+        points.fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |it, (x, y)| {
+            [it[0].min(x), it[1].max(x), it[2].min(y), it[3].max(y)]
+        })
+    };
+    let states = recording.tracks.iter().flat_map(|it| &it.states);
+    let theirs = span(&mut states.map(|it| (it.x, it.y)));
+    let points = network.lanelets.iter().flat_map(|it| it.centre.points());
+    let own = span(&mut points.map(|it| (it.x, it.y)));
+    let text = |[west, east, south, north]: [f64; 4]| {
+        format!("x {west:.0} to {east:.0} m and y {south:.0} to {north:.0} m")
+    };
+    Complaint {
+        element: "the recording".into(),
+        line: None,
+        what: format!("most of it lies on no lanelet: it covers {}, the map {}", text(theirs), text(own)),
+        remedy: "choose the map of its place, or give the origin of its frame with --origin".into(),
+    }
 }
 
 fn row(change: &LaneChange, network: &Network) -> ChangeRow {

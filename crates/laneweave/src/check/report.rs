@@ -133,7 +133,9 @@ impl Report {
         writeln!(out, "Traffic drives on the {}.\n", self.driving_side)?;
         let counted: Vec<String> =
             self.elements.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        wrapped(out, "The file holds", &counted)?;
+        if !counted.is_empty() {
+            wrapped(out, "The file holds", &counted)?;
+        }
         let [slowest, fastest] = self.speed_limits_kmh;
         let limits =
             if slowest == fastest { format!("{slowest}") } else { format!("{slowest} to {fastest}") };
@@ -160,7 +162,7 @@ impl Report {
         if self.problems.is_empty() {
             return writeln!(out, "\nNo problems.");
         }
-        writeln!(out, "\n{} problems:", self.problems.len())?;
+        writeln!(out, "\nProblems ({}; --json lists all):", self.problems.len())?;
         for alike in self.problems.chunk_by(|a, b| a.what == b.what && a.remedy == b.remedy).take(LISTED) {
             let Complaint { element, line, what, remedy } = &alike[0];
             let line = line.map_or(String::new(), |it| format!(" (line {it})"));
@@ -170,7 +172,7 @@ impl Report {
             };
             writeln!(out, "  {element}{line}{others}: {what}; {remedy}")?;
         }
-        writeln!(out, "(--json lists them all.)")
+        Ok(())
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use laneweave::Fault;
-use laneweave::check::{GraphJson, RecordingReport, Report, open_recording, picture};
+use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recording, picture, tracks};
 use laneweave::output::write_whole;
 use laneweave::scenario::{MapOptions, open_map};
 use serde::Serialize;
@@ -73,7 +73,7 @@ impl Arguments {
     }
 
     fn map(&self) -> Result<(), Fault> {
-        if self.file.extension().is_some_and(|it| it == "csv") {
+        if extension(&self.file) == "csv" {
             return Err(Fault::new(
                 self.file.display(),
                 "a recording needs the map of its place",
@@ -81,6 +81,7 @@ impl Arguments {
             ));
         }
         let map = open_map(&self.file, &self.options.options())?;
+        self.check_outputs()?;
         let report = Report::of(&map);
         if let Some(path) = &self.graph {
             write_whole(path, &json(&GraphJson(&map))?)?;
@@ -90,10 +91,7 @@ impl Arguments {
             write_whole(path, &picture(&name, &map))?;
         }
         // A CommonRoad file may hold both.
-        let recording = match self.file.extension().is_some_and(|it| it == "xml") {
-            true => open_recording(&self.file).ok(),
-            false => None,
-        };
+        let recording = if extension(&self.file) == "xml" { tracks(&self.file)? } else { None };
         let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
         if self.json {
             say(&json(&Both { map: report, recording })?);
@@ -102,6 +100,28 @@ impl Arguments {
         say(&report.to_text());
         if let Some(recording) = recording {
             say(&format!("\nTracks in the same file:\n{}", recording.to_text()));
+        }
+        Ok(())
+    }
+
+    /// Before anything is written: no file goes in place of another that is wanted, and all have a folder to go to.
+    fn check_outputs(&self) -> Result<(), Fault> {
+        let outputs = [("--graph", &self.graph), ("--svg", &self.svg)];
+        let outputs: Vec<(&str, &PathBuf)> =
+            outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_ref()?))).collect();
+        let place = |path: &Path| std::path::absolute(path).unwrap_or(path.to_owned());
+        for (number, (option, path)) in outputs.iter().enumerate() {
+            let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            if !folder.is_dir() {
+                let what = format!("there is no folder {}", folder.display());
+                return Err(Fault::new(option, what, "make it first, or choose another place"));
+            }
+            let is_input =
+                path.canonicalize().is_ok_and(|it| self.file.canonicalize().is_ok_and(|own| it == own));
+            if is_input || outputs[..number].iter().any(|(_, other)| place(other) == place(path)) {
+                let what = format!("{} is another file of this command", path.display());
+                return Err(Fault::new(option, what, "choose another name"));
+            }
         }
         Ok(())
     }

@@ -20,7 +20,7 @@ pub use prepare::{Prepared, open_map, prepare};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// The map file (Lanelet2, .osm), relative to the scenario file.
+    /// The map file (Lanelet2: .osm, CommonRoad: .xml), relative to the scenario file.
     pub map: PathBuf,
     /// How the map is read.
     #[serde(default)]

@@ -7,7 +7,7 @@
 //! * A line that is dashed, or not painted, may be crossed, a solid one or a kerb not. The lanelet's own
 //!   bound counts; where nothing is known of it, the neighbour's; where neither says anything, the line may
 //!   be crossed.
-//! * Where neither the lanelet nor a sign gives a speed limit, that of Germany holds: 50 km/h in towns and
+//! * Where neither the lanelet nor a sign gives a speed limit, that of the law holds, in Germany 50 km/h in towns and
 //!   where nothing is known, 130 km/h on motorways, 100 km/h on other roads. The lanelet's type tells which,
 //!   and where it has none, or `urban` alone, the tags of the scenario.
 //! * Traffic drives on the right unless the options say otherwise: the format does not say it.
@@ -26,7 +26,7 @@ use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Polyline};
 
 use crate::contents::Contents;
 use crate::error::MapError;
-use crate::format::{MAXIMUM_SIZE, Map, ReadOptions};
+use crate::format::{Law, MAXIMUM_SIZE, Map, ReadOptions};
 use crate::graph::Graph;
 use crate::problem::Problem;
 use crate::shape::Shape;
@@ -46,7 +46,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     }
     let mut problems = Vec::new();
     let document = document::parse(bytes, &mut problems)?;
-    let (elements, places, mut lanelets) = shaped(&document, &mut problems);
+    let (elements, places, mut lanelets) = shaped(&document, options.law, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);
     if lanelets.is_empty() {
         let remedy = "give lanelets two bounds and a laneletType for cars, such as urban";
@@ -63,10 +63,11 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
 /// The lanelets that cars may use and that have a shape, with nothing around them yet; where all ids stand.
 fn shaped<'a>(
     document: &'a Document,
+    law: Law,
     problems: &mut Vec<Problem>,
 ) -> (Vec<&'a LaneletElement>, Places, Vec<Lanelet>) {
     let signs = SpeedSigns::of(&document.signs, problems);
-    let of_scenario = speed::german_default(&document.tags);
+    let of_scenario = speed::default(law, &document.tags);
     let (mut elements, mut places, mut lanelets) = (Vec::new(), Places::new(), Vec::new());
     for element in &document.lanelets {
         let Entry::Vacant(place) = places.entry(element.id) else {
@@ -77,7 +78,7 @@ fn shaped<'a>(
         let lanelet = if rules::is_for_cars(element) { bare(element, problems) } else { None };
         place.insert(lanelet.as_ref().map(|_| LaneletIndex(lanelets.len() as u32)));
         let Some(mut lanelet) = lanelet else { continue };
-        lanelet.speed_limit = speed::limit(element, &signs, of_scenario, problems);
+        lanelet.speed_limit = speed::limit(element, &signs, law, of_scenario, problems);
         elements.push(element);
         lanelets.push(lanelet);
         if rules::is_two_way(element) {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::document::{LaneletElement, Sign, problem};
 use crate::drawing::KMH_PER_MPS;
+use crate::format::Law;
 use crate::problem::Problem;
 
 /// Numbers of signs that show a maximum speed, in the catalogues that CommonRoad knows: of Germany (used for
@@ -53,17 +54,18 @@ fn is_limit(speed: f64) -> bool {
 
 /// The limit of a lanelet [m/s].
 ///
-/// Its own element `speedLimit` comes first, then the lowest limit on its signs, then [`german_default`] for
+/// Its own element `speedLimit` comes first, then the lowest limit on its signs, then what the law says for
 /// its types. For a lanelet without types, or with nothing but `urban`, the one `of_scenario` counts, that for the
 /// scenario's tags [km/h]: version 2020a demands a type, and files made from older ones say `urban` even on a motorway.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
+    law: Law,
     of_scenario: f64,
     problems: &mut Vec<Problem>,
 ) -> f64 {
     let says_little = lanelet.types.iter().all(|it| it == "urban");
-    let default = if says_little { of_scenario } else { german_default(&lanelet.types) };
+    let default = if says_little { of_scenario } else { default(law, &lanelet.types) };
     match lanelet.speed_limit {
         Some(limit) if is_limit(limit) => return limit,
         Some(_) => {
@@ -85,18 +87,18 @@ pub(super) fn limit(
     shown.reduce(f64::min).unwrap_or(default / KMH_PER_MPS)
 }
 
-/// The limit in Germany where none is given [km/h]: 50 in towns, 130 on a motorway (where it is only advised),
-/// 100 on other roads out of town, and 50 where nothing is known.
-pub(super) fn german_default(kinds: &[String]) -> f64 {
+/// The limit where none is given [km/h]: that of the law for a road in town, a motorway, or another road out of town; where
+/// nothing is known, that in town.
+pub(super) fn default(law: Law, kinds: &[String]) -> f64 {
     let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
     if any(&["urban"]) {
-        50.0
+        law.limit_of(Some("road"), Some("urban"))
     } else if any(&["highway", "interstate", "mainCarriageWay", "accessRamp", "exitRamp"]) {
-        130.0
+        law.limit_of(Some("highway"), Some("nonurban"))
     } else if any(&["country", "rural"]) {
-        100.0
+        law.limit_of(Some("road"), Some("nonurban"))
     } else {
-        50.0
+        law.limit_of(Some("road"), Some("urban"))
     }
 }
 
@@ -117,7 +119,7 @@ mod tests {
         let tags: Vec<String> = tags.iter().map(|it| it.to_string()).collect();
         let mut problems = Vec::new();
         let signs = SpeedSigns::of(signs, &mut problems);
-        let limit = limit(&lanelet, &signs, german_default(&tags), &mut problems);
+        let limit = limit(&lanelet, &signs, Law::Germany, default(Law::Germany, &tags), &mut problems);
         ((limit * KMH_PER_MPS).round(), problems.iter().map(Problem::to_string).collect())
     }
 

@@ -31,7 +31,16 @@ pub(super) fn draw(
     let mut draft = Draft { document, lookup: &lookup, drawing, borders, shared };
     let mut found: Vec<(&Relation, Result<[u32; 2], Flaw>)> = Vec::new();
     for relation in document.relations_of_type("lanelet") {
-        if rules::is_for_cars(document.tags(relation.tags)) && lookup.is_first(relation) {
+        let tags = document.tags(relation.tags);
+        for (what, remedy) in rules::flaws_of_lanelet(tags) {
+            problems.push(Problem {
+                element: format!("lanelet {}", relation.id),
+                line: Some(relation.line as usize),
+                what,
+                remedy: remedy.into(),
+            });
+        }
+        if rules::is_for_cars(tags) && lookup.is_first(relation) {
             found.push((relation, draft.borders_of(relation)));
         }
     }
@@ -61,6 +70,17 @@ pub(super) fn draw(
                 draft.drawing.lanes.push(Lane { id: relation.id, line, left, right, is_two_way, limit_kmh });
             }
             Err((what, remedy)) => note(&format!("{what}, so it is left out"), remedy),
+        }
+    }
+    let used = document.ways.iter().zip(&draft.borders).filter(|(_, place)| **place != NONE);
+    for (way, _) in used {
+        for (what, remedy) in rules::flaws_of_border(document.tags(way.tags)) {
+            problems.push(Problem {
+                element: format!("way {}", way.id),
+                line: Some(way.line as usize),
+                what,
+                remedy: remedy.into(),
+            });
         }
     }
     let drawing = draft.drawing;

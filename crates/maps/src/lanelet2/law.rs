@@ -9,7 +9,11 @@ pub(super) const KMH_PER_MPH: f64 = 1.609_344;
 impl Law {
     /// The limit of a lanelet with these tags [km/h].
     pub(super) fn limit(self, lanelet: Tags) -> f64 {
-        let (subtype, location) = (lanelet.get("subtype"), lanelet.get("location"));
+        self.limit_of(lanelet.get("subtype"), lanelet.get("location"))
+    }
+
+    /// The limit of a lanelet of this subtype in this location, in Lanelet2's words [km/h].
+    pub(crate) fn limit_of(self, subtype: Option<&str>, location: Option<&str>) -> f64 {
         match self {
             Law::Germany => germany(subtype, location),
             Law::UnitedStates => KMH_PER_MPH * united_states(subtype, location),

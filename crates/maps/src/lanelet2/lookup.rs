@@ -34,7 +34,7 @@ impl<'a> Lookup<'a> {
         origin: Option<(f64, f64)>,
         problems: &mut Vec<Problem>,
     ) -> Result<(Lookup<'a>, Option<(f64, f64)>), MapError> {
-        let (frame, origin) = Frame::of(document, origin)?;
+        let (frame, origin) = Frame::of(document, origin, problems)?;
         let place = |node: &Node| frame.place(node, document.tags(node.tags)).unwrap_or(NOWHERE);
         let (points, [nodes, ways, relations]) = rayon::join(
             || document.nodes.par_iter().map(place).collect(),

@@ -5,6 +5,7 @@ use laneweave_network::Point;
 use super::osm::{Document, Node, Tags};
 use super::projection::Utm;
 use crate::error::MapError;
+use crate::problem::Problem;
 use crate::xml::number;
 
 /// Which of the coordinates that nodes may have are used, for all nodes of a map alike.
@@ -30,15 +31,31 @@ impl Frame {
     pub(super) fn of(
         document: &Document,
         origin: Option<(f64, f64)>,
+        problems: &mut Vec<Problem>,
     ) -> Result<(Frame, Option<(f64, f64)>), MapError> {
         let nodes = || document.nodes.iter();
-        if nodes().all(|it| {
+        let is_local = |it: &Node| {
             let tags = document.tags(it.tags);
             tags.get("local_x").is_some() && tags.get("local_y").is_some()
-        }) {
+        };
+        let is_metric = |it: &Node| it.x.get().is_some() && it.y.get().is_some();
+        if nodes().all(is_local) {
             return Ok((Frame::Local, None));
         }
-        if nodes().all(|it| it.x.get().is_some() && it.y.get().is_some()) {
+        // Most have them, but not all: somebody forgot some.
+        let local = nodes().filter(|it| is_local(it)).count();
+        if let Some(first) = nodes().find(|it| !is_local(it)).filter(|_| 2 * local > document.nodes.len()) {
+            problems.push(Problem {
+                element: format!("node {}", first.id),
+                line: Some(first.line as usize),
+                what: format!(
+                    "it is the first of {} nodes without local_x and local_y, so those of the others are not used",
+                    document.nodes.len() - local
+                ),
+                remedy: "give all nodes local_x and local_y, or none".into(),
+            });
+        }
+        if nodes().all(is_metric) {
             return Ok((Frame::Metric, None));
         }
         // Adding zero leaves no negative zero.
@@ -78,7 +95,7 @@ mod tests {
     fn frame(nodes: &str) -> (Frame, Option<(f64, f64)>, Option<Point>) {
         let text = format!("<osm>{nodes}</osm>");
         let document = parse(text.as_bytes(), &mut Vec::new()).unwrap();
-        let (frame, origin) = Frame::of(&document, None).unwrap();
+        let (frame, origin) = Frame::of(&document, None, &mut Vec::new()).unwrap();
         let last = document.nodes.last().unwrap();
         (frame, origin, frame.place(last, document.tags(last.tags)))
     }
@@ -89,6 +106,19 @@ mod tests {
         assert_eq!(frame(&local), (Frame::Local, None, Some(Point::new(4.0, 5.0, 6.0))));
         let mixed = format!("{local}{NODE}</node>");
         assert_eq!(frame(&mixed), (Frame::Metric, None, Some(Point::new(1.0, 2.0, 3.0))));
+    }
+
+    #[test]
+    fn a_node_that_lacks_what_the_others_have_is_a_problem() {
+        let text = format!("<osm>{NODE}{LOCAL}</node>\n{NODE}{LOCAL}</node>\n{NODE}</node></osm>");
+        let document = parse(text.as_bytes(), &mut Vec::new()).unwrap();
+        let mut problems = Vec::new();
+        assert_eq!(Frame::of(&document, None, &mut problems).unwrap().0, Frame::Metric);
+        assert!(
+            problems[0]
+                .to_string()
+                .starts_with("node 1 (line 3): it is the first of 1 nodes without local_x")
+        );
     }
 
     #[test]
@@ -103,7 +133,7 @@ mod tests {
     #[test]
     fn an_origin_off_the_earth_is_refused() {
         let document = parse(b"<osm><node id='1'/></osm>", &mut Vec::new()).unwrap();
-        let error = Frame::of(&document, Some((91.0, 0.0))).unwrap_err();
+        let error = Frame::of(&document, Some((91.0, 0.0)), &mut Vec::new()).unwrap_err();
         assert!(error.to_string().starts_with("the origin (91, 0) is no latitude"));
     }
 

@@ -8,6 +8,9 @@ use crate::drawing::Crossing;
 /// The tags that allow, or forbid, a lanelet to cars; the first that is given decides.
 const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle"];
 
+/// The tags that say whether cars may use a lanelet in one direction only; the first that is given decides.
+const ONE_WAY: [&str; 3] = ["one_way:vehicle:car", "one_way:vehicle", "one_way"];
+
 /// Whether cars may use a lanelet with these tags.
 ///
 /// Tags `participant:…` name everybody who may; without any of them the subtype tells.
@@ -20,10 +23,7 @@ pub(super) fn is_for_cars(lanelet: Tags) -> bool {
 
 /// Whether cars may use a lanelet with these tags against its direction, too.
 pub(super) fn is_two_way(lanelet: Tags) -> bool {
-    ["one_way:vehicle:car", "one_way:vehicle", "one_way"]
-        .into_iter()
-        .find_map(|key| flag(lanelet, key))
-        .is_some_and(|one_way| !one_way)
+    ONE_WAY.into_iter().find_map(|key| flag(lanelet, key)).is_some_and(|one_way| !one_way)
 }
 
 /// Who may cross a border with these tags, seen along its points.
@@ -61,6 +61,61 @@ pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
         (false, true) => "dashed_solid",
         (false, false) => "solid",
     }
+}
+
+/// What in the tags of a lanelet is written so that nobody understands it, and what is assumed.
+pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<(String, &'static str)> {
+    const KNOWN: [&str; 15] = [
+        "road",
+        "highway",
+        "play_street",
+        "exit",
+        "bicycle_lane",
+        "bus_lane",
+        "crosswalk",
+        "emergency_lane",
+        "rail",
+        "shared_walkway",
+        "stairs",
+        "walkway",
+        "pedestrian_lane",
+        "road_shoulder",
+        "bus_stop",
+    ];
+    let mut flaws = Vec::new();
+    match lanelet.get("subtype") {
+        Some(subtype) if !KNOWN.contains(&subtype) && !lanelet.any("participant:") => flaws.push((
+            format!("its subtype {subtype:?} is unknown, so it counts as no road"),
+            "write road, highway or another of Lanelet2's subtypes, or add participant:vehicle=yes",
+        )),
+        _ => {}
+    }
+    for key in PARTICIPANTS.into_iter().chain(ONE_WAY) {
+        if let Some(value) = lanelet.get(key).filter(|_| flag(lanelet, key).is_none()) {
+            flaws.push((format!("its tag {key} is {value:?}, so it counts as not given"), "write yes or no"));
+        }
+    }
+    flaws
+}
+
+/// What in the tags of a border is written so that nobody understands it, and what is assumed.
+pub(super) fn flaws_of_border(border: Tags) -> Vec<(String, &'static str)> {
+    const KNOWN: [&str; 6] =
+        ["solid", "solid_solid", "dashed", "dashed_solid", "solid_dashed", "dashed_dashed"];
+    let mut flaws = Vec::new();
+    for key in ["lane_change", "lane_change:left", "lane_change:right"] {
+        if let Some(value) = border.get(key).filter(|_| flag(border, key).is_none()) {
+            flaws
+                .push((format!("its tag {key} is {value:?}, so nobody may change there"), "write yes or no"));
+        }
+    }
+    let is_line = matches!(border.get("type"), Some("line_thin" | "line_thick"));
+    let decided = border.get("lane_change").is_some() || border.any("lane_change:");
+    if let Some(subtype) = border.get("subtype").filter(|it| is_line && !decided && !KNOWN.contains(it)) {
+        let what = format!("its subtype {subtype:?} is unknown, so nobody may change lanes across it");
+        flaws.push((what, "write dashed, solid, dashed_solid or solid_dashed"));
+    }
+    flaws
 }
 
 /// Yes or no, if the tag is given and is one of them.
@@ -132,6 +187,18 @@ mod tests {
         assert_eq!(over("lane_change:left", "yes"), (true, false));
         assert_eq!(over("lane_change:right", "yes"), (false, true));
         assert_eq!(over("lane_change:right", "no"), (false, false));
+    }
+
+    #[test]
+    fn slips_of_the_pen_are_flaws() {
+        let lanelet = |key, value| with_tags([(key, value)], |it| flaws_of_lanelet(it).len());
+        assert_eq!([lanelet("subtype", "higway"), lanelet("subtype", "highway")], [1, 0]);
+        assert_eq!([lanelet("participant:vehicle", "yse"), lanelet("participant:bicycle", "yes")], [1, 0]);
+        assert_eq!([lanelet("one_way", "nope"), lanelet("one_way", "no")], [1, 0]);
+        let border =
+            |key, value| with_tags([("type", "line_thin"), (key, value)], |it| flaws_of_border(it).len());
+        assert_eq!([border("subtype", "dahsed"), border("subtype", "dashed")], [1, 0]);
+        assert_eq!([border("lane_change", "maybe"), border("lane_change:left", "yes")], [1, 0]);
     }
 
     #[test]
