@@ -68,6 +68,17 @@ fn headings_turn_the_short_way_through_a_gap() {
 }
 
 #[test]
+fn headings_whose_difference_is_no_number_stay_finite_in_a_gap() {
+    let mut track = car((0..3).chain(4..7));
+    let (before, after) = track.states.split_at_mut(3);
+    before.iter_mut().for_each(|it| it.heading = -f64::MAX);
+    after.iter_mut().for_each(|it| it.heading = f64::MAX);
+    let (tracks, report) = cleaned(track);
+    assert_eq!((tracks[0].states.len(), report.interpolated.count), (7, 1));
+    assert!(tracks[0].states.iter().all(|it| it.heading.is_finite()));
+}
+
+#[test]
 fn a_state_off_the_path_is_left_out() {
     for offset in [4.0, -30.0, 5000.0] {
         let mut track = car(0..30);

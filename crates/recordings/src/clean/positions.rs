@@ -94,7 +94,9 @@ fn jumps(states: &[State], step: f64) -> Vec<bool> {
 fn between(a: &State, b: &State, frame: i64) -> State {
     let fraction = (frame - a.frame) as f64 / (b.frame - a.frame) as f64;
     let mix = |from: f64, to: f64| from + fraction * (to - from);
-    let turn = (b.heading - a.heading).sin().atan2((b.heading - a.heading).cos());
+    let turn = b.heading - a.heading;
+    // Headings may be so large that their difference is none.
+    let turn = if turn.is_finite() { turn.sin().atan2(turn.cos()) } else { 0.0 };
     State {
         frame,
         x: mix(a.x, b.x),
