@@ -125,6 +125,7 @@ fn those_that_stay(crossings: Vec<Crossing>) -> Vec<Crossing> {
 /// All crossings of lines in order of time.
 fn crossings(matched: &Matched<'_>, track: &Track, places: &[Option<Place>]) -> Vec<Crossing> {
     let step = matched.recording.step;
+    let ends = ends(places);
     let mut crossings = Vec::new();
     for (at, pair) in places.windows(2).enumerate() {
         let [Some(before), Some(after)] = pair else { continue };
@@ -133,8 +134,8 @@ fn crossings(matched: &Matched<'_>, track: &Track, places: &[Option<Place>]) -> 
         }
         let found = matched.moves.get(before.lanelet, before.station, after.lanelet);
         let Some(Move::Aside(aside)) = found else { continue };
-        let (number, last) =
-            places[at + 1..].iter().map_while(|it| *it).enumerate().last().unwrap_or((0, *after));
+        let end = ends[at + 1];
+        let last = places[end].unwrap_or(*after);
         let lanelets = [before, after].map(|it| &matched.network.lanelets[it.lanelet.at()]);
         let (frame, x, y) = moment(track, at, lanelets, step);
         crossings.push(Crossing {
@@ -146,10 +147,21 @@ fn crossings(matched: &Matched<'_>, track: &Track, places: &[Option<Place>]) -> 
             to: after.lanelet,
             aside,
             last: last.lanelet,
-            seen_until: track.states[at + 1 + number].frame as f64 * step,
+            seen_until: track.states[end].frame as f64 * step,
         });
     }
     crossings
+}
+
+/// For each state the last one up to which all have a place.
+fn ends(places: &[Option<Place>]) -> Vec<usize> {
+    let mut ends: Vec<usize> = (0..places.len()).collect();
+    for at in (1..places.len()).rev() {
+        if places[at].is_some() {
+            ends[at - 1] = ends[at];
+        }
+    }
+    ends
 }
 
 /// The frame, with a fraction, and the point [m] at which the smoothed centre crosses the line between two lanelets,

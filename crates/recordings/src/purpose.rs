@@ -91,8 +91,11 @@ fn rows(count: usize, moves: &Moves) -> Vec<usize> {
             let beside = |it: LaneletIndex, found: &mut Vec<LaneletIndex>| {
                 found.extend(moves.beside(it).iter().map(|it| it.lanelet));
             };
-            for lanelet in reached(count, LaneletIndex(first as u32), beside) {
-                rows[lanelet.at()] = Some(first);
+            let mut open = vec![LaneletIndex(first as u32)];
+            while let Some(lanelet) = open.pop() {
+                if rows[lanelet.at()].replace(first).is_none() {
+                    beside(lanelet, &mut open);
+                }
             }
         }
     }
