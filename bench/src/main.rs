@@ -6,8 +6,9 @@
 //! vehicle needs.
 //! `… -- short` runs 300 steps of the first on one core only, to count instructions under callgrind.
 
+use std::alloc::{GlobalAlloc, Layout};
 use std::error::Error;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use laneweave::maps::generate::{Motorway, motorway};
@@ -15,9 +16,32 @@ use laneweave::network::{ChainIndex, Network};
 use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
 use laneweave::style::Population;
 
-/// The allocator of the command.
 #[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+static ALLOCATOR: Counting = Counting(AtomicUsize::new(0));
+
+/// The allocator of the command, counting the bytes in use.
+struct Counting(AtomicUsize);
+
+#[expect(unsafe_code, reason = "memory in use is known to the allocator only")]
+// SAFETY: everything is passed on.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        self.0.fetch_add(layout.size(), Ordering::Relaxed);
+        // SAFETY: as for this method.
+        unsafe { mimalloc::MiMalloc.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        self.0.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: as for this method.
+        unsafe { mimalloc::MiMalloc.dealloc(pointer, layout) }
+    }
+}
+
+/// Bytes in use.
+fn in_use() -> f64 {
+    ALLOCATOR.0.load(Ordering::Relaxed) as f64
+}
 
 const LANES: usize = 4;
 /// Vehicles per kilometre and lane.
@@ -69,7 +93,7 @@ impl Measurement {
     /// Runs `steps` steps of a motorway of `length_km`.
     fn of(length_km: f64, threads: usize, steps: u32) -> Result<Measurement, Box<dyn Error>> {
         let mut world = empty_motorway(1000.0 * length_km, threads)?;
-        let empty_mb = resident_mb();
+        let empty = in_use();
         fill(&mut world);
         for _ in 0..WARM_UP {
             world.step();
@@ -89,7 +113,7 @@ impl Measurement {
             considerations: tally.considerations,
             steps,
             wall_s,
-            bytes_per_vehicle: (resident_mb() - empty_mb) * 1024.0 * 1024.0 / vehicles as f64,
+            bytes_per_vehicle: (in_use() - empty) / vehicles as f64,
             hash: world.state_hash(),
         })
     }
@@ -185,14 +209,6 @@ fn free_places(network: &Network, random: &Random) -> Vec<(ChainIndex, f64)> {
         }
     }
     places
-}
-
-/// Resident memory of the process [MB]; 0 where the system does not tell.
-fn resident_mb() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-    let kilobytes = line.and_then(|it| it.trim().trim_end_matches(" kB").parse::<f64>().ok());
-    kilobytes.unwrap_or(0.0) / 1024.0
 }
 
 #[expect(clippy::print_stdout, reason = "this is what it is for")]
