@@ -35,50 +35,35 @@ const MAXIMUM_ANGLE: f64 = 0.1;
 const MAXIMUM_HEIGHT: f64 = 2.0;
 /// Distance of the samples along a border [m].
 const SAMPLE: f64 = 1.0;
+/// Borders are sampled so far [m], so that a few points far apart do not take the time of many. Real lanelets are shorter.
+const SAMPLED: f64 = 2000.0;
 
 impl Network {
     /// All stretches on which lanelets lie side by side in the same direction without being neighbours in the
     /// graph, ordered by their lanelets, then along the left one.
     ///
     /// Pure geometry: the right border of one runs at most 0.75 m from the left border of the other, or
-    /// overlaps it by 0.3 m at most, parallel up to 6°, for at least 5 m.
+    /// overlaps it by 0.3 m at most, parallel up to 6°, for at least 5 m. Of a longer border the first 2 km count.
     pub fn alongside(&self) -> Vec<Alongside> {
         let lanelets = &self.lanelets;
         let left_borders = Samples::of(lanelets, Side::Left);
-        let mut facing: Vec<Facing> = Vec::new();
-        for (index, lanelet) in lanelets.iter().enumerate() {
-            let left = LaneletIndex(index as u32);
-            for sample in samples(left, &lanelet.right_border) {
-                let others = left_borders.facing(&sample).filter(|it| !are_neighbours(lanelets, left, it.of));
-                facing.extend(others.map(|it| Facing {
-                    left,
-                    right: it.of,
-                    on_left: sample.station,
-                    on_right: it.station,
-                }));
-            }
-        }
-        facing
-            .sort_by(|a, b| (a.left, a.right).cmp(&(b.left, b.right)).then(a.on_left.total_cmp(&b.on_left)));
-        let runs = facing
-            .chunk_by(|a, b| (a.left, a.right) == (b.left, b.right) && b.on_left - a.on_left < 2.5 * SAMPLE);
-        runs.filter_map(|run| stretch(lanelets, run)).collect()
+        let all = (0..lanelets.len() as u32).map(LaneletIndex);
+        all.flat_map(|left| left_borders.beside(lanelets, left)).collect()
     }
 }
 
-/// A point on the right border of `left` that faces one on the left border of `right`, by stations along these
+/// A point on the right border of a lanelet that faces one on the left border of `right`, by stations along these
 /// borders [m].
 struct Facing {
-    left: LaneletIndex,
     right: LaneletIndex,
     on_left: f64,
     on_right: f64,
 }
 
-/// The stretch of successive facing points, if it is long enough on both borders.
-fn stretch(lanelets: &[Lanelet], run: &[Facing]) -> Option<Alongside> {
+/// The stretch of successive facing points of a lanelet, if it is long enough on both borders.
+fn stretch(lanelets: &[Lanelet], of: LaneletIndex, run: &[Facing]) -> Option<Alongside> {
     let (first, last) = (run.first()?, run.last()?);
-    let (left, right) = (&lanelets[first.left.at()], &lanelets[first.right.at()]);
+    let (left, right) = (&lanelets[of.at()], &lanelets[first.right.at()]);
     let is_long = |from: f64, to: f64| to - from >= MINIMUM_STRETCH;
     if !(is_long(first.on_left, last.on_left) && is_long(first.on_right, last.on_right)) {
         return None;
@@ -88,7 +73,7 @@ fn stretch(lanelets: &[Lanelet], run: &[Facing]) -> Option<Alongside> {
         [from * scale, to * scale]
     };
     Some(Alongside {
-        left: first.left,
+        left: of,
         right: first.right,
         on_left: along(left, &left.right_border, first.on_left, last.on_left),
         on_right: along(right, &right.left_border, first.on_right, last.on_right),
@@ -115,11 +100,12 @@ struct Sample {
 
 fn samples(of: LaneletIndex, border: &Polyline) -> impl Iterator<Item = Sample> {
     let pieces = (border.length() / SAMPLE).ceil().max(1.0) as usize;
-    (0..=pieces).map(move |i| {
-        let station = border.length() * i as f64 / pieces as f64;
-        let heading = border.heading(station);
-        Sample { of, station, at: border.at(station), direction: (heading.cos(), heading.sin()) }
-    })
+    (0..=pieces).map(move |i| border.length() * i as f64 / pieces as f64).take_while(|it| *it <= SAMPLED).map(
+        move |station| {
+            let heading = border.heading(station);
+            Sample { of, station, at: border.at(station), direction: (heading.cos(), heading.sin()) }
+        },
+    )
 }
 
 /// Samples of the borders on one side of all lanelets, in a grid.
@@ -130,6 +116,9 @@ struct Samples {
 impl Samples {
     /// Size of a cell [m]: what faces a sample lies in its own cell or one beside it.
     const CELL: f64 = 2.0;
+    /// No cell holds more samples, so that lanelets on one heap do not take time with the square of their number; where roads
+    /// are drawn in earnest a handful meet.
+    const MOST: usize = 64;
 
     fn of(lanelets: &[Lanelet], side: Side) -> Samples {
         let mut cells: HashMap<_, Vec<Sample>> = HashMap::new();
@@ -139,7 +128,10 @@ impl Samples {
                 Side::Right => &lanelet.right_border,
             };
             for sample in samples(LaneletIndex(index as u32), border) {
-                cells.entry(Samples::cell(&sample.at)).or_default().push(sample);
+                let cell = cells.entry(Samples::cell(&sample.at)).or_default();
+                if cell.len() < Samples::MOST {
+                    cell.push(sample);
+                }
             }
         }
         Samples { cells }
@@ -147,6 +139,22 @@ impl Samples {
 
     fn cell(at: &Point) -> (i64, i64) {
         ((at.x / Samples::CELL).floor() as i64, (at.y / Samples::CELL).floor() as i64)
+    }
+
+    /// The stretches on which lanelets lie to the right of this one.
+    fn beside(&self, lanelets: &[Lanelet], left: LaneletIndex) -> Vec<Alongside> {
+        let mut facing: Vec<Facing> = Vec::new();
+        for sample in samples(left, &lanelets[left.at()].right_border) {
+            let others = self.facing(&sample).filter(|it| !are_neighbours(lanelets, left, it.of));
+            facing.extend(others.map(|it| Facing {
+                right: it.of,
+                on_left: sample.station,
+                on_right: it.station,
+            }));
+        }
+        facing.sort_by(|a, b| a.right.cmp(&b.right).then(a.on_left.total_cmp(&b.on_left)));
+        let runs = facing.chunk_by(|a, b| a.right == b.right && b.on_left - a.on_left < 2.5 * SAMPLE);
+        runs.filter_map(|run| stretch(lanelets, left, run)).collect()
     }
 
     /// Samples opposite of `sample`, which is one of a right border, on borders that run beside it in its direction.
