@@ -11,6 +11,7 @@ pub mod scenario;
 pub mod simulation;
 mod source;
 pub mod style;
+mod units;
 
 pub use capacity::entrance_capacity;
 pub use fault::{Fault, did_you_mean};

@@ -2,6 +2,9 @@
 
 use laneweave_network::Polyline;
 
+/// Points further from the origin are none on earth [m].
+pub(crate) const MAXIMUM_COORDINATE: f64 = 4.1e7;
+
 /// Borders and centre line of a lane that can be driven.
 #[derive(Debug)]
 pub(crate) struct Shape {

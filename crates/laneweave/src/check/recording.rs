@@ -14,10 +14,9 @@ use laneweave_recordings::{
 };
 use serde::Serialize;
 
-use super::report::Complaint;
 use crate::fault::Fault;
+use crate::units::METRES_PER_KM;
 
-const METRES_PER_KM: f64 = 1000.0;
 /// Lane changes that are listed in words.
 const LISTED: usize = 20;
 
@@ -47,7 +46,7 @@ pub struct RecordingReport {
     /// Lane changes in the order of their times.
     pub lane_changes: Vec<ChangeRow>,
     /// What could not be read as it stands.
-    pub problems: Vec<Complaint>,
+    pub problems: Vec<Problem>,
 }
 
 /// A lane change that was recorded.
@@ -155,7 +154,7 @@ impl RecordingReport {
             lane_changes_along_graph: changes.iter().filter(|it| it.along_graph).count(),
             lane_changes_undone: changes.iter().filter(|it| it.returned_after.is_some()).count(),
             lane_changes: changes.iter().map(|it| row(it, network)).collect(),
-            problems: elsewhere.into_iter().chain(problems.iter().map(Complaint::from)).collect(),
+            problems: elsewhere.into_iter().chain(problems.iter().cloned()).collect(),
         }
     }
 
@@ -195,12 +194,7 @@ impl RecordingReport {
             "{} of them permitted by the map, {} undone within 30 s",
             self.lane_changes_along_graph, self.lane_changes_undone
         )?;
-        if !self.lane_changes.is_empty() {
-            writeln!(
-                out,
-                "\n   time [s]    vehicle       from         to  side   kind           speed [m/s]"
-            )?;
-        }
+        writeln!(out, "\n   time [s]    vehicle       from         to  side   kind           speed [m/s]")?;
         for it in self.lane_changes.iter().take(LISTED) {
             writeln!(
                 out,
@@ -243,7 +237,7 @@ fn distance(matched: &Matched) -> f64 {
 }
 
 /// A recording of another place, or in another frame, is on no lanelet.
-fn elsewhere(recording: &Recording, network: &Network) -> Complaint {
+fn elsewhere(recording: &Recording, network: &Network) -> Problem {
     let span = |points: &mut dyn Iterator<Item = (f64, f64)>| {
         points.fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |it, (x, y)| {
             [it[0].min(x), it[1].max(x), it[2].min(y), it[3].max(y)]
@@ -256,7 +250,7 @@ fn elsewhere(recording: &Recording, network: &Network) -> Complaint {
     let text = |[west, east, south, north]: [f64; 4]| {
         format!("x {west:.0} to {east:.0} m and y {south:.0} to {north:.0} m")
     };
-    Complaint {
+    Problem {
         element: "the recording".into(),
         line: None,
         what: format!("most of it lies on no lanelet: it covers {}, the map {}", text(theirs), text(own)),

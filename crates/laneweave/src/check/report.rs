@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Write};
 
-use laneweave_maps::{Map, Problem, RuleKind};
+use laneweave_maps::{Map, Problem, RuleKind, check};
 use laneweave_network::{DrivingSide, Gate, Network};
 use serde::Serialize;
 
-const METRES_PER_KM: f64 = 1000.0;
-const KMH_PER_MPS: f64 = 3.6;
+use crate::units::{KMH_PER_MPS, METRES_PER_KM};
+
 /// Kinds of problems that are listed in words.
 const LISTED: usize = 20;
 
@@ -46,7 +46,7 @@ pub struct Report {
     /// Regulatory elements by kind.
     pub rules: BTreeMap<String, usize>,
     /// What could not be used as it stands, or is suspicious.
-    pub problems: Vec<Complaint>,
+    pub problems: Vec<Problem>,
 }
 
 /// An entrance or an exit.
@@ -56,19 +56,6 @@ pub struct Opening {
     pub id: i64,
     /// Its number of lanes.
     pub lanes: usize,
-}
-
-/// A problem.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Complaint {
-    /// The element.
-    pub element: String,
-    /// Its line in the file.
-    pub line: Option<usize>,
-    /// What is wrong, and what was assumed.
-    pub what: String,
-    /// What would mend it.
-    pub remedy: String,
 }
 
 impl Report {
@@ -111,7 +98,7 @@ impl Report {
                 .map(|it| lanelets[it.at()].id)
                 .collect(),
             rules: kinds,
-            problems: sorted(problems.iter().map(Complaint::from).chain(suspicions(network)).collect()),
+            problems: sorted(problems.iter().cloned().chain(check(network)).collect()),
         }
     }
 
@@ -164,7 +151,7 @@ impl Report {
         }
         writeln!(out, "\nProblems ({}; --json lists all):", self.problems.len())?;
         for alike in self.problems.chunk_by(|a, b| a.what == b.what && a.remedy == b.remedy).take(LISTED) {
-            let Complaint { element, line, what, remedy } = &alike[0];
+            let Problem { element, line, what, remedy } = &alike[0];
             let line = line.map_or(String::new(), |it| format!(" (line {it})"));
             let others = match alike.len() {
                 1 => String::new(),
@@ -184,35 +171,16 @@ fn opening(gate: &Gate) -> Opening {
     Opening { id: gate.id, lanes: gate.chains.len() }
 }
 
-impl From<&Problem> for Complaint {
-    fn from(problem: &Problem) -> Complaint {
-        let Problem { element, line, what, remedy } = problem.clone();
-        Complaint { element, line, what, remedy }
-    }
-}
-
-impl fmt::Display for Complaint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Complaint { element, line, what, remedy } = self;
-        let line = line.map_or(String::new(), |it| format!(" (line {it})"));
-        write!(f, "{element}{line}: {what}; {remedy}")
-    }
-}
-
 /// Problems of one kind beside each other, in the order in which the kinds first came up.
-fn sorted(problems: Vec<Complaint>) -> Vec<Complaint> {
+fn sorted(mut problems: Vec<Problem>) -> Vec<Problem> {
+    let kind = |it: &Problem| (it.what.clone(), it.remedy.clone());
     let mut kinds: HashMap<(String, String), usize> = HashMap::new();
     for it in &problems {
         let next = kinds.len();
-        kinds.entry((it.what.clone(), it.remedy.clone())).or_insert(next);
+        kinds.entry(kind(it)).or_insert(next);
     }
-    let mut problems = problems;
-    problems.sort_by_cached_key(|it| kinds.get(&(it.what.clone(), it.remedy.clone())).copied());
+    problems.sort_by_cached_key(|it| kinds.get(&kind(it)).copied());
     problems
-}
-
-fn suspicions(network: &Network) -> Vec<Complaint> {
-    laneweave_maps::check(network).iter().map(Complaint::from).collect()
 }
 
 /// The names of entrances or exits with their numbers of lanes, if there are not too many.

@@ -80,19 +80,19 @@ impl Arguments {
                 "add --map MAP",
             ));
         }
-        let map = open_map(&self.file, &self.options.options())?;
         self.check_outputs()?;
+        let map = open_map(&self.file, &self.options.options())?;
+        // A CommonRoad file may hold both.
+        let recording = if extension(&self.file) == "xml" { tracks(&self.file)? } else { None };
+        let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
         let report = Report::of(&map);
         if let Some(path) = &self.graph {
             write_whole(path, &json(&GraphJson(&map))?)?;
         }
         if let Some(path) = &self.svg {
             let name = self.file.file_name().unwrap_or_default().to_string_lossy();
-            write_whole(path, &picture(&name, &map))?;
+            write_whole(path, &picture(&name, &map, &report.problems))?;
         }
-        // A CommonRoad file may hold both.
-        let recording = if extension(&self.file) == "xml" { tracks(&self.file)? } else { None };
-        let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
         if self.json {
             say(&json(&Both { map: report, recording })?);
             return Ok(());

@@ -22,7 +22,7 @@ const LISTED_PROBLEMS: usize = 3;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A scenario file (.toml), or a map (Lanelet2, .osm).
+    /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
     #[arg(value_name = "SCENARIO.toml|MAP")]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes, whatever the scenario says of

@@ -8,9 +8,7 @@ use serde::Serialize;
 
 use crate::scenario::{Prepared, Scenario};
 use crate::simulation::Ending;
-
-const METRES_PER_KM: f64 = 1000.0;
-const KMH_PER_MPS: f64 = 3.6;
+use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
 /// The numbers of a run. Fields are added, never renamed; what cannot be known (a mean of nothing) is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -137,7 +137,16 @@ fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
         Some(text) => lanelet2::read(text.as_bytes(), &options),
         None => load(&scenario.map, &options),
     };
-    read.map_err(|error| map_fault(&error, &scenario.map, origin))
+    read.map_err(|error| {
+        let fault = map_fault(&error, &scenario.map, origin);
+        match error {
+            // What is run may be either.
+            MapError::UnknownFormat { .. } if origin.in_file(&["map"]).is_none() => {
+                Fault { remedy: fault.remedy + ", scenario (.toml)", ..fault }
+            }
+            _ => fault,
+        }
+    })
 }
 
 /// Reads the map at `path`, with options of the command.
@@ -177,7 +186,6 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
         (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
             Fault::new(place, format!("map {file}: {what}"), remedy)
         }
-        (MapError::UnknownFormat { .. }, ..) => Fault::new(file, what, format!("{remedy}, scenario (.toml)")),
         _ => Fault::new(file, what, remedy),
     }
 }

@@ -7,6 +7,7 @@ use laneweave_network::{Point, Side};
 use super::rules;
 use crate::drawing::Crossing;
 use crate::problem::Problem;
+use crate::shape::MAXIMUM_COORDINATE;
 use crate::xml::{Element, Visitor, XmlError, number, walk};
 
 /// What a CommonRoad file says of roads.
@@ -86,9 +87,6 @@ pub(super) struct Sign {
     /// What it shows: numbers of the national catalogue, and the first value that goes with each.
     pub(super) shown: Vec<(String, Option<f64>)>,
 }
-
-/// Points further from the origin are none on earth [m].
-const MAXIMUM_COORDINATE: f64 = 4.1e7;
 
 /// The versions whose elements are known.
 const VERSIONS: [&str; 2] = ["2018b", "2020a"];

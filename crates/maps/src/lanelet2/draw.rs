@@ -15,7 +15,7 @@ use crate::format::ReadOptions;
 use crate::problem::Problem;
 
 /// What is wrong, and what mends it.
-type Flaw = (String, &'static str);
+pub(super) type Flaw = (String, &'static str);
 
 /// The drawing of the document that `lookup` looks into. Its points are the nodes, used or not.
 pub(super) fn draw(
@@ -32,14 +32,11 @@ pub(super) fn draw(
     let mut found: Vec<(&Relation, Result<[u32; 2], Flaw>)> = Vec::new();
     for relation in document.relations_of_type("lanelet") {
         let tags = document.tags(relation.tags);
-        for (what, remedy) in rules::flaws_of_lanelet(tags) {
-            problems.push(Problem {
-                element: format!("lanelet {}", relation.id),
-                line: Some(relation.line as usize),
-                what,
-                remedy: remedy.into(),
-            });
-        }
+        problems.extend(
+            rules::flaws_of_lanelet(tags)
+                .into_iter()
+                .map(|flaw| problem("lanelet", relation.id, relation.line, flaw)),
+        );
         if rules::is_for_cars(tags) && lookup.is_first(relation) {
             found.push((relation, draft.borders_of(relation)));
         }
@@ -50,18 +47,11 @@ pub(super) fn draw(
     let speed_rules = SpeedRules::of(document, &lookup);
     let mut ends = Ends::default();
     for (relation, edges) in found {
-        let mut note = |what: &str, remedy: &str| {
-            problems.push(Problem {
-                element: format!("lanelet {}", relation.id),
-                line: Some(relation.line as usize),
-                what: what.into(),
-                remedy: remedy.into(),
-            });
-        };
+        let of_lanelet = |flaw: Flaw| problem("lanelet", relation.id, relation.line, flaw);
         let is_two_way = rules::is_two_way(document.tags(relation.tags));
         if is_two_way {
             let what = "it may be used in both directions; simulated traffic uses the forward one only";
-            note(what, "draw a lanelet for each direction");
+            problems.push(of_lanelet((what.into(), "draw a lanelet for each direction")));
         }
         match edges.and_then(|edges| ends.admit(&draft.drawing, edges)) {
             Ok([left, right]) => {
@@ -69,22 +59,20 @@ pub(super) fn draw(
                 let line = Some(relation.line as usize);
                 draft.drawing.lanes.push(Lane { id: relation.id, line, left, right, is_two_way, limit_kmh });
             }
-            Err((what, remedy)) => note(&format!("{what}, so it is left out"), remedy),
+            Err((what, remedy)) => problems.push(of_lanelet((format!("{what}, so it is left out"), remedy))),
         }
     }
     let used = document.ways.iter().zip(&draft.borders).filter(|(_, place)| **place != NONE);
     for (way, _) in used {
-        for (what, remedy) in rules::flaws_of_border(document.tags(way.tags)) {
-            problems.push(Problem {
-                element: format!("way {}", way.id),
-                line: Some(way.line as usize),
-                what,
-                remedy: remedy.into(),
-            });
-        }
+        let flaws = rules::flaws_of_border(document.tags(way.tags));
+        problems.extend(flaws.into_iter().map(|flaw| problem("way", way.id, way.line, flaw)));
     }
     let drawing = draft.drawing;
     Drawing { points: lookup.into_points(), ..drawing }
+}
+
+fn problem(kind: &str, id: i64, line: u32, (what, remedy): Flaw) -> Problem {
+    Problem { element: format!("{kind} {id}"), line: Some(line as usize), what, remedy: remedy.into() }
 }
 
 /// Where something of the document is not in the drawing.

@@ -6,6 +6,7 @@ use super::osm::{Document, Node, Tags};
 use super::projection::Utm;
 use crate::error::MapError;
 use crate::problem::Problem;
+use crate::shape::MAXIMUM_COORDINATE;
 use crate::xml::number;
 
 /// Which of the coordinates that nodes may have are used, for all nodes of a map alike.
@@ -18,9 +19,6 @@ pub(super) enum Frame {
     /// Latitude and longitude, projected.
     Projected(Utm),
 }
-
-/// Points further from the origin are none on earth [m].
-const MAXIMUM_COORDINATE: f64 = 4.1e7;
 
 impl Frame {
     /// The first frame in the order above in which all nodes have coordinates, and its geographic

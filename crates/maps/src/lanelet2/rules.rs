@@ -2,6 +2,7 @@
 //!
 //! After the tagging guide of Lanelet2 (`LaneletAndAreaTagging`, `LinestringTagging`).
 
+use super::draw::Flaw;
 use super::osm::Tags;
 use crate::drawing::Crossing;
 
@@ -10,6 +11,27 @@ const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle
 
 /// The tags that say whether cars may use a lanelet in one direction only; the first that is given decides.
 const ONE_WAY: [&str; 3] = ["one_way:vehicle:car", "one_way:vehicle", "one_way"];
+
+/// Subtypes of lanelets: those of the tagging guide, and Autoware's `road_shoulder` and `pedestrian_lane`.
+const SUBTYPES: [&str; 14] = [
+    "road",
+    "highway",
+    "play_street",
+    "exit",
+    "bicycle_lane",
+    "bus_lane",
+    "crosswalk",
+    "emergency_lane",
+    "rail",
+    "shared_walkway",
+    "stairs",
+    "walkway",
+    "pedestrian_lane",
+    "road_shoulder",
+];
+
+/// Subtypes of painted lines.
+const LINES: [&str; 6] = ["solid", "solid_solid", "dashed", "dashed_solid", "solid_dashed", "dashed_dashed"];
 
 /// Whether cars may use a lanelet with these tags.
 ///
@@ -64,27 +86,10 @@ pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
 }
 
 /// What in the tags of a lanelet is written so that nobody understands it, and what is assumed.
-pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<(String, &'static str)> {
-    const KNOWN: [&str; 15] = [
-        "road",
-        "highway",
-        "play_street",
-        "exit",
-        "bicycle_lane",
-        "bus_lane",
-        "crosswalk",
-        "emergency_lane",
-        "rail",
-        "shared_walkway",
-        "stairs",
-        "walkway",
-        "pedestrian_lane",
-        "road_shoulder",
-        "bus_stop",
-    ];
+pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     match lanelet.get("subtype") {
-        Some(subtype) if !KNOWN.contains(&subtype) && !lanelet.any("participant:") => flaws.push((
+        Some(subtype) if !SUBTYPES.contains(&subtype) && !lanelet.any("participant:") => flaws.push((
             format!("its subtype {subtype:?} is unknown, so it counts as no road"),
             "write road, highway or another of Lanelet2's subtypes, or add participant:vehicle=yes",
         )),
@@ -99,9 +104,7 @@ pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<(String, &'static str)> {
 }
 
 /// What in the tags of a border is written so that nobody understands it, and what is assumed.
-pub(super) fn flaws_of_border(border: Tags) -> Vec<(String, &'static str)> {
-    const KNOWN: [&str; 6] =
-        ["solid", "solid_solid", "dashed", "dashed_solid", "solid_dashed", "dashed_dashed"];
+pub(super) fn flaws_of_border(border: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     for key in ["lane_change", "lane_change:left", "lane_change:right"] {
         if let Some(value) = border.get(key).filter(|_| flag(border, key).is_none()) {
@@ -111,7 +114,7 @@ pub(super) fn flaws_of_border(border: Tags) -> Vec<(String, &'static str)> {
     }
     let is_line = matches!(border.get("type"), Some("line_thin" | "line_thick"));
     let decided = border.get("lane_change").is_some() || border.any("lane_change:");
-    if let Some(subtype) = border.get("subtype").filter(|it| is_line && !decided && !KNOWN.contains(it)) {
+    if let Some(subtype) = border.get("subtype").filter(|it| is_line && !decided && !LINES.contains(it)) {
         let what = format!("its subtype {subtype:?} is unknown, so nobody may change lanes across it");
         flaws.push((what, "write dashed, solid, dashed_solid or solid_dashed"));
     }

@@ -6,7 +6,7 @@ mod parts;
 
 use std::collections::HashSet;
 
-use laneweave_maps::{Map, check};
+use laneweave_maps::{Map, Problem};
 use laneweave_study::{escaped, text_width};
 
 use panel::Panel;
@@ -38,11 +38,10 @@ mod colours {
     pub(super) const CROSSWALK: &str = "#8d99a6";
 }
 
-/// The picture of a map as SVG.
-pub fn picture(title: &str, map: &Map) -> String {
+/// The picture of a map as SVG, with a ring around each lanelet that `problems` name.
+pub fn picture(title: &str, map: &Map, problems: &[Problem]) -> String {
     let (panels, height) = laid_out(map);
-    let suspicions = check(&map.network);
-    let named: HashSet<&str> = map.problems.iter().chain(&suspicions).map(|it| it.element.as_str()).collect();
+    let named: HashSet<&str> = problems.iter().map(|it| it.element.as_str()).collect();
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" \
          height=\"{height:.0}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\">\n\
