@@ -9,6 +9,7 @@ pub mod change;
 mod exponential;
 pub mod follow;
 mod style;
+pub mod yielding;
 
 pub use style::{Attention, Manner, Style};
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::change::{LaneChangeModel, Safety};
 use crate::follow::FollowingModel;
+use crate::yielding::Yielding;
 
 /// A driver's style.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +31,9 @@ pub struct Style {
     /// How it goes about a change.
     #[serde(default)]
     pub manner: Manner,
+    /// How it gives way at junctions.
+    #[serde(default)]
+    pub yielding: Yielding,
 }
 
 fn as_the_limit() -> f64 {

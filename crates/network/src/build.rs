@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::chain::{Beside, Chain, ChainIndex, join};
 use crate::gate::{Gate, gates, lane_drops};
+use crate::junction::{Junctions, Regulations};
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 
 /// A road network; it never changes after loading.
@@ -21,6 +22,8 @@ pub struct Network {
     pub lane_drops: Vec<ChainIndex>,
     /// On which side traffic drives.
     pub driving_side: DrivingSide,
+    /// Where chains get in each other's way, and where drivers stop; empty until [`Network::regulated`].
+    pub junctions: Junctions,
 }
 
 /// Why lanelets do not make a network.
@@ -46,6 +49,8 @@ impl Network {
     /// A chain is cut at the next lanelet beyond a length between these [m]: long enough that what is done once for every
     /// chain does not matter, short enough that a vehicle gets into the row of the others soon.
     const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
+    /// So much of a lane is outside of junctions where vehicles come onto the map [m]: what the longest needs. Ours.
+    const ROOM_TO_ENTER: f64 = 15.0;
     /// Within these bounds there are as many chains, so that threads share them evenly.
     const CHAINS: f64 = 32.0;
 
@@ -78,7 +83,17 @@ impl Network {
         for index in &lane_drops {
             chains[index.at()].is_lane_drop = true;
         }
-        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side })
+        let junctions = Junctions::default();
+        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions })
+    }
+
+    /// The same network with its junctions, at which `regulations` hold.
+    pub fn regulated(mut self, regulations: &Regulations) -> Network {
+        self.junctions = Junctions::new(&self, regulations);
+        let is_free = |chain: &ChainIndex| self.junctions.is_clear_until(*chain, Network::ROOM_TO_ENTER);
+        self.entrances.iter_mut().for_each(|it| it.chains.retain(is_free));
+        self.entrances.retain(|it| !it.chains.is_empty());
+        self
     }
 
     /// The chain at `index`.
@@ -104,6 +119,7 @@ impl Network {
         }
         self.entrances.iter_mut().chain(&mut self.exits).flat_map(|it| &mut it.chains).for_each(turn);
         self.lane_drops.iter_mut().for_each(turn);
+        self.junctions.reverse_chains(turn);
         self
     }
 }
@@ -219,7 +235,7 @@ fn stretches(
 
 /// Station of `chain` up to which it is closer to `sibling` than two wide vehicles side by side [m].
 fn clearance(chain: &Chain, sibling: &Chain) -> f64 {
-    const APART: f64 = 3.0;
+    const APART: f64 = 2.7;
     const STEP: f64 = 2.0;
     /// Chains that have not parted by then were drawn twice; ours, so that they do not take time with their length.
     const LONGEST_FORK: f64 = 500.0;
@@ -304,14 +320,14 @@ mod tests {
     }
 
     #[test]
-    fn chains_of_a_fork_touch_until_they_are_3_m_apart() {
+    fn chains_of_a_fork_touch_until_wide_vehicles_have_room_beside_each_other() {
         let mut all = vec![lanelet(1, 0.0, 100.0, 0.0), lanelet(2, 100.0, 300.0, 0.0)];
         let branch = Polyline::new([Point::new(100.0, 2.0, 0.0), Point::new(300.0, 22.0, 0.0)]).unwrap();
         all.push(Lanelet { id: 3, centre: branch, ..all[1].clone() });
         all[0].following = vec![LaneletIndex(1), LaneletIndex(2)];
         let network = Network::new(all, DrivingSide::Right).unwrap();
-        // Along both they part by 3 m in 30 m; every second metre is looked at.
-        assert_eq!(network.chains.iter().map(|it| it.fork_clearance).collect::<Vec<_>>(), [0.0, 32.0, 32.0]);
+        // Along both they part by 2.7 m in 27 m; every second metre is looked at.
+        assert_eq!(network.chains.iter().map(|it| it.fork_clearance).collect::<Vec<_>>(), [0.0, 28.0, 28.0]);
     }
 
     #[test]

@@ -149,12 +149,35 @@ impl Polyline {
         point
     }
 
+    /// Station of the first place where the line through `points` crosses this one, seen from above.
+    pub fn crossed_by(&self, points: &[Point]) -> Option<f64> {
+        let pieces = self.points.windows(2).zip(&self.stations);
+        pieces
+            .filter_map(|(piece, start)| {
+                let along = points.windows(2).filter_map(|other| crossing(piece, other)).reduce(f64::min)?;
+                Some(start + along * piece[0].distance(&piece[1]))
+            })
+            .next()
+    }
+
     /// This line followed by `next`; their common point is kept once.
     pub fn append(&mut self, next: &Polyline) {
         for point in &next.points {
             self.push(*point);
         }
     }
+}
+
+/// Share of the segment `one` at which the segment `other` crosses it, seen from above.
+fn crossing(one: &[Point], other: &[Point]) -> Option<f64> {
+    let ([a, b], [c, d]) = ([one[0], one[1]], [other[0], other[1]]);
+    let cross = |(ux, uy): (f64, f64), (vx, vy): (f64, f64)| ux * vy - uy * vx;
+    let (along, across) = ((b.x - a.x, b.y - a.y), (d.x - c.x, d.y - c.y));
+    let between = (c.x - a.x, c.y - a.y);
+    let area = cross(along, across);
+    let (on_one, on_other) = (cross(between, across) / area, cross(between, along) / area);
+    let is_within = |share: f64| (0.0..=1.0).contains(&share);
+    (is_within(on_one) && is_within(on_other)).then_some(on_one)
 }
 
 #[cfg(test)]
@@ -173,6 +196,16 @@ mod tests {
         assert_eq!(corner.at(-3.0), Point::new(-3.0, 0.0, 0.0));
         assert_eq!(corner.at(17.0), Point::new(10.0, 7.0, 0.0));
         assert_eq!(corner.beside(2.0, 1.5), Point::new(2.0, 1.5, 0.0));
+    }
+
+    #[test]
+    fn a_line_is_crossed_where_another_one_cuts_it() {
+        let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)]);
+        let at = |x0, y0, x1, y1| corner.crossed_by(&[Point::new(x0, y0, 0.0), Point::new(x1, y1, 0.0)]);
+        assert_eq!(at(4.0, -1.0, 4.0, 1.0), Some(4.0));
+        assert_eq!(at(8.0, 2.0, 12.0, 2.0), Some(12.0));
+        assert_eq!(at(4.0, 1.0, 4.0, 2.0), None);
+        assert_eq!(at(0.0, 1.0, 5.0, 1.0), None);
     }
 
     #[test]

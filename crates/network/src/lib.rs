@@ -8,6 +8,7 @@ mod build;
 mod chain;
 mod gate;
 mod geometry;
+mod junction;
 mod lanelet;
 mod polygon;
 
@@ -16,5 +17,9 @@ pub use build::{Network, NetworkError};
 pub use chain::{Beside, Chain, ChainIndex, Limit};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
+pub use junction::{
+    Crossing, Junctions, Light, LightIndex, LightState, OnChain, Phase, Precedence, Priority, Program, Reach,
+    Regulations, Sign, Stop, StopKind, StopRule, Zone, ZoneIndex, ZoneKind,
+};
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;

@@ -2,10 +2,11 @@
 //! that emergency braking.
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
-use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 use laneweave_network::ChainIndex;
 
 use crate::clock::Clock;
+use crate::junction::{self, Junction};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Car, Motion, Phase};
 
@@ -14,6 +15,8 @@ const COMFORTABLE_BRAKING: f64 = 2.0;
 /// Road kept before the end of a lane, and before the last place for a change, to steer on [m]: what a truck needs to
 /// get past another vehicle and into the lane.
 const ROOM_AT_THE_END: f64 = 16.0;
+/// Road that a driver keeps before a place where it stops at a junction [m].
+const ROOM_AT_A_STOP: f64 = 0.7;
 /// What is left of it when it is used [m].
 const LEAST_ROOM: f64 = 1.0;
 /// Who has waited this long [s] for a gap, and hardly moves [m/s], uses that room.
@@ -32,6 +35,8 @@ pub(crate) struct Chosen {
     pub(crate) by_kinematics: bool,
     /// The vehicle touches its leader.
     pub(crate) touches: bool,
+    /// What the driver heeds at a junction.
+    pub(crate) junction: Junction,
 }
 
 /// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it. `None` if it is not.
@@ -69,15 +74,54 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Ch
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(motion, car), leader);
     let (wish, lane_end) = heed(scene, clock, spot, wish, lane_end);
+    let junction = junction::look(scene, spot);
+    let (wish, stop) = heed_junction(motion, car, follow, &junction, wish, clock.dt);
     let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
     let behind_leader = bound(motion.speed, wish, leader, clock.dt);
-    let acceleration = bound(motion.speed, behind_leader, lane_end, clock.dt);
+    let before_the_end = bound(motion.speed, behind_leader, lane_end, clock.dt);
+    let behind_others = bound(motion.speed, before_the_end, junction.leader, clock.dt);
+    let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
     Chosen {
         acceleration,
         // To accelerate less is no braking.
         by_kinematics: acceleration < wish && acceleration < 0.0,
         touches: leader.is_some_and(|it| it.gap < 0.0),
+        junction,
     }
+}
+
+/// What a driver accelerates who heeds a junction, and where it has to stop there.
+fn heed_junction(
+    motion: &Motion,
+    car: &Car,
+    follow: &FollowingModel,
+    junction: &Junction,
+    wish: f64,
+    dt: f64,
+) -> (f64, Option<Ahead>) {
+    let mut wish = wish;
+    if junction.leader.is_some() {
+        wish = wish.min(follow.acceleration(pace(motion, car), junction.leader));
+    }
+    let Some(stop) = junction.stop else { return (wish, None) };
+    wish = wish.min(to_stop_at(motion.speed, stop - ROOM_AT_A_STOP, dt));
+    (wish, Some(Ahead::standing(stop)))
+}
+
+/// Acceleration that keeps to the speed from which comfortable braking stops `room` metres ahead.
+fn to_stop_at(speed: f64, room: f64, dt: f64) -> f64 {
+    let next = stopping_speed(room - speed * dt);
+    ((next - speed) / dt).max(-2.0 * COMFORTABLE_BRAKING)
+}
+
+/// Speed from which comfortable braking stops within `room` [m/s].
+fn stopping_speed(room: f64) -> f64 {
+    (2.0 * COMFORTABLE_BRAKING * room.max(0.0)).sqrt()
+}
+
+/// Speed at which a driver enters who may have to stop `distance` ahead [m/s].
+pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
+    stopping_speed(distance - ROOM_AT_A_STOP)
 }
 
 fn pace(motion: &Motion, car: &Car) -> Pace {
@@ -160,7 +204,8 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         let falling_in = style.follow.acceleration(pace, leader_beside(scene, spot));
         acceleration = falling_in.max(-style.manner.adjust_deceleration);
     }
-    if let Some((gap, speed)) = mind.lets_in {
+    let (gap, speed) = mind.lets_in;
+    if gap < f32::INFINITY {
         let ahead = Ahead { gap: f64::from(gap).max(0.1), speed: f64::from(speed) };
         let giving_way = style.follow.acceleration(pace, Some(ahead));
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));

@@ -3,7 +3,8 @@
 use laneweave_models::Style;
 
 use crate::clock::Clock;
-use crate::plan::{Outbox, Plan};
+use crate::junction::NO_PASSAGE;
+use crate::plan::{Outbox, Plan, Progress};
 use crate::pose::least_way;
 use crate::traffic::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
 use laneweave_network::ChainIndex;
@@ -36,6 +37,11 @@ pub(crate) fn advance(
             let eased = car.desired - (EASING * clock.dt) as f32;
             car.desired = eased.max(car.limit_desired);
         }
+        if mind.passage != NO_PASSAGE && !upkeep.passage_is_over {
+            let Motion { speed, id, .. } = *motion;
+            let (slot, distance, desired) = (mind.passage, upkeep.distance, f64::from(car.desired));
+            outbox.progress.push(Progress { slot, id, distance, speed, desired });
+        }
         if car.phase != Phase::Cruises {
             if let Some(twin) = &mut mind.twin {
                 twin.x += upkeep.distance * f64::from(twin.stretch);
@@ -45,8 +51,11 @@ pub(crate) fn advance(
             has_ended |= go_across(motion, car, mind, chain, clock, duration, outbox);
         }
         if car.heeds_more {
-            mind.lets_in = None;
-            car.heeds_more = mind.last_place.is_finite();
+            mind.lets_in = Mind::NOBODY;
+            if upkeep.passage_is_over {
+                mind.passage = NO_PASSAGE;
+            }
+            car.heeds_more = mind.last_place.is_finite() || mind.passage != NO_PASSAGE;
         }
     }
     if has_ended {

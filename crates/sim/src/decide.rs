@@ -8,10 +8,11 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::clock::Clock;
+use crate::junction::is_place_ahead;
 use crate::perceive::{Outlook, driver};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want};
 use crate::random::{Purpose, Random};
-use crate::scene::{Scene, Spot};
+use crate::scene::{Found, Scene, Spot, Viewpoint};
 use crate::traffic::{Kind, Mind, Phase};
 use crate::turn::next_turn;
 
@@ -227,6 +228,7 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
         |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
     match gap(scene, spot, mind.side) {
         None => {}
+        Some(_) if scene.passages.of(mind.passage, motion.id).is_some() => {}
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
             outbox.requests.push(request(Ask::Change));
         }
@@ -264,7 +266,7 @@ pub(crate) struct Gap {
     /// The new leader.
     pub(crate) ahead: Option<Ahead>,
     /// The new follower.
-    pub(crate) follower: Option<crate::scene::Found>,
+    pub(crate) follower: Option<Found>,
 }
 
 /// The gap beside; `None` where a change to `side` is not allowed.
@@ -318,7 +320,7 @@ impl Gap {
         let style = &scene.characters[scene.car(spot).character as usize];
         let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
         let crossing = 0.5 * duration * speed;
-        if self.room < crossing {
+        if self.room < crossing || !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {
             return Err(Refusal::Short);
         }
         let me = driver(scene, spot);
@@ -335,6 +337,23 @@ impl Gap {
             style.safety.accept(pair, dt)?;
         }
         Ok(())
+    }
+
+    /// Whether the change, which takes `way` [m], is over before the next place where somebody may have to stop, and
+    /// nobody who has a passage already comes behind.
+    fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
+        /// Least way before such a place on which a lane is still changed, at walking speed [m].
+        const LEAST: f64 = 15.0;
+        let motion = scene.motion(spot);
+        let here = scene.viewpoint(spot);
+        let there = Viewpoint { chain: self.chain, x: self.x, ..here };
+        let way = way.max(LEAST);
+        let has_passage = |it: &Found| {
+            let passage = scene.passages.of(scene.mind(it.spot).passage, scene.motion(it.spot).id);
+            passage.is_some_and(|passage| passage.left() > it.distance - f64::from(motion.length))
+        };
+        ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
+            && !self.follower.as_ref().is_some_and(has_passage)
     }
 
     /// The driver's pace with the time gap that it accepts for this change.

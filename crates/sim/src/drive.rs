@@ -4,7 +4,8 @@ use laneweave_network::ChainIndex;
 
 use crate::accelerate::{Chosen, behind, lane_end, with_care};
 use crate::clock::Clock;
-use crate::plan::{Plan, Upkeep};
+use crate::junction::NO_PASSAGE;
+use crate::plan::{Plan, Upkeep, Waiting};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Lane, Motion};
 
@@ -16,11 +17,17 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         plan.next.reserve_exact(lane.capacity());
     }
     let upcoming = upcoming(scene, chain);
+    let [first_place, last_place] = scene.network.junctions.places(chain);
+    let fork_clearance = scene.network.chain(chain).fork_clearance;
     for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
         if let Some(upcoming) = upcoming {
             upcoming.prefetch(index);
         }
+        // Where it may have to stop behind its leader it looks more closely.
+        let is_there =
+            |leader: &&Motion| (leader.x > first_place && motion.x < last_place) || motion.x < fork_clearance;
         let leader = motions.get(index + 1).filter(|_| end.is_none() && car.only_follows());
+        let leader = leader.filter(|it| !is_there(it));
         let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
         let (acceleration, stretch) = match usual {
             Some(acceleration) => (acceleration, 1.0),
@@ -56,16 +63,26 @@ fn drive_with_care(
     plan: &mut Plan,
 ) -> (f64, f64) {
     let car = scene.car(spot);
-    let Chosen { acceleration, by_kinematics, touches } = with_care(scene, clock, spot, lane_end);
+    let chosen = with_care(scene, clock, spot, lane_end);
+    let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
     let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
     // A shadow counts as well: kinematics in either lane is kinematics.
     plan.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
     plan.tally.collisions += u64::from(touches && !car.in_collision);
+    let index = spot.index as u32;
     if !car.only_follows() || in_emergency || touches {
-        let (_, distance) = moved(scene.motion(spot), acceleration, 1.0, clock.dt);
-        let index = spot.index as u32;
-        plan.upkeep.push(Upkeep { index, distance, in_emergency, in_collision: touches });
+        let motion = scene.motion(spot);
+        let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
+        let slot = scene.mind(spot).passage;
+        let passage_is_over = slot != NO_PASSAGE && scene.passages.of(slot, motion.id).is_none();
+        plan.upkeep.push(Upkeep { index, distance, in_emergency, in_collision: touches, passage_is_over });
     }
+    if junction.asks {
+        let id = scene.motion(spot).id;
+        let since = plan.waited.iter().find(|it| it.id == id).map_or(clock.step, |it| it.since);
+        plan.waiting.push(Waiting { index, id, since });
+    }
+    plan.returns.extend(junction.gives_back.map(|from| (index, from)));
     (acceleration, stretch(scene, spot))
 }
 

@@ -5,11 +5,13 @@
 
 mod accelerate;
 mod advance;
+mod appeal;
 mod clock;
 mod decide;
 mod demand;
 mod drive;
 mod events;
+mod junction;
 mod navigate;
 mod overlap;
 mod perceive;
@@ -31,6 +33,7 @@ mod world;
 pub use clock::Clock;
 pub use demand::{Demand, Share};
 pub use events::{Event, LaneChange};
+pub use junction::Passages;
 pub use navigate::{Destination, Goal, Navigator, Waypoint};
 pub use perceive::{driver, perceive};
 pub use random::{Purpose, Random};

@@ -1,8 +1,9 @@
 //! What drivers resolve to do in a step, written down on the snapshot and carried out afterwards.
 
 use laneweave_models::change::Appraisal;
-use laneweave_network::{ChainIndex, Side};
+use laneweave_network::{ChainIndex, Side, ZoneIndex};
 
+use crate::junction::{Claim, Survey};
 use crate::navigate::Destination;
 use crate::tally::Tally;
 use crate::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
@@ -20,6 +21,11 @@ pub(crate) struct Plan {
     pub(crate) notes: Vec<Note>,
     /// What some of them keep in mind beside.
     pub(crate) concerns: Vec<Concern>,
+    /// Drivers who wait for their passage, now and in the step before.
+    pub(crate) waiting: Vec<Waiting>,
+    pub(crate) waited: Vec<Waiting>,
+    /// Drivers who give a passage back, and from where on.
+    pub(crate) returns: Vec<(u32, f64)>,
     /// Overlaps, if it was time to look for them.
     pub(crate) overlaps: u64,
     /// Counts.
@@ -33,6 +39,9 @@ impl Plan {
         self.upkeep.clear();
         self.notes.clear();
         self.concerns.clear();
+        std::mem::swap(&mut self.waiting, &mut self.waited);
+        self.waiting.clear();
+        self.returns.clear();
     }
 }
 
@@ -47,6 +56,14 @@ pub(crate) struct Outbox {
     pub(crate) milestones: Vec<Milestone>,
     /// Entries that passed the ends of their chains.
     pub(crate) leaving: Vec<(ChainIndex, Entry)>,
+    /// How far the vehicles with a passage drove.
+    pub(crate) progress: Vec<Progress>,
+    /// What drivers ask for at junctions.
+    pub(crate) appeals: Vec<Appeal>,
+    /// Who waits for which side of a zone because of others.
+    pub(crate) claims: Vec<(ZoneIndex, u8, Claim)>,
+    /// Room for the thread's work.
+    pub(crate) survey: Survey,
 }
 
 impl Outbox {
@@ -55,6 +72,9 @@ impl Outbox {
         self.requests.append(&mut other.requests);
         self.milestones.append(&mut other.milestones);
         self.leaving.append(&mut other.leaving);
+        self.progress.append(&mut other.progress);
+        self.appeals.append(&mut other.appeals);
+        self.claims.append(&mut other.claims);
     }
 }
 
@@ -69,6 +89,58 @@ pub(crate) struct Upkeep {
     pub(crate) in_emergency: bool,
     /// It touches its leader.
     pub(crate) in_collision: bool,
+    /// The passage that it had is over.
+    pub(crate) passage_is_over: bool,
+}
+
+/// A driver who waits for its passage.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Waiting {
+    /// Its entry.
+    pub(crate) index: u32,
+    /// Who.
+    pub(crate) id: VehicleId,
+    /// Step in which it first asked.
+    pub(crate) since: u32,
+}
+
+/// How far a vehicle with a passage drove.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Progress {
+    /// Where the passage is kept.
+    pub(crate) slot: u32,
+    /// Whose it is.
+    pub(crate) id: VehicleId,
+    /// Distance driven [m].
+    pub(crate) distance: f64,
+    /// Speed now [m/s].
+    pub(crate) speed: f64,
+    /// Desired speed [m/s].
+    pub(crate) desired: f64,
+}
+
+/// What a driver asks for at a junction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Appeal {
+    /// Step in which it first asked; who asked first comes first.
+    pub(crate) since: u32,
+    /// Who.
+    pub(crate) id: VehicleId,
+    /// Its chain.
+    pub(crate) chain: ChainIndex,
+    /// Where it was on the snapshot [m].
+    pub(crate) x: f64,
+    /// What.
+    pub(crate) what: Plea,
+}
+
+/// What there is to ask for at a junction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Plea {
+    /// To pass.
+    Pass,
+    /// To give a passage back from this distance from its beginning on [m].
+    GiveBack(f64),
 }
 
 /// What every driver keeps in mind after considering lanes.

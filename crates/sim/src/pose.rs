@@ -13,10 +13,26 @@ use crate::traffic::{Entry, Motion};
 pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
     let entry = scene.lanes[spot.chain.at()].entry(spot.index);
     let Entry { motion, mind, .. } = &entry;
-    let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
-    let front = on_path(scene, spot.chain, mind.came_from, motion.x, front_offset);
-    let rear = on_path(scene, spot.chain, mind.came_from, motion.rear(), rear_offset);
-    Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
+    let [front, rear] = match mind.twin {
+        Some(twin) => {
+            let [share_of_front, share_of_rear] = shares(scene, &entry);
+            let between = |x: f64, twin_x: f64, share: f64| {
+                let here = on_path(scene, spot.chain, mind.came_from, x, 0.0);
+                here.towards(&on_path(scene, twin.chain, None, twin_x, 0.0), share)
+            };
+            let twin_rear = twin.x - f64::from(motion.length) * f64::from(twin.stretch);
+            [between(motion.x, twin.x, share_of_front), between(motion.rear(), twin_rear, share_of_rear)]
+        }
+        None => {
+            let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
+            let at = |x: f64, offset: f64| on_path(scene, spot.chain, mind.came_from, x, offset);
+            [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
+        }
+    };
+    let heading = (front.y - rear.y).atan2(front.x - rear.x);
+    // The body reaches from the front bumper back by its length, however far apart its ends were put.
+    let ends = front.distance(&rear).max(f64::EPSILON);
+    Pose { at: front.towards(&rear, 0.5 * f64::from(motion.length) / ends), heading }
 }
 
 /// How far the vehicle's centre is to the left of the centre of its lane [m].
@@ -28,6 +44,13 @@ pub(crate) fn lateral_offset(scene: &Scene, spot: Spot) -> f64 {
 
 /// Offsets of the front and the rear bumper to the left [m].
 fn offsets(scene: &Scene, chain: ChainIndex, entry: &Entry) -> [f64; 2] {
+    let has_crossed = entry.mind.progress >= 0.5;
+    let spacing = entry.mind.side.sign() * lane_spacing(scene, chain, entry);
+    shares(scene, entry).map(|share| if has_crossed { -spacing * share } else { spacing * share })
+}
+
+/// Shares of the way to its other lane that the front and the rear bumper are away from the lane in which it is.
+fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
     let Entry { motion, car, mind } = entry;
     let progress = f64::from(mind.progress).clamp(0.0, 1.0);
     if progress == 0.0 {
@@ -38,9 +61,8 @@ fn offsets(scene: &Scene, chain: ChainIndex, entry: &Entry) -> [f64; 2] {
     let duration = manner.duration(f64::from(mind.urgency));
     let way = (motion.speed * duration).max(least_way(motion));
     let half = 0.5 * f64::from(motion.length) / way * 4.0 * progress * (1.0 - progress);
-    let crossed = if mind.progress < 0.5 { 0.0 } else { 1.0 };
-    let spacing = mind.side.sign() * lane_spacing(scene, chain, entry);
-    [progress + half, progress - half].map(|it| spacing * (moved_share(it) - crossed))
+    let moved = [progress + half, progress - half].map(moved_share);
+    if mind.progress < 0.5 { moved } else { moved.map(|it| 1.0 - it) }
 }
 
 /// Shortest way on which a vehicle can change lanes [m].

@@ -5,6 +5,7 @@ use laneweave_network::ChainIndex;
 
 use crate::decide::gap;
 use crate::events::{Event, LaneChange};
+use crate::junction::NO_PASSAGE;
 use crate::plan::{Ask, Request, Want};
 use crate::scene::Spot;
 use crate::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin};
@@ -41,7 +42,7 @@ impl World {
                     let (_, car, mind) = self.lanes[chain.at()].entry_mut(index);
                     let manner = &self.characters[car.character as usize].manner;
                     if manner.yield_deceleration > 0.0 && car.phase == Phase::Cruises {
-                        mind.lets_in = Some((gap, speed));
+                        mind.lets_in = (gap, speed);
                         car.heeds_more = true;
                     }
                 }
@@ -112,7 +113,8 @@ impl World {
                 stretch,
                 came_from: None,
                 last_place: f64::INFINITY,
-                lets_in: None,
+                lets_in: Mind::NOBODY,
+                passage: NO_PASSAGE,
                 ..mind
             },
         };
@@ -261,6 +263,7 @@ impl World {
                 speed: motion.speed,
             });
         }
+        self.passages.end(mind.passage, motion.id);
         self.counts.left += 1;
         self.crowd -= 1;
         let duration = f64::from(self.clock.step - mind.entered) * self.clock.dt;

@@ -3,8 +3,9 @@
 use laneweave_models::Style;
 use laneweave_models::change::{Flow, SIGHT, anticipated_speed};
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach, Sign};
 
+use crate::junction::Passages;
 use crate::navigate::{Destination, Navigator};
 use crate::traffic::{Car, Lane, Mind, Motion, VehicleId};
 
@@ -19,6 +20,10 @@ pub struct Scene<'a> {
     pub lanes: &'a [Lane],
     /// The characters of the drivers.
     pub characters: &'a [Style],
+    /// Who may pass the junctions.
+    pub passages: &'a Passages,
+    /// The time, which the lights go by [s].
+    pub time: f64,
 }
 
 /// An entry in a lane.
@@ -54,6 +59,8 @@ pub struct Found {
     pub distance: f64,
 }
 
+/// No vehicle is longer than this [m].
+const LONGEST: f64 = 12.0;
 /// How far back a follower is looked for [m].
 const REAR_SIGHT: f64 = 250.0;
 /// T_h window ahead [m].
@@ -118,6 +125,11 @@ impl<'a> Scene<'a> {
         self.lanes[chain.at()].cars()
     }
 
+    /// What a light shows.
+    pub fn light(&self, light: LightIndex) -> LightState {
+        self.network.junctions.lights[light.at()].program.state(self.time)
+    }
+
     /// How the entry at `spot` moves.
     #[inline]
     pub fn motion(&self, spot: Spot) -> &'a Motion {
@@ -166,10 +178,48 @@ impl<'a> Scene<'a> {
     #[inline]
     pub fn ahead(&self, from: Viewpoint) -> Option<Ahead> {
         let motions = self.motions(from.chain);
-        match motions[from.ahead..].iter().find(|it| it.id != from.id) {
+        let on_way = match motions[from.ahead..].iter().find(|it| it.id != from.id) {
             Some(it) => Some(Ahead { gap: it.rear() - from.x, speed: it.speed }),
             None => self.ahead_beyond(from),
+        };
+        if from.x < self.network.chain(from.chain).fork_clearance {
+            return nearer(on_way, self.beside_within_the_fork(from));
         }
+        on_way
+    }
+
+    /// A vehicle ahead that forked off to another chain before, and is still in the way.
+    #[inline(never)]
+    fn beside_within_the_fork(&self, from: Viewpoint) -> Option<Ahead> {
+        let previous = self.network.chain(from.chain).previous.iter();
+        let siblings = previous.flat_map(|back| {
+            let following = self.network.chain(*back).following.iter();
+            following.filter(|it| **it != from.chain).map(|it| (*back, *it))
+        });
+        siblings
+            .filter_map(|(back, sibling)| self.last_in_fork(back, sibling, from.id, from.x))
+            .map(|it| Ahead { gap: it.gap - from.x, ..it })
+            .fold(None, |nearest, it| nearer(nearest, Some(it)))
+    }
+
+    /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet: its rear
+    /// bumper from the fork on [m], and its speed.
+    fn last_in_fork(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<Ahead> {
+        let chain = self.network.chain(sibling);
+        let last = |on: ChainIndex, came_from: ChainIndex, base: f64| {
+            let lane = &self.lanes[on.at()];
+            let all = lane.motions().iter().zip(lane.minds());
+            let came = all.filter(|(it, mind)| it.id != id && mind.came_from == Some(came_from));
+            let ahead = came.map(|(it, _)| it).find(|it| (base + it.x, id) > (x, it.id))?;
+            let rear = base + ahead.rear();
+            (rear < chain.fork_clearance).then_some(Ahead { gap: rear, speed: ahead.speed })
+        };
+        let reaches_beyond = chain.length < chain.fork_clearance + LONGEST;
+        let beyond = chain.following.iter().filter(|_| reaches_beyond);
+        let hanging = beyond
+            .filter_map(|it| last(*it, sibling, chain.length))
+            .reduce(|a, b| if b.gap < a.gap { b } else { a });
+        nearer(last(sibling, back, 0.0), hanging)
     }
 
     /// The leader beyond the end of the chain.
@@ -178,8 +228,10 @@ impl<'a> Scene<'a> {
         let mut base = self.network.chain(chain).length - from.x;
         while base < SIGHT {
             let next = self.next(from.destination, chain)?;
-            let on_way = self.motions(next).iter().find(|it| it.id != from.id);
-            let leader = on_way.map(|it| Ahead { gap: base + it.rear(), speed: it.speed });
+            let on_way =
+                self.motions(next).iter().zip(self.lanes[next.at()].minds()).find(|it| it.0.id != from.id);
+            let leader =
+                on_way.map(|(it, mind)| Ahead { gap: self.gap_to(chain, base, it, mind), speed: it.speed });
             let beside = self.beside_the_fork(chain, next, base, from.id);
             if let Some(nearest) = nearer(leader, beside) {
                 return Some(nearest);
@@ -200,12 +252,28 @@ impl<'a> Scene<'a> {
     ) -> Option<Ahead> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
         siblings
-            .filter_map(|it| {
-                let other = self.motions(*it).iter().find(|other| other.id != id)?;
-                let in_the_way = other.rear() < self.network.chain(*it).fork_clearance;
-                in_the_way.then(|| Ahead { gap: base + other.rear(), speed: other.speed })
-            })
+            .filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY))
+            .map(|it| Ahead { gap: base + it.gap, ..it })
             .fold(None, |nearest, it| nearer(nearest, Some(it)))
+    }
+
+    /// Distance to the vehicle `it`, `base` before the start of the chain that it is on [m]. Whose rear is still on
+    /// another way into that chain is in the way from where the ways meet on.
+    fn gap_to(&self, chain: ChainIndex, base: f64, it: &Motion, mind: &Mind) -> f64 {
+        let gap = base + it.rear();
+        match mind.came_from {
+            Some(other) if it.rear() < 0.0 && other != chain => {
+                let junctions = &self.network.junctions;
+                let crossings = junctions.on(chain).crossings.iter();
+                let shared = crossings.filter(|it| junctions.other_side(**it).chain == other);
+                let merge = shared
+                    .map(|it| junctions.reach(*it))
+                    .find(|it| it.end >= self.network.chain(chain).length);
+                let to_merge = |reach: &Reach| base - self.network.chain(chain).length + reach.start;
+                gap.max(merge.map_or(gap, to_merge))
+            }
+            _ => gap,
+        }
     }
 
     /// The follower within sight.
@@ -271,6 +339,9 @@ impl<'a> Scene<'a> {
     fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
         let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
         loop {
+            if let Some(red) = self.red_ahead(chain, -base) {
+                view.stop_at(base + red, desired);
+            }
             if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
                 return WINDOW_AHEAD;
             }
@@ -288,6 +359,13 @@ impl<'a> Scene<'a> {
             };
             (chain, index) = (next, 0);
         }
+    }
+
+    /// Station of the first line beyond `x` on `chain` at which a light stops its drivers [m].
+    fn red_ahead(&self, chain: ChainIndex, x: f64) -> Option<f64> {
+        let stops = self.network.junctions.on(chain).stops.iter();
+        let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
+        stops.filter(|it| it.station > x && is_red(it.sign)).map(|it| it.station).next()
     }
 
     /// Looks at what is behind; returns the follower and the window's extent [m].
@@ -339,6 +417,12 @@ struct View {
 }
 
 impl View {
+    /// A red light counts as a standing leader, `distance` ahead [m].
+    fn stop_at(&mut self, distance: f64, desired: f64) {
+        let line = Ahead::standing(distance);
+        self.prospect = self.prospect.min(anticipated_speed(line, desired));
+    }
+
     /// Looks along `motions`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
     /// Returns whether the end of sight was reached.
     #[inline]

@@ -3,6 +3,7 @@
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
 
+use crate::junction::{NO_PASSAGE, Passages};
 use crate::navigate::{Destination, Navigator};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
@@ -50,6 +51,7 @@ pub struct Across {
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     lanes: Vec<Lane>,
+    passages: Passages,
     /// The main entries in order of ids.
     spots: Vec<(VehicleId, Spot)>,
 }
@@ -75,7 +77,7 @@ impl Snapshot {
             spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
         }
         spots.sort_by_key(|(id, _)| *id);
-        Snapshot { lanes, spots }
+        Snapshot { lanes, passages: Passages::new(network), spots }
     }
 
     /// The instant as drivers with `characters`, who find their ways by `navigator`, see it.
@@ -85,7 +87,8 @@ impl Snapshot {
         navigator: &'a Navigator,
         characters: &'a [Style],
     ) -> Scene<'a> {
-        Scene { network, navigator, lanes: &self.lanes, characters }
+        let Snapshot { lanes, passages, .. } = self;
+        Scene { network, navigator, lanes, characters, passages, time: 0.0 }
     }
 
     /// The main entry of a vehicle.
@@ -136,7 +139,8 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         came_from: None,
         twin: seen.change.map(twin),
         last_place: f64::INFINITY,
-        lets_in: None,
+        lets_in: Mind::NOBODY,
+        passage: NO_PASSAGE,
     };
     Entry { motion, car, mind }
 }

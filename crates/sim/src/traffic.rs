@@ -133,9 +133,18 @@ pub struct Mind {
     pub twin: Option<Twin>,
     /// Where a driver in a wrong lane has to have left it, along the chain [m]; infinite in a right one.
     pub last_place: f64,
-    /// A vehicle that the driver lets in: gap [m] and speed [m/s].
-    pub lets_in: Option<(f32, f32)>,
+    /// A vehicle that the driver lets in: gap [m], infinite if there is none, and speed [m/s].
+    pub lets_in: (f32, f32),
+    /// Where its passage through a junction is kept, if it has one.
+    pub(crate) passage: u32,
 }
+
+impl Mind {
+    /// Nobody to let in.
+    pub(crate) const NOBODY: (f32, f32) = (f32::INFINITY, 0.0);
+}
+
+const _: () = assert!(size_of::<Mind>() <= 80, "memory of a vehicle");
 
 /// The other entry of a vehicle that changes lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,12 +5,15 @@ use laneweave_network::{ChainIndex, Network, Pose};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
+use crate::accelerate::speed_before_a_stop;
 use crate::advance::advance;
+use crate::appeal::appeal;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
 use crate::demand::{Arrival, Demand, Source, entry_speed};
 use crate::drive::drive;
 use crate::events::Event;
+use crate::junction::{NO_PASSAGE, Passages, sight, stop_ahead};
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
 use crate::plan::{Outbox, Plan};
@@ -32,6 +35,7 @@ pub struct World {
     pub(crate) clock: Clock,
     pub(crate) lanes: Vec<Lane>,
     pub(crate) plans: Vec<Plan>,
+    pub(crate) passages: Passages,
     pub(crate) records: Records,
     pub(crate) events: Vec<Event>,
     pub(crate) counts: Counts,
@@ -140,6 +144,7 @@ impl World {
             clock: Clock { step: 0, dt: setup.step },
             pools: [Pool::new(setup.threads), Pool::new(1)],
             crowd: 0,
+            passages: Passages::new(&network),
             network,
             navigator,
             characters,
@@ -163,7 +168,9 @@ impl World {
         self.clock.step += 1;
         self.gather();
         self.account();
+        self.pass_on();
         self.transfer();
+        self.give_passages();
         self.resolve();
         self.enter();
     }
@@ -171,7 +178,10 @@ impl World {
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
     fn move_all(&mut self) {
         let is_watched = self.is_watched();
-        let World { network, navigator, characters, clock, random, lanes, plans, outboxes, .. } = self;
+        let time = self.clock.time();
+        let World { network, navigator, characters, clock, random, lanes, plans, passages, outboxes, .. } =
+            self;
+        let passages = &*passages;
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
         self.pools[pool_for(self.crowd)].look_then_act(
@@ -179,11 +189,12 @@ impl World {
             lanes,
             plans,
             |lanes, outbox, index, plan| {
-                let scene = Scene { network, navigator, lanes, characters };
+                let scene = Scene { network, navigator, lanes, characters, passages, time };
                 let chain = ChainIndex(index as u32);
                 plan.clear();
                 decide(&scene, moment, chain, plan, outbox);
                 drive(&scene, moment.clock, chain, plan);
+                appeal(&scene, moment.clock, chain, plan, outbox);
                 plan.overlaps = if is_watched { overlaps(&scene, chain) } else { 0 };
             },
             |lane, outbox, index, plan| {
@@ -223,8 +234,10 @@ impl World {
         let desired = arrival.class.desired_speed(style, self.network.chain(chain).limit(x));
         let scene = self.scene();
         let from = scene.viewpoint_at(chain, 0.0, arrival.id, arrival.destination);
+        let stop = stop_ahead(&scene, from, 0.0, sight(desired)).map(|it| it - x);
         let ahead = scene.ahead(from).map(|it| laneweave_models::follow::Ahead { gap: it.gap - x, ..it });
         let speed = entry_speed(style, desired, ahead, self.clock.dt)?;
+        let speed = stop.map_or(speed, |it| speed.min(speed_before_a_stop(it)));
         let Arrival { class, character, destination, .. } = *arrival;
         Some(NewVehicle { chain, x, speed, class, character, destination })
     }
@@ -271,7 +284,8 @@ impl World {
             came_from: None,
             twin: None,
             last_place: f64::INFINITY,
-            lets_in: None,
+            lets_in: Mind::NOBODY,
+            passage: NO_PASSAGE,
         };
         self.lanes[chain.at()].insert(Entry { motion, car, mind });
         self.counts.entered += 1;
@@ -290,6 +304,8 @@ impl World {
             navigator: &self.navigator,
             lanes: &self.lanes,
             characters: &self.characters,
+            passages: &self.passages,
+            time: self.clock.time(),
         }
     }
 

@@ -62,7 +62,7 @@ impl Report {
     /// What `map` holds.
     pub fn of(map: &Map) -> Report {
         let Map { network, graph, rules, contents, problems, origin } = map;
-        let Network { lanelets, chains, entrances, exits, lane_drops, driving_side } = network;
+        let Network { lanelets, chains, entrances, exits, lane_drops, driving_side, .. } = network;
         let limits = lanelets.iter().map(|it| it.speed_limit * KMH_PER_MPS);
         let bound = |pick: fn(f64, f64) -> f64| tenths(limits.clone().reduce(pick).unwrap_or_default());
         let mut kinds: BTreeMap<String, usize> = BTreeMap::new();

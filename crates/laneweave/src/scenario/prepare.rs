@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Map, MapError, Problem, ReadOptions, lanelet2, load};
+use laneweave_maps::{Map, MapError, Problem, ReadOptions, lanelet2, load, regulations};
 use laneweave_models::Style;
 use laneweave_network::DrivingSide;
 use laneweave_sim::{Setup, World};
@@ -57,7 +57,10 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let record_steps = record_steps(scenario, origin)?;
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
-    let Map { network, problems, .. } = read_map(scenario, origin)?;
+    let map = read_map(scenario, origin)?;
+    let regulations = regulations(&map);
+    let Map { network, problems, .. } = map;
+    let network = network.regulated(&regulations);
     if network.entrances.is_empty() {
         let what = "the map has no entrance: no lanelet of 10 m or more begins at its edge";
         return Err(Fault::new(

@@ -42,6 +42,8 @@ const RANGES: &[(&str, Range)] = &[
     ("manner.yield_deceleration", range(0.0, 8.0, "m/s²")),
     ("manner.tightest", range(0.05, 1.0, "")),
     ("manner.relaxation", range(0.1, 3600.0, "s")),
+    ("yielding.critical_gap", range(0.0, 60.0, "s")),
+    ("yielding.patience", range(0.1, 3600.0, "s")),
 ];
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {

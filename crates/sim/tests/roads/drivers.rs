@@ -2,6 +2,7 @@
 
 use laneweave_models::change::{Comfort, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency};
 use laneweave_models::follow::{FollowingModel, Fvdm, Idm};
+use laneweave_models::yielding::Yielding;
 use laneweave_models::{Attention, Manner, Style};
 use laneweave_sim::{Demand, Share};
 
@@ -32,6 +33,7 @@ pub(crate) fn conservative() -> Style {
         safety: Default::default(),
         attention: Attention::default(),
         manner: Manner::default(),
+        yielding: Yielding::default(),
     }
 }
 

@@ -1,0 +1,69 @@
+//! From the rules of a map to what its drivers heed at junctions.
+
+use std::collections::{HashMap, HashSet};
+
+use laneweave_network::{LaneletIndex, Network, Priority, Regulations, StopKind, StopRule};
+
+use crate::format::Map;
+use crate::rule::{Rule, RuleKind};
+
+/// What orders traffic at the junctions of `map`.
+///
+/// A light or stop sign that no lanelet refers to holds for those whose centre lines its stop lines cross. Where
+/// there is a light, a stop sign beside it does not count.
+pub fn regulations(map: &Map) -> Regulations {
+    let places = map.network.lanelets.iter().zip(0..).map(|(it, index)| (it.id, LaneletIndex(index)));
+    let lookup = Lookup { network: &map.network, places: places.collect() };
+    let mut regulations = Regulations::default();
+    for rule in &map.rules {
+        if let RuleKind::RightOfWay { first, yielding } = &rule.kind {
+            let priority = Priority { first: lookup.all(first), yielding: lookup.all(yielding) };
+            regulations.stops.push(lookup.stop(rule, StopKind::Line, priority.yielding.clone()));
+            regulations.priorities.push(priority);
+        }
+        regulations.stops.extend(match &rule.kind {
+            RuleKind::TrafficLight => Some(lookup.stop(rule, StopKind::Light, lookup.heeding(rule))),
+            RuleKind::StopSign => Some(lookup.stop(rule, StopKind::StopSign, lookup.heeding(rule))),
+            RuleKind::AllWayStop { lanelets } => {
+                Some(lookup.stop(rule, StopKind::AllWayStop, lookup.all(lanelets)))
+            }
+            _ => None,
+        });
+    }
+    let lit: HashSet<LaneletIndex> = regulations
+        .stops
+        .iter()
+        .filter(|it| it.kind == StopKind::Light)
+        .flat_map(|it| it.lanelets.iter().copied())
+        .collect();
+    for rule in regulations.stops.iter_mut().filter(|it| it.kind != StopKind::Light) {
+        rule.lanelets.retain(|it| !lit.contains(it));
+    }
+    regulations
+}
+
+struct Lookup<'a> {
+    network: &'a Network,
+    places: HashMap<i64, LaneletIndex>,
+}
+
+impl Lookup<'_> {
+    fn all(&self, ids: &[i64]) -> Vec<LaneletIndex> {
+        ids.iter().filter_map(|id| self.places.get(id).copied()).collect()
+    }
+
+    fn heeding(&self, rule: &Rule) -> Vec<LaneletIndex> {
+        if !rule.lanelets.is_empty() {
+            return self.all(&rule.lanelets);
+        }
+        let is_crossed = |index: &LaneletIndex| {
+            let centre = &self.network.lanelets[index.at()].centre;
+            rule.stop_lines.iter().any(|line| centre.crossed_by(line).is_some())
+        };
+        (0..self.network.lanelets.len() as u32).map(LaneletIndex).filter(is_crossed).collect()
+    }
+
+    fn stop(&self, rule: &Rule, kind: StopKind, lanelets: Vec<LaneletIndex>) -> StopRule {
+        StopRule { id: rule.id, kind, lanelets, lines: rule.stop_lines.clone() }
+    }
+}

@@ -1,0 +1,248 @@
+//! Junctions: where chains get in each other's way, who goes first there, and where drivers stop.
+
+mod kinship;
+mod light;
+mod precedence;
+mod zone;
+
+pub use light::{Light, LightIndex, LightState, Phase, Program};
+pub use zone::{Precedence, Reach, Zone, ZoneIndex, ZoneKind};
+
+use crate::build::Network;
+use crate::chain::ChainIndex;
+use crate::geometry::{Point, Polyline};
+use crate::lanelet::LaneletIndex;
+use kinship::Kinship;
+
+/// What orders traffic on the lanelets of a network, beside their links.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Regulations {
+    /// Lights and signs at which drivers stop.
+    pub stops: Vec<StopRule>,
+    /// Who goes first.
+    pub priorities: Vec<Priority>,
+}
+
+/// A light or sign at which the drivers on some lanelets stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StopRule {
+    /// Its id in the map.
+    pub id: i64,
+    /// What it is.
+    pub kind: StopKind,
+    /// The lanelets whose drivers heed it.
+    pub lanelets: Vec<LaneletIndex>,
+    /// Where they stop; a lanelet that none of the lines crosses is left at its end.
+    pub lines: Vec<Vec<Point>>,
+}
+
+/// What drivers stop at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopKind {
+    /// A traffic light, if it shows red.
+    Light,
+    /// A stop sign: always, and then they give way.
+    StopSign,
+    /// An all-way stop: always, and then they go in the order of arrival.
+    AllWayStop,
+    /// A line at which they wait if they have to.
+    Line,
+}
+
+/// Some lanelets go before others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Priority {
+    /// Those that go first.
+    pub first: Vec<LaneletIndex>,
+    /// Those that give way.
+    pub yielding: Vec<LaneletIndex>,
+}
+
+/// What drivers meet on the chains of a network.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Junctions {
+    /// All conflict zones.
+    pub zones: Vec<Zone>,
+    /// All traffic lights.
+    pub lights: Vec<Light>,
+    chains: Vec<OnChain>,
+}
+
+/// What drivers meet on one chain, in the order of stations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnChain {
+    /// Conflict zones.
+    pub crossings: Vec<Crossing>,
+    /// Places to stop.
+    pub stops: Vec<Stop>,
+    places: [f64; 2],
+}
+
+/// A side of a zone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The zone.
+    pub zone: ZoneIndex,
+    /// Which of its sides, 0 or 1.
+    pub side: u8,
+}
+
+/// A place to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// Where the front has to stay behind [m].
+    pub station: f64,
+    /// At what.
+    pub sign: Sign,
+}
+
+/// What a driver stops at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// A light.
+    Light(LightIndex),
+    /// A stop sign, of all ways or not: once, whoever comes.
+    Stop,
+    /// A line, if somebody comes.
+    Line,
+}
+
+impl OnChain {
+    const EMPTY: OnChain =
+        OnChain { crossings: Vec::new(), stops: Vec::new(), places: [f64::INFINITY, f64::NEG_INFINITY] };
+}
+
+/// What drivers meet on a chain without junctions.
+static NOTHING: OnChain = OnChain::EMPTY;
+
+impl Junctions {
+    /// The junctions of `network` under `regulations`. Lights without a program are given one (see [`Program`]).
+    pub fn new(network: &Network, regulations: &Regulations) -> Junctions {
+        let kinship = Kinship::of(network);
+        let mut zones = zone::zones(network, &kinship);
+        precedence::settle(network, &kinship, regulations, &mut zones);
+        let mut chains = vec![OnChain::EMPTY; network.chains.len()];
+        for (zone, index) in zones.iter().zip(0..) {
+            for (reach, side) in zone.sides.iter().zip(0..) {
+                chains[reach.chain.at()].crossings.push(Crossing { zone: ZoneIndex(index), side });
+            }
+        }
+        let start = |it: &Crossing| zones[it.zone.at()].sides[usize::from(it.side)].start;
+        for chain in &mut chains {
+            chain.crossings.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.zone.cmp(&b.zone)));
+        }
+        let mut junctions = Junctions { zones, lights: Vec::new(), chains };
+        junctions.place_stops(network, regulations);
+        junctions.note_places();
+        junctions.lights = light::with_made_programs(network, &junctions);
+        junctions
+    }
+
+    /// What drivers meet on `chain`.
+    #[inline]
+    pub fn on(&self, chain: ChainIndex) -> &OnChain {
+        self.chains.get(chain.at()).unwrap_or(&NOTHING)
+    }
+
+    /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first beyond the last if
+    /// there is none.
+    #[inline]
+    pub fn places(&self, chain: ChainIndex) -> [f64; 2] {
+        self.on(chain).places
+    }
+
+    /// Whether a lane is outside of junctions from its start to `station` [m].
+    pub fn is_clear_until(&self, chain: ChainIndex, station: f64) -> bool {
+        let crossings = self.on(chain).crossings.iter();
+        let mut zones = crossings.filter(|it| self.zones[it.zone.at()].kind != ZoneKind::Tight);
+        zones.next().is_none_or(|it| self.reach(*it).start >= station)
+    }
+
+    /// The stretch of a side of a zone.
+    #[inline]
+    pub fn reach(&self, crossing: Crossing) -> &Reach {
+        &self.zones[crossing.zone.at()].sides[usize::from(crossing.side)]
+    }
+
+    /// The stretch on the other side of its zone.
+    pub fn other_side(&self, crossing: Crossing) -> &Reach {
+        &self.zones[crossing.zone.at()].sides[usize::from(1 - crossing.side)]
+    }
+
+    /// Follows a reversal of the network's chains, by which each index is turned.
+    pub(crate) fn reverse_chains(&mut self, turn: impl Fn(&mut ChainIndex)) {
+        self.chains.reverse();
+        self.zones.iter_mut().flat_map(|it| &mut it.sides).for_each(|it| turn(&mut it.chain));
+    }
+
+    fn place_stops(&mut self, network: &Network, regulations: &Regulations) {
+        let places = places(network);
+        for (rules, number) in light::sharing(&regulations.stops).into_iter().zip(0..) {
+            let id = rules.iter().map(|it| it.id).min().unwrap_or_default();
+            self.lights.push(Light { id, program: Program::ALWAYS_GREEN });
+            for rule in rules {
+                self.place(network, &places, rule, Sign::Light(LightIndex(number)));
+            }
+        }
+        for rule in &regulations.stops {
+            match rule.kind {
+                StopKind::Light => {}
+                StopKind::StopSign | StopKind::AllWayStop => self.place(network, &places, rule, Sign::Stop),
+                StopKind::Line => self.place(network, &places, rule, Sign::Line),
+            }
+        }
+        for chain in &mut self.chains {
+            chain.stops.sort_by(|a, b| a.station.total_cmp(&b.station));
+            chain.stops.dedup_by(|b, a| a.sign == b.sign && b.station - a.station < 1.0);
+        }
+    }
+
+    fn note_places(&mut self) {
+        let Junctions { zones, chains, .. } = self;
+        for chain in chains {
+            let starts =
+                chain.crossings.iter().map(|it| zones[it.zone.at()].sides[usize::from(it.side)].start);
+            for station in starts.chain(chain.stops.iter().map(|it| it.station)) {
+                chain.places = [chain.places[0].min(station), chain.places[1].max(station)];
+            }
+        }
+    }
+
+    fn place(&mut self, network: &Network, places: &[(ChainIndex, f64)], rule: &StopRule, sign: Sign) {
+        for lanelet in &rule.lanelets {
+            let (chain, start) = places[lanelet.at()];
+            let centre = &network.lanelets[lanelet.at()].centre;
+            let along = rule.lines.iter().find_map(|line| centre.crossed_by(line));
+            // A line before the lanelet is that of a lanelet within the junction.
+            let is_before = rule.lines.iter().any(|line| is_nearer_to_start(centre, line));
+            let station = start + along.unwrap_or(if is_before { 0.0 } else { centre.length() });
+            self.chains[chain.at()].stops.push(Stop { station, sign });
+        }
+    }
+}
+
+fn is_nearer_to_start(centre: &Polyline, line: &[Point]) -> bool {
+    let nearest = |to: Point| line.iter().map(|it| it.distance(&to)).fold(f64::INFINITY, f64::min);
+    nearest(centre.at(0.0)) < nearest(centre.at(centre.length()))
+}
+
+/// For each lanelet its chain, and where it starts there [m].
+fn places(network: &Network) -> Vec<(ChainIndex, f64)> {
+    let mut places = vec![(ChainIndex(0), 0.0); network.lanelets.len()];
+    for (index, chain) in network.chains.iter().enumerate() {
+        for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
+            places[lanelet.at()] = (ChainIndex(index as u32), *start);
+        }
+    }
+    places
+}
+
+/// The lanelets near a chain that decide by which rules its drivers go: its own and those that lead to it.
+fn lineage<'a>(
+    network: &'a Network,
+    kinship: &'a Kinship,
+    chain: ChainIndex,
+) -> impl Iterator<Item = LaneletIndex> + 'a {
+    let before = kinship.ancestors(chain).iter().map(|it| it.0);
+    std::iter::once(chain).chain(before).flat_map(|it| network.chain(it).lanelets.iter().copied())
+}

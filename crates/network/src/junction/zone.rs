@@ -1,0 +1,196 @@
+//! Conflict zones: where two chains cross, merge, or run so close in a bend that a long vehicle needs both.
+
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use super::kinship::{Kinship, Meeting};
+use crate::build::Network;
+use crate::chain::ChainIndex;
+use crate::geometry::Point;
+
+/// A zone's place in [`super::Junctions::zones`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ZoneIndex(pub u32);
+
+impl ZoneIndex {
+    /// The place as an index.
+    pub fn at(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A stretch of one chain and a stretch of another on which vehicles would touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Zone {
+    /// What makes it one.
+    pub kind: ZoneKind,
+    /// The two stretches.
+    pub sides: [Reach; 2],
+    /// The side that goes first.
+    pub precedence: Precedence,
+}
+
+/// What makes a zone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ZoneKind {
+    /// The chains cross or touch.
+    Crossing,
+    /// They lead into one: who goes second follows. Stations of the place from which on they are one, along each side's
+    /// chain, or beyond its end [m].
+    Merging([f64; 2]),
+    /// They pass so close by each other that a long vehicle takes up both.
+    Tight,
+}
+
+/// A stretch of a chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// The chain.
+    pub chain: ChainIndex,
+    /// First station at which a vehicle's front is in the way [m].
+    pub start: f64,
+    /// Station that its rear has to have passed to be out of the way [m].
+    pub end: f64,
+}
+
+/// Who goes first where both could.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precedence {
+    /// Who came first.
+    #[default]
+    Arrival,
+    /// The side of this number, 0 or 1; the other gives way.
+    Side(u8),
+    /// Who comes from the right, which is the side of this number, unless the other has waited long.
+    FromTheRight(u8),
+}
+
+/// Length and width of the largest vehicle [m], and the width of a car; zones are made for these. Ours.
+const LARGEST_VEHICLE: [f64; 2] = [12.0, 2.55];
+const CAR_WIDTH: f64 = 1.85;
+/// Space between vehicles that pass each other [m]. Ours.
+const SPACE: f64 = 0.15;
+/// Distance of the samples along a chain [m].
+const SAMPLE: f64 = 0.5;
+/// Vehicles on levels further apart do not touch [m].
+const HEIGHT: f64 = 2.5;
+/// Contacts further apart along a chain than this belong to different zones [m].
+const APART: f64 = 6.0;
+
+/// A place on a chain, and the place inside of a bend that the middle of the largest vehicle passes.
+#[derive(Clone, Copy)]
+struct Sample {
+    chain: ChainIndex,
+    station: f64,
+    path: Point,
+    inside: Point,
+}
+
+/// Two places at which vehicles would touch.
+#[derive(Clone, Copy)]
+struct Contact {
+    stations: [f64; 2],
+    /// Cars would, too.
+    of_cars: bool,
+}
+
+/// All zones of a network, ordered by their chains.
+pub(super) fn zones(network: &Network, kinship: &Kinship) -> Vec<Zone> {
+    let samples = samples(network);
+    let tree = RTree::bulk_load(
+        samples.iter().enumerate().map(|(i, it)| GeomWithData::new([it.path.x, it.path.y], i)).collect(),
+    );
+    let mut zones = Vec::new();
+    let mut from = 0;
+    while from < samples.len() {
+        let chain = samples[from].chain;
+        let to = from + samples[from..].partition_point(|it| it.chain == chain);
+        let mut found: Vec<(ChainIndex, Contact)> = Vec::new();
+        for here in &samples[from..to] {
+            let reach = LARGEST_VEHICLE[1] + SPACE + 2.0 * SAG_AT_MOST;
+            let near = tree.locate_within_distance([here.path.x, here.path.y], reach * reach);
+            let later = near.map(|it| &samples[it.data]).filter(|it| it.chain > chain);
+            found.extend(later.filter_map(|there| Some((there.chain, contact(here, there)?))));
+        }
+        found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.stations[0].total_cmp(&b.1.stations[0])));
+        for pair in found.chunk_by(|a, b| a.0 == b.0) {
+            let contacts: Vec<Contact> = pair.iter().map(|it| it.1).collect();
+            zones.extend(zones_of(kinship, [chain, pair[0].0], contacts));
+        }
+        from = to;
+    }
+    zones
+}
+
+/// The largest vehicle's middle is taken to be no further inside of a bend than this [m].
+const SAG_AT_MOST: f64 = 2.0;
+
+fn samples(network: &Network) -> Vec<Sample> {
+    let mut samples = Vec::new();
+    for (index, chain) in network.chains.iter().enumerate() {
+        let count = (chain.length / SAMPLE).ceil() as usize;
+        for number in 0..=count {
+            let station = (number as f64 * SAMPLE).min(chain.length);
+            let path = chain.centre.at(station);
+            let half = 0.5 * LARGEST_VEHICLE[0];
+            // On its own chain only: beyond its ends a path goes on as it comes.
+            let behind = chain.centre.at((station - half).max(0.0));
+            let before = chain.centre.at((station + half).min(chain.length));
+            let middle = behind.midpoint(&before);
+            let share = (SAG_AT_MOST / path.distance(&middle).max(SAG_AT_MOST)).min(1.0);
+            let is_whole = station >= half && station + half <= chain.length;
+            let inside = if is_whole { path.towards(&middle, share) } else { path };
+            samples.push(Sample { chain: ChainIndex(index as u32), station, path, inside });
+        }
+    }
+    samples
+}
+
+fn contact(here: &Sample, there: &Sample) -> Option<Contact> {
+    if (here.path.z - there.path.z).abs() > HEIGHT {
+        return None;
+    }
+    let of_paths = here.path.distance(&there.path);
+    let nearest = of_paths.min(here.inside.distance(&there.path)).min(here.path.distance(&there.inside));
+    (nearest < LARGEST_VEHICLE[1] + SPACE)
+        .then_some(Contact { stations: [here.station, there.station], of_cars: of_paths < CAR_WIDTH + SPACE })
+}
+
+/// The zones of two chains with these contacts, which are in the order of the first one's stations.
+fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], mut contacts: Vec<Contact>) -> Vec<Zone> {
+    contacts.retain(|it| !kinship.is_one_behind_the_other(pair, it.stations));
+    let mut groups: Vec<Vec<Contact>> = Vec::new();
+    for contact in contacts {
+        let fits = |group: &&mut Vec<Contact>| {
+            group
+                .iter()
+                .rev()
+                .take(32)
+                .any(|it| (0..2).all(|side| (it.stations[side] - contact.stations[side]).abs() <= APART))
+        };
+        match groups.iter_mut().find(fits) {
+            Some(group) => group.push(contact),
+            None => groups.push(vec![contact]),
+        }
+    }
+    groups.iter().filter_map(|group| zone_of(kinship, pair, group)).collect()
+}
+
+fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[Contact]) -> Option<Zone> {
+    let bounds = [0, 1].map(|side| {
+        let stations = group.iter().map(|it| it.stations[side]);
+        let low = stations.clone().fold(f64::INFINITY, f64::min);
+        [low - SAMPLE, stations.fold(0.0, f64::max) + SAMPLE]
+    });
+    let starts = bounds.map(|it| it[0]);
+    let ends = bounds.map(|it| it[1]);
+    let of_cars = group.iter().any(|it| it.of_cars);
+    let kind = match kinship.meeting(pair, starts, ends) {
+        Meeting::Forks => return None,
+        Meeting::Merges(stations) => ZoneKind::Merging(stations),
+        Meeting::Crosses if of_cars => ZoneKind::Crossing,
+        Meeting::Crosses => ZoneKind::Tight,
+    };
+    let reach = |side: usize| Reach { chain: pair[side], start: starts[side].max(0.0), end: ends[side] };
+    Some(Zone { kind, sides: [reach(0), reach(1)], precedence: Precedence::Arrival })
+}

@@ -1,0 +1,105 @@
+//! Drivers who wait at junctions ask for their passage, or give it back: on the snapshot, for what concerns them alone.
+//! Those who may pass are given passages one after the other once all have moved, on the state in which it takes effect.
+
+use laneweave_network::ChainIndex;
+
+use crate::clock::Clock;
+use crate::junction::{Asking, Hindrance, may_pass, sight, survey};
+use crate::plan::{Appeal, Outbox, Plan, Plea};
+use crate::scene::{Scene, Spot};
+use crate::world::World;
+
+/// The drivers of a lane appeal.
+pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan, outbox: &mut Outbox) {
+    for (index, from) in &plan.returns {
+        let motion = &scene.motions(chain)[*index as usize];
+        let what = Plea::GiveBack(*from);
+        outbox.appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
+    }
+    for waiting in &plan.waiting {
+        let spot = Spot { chain, index: waiting.index as usize };
+        let motion = scene.motion(spot);
+        if !surveyed(scene, spot, outbox) {
+            continue;
+        }
+        let asking = Asking::of(scene, spot, waiting.since, clock);
+        match may_pass(scene, spot, &outbox.survey, asking) {
+            Ok(()) => outbox.appeals.push(Appeal {
+                since: waiting.since,
+                id: motion.id,
+                chain,
+                x: motion.x,
+                what: Plea::Pass,
+            }),
+            Err(Hindrance::Others) => {
+                let claims = outbox.survey.holds.iter().map(|it| (it.zone, it.side, asking.claim));
+                outbox.claims.extend(claims);
+            }
+            Err(Hindrance::Light | Hindrance::Sign | Hindrance::Room) => {}
+        }
+    }
+}
+
+/// Surveys what the driver at `spot` needs next.
+fn surveyed(scene: &Scene, spot: Spot, outbox: &mut Outbox) -> bool {
+    let motion = scene.motion(spot);
+    let passage = scene.passages.of(scene.mind(spot).passage, motion.id);
+    let granted = passage.map_or(0.0, |it| it.left().max(0.0));
+    let (from, length) = (scene.viewpoint(spot), f64::from(motion.length));
+    survey(scene, from, length, granted, sight(motion.speed), &mut outbox.survey)
+}
+
+impl World {
+    /// Vehicles with a passage drove on: what is behind them is free for others.
+    pub(crate) fn pass_on(&mut self) {
+        let mut progress = std::mem::take(&mut self.outboxes[0].progress);
+        progress.sort_unstable_by_key(|it| it.slot);
+        for it in progress.drain(..) {
+            if self.passages.of(it.slot, it.id).is_some() {
+                self.passages.advance(it.slot, it.distance, it.speed, it.desired);
+            }
+        }
+        self.outboxes[0].progress = progress;
+    }
+
+    /// Passages are given back, and given to those who may pass, who asked first before the others.
+    pub(crate) fn give_passages(&mut self) {
+        let mut appeals = std::mem::take(&mut self.outboxes[0].appeals);
+        let mut claims = std::mem::take(&mut self.outboxes[0].claims);
+        self.passages.clear_claims();
+        claims.drain(..).for_each(|(zone, side, claim)| self.passages.note_claim(zone, side, claim));
+        appeals.sort_unstable_by_key(|it| (matches!(it.what, Plea::Pass), it.since, it.id));
+        for appeal in appeals.drain(..) {
+            let Some(index) = self.lanes[appeal.chain.at()].find(appeal.id, appeal.x) else { continue };
+            let spot = Spot { chain: appeal.chain, index };
+            match appeal.what {
+                Plea::Pass => self.give_passage(spot, appeal.since),
+                Plea::GiveBack(from) => {
+                    let slot = self.lanes[spot.chain.at()].minds()[index].passage;
+                    if self.passages.of(slot, appeal.id).is_some() {
+                        self.passages.take_back(slot, from);
+                    }
+                }
+            }
+        }
+        self.outboxes[0].appeals = appeals;
+        self.outboxes[0].claims = claims;
+    }
+
+    fn give_passage(&mut self, spot: Spot, since: u32) {
+        let mut outbox = std::mem::take(&mut self.outboxes[0]);
+        let scene = self.scene();
+        let asking = Asking::of(&scene, spot, since, self.clock);
+        let may =
+            surveyed(&scene, spot, &mut outbox) && may_pass(&scene, spot, &outbox.survey, asking).is_ok();
+        if may {
+            let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
+            let length = f64::from(motion.length);
+            mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);
+            car.heeds_more = true;
+            let (speed, desired) = (motion.speed, f64::from(car.desired));
+            self.passages.advance(mind.passage, 0.0, speed, desired);
+        }
+        self.outboxes[0] = outbox;
+    }
+}

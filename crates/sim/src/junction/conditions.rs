@@ -1,0 +1,159 @@
+//! Whether a driver may pass now.
+
+use laneweave_models::braking::is_secure;
+use laneweave_models::follow::Ahead;
+use laneweave_models::yielding::time_to_cover;
+use laneweave_network::{LightState, Precedence, ZoneKind};
+
+use super::heed::{LONG, STOPS_AT_YELLOW};
+use super::oncoming::lag;
+use super::passages::{Claim, Hold, Passage};
+use super::survey::Survey;
+use crate::clock::Clock;
+use crate::scene::{Scene, Spot};
+
+/// Why a driver may not pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Hindrance {
+    /// A light is not green.
+    Light,
+    /// It has not stopped yet, as a sign asks.
+    Sign,
+    /// It could not leave the zones again.
+    Room,
+    /// Others go first: it claims its turn.
+    Others,
+}
+
+/// Standstill at a stop sign [m/s], and how near to the line [m].
+const STOPPED: f64 = 0.3;
+const AT_THE_LINE: f64 = 4.0;
+/// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
+/// while it clears.
+const APPROACHES: f64 = 1.5;
+/// Who comes from the side that does not go first has waited for this long before it takes its turn [s] (ours): so ends
+/// a standoff in which everybody gives way to somebody.
+const STANDOFF: f64 = 4.0;
+/// Time between two vehicles in one place [s] (ours).
+const MARGIN: f64 = 0.5;
+
+/// Who asks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asking {
+    pub(crate) claim: Claim,
+    /// Time since it first asked [s].
+    pub(crate) waited: f64,
+    /// Length of a step [s].
+    pub(crate) dt: f64,
+}
+
+impl Asking {
+    /// The driver at `spot`, who first asked in step `since`.
+    pub(crate) fn of(scene: &Scene, spot: Spot, since: u32, clock: Clock) -> Asking {
+        let waited = f64::from(clock.step - since) * clock.dt;
+        let (motion, car) = (scene.motion(spot), scene.car(spot));
+        let patience = scene.characters[car.character as usize].yielding.patience;
+        let is_long = f64::from(motion.length) >= LONG;
+        let claim = Claim { is_patient: waited < patience, since, id: motion.id, is_long };
+        Asking { claim, waited, dt: clock.dt }
+    }
+}
+
+/// Whether the driver at `spot` may pass what it has surveyed.
+///
+/// # Errors
+/// What hinders it.
+pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Asking) -> Result<(), Hindrance> {
+    let speed = scene.motion(spot).speed;
+    for (light, at) in &survey.lights {
+        let goes = match scene.light(*light) {
+            LightState::Green => true,
+            LightState::Yellow => speed * speed > 2.0 * STOPS_AT_YELLOW * at.max(0.0),
+            LightState::Red => false,
+        };
+        if !goes {
+            return Err(Hindrance::Light);
+        }
+    }
+    if survey.has_stop_sign && (speed > STOPPED || survey.stop > AT_THE_LINE) {
+        return Err(Hindrance::Sign);
+    }
+    if survey.room < survey.needed {
+        return Err(Hindrance::Room);
+    }
+    if survey.holds.iter().all(|hold| may_hold(scene, spot, hold, asking)) {
+        Ok(())
+    } else {
+        Err(Hindrance::Others)
+    }
+}
+
+fn may_hold(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
+    let zone = &scene.network.junctions.zones[hold.zone.at()];
+    let other_side = 1 - hold.side;
+    let matters = |is_long: bool| zone.kind != ZoneKind::Tight || asking.claim.is_long || is_long;
+    let claim = scene.passages.claim(hold.zone, other_side).filter(|it| matters(it.is_long));
+    if claim.is_some_and(|it| goes_first(zone.precedence, other_side, it, asking)) {
+        return false;
+    }
+    let mut others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+    let fits = match zone.kind {
+        ZoneKind::Merging(_) => {
+            others.next_back().is_none_or(|(_, other)| follows(scene, spot, hold, other, asking.dt))
+        }
+        ZoneKind::Crossing | ZoneKind::Tight => others
+            .filter(|(_, other)| matters(other.length >= LONG))
+            .all(|(_, other)| clears(scene, spot, hold, other)),
+    };
+    fits && accepts_lag(scene, spot, hold, asking)
+}
+
+/// Whether who claims a turn on the other side goes before who asks.
+fn goes_first(precedence: Precedence, other_side: u8, claim: Claim, asking: Asking) -> bool {
+    let came_first = claim < asking.claim;
+    if !claim.is_patient || !asking.claim.is_patient {
+        return came_first;
+    }
+    match precedence {
+        Precedence::Arrival => came_first,
+        Precedence::Side(side) => side == other_side,
+        Precedence::FromTheRight(side) if asking.waited < STANDOFF => side == other_side,
+        Precedence::FromTheRight(side) => side == other_side && came_first,
+    }
+}
+
+/// Whether there is room enough behind `other`, who goes first into the merge.
+fn follows(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage, dt: f64) -> bool {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let Some(theirs) = other.holds.iter().find(|it| it.zone == hold.zone) else { return true };
+    let gap = hold.leave - (theirs.leave - other.travelled) - other.length;
+    let least = scene.characters[car.character as usize].safety.min_gap;
+    gap >= least && is_secure(motion.speed, Ahead { gap, speed: other.speed }, dt)
+}
+
+/// Whether `other` will be out of the crossing by the time that one gets there.
+fn clears(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage) -> bool {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let Some(theirs) = other.holds.iter().find(|it| it.zone == hold.zone) else { return true };
+    let theirs = time_to_cover(theirs.leave - other.travelled, other.speed, other.desired);
+    theirs <= time_to_cover(hold.enter, motion.speed, f64::from(car.desired)) + APPROACHES
+}
+
+/// Whether those who go first on the other side are far enough.
+fn accepts_lag(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
+    let zone = &scene.network.junctions.zones[hold.zone.at()];
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let other_side = 1 - hold.side;
+    let needed = || time_to_cover(hold.leave, motion.speed, f64::from(car.desired));
+    let lag = || lag(scene, hold.zone, &zone.sides[usize::from(other_side)]);
+    match zone.precedence {
+        Precedence::Side(side) if side == other_side && asking.claim.is_patient => {
+            let style = &scene.characters[car.character as usize];
+            style.yielding.accepts(lag(), needed(), asking.waited)
+        }
+        Precedence::FromTheRight(side) if side == other_side && asking.waited < STANDOFF => {
+            lag() >= needed() + MARGIN
+        }
+        _ => true,
+    }
+}

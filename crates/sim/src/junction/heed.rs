@@ -1,0 +1,105 @@
+//! What a driver heeds at a junction while it drives on.
+
+use laneweave_models::follow::Ahead;
+use laneweave_network::{LightState, ZoneKind};
+
+use super::passages::{Hold, NO_PASSAGE, Passage};
+use super::survey::stop_ahead;
+use crate::scene::{Scene, Spot};
+
+/// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
+pub(super) const LONG: f64 = 7.0;
+/// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
+/// yellow times).
+pub(super) const STOPS_AT_YELLOW: f64 = 3.0;
+/// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s] (ours).
+const GENTLE: f64 = 1.5;
+const EARLY: f64 = 1.5;
+/// And never later than at this distance [m].
+const NEAR: f64 = 10.0;
+
+/// What a driver heeds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Junction {
+    /// Distance of the front to where it has to stop [m].
+    pub(crate) stop: Option<f64>,
+    /// Whom it follows into a merge.
+    pub(crate) leader: Option<Ahead>,
+    /// It would like to pass, and waits for it.
+    pub(crate) asks: bool,
+    /// A light that it meant to pass is no longer green, and it can stop there: distance from the passage's beginning [m].
+    pub(crate) gives_back: Option<f64>,
+}
+
+/// How far ahead a driver at `speed` [m/s] heeds junctions [m].
+pub(crate) fn sight(speed: f64) -> f64 {
+    speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
+}
+
+/// What the driver at `spot` heeds.
+pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let mut junction = Junction::default();
+    let mut granted = 0.0;
+    let slot = scene.mind(spot).passage;
+    if slot != NO_PASSAGE
+        && let Some(passage) = scene.passages.of(slot, motion.id)
+    {
+        heed_earlier(scene, passage, slot, &mut junction);
+        junction.gives_back = to_give_back(scene, passage, motion.speed);
+        granted = passage.left().max(0.0);
+    }
+    let until = sight(motion.speed);
+    if let Some(stop) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
+        junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
+        junction.asks = !car.is_shadow && !car.phase.is_between_lanes();
+    }
+    junction
+}
+
+/// Those who go before it through a zone.
+fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
+    for hold in &passage.holds {
+        let kind = scene.network.junctions.zones[hold.zone.at()].kind;
+        let earlier =
+            scene.passages.order(hold.zone).take_while(|(it, _)| it.slot != slot || it.side != hold.side);
+        let mut others = earlier.filter(|(it, _)| it.side != hold.side && it.slot != slot);
+        match kind {
+            ZoneKind::Merging(_) => {
+                if let Some((_, other)) = others.last() {
+                    let ahead = leader_into(passage, hold, other);
+                    let is_nearer =
+                        junction.leader.is_none_or(|it| ahead.is_some_and(|new| new.gap < it.gap));
+                    junction.leader = if is_nearer { ahead.or(junction.leader) } else { junction.leader };
+                }
+            }
+            ZoneKind::Crossing | ZoneKind::Tight => {
+                let is_long = passage.length >= LONG;
+                let matters = |other: &Passage| kind == ZoneKind::Crossing || is_long || other.length >= LONG;
+                let distance = hold.enter - passage.travelled;
+                if distance > 0.0 && others.any(|(_, other)| matters(other)) {
+                    let stop = distance - 1.0;
+                    junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
+                }
+            }
+        }
+    }
+}
+
+/// Who goes before into a merge, as far ahead as it is nearer to it.
+pub(super) fn leader_into(passage: &Passage, hold: &Hold, other: &Passage) -> Option<Ahead> {
+    let theirs = other.holds.iter().find(|it| it.zone == hold.zone && it.side != hold.side)?;
+    let to_merge = hold.leave - passage.travelled;
+    let gap = to_merge - (theirs.leave - other.travelled) - other.length;
+    Some(Ahead { gap, speed: other.speed })
+}
+
+/// The first light ahead that is no longer green and where the driver can still stop with comfort.
+fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
+    let lights = passage.lights();
+    let mut to_stop_at = lights.filter(|(light, at)| {
+        let is_green = scene.light(*light) == LightState::Green;
+        !is_green && *at > 0.0 && speed * speed < 2.0 * STOPS_AT_YELLOW * at
+    });
+    to_stop_at.next().map(|(_, at)| passage.travelled + at)
+}

@@ -1,0 +1,263 @@
+//! What a driver sees of the junction ahead: where it has to stop without a passage, and what passage it needs.
+
+use std::ops::ControlFlow;
+
+use laneweave_network::{ChainIndex, Crossing, LightIndex, Sign, ZoneKind};
+
+use super::passages::Hold;
+use crate::scene::{Scene, Viewpoint};
+
+/// How far before a zone a vehicle stops [m] (ours).
+const BEFORE_A_ZONE: f64 = 1.0;
+/// How far before a line it stops [m] (ours).
+const BEFORE_A_LINE: f64 = 0.3;
+/// Room that a vehicle needs beyond the zones beside its length [m] (ours).
+const SPARE_ROOM: f64 = 2.0;
+/// A line belongs to the zones that follow within this [m] (ours).
+const LINE_TO_ZONE: f64 = 30.0;
+/// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).
+const ROOM_SIGHT: f64 = 120.0;
+/// Braking that is expected of who is beyond the zones [m/s²] (ours).
+const EXPECTED_BRAKING: f64 = 4.0;
+
+/// What passage a driver needs. Distances are those from its front [m].
+#[derive(Clone, Debug)]
+pub(crate) struct Survey {
+    /// Where it stops without.
+    pub(crate) stop: f64,
+    /// Lights, with the places where their drivers stop.
+    pub(crate) lights: Vec<(LightIndex, f64)>,
+    /// It has to stop first, whoever comes.
+    pub(crate) has_stop_sign: bool,
+    /// Sides of zones.
+    pub(crate) holds: Vec<Hold>,
+    /// Where its front has to get for the rear to be out of all zones.
+    pub(crate) extent: f64,
+    /// The chain on which it can stand then.
+    pub(crate) refuge: ChainIndex,
+    /// Room that it needs there.
+    pub(crate) needed: f64,
+    /// Room that there is.
+    pub(crate) room: f64,
+}
+
+impl Default for Survey {
+    fn default() -> Survey {
+        Survey {
+            stop: 0.0,
+            lights: Vec::new(),
+            has_stop_sign: false,
+            holds: Vec::new(),
+            extent: 0.0,
+            refuge: ChainIndex(0),
+            needed: 0.0,
+            room: 0.0,
+        }
+    }
+}
+
+/// A place on a driver's way where it may have to stop.
+#[derive(Clone, Copy)]
+struct Point {
+    /// Where the front has to stay behind [m].
+    stop: f64,
+    what: What,
+}
+
+#[derive(Clone, Copy)]
+enum What {
+    Sign(Sign),
+    /// A zone, its end, and the place where the lanes become one, if they do [m].
+    Zone(Crossing, f64, Option<f64>),
+}
+
+/// Visits the places on the way of who looks `from`, in order, up to `until` [m]. Returns how far the way goes on.
+fn points(
+    scene: &Scene,
+    from: Viewpoint,
+    until: f64,
+    mut visit: impl FnMut(Point, f64, ChainIndex) -> ControlFlow<()>,
+) -> f64 {
+    let junctions = &scene.network.junctions;
+    let (mut chain, mut base) = (from.chain, -from.x);
+    loop {
+        let on = junctions.on(chain);
+        let (mut crossings, mut stops) = (on.crossings.iter().peekable(), on.stops.iter().peekable());
+        loop {
+            let zone_at = crossings.peek().map_or(f64::INFINITY, |it| junctions.reach(**it).start);
+            let stop_at = stops.peek().map_or(f64::INFINITY, |it| it.station);
+            let at = base + zone_at.min(stop_at);
+            if at > until {
+                if at < f64::INFINITY {
+                    return until;
+                }
+                break;
+            }
+            let point = if stop_at <= zone_at {
+                let Some(stop) = stops.next() else { break };
+                Point { stop: at - BEFORE_A_LINE, what: What::Sign(stop.sign) }
+            } else {
+                let Some(crossing) = crossings.next() else { break };
+                let zone = &junctions.zones[crossing.zone.at()];
+                let merge = match zone.kind {
+                    ZoneKind::Merging(stations) => Some(base + stations[usize::from(crossing.side)]),
+                    ZoneKind::Crossing | ZoneKind::Tight => None,
+                };
+                let end = base + junctions.reach(*crossing).end;
+                Point { stop: at - BEFORE_A_ZONE, what: What::Zone(*crossing, end, merge) }
+            };
+            // Who has its front beyond a place has passed it.
+            if at > 0.0 && visit(point, at, chain).is_break() {
+                return at;
+            }
+        }
+        base += scene.network.chain(chain).length;
+        if base > until {
+            return until;
+        }
+        match scene.next(from.destination, chain) {
+            Some(next) => chain = next,
+            None if scene.network.chain(chain).is_lane_drop => return base,
+            None => return f64::INFINITY,
+        }
+    }
+}
+
+/// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
+/// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
+pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
+    let shield = shield(scene, from, until);
+    let mut found = None;
+    points(scene, from, until.min(shield), |point, at, _| {
+        if at <= granted {
+            return ControlFlow::Continue(());
+        }
+        found = Some(point.stop);
+        ControlFlow::Break(())
+    });
+    found
+}
+
+/// Whether there is a place within `until` [m] where who looks `from` might have to stop.
+pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool {
+    let mut is_there = false;
+    points(scene, from, until, |_, _, _| {
+        is_there = true;
+        ControlFlow::Break(())
+    });
+    is_there
+}
+
+/// How far the way of the vehicle ahead is free [m]: who is behind it need not look further.
+fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
+    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+    loop {
+        let lane = &scene.lanes[chain.at()];
+        let ahead = lane.motions()[index..].iter().zip(index..).find(|(it, _)| it.id != from.id);
+        if let Some((motion, index)) = ahead {
+            let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
+            return base + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
+        }
+        base += scene.network.chain(chain).length;
+        match scene.next(from.destination, chain) {
+            Some(next) if base < until => (chain, index) = (next, 0),
+            _ => return f64::INFINITY,
+        }
+    }
+}
+
+/// Surveys the passage that the vehicle of `length` [m] that looks `from` needs next, beyond the `granted` [m] it has.
+/// Returns whether there is one within `until` [m].
+pub(crate) fn survey(
+    scene: &Scene,
+    from: Viewpoint,
+    length: f64,
+    granted: f64,
+    until: f64,
+    out: &mut Survey,
+) -> bool {
+    out.lights.clear();
+    out.holds.clear();
+    out.has_stop_sign = false;
+    let mut first: Option<f64> = None;
+    let mut clear = f64::NEG_INFINITY;
+    let mut next_stop = f64::INFINITY;
+    let far = until + ROOM_SIGHT;
+    let way_end = points(scene, from, far, |point, at, _| {
+        if at <= granted {
+            return ControlFlow::Continue(());
+        }
+        if first.is_none() && at > until {
+            return ControlFlow::Break(());
+        }
+        let start = *first.get_or_insert(point.stop);
+        let is_apart = match point.what {
+            _ if clear > f64::NEG_INFINITY => point.stop >= clear + length + SPARE_ROOM,
+            _ => point.stop > start + LINE_TO_ZONE,
+        };
+        if is_apart {
+            next_stop = point.stop;
+            return ControlFlow::Break(());
+        }
+        match point.what {
+            What::Sign(Sign::Light(light)) => out.lights.push((light, point.stop)),
+            What::Sign(Sign::Stop) => out.has_stop_sign |= point.stop < start + LINE_TO_ZONE,
+            What::Sign(Sign::Line) => {}
+            What::Zone(crossing, end, merge) => {
+                let leave = merge.unwrap_or(end + length);
+                let Crossing { zone, side } = crossing;
+                out.holds.push(Hold { zone, side, enter: at, leave });
+                clear = clear.max(end.min(merge.unwrap_or(f64::INFINITY)));
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    let Some(start) = first else { return false };
+    out.stop = start;
+    let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
+    out.extent = clear + length;
+    out.needed = length + SPARE_ROOM;
+    out.refuge = chain_at(scene, from, clear);
+    let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
+    out.room = room(scene, from, clear, limit);
+    true
+}
+
+/// The chain on the way on which the place `distance` ahead lies.
+fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> ChainIndex {
+    let (mut chain, mut end) = (from.chain, scene.network.chain(from.chain).length - from.x);
+    while end <= distance {
+        let Some(next) = scene.next(from.destination, chain) else { break };
+        chain = next;
+        end += scene.network.chain(chain).length;
+    }
+    chain
+}
+
+/// Room from `clear` on [m], to `limit` or the last vehicle that is out of the zones, where that can stop.
+fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
+    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+    let mut taken = scene.passages.kept_on(chain_at(scene, from, clear));
+    loop {
+        let lane = &scene.lanes[chain.at()];
+        for (motion, index) in lane.motions()[index..].iter().zip(index..) {
+            let rear = base + motion.rear();
+            if motion.id == from.id {
+                continue;
+            }
+            if rear >= clear {
+                let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
+                return stops_at.min(limit) - clear - taken;
+            }
+            if scene.passages.of(lane.minds()[index].passage, motion.id).is_none() {
+                taken += f64::from(motion.length) + SPARE_ROOM;
+            }
+        }
+        base += scene.network.chain(chain).length;
+        match scene.next(from.destination, chain) {
+            Some(next) if base < clear + ROOM_SIGHT => (chain, index) = (next, 0),
+            _ => break,
+        }
+    }
+    limit.min(clear + ROOM_SIGHT) - clear - taken
+}
