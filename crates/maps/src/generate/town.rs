@@ -18,11 +18,12 @@ const MOTORWAY: f64 = 120.0;
 const MOTORWAY_LANE: f64 = 3.5;
 /// From the middle of the motorway to its first lanes [m].
 const MEDIAN: f64 = 2.0;
-/// From where to where the motorway runs [m].
-const MOTORWAY_ENDS: [f64; 2] = [-1000.0, 1350.0];
+/// From where to where the motorway runs [m]. Its lanelets end nowhere below the edge of a bridge, so that whether they share
+/// ground with it is no matter of rounding.
+const MOTORWAY_ENDS: [f64; 2] = [-1020.0, 1365.0];
 /// From where to where its deceleration lane runs, and its acceleration lane [m].
-const DECELERATION: [f64; 2] = [-750.0, -500.0];
-const ACCELERATION: [f64; 2] = [800.0, 1050.0];
+const DECELERATION: [f64; 2] = [-760.0, -510.0];
+const ACCELERATION: [f64; 2] = [815.0, 1065.0];
 /// How high bridges lie above the motorway [m].
 const BRIDGE: f64 = 6.0;
 /// How far streets go on beyond the last junction [m].
