@@ -102,43 +102,28 @@ pub(super) struct Mouth {
 
 /// Draws a street along `path` between two ends, and returns what it is like there.
 pub(super) fn street(canvas: &mut Canvas, path: &Path, profile: &Profile, ends: [End; 2]) -> [Mouth; 2] {
-    let length = path.length();
-    let cuts = cuts(length, profile, &ends);
-    let mut shape = path.bends();
-    if profile.rise != 0.0 {
-        shape.extend((1..(length / SLOPE_STEP) as usize).map(|it| it as f64 * SLOPE_STEP));
-        shape.sort_by(f64::total_cmp);
-    }
+    let cuts = cuts(path.length(), profile, &ends);
     let last = cuts.len() - 1;
-    let mut rows: Vec<Vec<u32>> = Vec::with_capacity(cuts.len());
-    for (number, station) in cuts.iter().enumerate() {
-        let given: &[u32] = match (&ends, number) {
-            ([End::Road(points), _], 0) => points,
-            ([_, End::Road(points)], number) if number == last => points,
-            _ => &[],
-        };
-        let mut point = |line| point(canvas, path, profile, *station, line);
-        rows.push(
-            (0..profile.lines()).map(|it| given.get(it).copied().unwrap_or_else(|| point(it))).collect(),
-        );
-    }
-    let is_solid = |piece: usize| Solid {
-        along: ends[1] == End::Junction && piece + 1 == last,
-        against: ends[0] == End::Junction && piece == 0,
-    };
+    let mut draft = Draft { canvas, path, profile, shape: shape(path, profile) };
     let mut mouths = [Mouth::default(), Mouth::default()];
+    let mut row = draft.row(0.0, &ends[0]);
     for piece in 0..last {
-        // A point too near to the one before it would be a kink.
-        let between = |it: &&f64| **it > cuts[piece] + 1.0 && **it < cuts[piece + 1] - 1.0;
-        let shape: Vec<f64> = shape.iter().filter(between).copied().collect();
-        let rows = [&rows[piece], &rows[piece + 1]];
-        let [along, against] = lanelets(canvas, path, profile, rows, &shape, is_solid(piece));
-        if piece == 0 {
-            mouths[0] = Mouth { leaving: along.begin, arriving: against.end, across: rows[0].clone() };
+        let is_first = piece == 0;
+        let is_last = piece + 1 == last;
+        let stations = [cuts[piece], cuts[piece + 1]];
+        let next = draft.row(stations[1], if is_last { &ends[1] } else { &End::Open });
+        let solid = Solid {
+            along: is_last && ends[1] == End::Junction,
+            against: is_first && ends[0] == End::Junction,
+        };
+        let [begin, end] = draft.piece(stations, [&row, &next], solid);
+        if is_first {
+            mouths[0] = begin;
         }
-        if piece + 1 == last {
-            mouths[1] = Mouth { leaving: against.begin, arriving: along.end, across: rows[1].clone() };
+        if is_last {
+            mouths[1] = end;
         }
+        row = next;
     }
     mouths
 }
@@ -156,9 +141,14 @@ fn cuts(length: f64, profile: &Profile, ends: &[End; 2]) -> Vec<f64> {
     cuts
 }
 
-fn point(canvas: &mut Canvas, path: &Path, profile: &Profile, station: f64, line: usize) -> u32 {
-    let at = path.beside(station, profile.offset(line));
-    canvas.point(Point { z: at.z + profile.height(station, path.length()), ..at })
+/// Stations between its ends at which a street has points, to show its bends and slopes.
+fn shape(path: &Path, profile: &Profile) -> Vec<f64> {
+    let mut stations = path.bends();
+    if profile.rise != 0.0 {
+        stations.extend((1..(path.length() / SLOPE_STEP) as usize).map(|it| it as f64 * SLOPE_STEP));
+        stations.sort_by(f64::total_cmp);
+    }
+    stations
 }
 
 /// In which directions lanes are not changed.
@@ -168,47 +158,64 @@ struct Solid {
     against: bool,
 }
 
-/// Where the lanelets of one direction begin and end.
-struct Lanes {
-    begin: Vec<LaneEnd>,
-    end: Vec<LaneEnd>,
+/// A street that is being drawn.
+struct Draft<'a> {
+    canvas: &'a mut Canvas,
+    path: &'a Path,
+    profile: &'a Profile,
+    shape: Vec<f64>,
 }
 
-/// Draws the lanelets between two rows of points: along the path, and against it.
-fn lanelets(
-    canvas: &mut Canvas,
-    path: &Path,
-    profile: &Profile,
-    rows: [&Vec<u32>; 2],
-    shape: &[f64],
-    solid: Solid,
-) -> [Lanes; 2] {
-    let borders: Vec<u32> = (0..profile.lines())
-        .map(|line| {
+impl Draft<'_> {
+    /// The points across the street at `station`, where this is: those of the other road, if there is one, first.
+    fn row(&mut self, station: f64, end: &End) -> Vec<u32> {
+        let given: &[u32] = if let End::Road(points) = end { points } else { &[] };
+        let lines = 0..self.profile.lines();
+        lines.map(|it| given.get(it).copied().unwrap_or_else(|| self.point(station, it))).collect()
+    }
+
+    fn point(&mut self, station: f64, line: usize) -> u32 {
+        let at = self.path.beside(station, self.profile.offset(line));
+        let height = self.profile.height(station, self.path.length());
+        self.canvas.point(Point { z: at.z + height, ..at })
+    }
+
+    /// Draws the lanelets between two rows of points, and returns what the street is like there.
+    fn piece(&mut self, [from, to]: [f64; 2], rows: [&Vec<u32>; 2], solid: Solid) -> [Mouth; 2] {
+        // A point too near to the next one would be a kink.
+        const APART: f64 = 1.0;
+        let between = |it: &&f64| **it > from + APART && **it < to - APART;
+        let shape: Vec<f64> = self.shape.iter().filter(between).copied().collect();
+        let Profile { against, surroundings, limit_kmh, .. } = *self.profile;
+        let lines = self.profile.lines();
+        let mut border = |line: usize| {
             let mut points = vec![rows[0][line]];
-            points.extend(shape.iter().map(|it| point(canvas, path, profile, *it, line)));
+            points.extend(shape.iter().map(|it| self.point(*it, line)));
             points.push(rows[1][line]);
-            let is_solid = if line < profile.against { solid.against } else { solid.along };
-            let is_edge = [0, profile.against, profile.lines() - 1].contains(&line);
+            let is_solid = if line < against { solid.against } else { solid.along };
+            let is_edge = [0, against, lines - 1].contains(&line);
             let crossing = if is_edge || is_solid { Crossing::NEVER } else { Crossing::BOTH_WAYS };
-            canvas.line(points, crossing)
-        })
-        .collect();
-    let mut lanes = |lines: Vec<[usize; 2]>, reversed: bool| {
-        let mut drawn = Lanes { begin: Vec::new(), end: Vec::new() };
-        let [begin, end] = if reversed { [rows[1], rows[0]] } else { rows };
-        for [left, right] in lines {
+            self.canvas.line(points, crossing)
+        };
+        let borders: Vec<u32> = (0..lines).map(&mut border).collect();
+        let mut mouths = rows.map(|it| Mouth { across: it.clone(), ..Mouth::default() });
+        let mut lane = |[left, right]: [usize; 2], reversed: bool| {
             let edges = [left, right].map(|it| Edge { border: borders[it], reversed });
-            let lanelet = canvas.lane(edges, profile.surroundings, profile.limit_kmh);
-            let lane_end = |row: &[u32]| LaneEnd { lanelet, left: row[left], right: row[right] };
-            drawn.begin.push(lane_end(begin));
-            drawn.end.push(lane_end(end));
-        }
-        drawn
-    };
-    let along = lanes((profile.against..profile.lines() - 1).map(|it| [it, it + 1]).collect(), false);
-    let against = lanes((0..profile.against).rev().map(|it| [it + 1, it]).collect(), true);
-    [along, against]
+            let lanelet = self.canvas.lane(edges, surroundings, limit_kmh);
+            let [first, last] = rows.map(|row| LaneEnd { lanelet, left: row[left], right: row[right] });
+            let [begin, end] = &mut mouths;
+            if reversed {
+                begin.arriving.push(first);
+                end.leaving.push(last);
+            } else {
+                begin.leaving.push(first);
+                end.arriving.push(last);
+            }
+        };
+        (against..lines - 1).for_each(|it| lane([it, it + 1], false));
+        (0..against).rev().for_each(|it| lane([it + 1, it], true));
+        mouths
+    }
 }
 
 /// The pose at a place on the ground, east and north [m], in a direction [rad].
