@@ -9,8 +9,8 @@ use laneweave_maps::{generate, lanelet2};
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps");
     fs::create_dir_all(&folder)?;
-    for (name, motorway) in generate::own_maps() {
-        fs::write(folder.join(name), lanelet2::write(&generate::motorway(&motorway)?))?;
+    for (name, drawing) in generate::own_maps()? {
+        fs::write(folder.join(name), lanelet2::write(&drawing))?;
     }
     Ok(())
 }

@@ -27,8 +27,19 @@ pub struct Drawing {
 pub(crate) struct Border {
     /// Places in [`Drawing::points`].
     pub(crate) points: Vec<u32>,
+    /// What is to be seen of it.
+    pub(crate) paint: Paint,
     /// Who may cross it, seen along its points.
     pub(crate) crossing: Crossing,
+}
+
+/// What is to be seen of a border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Paint {
+    /// A line, or whatever else the road has there.
+    Painted,
+    /// Nothing: it stands in the map only.
+    Virtual,
 }
 
 /// In which directions a border may be crossed.
@@ -73,8 +84,21 @@ pub(crate) struct Lane {
     pub(crate) right: Edge,
     /// It may be used against its direction, too.
     pub(crate) is_two_way: bool,
+    /// What it runs through.
+    pub(crate) surroundings: Surroundings,
     /// Speed limit [km/h].
     pub(crate) limit_kmh: f64,
+}
+
+/// What a lane runs through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Surroundings {
+    /// A motorway with its ramps.
+    Motorway,
+    /// A town.
+    Town,
+    /// Open country.
+    Country,
 }
 
 /// Kilometres an hour in a metre a second.
@@ -122,6 +146,21 @@ impl Drawing {
         let network = Network::new(lanelets, self.driving_side)?;
         let rules = self.rules.clone();
         Ok(Map { network, graph, rules, contents: Contents::default(), problems, origin: None })
+    }
+
+    /// The mirror image, with y negated: left and right change places.
+    pub(crate) fn mirrored(mut self) -> Drawing {
+        let turn = |point: &mut Point| point.y = -point.y;
+        self.points.iter_mut().for_each(turn);
+        let lines = self.rules.iter_mut().flat_map(|it| it.stop_lines.iter_mut().chain(&mut it.signs));
+        lines.flatten().for_each(turn);
+        self.borders.iter_mut().for_each(|it| it.crossing = it.crossing.reversed());
+        self.lanes.iter_mut().for_each(|it| std::mem::swap(&mut it.left, &mut it.right));
+        self.driving_side = match self.driving_side {
+            DrivingSide::Left => DrivingSide::Right,
+            DrivingSide::Right => DrivingSide::Left,
+        };
+        self
     }
 
     /// The points at which a lane between these borders begins, on its left and on its right.

@@ -1,7 +1,7 @@
 //! No bytes make the reader panic.
 
-use laneweave_maps::generate::{Motorway, motorway};
-use laneweave_maps::{Map, ReadOptions, lanelet2};
+use laneweave_maps::generate::{Control, Grid, Motorway, Weaving, grid, motorway};
+use laneweave_maps::{Map, ReadOptions, check, lanelet2};
 use proptest::prelude::*;
 
 fn map() -> String {
@@ -81,6 +81,7 @@ proptest! {
         on_ramp_at in prop::collection::vec(0.0..9000.0_f64, 0..3),
         off_ramp_at in prop::collection::vec(0.0..9000.0_f64, 0..3),
         lane_drop_at in prop::option::of(0.0..9000.0_f64),
+        weaving in prop::option::of((0.0..9000.0_f64, 0.0..1200.0_f64)),
     ) {
         let wanted = Motorway {
             lanes,
@@ -91,15 +92,42 @@ proptest! {
             on_ramp_at,
             off_ramp_at,
             lane_drop_at,
+            weaving: weaving.map(|(from_m, length_m)| Weaving { from_m, length_m }),
             ..Motorway::default()
         };
         if let Ok(drawing) = motorway(&wanted) {
             let Map { network, problems, .. } = drawing.build().unwrap();
             prop_assert!(problems.is_empty());
-            prop_assert_eq!(network.entrances.len(), 1 + wanted.on_ramp_at.len());
-            prop_assert_eq!(network.exits.len(), 1 + wanted.off_ramp_at.len());
+            let weavings = usize::from(wanted.weaving.is_some());
+            prop_assert_eq!(network.entrances.len(), 1 + wanted.on_ramp_at.len() + weavings);
+            prop_assert_eq!(network.exits.len(), 1 + wanted.off_ramp_at.len() + weavings);
             let drops = usize::from(wanted.lane_drop_at.is_some()) + wanted.on_ramp_at.len();
             prop_assert_eq!(network.lane_drops.len(), drops);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_grid_is_drawn_or_refused(
+        (rows, columns, lanes) in (0_usize..4, 0_usize..4, 0_usize..5),
+        block_length_m in 60.0..400.0_f64,
+        limit in 0.0..150.0_f64,
+        control in prop::sample::select(vec![
+            Control::Signals, Control::Priority, Control::RightBeforeLeft, Control::AllWayStop,
+        ]),
+    ) {
+        let wanted =
+            Grid { rows, columns, lanes, block_length_m, speed_limit_kmh: limit, control, ..Grid::default() };
+        if let Ok(drawing) = grid(&wanted) {
+            let Map { network, problems, .. } = drawing.build().unwrap();
+            prop_assert!(problems.is_empty());
+            prop_assert_eq!(check(&network), vec![]);
+            prop_assert_eq!(network.entrances.len(), 2 * (rows + columns));
+            prop_assert_eq!(network.exits.len(), 2 * (rows + columns));
+            prop_assert!(network.lane_drops.is_empty());
         }
     }
 }

@@ -1,22 +1,36 @@
 //! `laneweave generate`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
 use laneweave::Fault;
-use laneweave::maps::generate::{Motorway, motorway};
-use laneweave::maps::{FORMATS, lanelet2};
+use laneweave::maps::generate::{
+    Arterial, Control, GenerateError, Grid, Motorway, approach, arterial, grid, motorway, roundabout, town,
+};
+use laneweave::maps::{Drawing, FORMATS, lanelet2};
 use laneweave::network::DrivingSide;
 use laneweave::output::write_whole;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Kind {
     /// A straight motorway, with ramps and a lane drop if you like.
-    Motorway(Arguments),
+    Motorway(MotorwayArguments),
+    /// A straight motorway on which an on-ramp is followed by an off-ramp, with a lane between them.
+    Weaving(WeavingArguments),
+    /// Streets that cross at right angles.
+    Grid(GridArguments),
+    /// A main street of two lanes in each direction, and streets of one lane that cross it at lights.
+    Arterial(ArterialArguments),
+    /// A roundabout of one lane with four arms.
+    Roundabout(Plain),
+    /// Three lanes before a junction: A leads left, B left and straight on, C straight on.
+    Approach(Plain),
+    /// A town with junctions of all kinds, and a motorway through it.
+    Town(Plain),
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct MotorwayArguments {
     /// Number of lanes.
     #[arg(long, value_name = "N", default_value_t = 3)]
     lanes: usize,
@@ -35,6 +49,67 @@ pub(crate) struct Arguments {
     /// Speed limit [km/h].
     #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true)]
     speed_limit: f64,
+    #[command(flatten)]
+    plain: Plain,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct WeavingArguments {
+    /// Number of lanes, without the one between the ramps.
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    lanes: usize,
+    /// From the on-ramp to the off-ramp [m].
+    #[arg(long, value_name = "M", default_value_t = 450.0, allow_negative_numbers = true)]
+    length: f64,
+    /// Speed limit [km/h].
+    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true)]
+    speed_limit: f64,
+    #[command(flatten)]
+    plain: Plain,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GridArguments {
+    /// Streets that run east and west.
+    #[arg(long, value_name = "R")]
+    rows: usize,
+    /// Streets that run north and south.
+    #[arg(long, value_name = "C")]
+    columns: usize,
+    /// From one junction to the next [m].
+    #[arg(long, value_name = "M", default_value_t = 150.0, allow_negative_numbers = true)]
+    block_length: f64,
+    /// Number of lanes in each direction.
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    lanes: usize,
+    /// Speed limit [km/h].
+    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true)]
+    speed_limit: f64,
+    /// What orders the traffic of the junctions; with priority the streets that run east and west go first.
+    #[arg(long, value_enum, default_value_t = Order::Signals)]
+    control: Order,
+    #[command(flatten)]
+    plain: Plain,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ArterialArguments {
+    /// Number of junctions.
+    #[arg(long, value_name = "N")]
+    junctions: usize,
+    /// From one junction to the next [m].
+    #[arg(long, value_name = "M", default_value_t = 300.0, allow_negative_numbers = true)]
+    block_length: f64,
+    /// Speed limit [km/h].
+    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true)]
+    speed_limit: f64,
+    #[command(flatten)]
+    plain: Plain,
+}
+
+/// What every map needs.
+#[derive(Debug, Args)]
+pub(crate) struct Plain {
     /// On which side traffic drives.
     #[arg(long, value_name = "SIDE", value_enum, default_value_t = Driving::Right)]
     driving_side: Driving,
@@ -48,33 +123,117 @@ enum Driving {
     Right,
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Order {
+    Signals,
+    Priority,
+    RightBeforeLeft,
+    AllWayStop,
+}
+
 impl Kind {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Kind::Motorway(arguments) = self;
-        let file = arguments.file;
-        let extension = file.extension().map_or("".into(), |it| it.to_string_lossy());
-        if !FORMATS.iter().any(|format| format.extensions.contains(&extension.as_ref())) {
-            let what = "this is no name of a map file";
-            return Err(Fault::new(file.display(), what, "let it end in .osm"));
-        }
-        let plan = Motorway {
-            lanes: arguments.lanes,
-            length_m: arguments.length,
-            speed_limit_kmh: arguments.speed_limit,
-            on_ramp_at: arguments.on_ramp_at,
-            off_ramp_at: arguments.off_ramp_at,
-            lane_drop_at: arguments.lane_drop_at,
-            driving_side: match arguments.driving_side {
-                Driving::Left => DrivingSide::Left,
-                Driving::Right => DrivingSide::Right,
-            },
-            ..Motorway::default()
+        let (name, plain) = match &self {
+            Kind::Motorway(it) => ("motorway", &it.plain),
+            Kind::Weaving(it) => ("weaving", &it.plain),
+            Kind::Grid(it) => ("grid", &it.plain),
+            Kind::Arterial(it) => ("arterial", &it.plain),
+            Kind::Roundabout(plain) => ("roundabout", plain),
+            Kind::Approach(plain) => ("approach", plain),
+            Kind::Town(plain) => ("town", plain),
         };
-        let drawing = motorway(&plan).map_err(|error| {
+        check_name(&plain.file)?;
+        let drawing = self.draw().map_err(|error| {
             let message = error.to_string();
             let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "choose another"));
-            Fault::new("generate motorway", what, remedy)
+            Fault::new(format!("generate {name}"), what, remedy)
         })?;
-        write_whole(&file, &lanelet2::write(&drawing))
+        write_whole(&plain.file, &lanelet2::write(&drawing))
+    }
+
+    fn draw(&self) -> Result<Drawing, GenerateError> {
+        match self {
+            Kind::Motorway(it) => it.draw(),
+            Kind::Weaving(it) => it.draw(),
+            Kind::Grid(it) => it.draw(),
+            Kind::Arterial(it) => it.draw(),
+            Kind::Roundabout(it) => Ok(roundabout(it.side())),
+            Kind::Approach(it) => Ok(approach(it.side())),
+            Kind::Town(it) => Ok(town(it.side())),
+        }
+    }
+}
+
+/// Refuses a file whose name is not that of a map.
+fn check_name(file: &Path) -> Result<(), Fault> {
+    let extension = file.extension().map_or("".into(), |it| it.to_string_lossy());
+    if FORMATS.iter().any(|format| format.extensions.contains(&extension.as_ref())) {
+        return Ok(());
+    }
+    Err(Fault::new(file.display(), "this is no name of a map file", "let it end in .osm"))
+}
+
+impl MotorwayArguments {
+    fn draw(&self) -> Result<Drawing, GenerateError> {
+        motorway(&Motorway {
+            lanes: self.lanes,
+            length_m: self.length,
+            speed_limit_kmh: self.speed_limit,
+            on_ramp_at: self.on_ramp_at.clone(),
+            off_ramp_at: self.off_ramp_at.clone(),
+            lane_drop_at: self.lane_drop_at,
+            driving_side: self.plain.side(),
+            ..Motorway::default()
+        })
+    }
+}
+
+impl WeavingArguments {
+    fn draw(&self) -> Result<Drawing, GenerateError> {
+        motorway(&Motorway {
+            lanes: self.lanes,
+            speed_limit_kmh: self.speed_limit,
+            driving_side: self.plain.side(),
+            ..Motorway::weaving(self.length)
+        })
+    }
+}
+
+impl GridArguments {
+    fn draw(&self) -> Result<Drawing, GenerateError> {
+        grid(&Grid {
+            rows: self.rows,
+            columns: self.columns,
+            lanes: self.lanes,
+            block_length_m: self.block_length,
+            speed_limit_kmh: self.speed_limit,
+            control: match self.control {
+                Order::Signals => Control::Signals,
+                Order::Priority => Control::Priority,
+                Order::RightBeforeLeft => Control::RightBeforeLeft,
+                Order::AllWayStop => Control::AllWayStop,
+            },
+            driving_side: self.plain.side(),
+        })
+    }
+}
+
+impl ArterialArguments {
+    fn draw(&self) -> Result<Drawing, GenerateError> {
+        arterial(&Arterial {
+            junctions: self.junctions,
+            block_length_m: self.block_length,
+            speed_limit_kmh: self.speed_limit,
+            driving_side: self.plain.side(),
+        })
+    }
+}
+
+impl Plain {
+    fn side(&self) -> DrivingSide {
+        match self.driving_side {
+            Driving::Left => DrivingSide::Left,
+            Driving::Right => DrivingSide::Right,
+        }
     }
 }

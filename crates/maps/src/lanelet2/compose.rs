@@ -1,41 +1,48 @@
 //! A drawing as the elements of a Lanelet2 map.
 
+use std::collections::HashMap;
+use std::fmt::Display;
+
+use laneweave_network::Point;
+
 use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Way};
 use super::projection::Utm;
-use super::rules::line_subtype;
-use crate::drawing::{Drawing, Lane};
+use super::rules::{line_subtype, subtype_and_location};
+use crate::drawing::{Border, Drawing, Lane, Paint};
+use crate::rule::{Rule, RuleKind};
 
 /// Where the origin of a drawing is put on the earth: latitude and longitude [°].
 const ORIGIN: (f64, f64) = (49.0, 8.4);
 
-/// The elements of a Lanelet2 map with the roads of this drawing.
+/// The elements of a Lanelet2 map with the roads and rules of this drawing.
 ///
 /// Nodes have exact metric coordinates (`local_x`, `local_y`, `ele`), and latitude and longitude for other programs,
-/// rounded to about a micrometre; these mean little further than some hundred kilometres from the origin. Lanelets keep
-/// their ids; borders and points get those that come after.
+/// rounded to about a micrometre; these mean little further than some hundred kilometres from the origin. Lanelets and
+/// rules keep their ids; all else gets those that come after.
 pub fn compose(drawing: &Drawing) -> Document<'static> {
-    let mut document = Document { driving_side: Some(drawing.driving_side), ..Document::default() };
-    let first_border = 1 + drawing.lanes.iter().map(|it| it.id).max().unwrap_or(0);
+    let document = Document { driving_side: Some(drawing.driving_side), ..Document::default() };
+    let ids = drawing.lanes.iter().map(|it| it.id).chain(drawing.rules.iter().map(|it| it.id));
+    let first_border = 1 + ids.max().unwrap_or(0);
     let first_point = first_border + drawing.borders.len() as i64;
-    let utm = Utm::around(ORIGIN.0, ORIGIN.1);
+    let next_id = first_point + drawing.points.len() as i64;
+    let mut composer = Composer { document, utm: Utm::around(ORIGIN.0, ORIGIN.1), next_id };
     for (point, id) in drawing.points.iter().zip(first_point..) {
-        let (latitude, longitude) = utm.map_or(ORIGIN, |it| it.inverse(point.x, point.y));
-        let [x, y, z] = [point.x, point.y, point.z].map(|it| it.to_string());
-        let tags = document.keep_tags(&[("local_x", &x), ("local_y", &y), ("ele", &z)]);
-        let [lat, lon] = [latitude, longitude].map(|it| Coordinate::new(rounded(it)));
-        document.nodes.push(Node { id, lat, lon, tags, ..Node::default() });
+        composer.node(id, point);
     }
     for (border, id) in drawing.borders.iter().zip(first_border..) {
-        let start = document.references.len();
-        document.references.extend(border.points.iter().map(|it| first_point + i64::from(*it)));
-        let nodes = Span::since(start, document.references.len());
-        let tags = document.keep_tags(&[("type", &"line_thin"), ("subtype", &line_subtype(border.crossing))]);
-        document.ways.push(Way { id, nodes, tags, ..Way::default() });
+        composer.border(id, border, first_point);
+    }
+    let mut heeded: HashMap<i64, Vec<i64>> = HashMap::new();
+    for rule in &drawing.rules {
+        rule.lanelets.iter().for_each(|it| heeded.entry(*it).or_default().push(rule.id));
     }
     for lane in &drawing.lanes {
-        document.lane(lane, first_border);
+        composer.lane(lane, first_border, heeded.get(&lane.id).map_or(&[], |it| it));
     }
-    document
+    for rule in &drawing.rules {
+        composer.rule(rule);
+    }
+    composer.document
 }
 
 /// An angle to eleven decimals, a micrometre on the ground.
@@ -43,23 +50,146 @@ fn rounded(degrees: f64) -> f64 {
     (degrees * 1e11).round() / 1e11
 }
 
-impl Document<'static> {
-    fn lane(&mut self, lane: &Lane, first_border: i64) {
-        let start = self.members.len();
-        for (edge, role) in [(lane.left, "left"), (lane.right, "right")] {
-            let (kind, role) = (self.keep("way"), self.keep(role));
-            self.members.push(Member { id: first_border + i64::from(edge.border), kind, role });
+/// A document that grows.
+struct Composer {
+    document: Document<'static>,
+    utm: Option<Utm>,
+    /// The id of the next element that has none of its own.
+    next_id: i64,
+}
+
+impl Composer {
+    fn node(&mut self, id: i64, point: &Point) {
+        let (latitude, longitude) = self.utm.map_or(ORIGIN, |it| it.inverse(point.x, point.y));
+        let [x, y, z] = [point.x, point.y, point.z].map(|it| it.to_string());
+        let tags = self.document.keep_tags(&[("local_x", &x), ("local_y", &y), ("ele", &z)]);
+        let [lat, lon] = [latitude, longitude].map(|it| Coordinate::new(rounded(it)));
+        self.document.nodes.push(Node { id, lat, lon, tags, ..Node::default() });
+    }
+
+    fn border(&mut self, id: i64, border: &Border, first_point: i64) {
+        let nodes = border.points.iter().map(|it| first_point + i64::from(*it));
+        match border.paint {
+            Paint::Painted => {
+                let subtype = line_subtype(border.crossing);
+                self.way(id, nodes, &[("type", &"line_thin"), ("subtype", &subtype)]);
+            }
+            Paint::Virtual => self.way(id, nodes, &[("type", &"virtual")]),
         }
-        let members = Span::since(start, self.members.len());
+    }
+
+    fn way(&mut self, id: i64, nodes: impl Iterator<Item = i64>, tags: &[(&str, &dyn Display)]) {
+        let start = self.document.references.len();
+        self.document.references.extend(nodes);
+        let nodes = Span::since(start, self.document.references.len());
+        let tags = self.document.keep_tags(tags);
+        self.document.ways.push(Way { id, nodes, tags, ..Way::default() });
+    }
+
+    /// Adds a way through points of its own, and returns its id.
+    fn own_way(&mut self, points: &[Point], tags: &[(&str, &dyn Display)]) -> i64 {
+        let first = self.next_id;
+        for (point, id) in points.iter().zip(first..) {
+            self.node(id, point);
+        }
+        let id = first + points.len() as i64;
+        self.next_id = id + 1;
+        self.way(id, first..id, tags);
+        id
+    }
+
+    fn lane(&mut self, lane: &Lane, first_border: i64, rules: &[i64]) {
+        let border = |border: u32| first_border + i64::from(border);
+        let sides = [("way", border(lane.left.border), "left"), ("way", border(lane.right.border), "right")];
+        let rules = rules.iter().map(|it| ("relation", *it, "regulatory_element"));
         let one_way = if lane.is_two_way { "no" } else { "yes" };
-        let tags = self.keep_tags(&[
+        let (subtype, location) = subtype_and_location(lane.surroundings);
+        let tags: [(&str, &dyn Display); 6] = [
             ("type", &"lanelet"),
-            ("subtype", &"highway"),
-            ("location", &"nonurban"),
+            ("subtype", &subtype),
+            ("location", &location),
             ("one_way", &one_way),
             ("participant:vehicle", &"yes"),
             ("speed_limit", &lane.limit_kmh),
-        ]);
-        self.relations.push(Relation { id: lane.id, members, tags, ..Relation::default() });
+        ];
+        self.relation(lane.id, sides.into_iter().chain(rules), &tags);
+    }
+
+    fn rule(&mut self, rule: &Rule) {
+        let (subtype, sign): (&str, &[(&str, &dyn Display)]) = match &rule.kind {
+            RuleKind::TrafficLight => {
+                ("traffic_light", &[("type", &"traffic_light"), ("subtype", &"red_yellow_green")])
+            }
+            RuleKind::StopSign => ("traffic_sign", &[("type", &"traffic_sign"), ("subtype", &"stop_sign")]),
+            other => (other.name(), &[("type", &"traffic_sign")]),
+        };
+        let mut members: Vec<(&str, i64, &str)> = Vec::new();
+        for line in &rule.stop_lines {
+            members.push(("way", self.own_way(line, &[("type", &"stop_line")]), "ref_line"));
+        }
+        for points in &rule.signs {
+            members.push(("way", self.own_way(points, sign), "refers"));
+        }
+        let named: [(&[i64], &str); 2] = match &rule.kind {
+            RuleKind::RightOfWay { first, yielding } => [(first, "right_of_way"), (yielding, "yield")],
+            RuleKind::AllWayStop { lanelets } => [(lanelets, "yield"), (&[], "")],
+            RuleKind::Crosswalk { lanelets } => [(lanelets, "refers"), (&[], "")],
+            _ => [(&[], ""); 2],
+        };
+        for (lanelets, role) in named {
+            members.extend(lanelets.iter().map(|it| ("relation", *it, role)));
+        }
+        let tags: [(&str, &dyn Display); 2] = [("type", &"regulatory_element"), ("subtype", &subtype)];
+        self.relation(rule.id, members.into_iter(), &tags);
+    }
+
+    /// Adds a relation with members of a kind in a role.
+    fn relation<'a>(
+        &mut self,
+        id: i64,
+        members: impl Iterator<Item = (&'a str, i64, &'a str)>,
+        tags: &[(&str, &dyn Display)],
+    ) {
+        let start = self.document.members.len();
+        for (kind, id, role) in members {
+            let (kind, role) = (self.document.keep(kind), self.document.keep(role));
+            self.document.members.push(Member { id, kind, role });
+        }
+        let members = Span::since(start, self.document.members.len());
+        let tags = self.document.keep_tags(tags);
+        self.document.relations.push(Relation { id, members, tags, ..Relation::default() });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ReadOptions;
+    use crate::generate::{Motorway, motorway};
+
+    #[test]
+    fn rules_of_all_kinds_are_read_again_as_they_were() {
+        let line = |x: f64, z: f64| vec![vec![Point::new(x, -3.5, z), Point::new(x, 0.0, z)]];
+        let kinds = [
+            RuleKind::TrafficLight,
+            RuleKind::RightOfWay { first: vec![1, 3], yielding: vec![2] },
+            RuleKind::AllWayStop { lanelets: vec![1, 2] },
+            RuleKind::StopSign,
+            RuleKind::Crosswalk { lanelets: vec![4] },
+            RuleKind::Other("virtual_stop".into()),
+        ];
+        let rules = kinds.into_iter().zip(100..).map(|(kind, id)| {
+            let (stop_lines, signs) = (line(id as f64, 0.0), line(id as f64, 5.0));
+            Rule { id, line: None, kind, lanelets: vec![1, 2], stop_lines, signs }
+        });
+        let drawing = Drawing {
+            rules: rules.collect(),
+            ..motorway(&Motorway { length_m: 300.0, ..Motorway::default() }).unwrap()
+        };
+        let map =
+            crate::lanelet2::read(compose(&drawing).write().as_bytes(), &ReadOptions::default()).unwrap();
+        assert_eq!(map.problems, []);
+        let read: Vec<Rule> = map.rules.into_iter().map(|it| Rule { line: None, ..it }).collect();
+        assert_eq!(read, drawing.rules);
     }
 }

@@ -57,7 +57,9 @@ pub(super) fn draw(
             Ok([left, right]) => {
                 let limit_kmh = speed_rules.limit(relation, options.law, problems);
                 let line = Some(relation.line as usize);
-                draft.drawing.lanes.push(Lane { id: relation.id, line, left, right, is_two_way, limit_kmh });
+                let (id, surroundings) = (relation.id, rules::surroundings(document.tags(relation.tags)));
+                let lane = Lane { id, line, left, right, is_two_way, surroundings, limit_kmh };
+                draft.drawing.lanes.push(lane);
             }
             Err((what, remedy)) => problems.push(of_lanelet((format!("{what}, so it is left out"), remedy))),
         }
@@ -135,8 +137,9 @@ impl Draft<'_> {
         }
         let points = nodes.iter().map(|id| self.point(way, *id)).collect::<Result<_, _>>()?;
         let border = self.drawing.borders.len() as u32;
-        let crossing = rules::crossing(self.document.tags(way.tags));
-        self.drawing.borders.push(Border { points, crossing });
+        let tags = self.document.tags(way.tags);
+        let (paint, crossing) = (rules::paint(tags), rules::crossing(tags));
+        self.drawing.borders.push(Border { points, paint, crossing });
         self.borders[place] = border;
         Ok(border)
     }

@@ -4,7 +4,7 @@
 
 use super::draw::Flaw;
 use super::osm::Tags;
-use crate::drawing::Crossing;
+use crate::drawing::{Crossing, Paint, Surroundings};
 
 /// The tags that allow, or forbid, a lanelet to cars; the first that is given decides.
 const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle"];
@@ -46,6 +46,29 @@ pub(super) fn is_for_cars(lanelet: Tags) -> bool {
 /// Whether cars may use a lanelet with these tags against its direction, too.
 pub(super) fn is_two_way(lanelet: Tags) -> bool {
     ONE_WAY.into_iter().find_map(|key| flag(lanelet, key)).is_some_and(|one_way| !one_way)
+}
+
+/// What a lanelet with these tags runs through. Without a location it is a town.
+pub(super) fn surroundings(lanelet: Tags) -> Surroundings {
+    match (lanelet.get("subtype"), lanelet.get("location")) {
+        (Some("highway"), _) => Surroundings::Motorway,
+        (_, Some("nonurban")) => Surroundings::Country,
+        _ => Surroundings::Town,
+    }
+}
+
+/// The tags `subtype` and `location` with which [`surroundings`] gives these again.
+pub(super) fn subtype_and_location(surroundings: Surroundings) -> (&'static str, &'static str) {
+    match surroundings {
+        Surroundings::Motorway => ("highway", "nonurban"),
+        Surroundings::Town => ("road", "urban"),
+        Surroundings::Country => ("road", "nonurban"),
+    }
+}
+
+/// What is to be seen of a border with these tags.
+pub(super) fn paint(border: Tags) -> Paint {
+    if border.is("type", "virtual") { Paint::Virtual } else { Paint::Painted }
 }
 
 /// Who may cross a border with these tags, seen along its points.
@@ -202,6 +225,15 @@ mod tests {
             |key, value| with_tags([("type", "line_thin"), (key, value)], |it| flaws_of_border(it).len());
         assert_eq!([border("subtype", "dahsed"), border("subtype", "dashed")], [1, 0]);
         assert_eq!([border("lane_change", "maybe"), border("lane_change:left", "yes")], [1, 0]);
+    }
+
+    #[test]
+    fn all_surroundings_have_tags_to_write() {
+        for wanted in [Surroundings::Motorway, Surroundings::Town, Surroundings::Country] {
+            let (subtype, location) = subtype_and_location(wanted);
+            assert_eq!(with_tags([("subtype", subtype), ("location", location)], surroundings), wanted);
+        }
+        assert_eq!(with_tags([], surroundings), Surroundings::Town);
     }
 
     #[test]

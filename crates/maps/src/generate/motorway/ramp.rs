@@ -11,11 +11,12 @@ const OFFSET: f64 = 15.0;
 /// Speed limit on ramps [km/h].
 pub(super) const SPEED_LIMIT: f64 = 80.0;
 
-/// A ramp that meets the road at `at` [m].
+/// A ramp, and the lane beside the road that it becomes or comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ramp {
     pub(super) direction: Direction,
-    pub(super) at: f64,
+    /// Where its acceleration or deceleration lane begins and ends [m].
+    pub(super) lane: [f64; 2],
 }
 
 /// Whether a ramp leads onto the road or off it.
@@ -26,19 +27,29 @@ pub(super) enum Direction {
 }
 
 impl Ramp {
-    /// Where its acceleration or deceleration lane begins and ends [m].
-    pub(super) fn lane(&self) -> (f64, f64) {
+    /// A ramp that meets the road, or leaves it, at a station [m], with a lane of the usual length.
+    pub(super) fn usual(direction: Direction, at: f64) -> Ramp {
+        let lane = match direction {
+            Direction::On => [at, at + LANE],
+            Direction::Off => [at - LANE, at],
+        };
+        Ramp { direction, lane }
+    }
+
+    /// Where it meets the road, or leaves it [m].
+    pub(super) fn at(&self) -> f64 {
         match self.direction {
-            Direction::On => (self.at, self.at + LANE),
-            Direction::Off => (self.at - LANE, self.at),
+            Direction::On => self.lane[0],
+            Direction::Off => self.lane[1],
         }
     }
 
     /// Where all of it begins and ends [m].
-    pub(super) fn extent(&self) -> (f64, f64) {
+    pub(super) fn extent(&self) -> [f64; 2] {
+        let [from, to] = self.lane;
         match self.direction {
-            Direction::On => (self.at - LENGTH, self.at + LANE),
-            Direction::Off => (self.at - LANE, self.at + LENGTH),
+            Direction::On => [from - LENGTH, to],
+            Direction::Off => [from, to + LENGTH],
         }
     }
 
@@ -49,9 +60,9 @@ impl Ramp {
             Direction::On => 1.0 - fraction,
             Direction::Off => fraction,
         };
-        let (start, _) = match self.direction {
-            Direction::On => self.extent(),
-            Direction::Off => (self.at, self.at + LENGTH),
+        let start = match self.direction {
+            Direction::On => self.at() - LENGTH,
+            Direction::Off => self.at(),
         };
         (start + LENGTH * fraction, OFFSET * away * away)
     }
@@ -63,7 +74,7 @@ impl fmt::Display for Ramp {
             Direction::On => "on-ramp",
             Direction::Off => "off-ramp",
         };
-        write!(f, "{name} at {} m", self.at)
+        write!(f, "{name} at {} m", self.at())
     }
 }
 
@@ -73,8 +84,7 @@ mod tests {
 
     #[test]
     fn a_ramp_meets_the_road_at_its_edge_and_parallel_to_it() {
-        let on = Ramp { direction: Direction::On, at: 1000.0 };
-        let off = Ramp { direction: Direction::Off, at: 1000.0 };
+        let [on, off] = [Direction::On, Direction::Off].map(|it| Ramp::usual(it, 1000.0));
         assert_eq!((on.point(0.0), on.point(1.0)), ((800.0, 15.0), (1000.0, 0.0)));
         assert_eq!((off.point(0.0), off.point(1.0)), ((1000.0, 0.0), (1200.0, 15.0)));
         let (station, beside) = on.point(0.999);

@@ -1,52 +1,45 @@
 //! Drawing the rows and ramps of a motorway. Lines count from the outer edge of the slow lane towards the
 //! fast side.
 
-use laneweave_network::{DrivingSide, Point};
+use laneweave_network::Point;
 
 use super::Motorway;
 use super::plan::Plan;
 use super::ramp::{self, Direction, Ramp};
-use crate::drawing::{Border, Crossing, Drawing, Edge, Lane};
+use crate::drawing::{Crossing, Drawing, Edge, Surroundings};
+use crate::generate::canvas::Canvas;
 
 /// A motorway that is being drawn.
 pub(super) struct Sketch<'a> {
     motorway: &'a Motorway,
     plan: &'a Plan,
     columns: Vec<Column>,
-    pub(super) drawing: Drawing,
+    canvas: Canvas,
 }
 
 /// The points of one station: one on each line from `outer` to the fast edge.
 struct Column {
     outer: i32,
-    first: u32,
+    points: Vec<u32>,
 }
 
 impl Column {
     fn point(&self, line: i32) -> u32 {
-        self.first + (line - self.outer) as u32
+        self.points[(line - self.outer) as usize]
     }
 }
 
 impl<'a> Sketch<'a> {
     /// The points of all stations.
     pub(super) fn new(motorway: &'a Motorway, plan: &'a Plan) -> Sketch<'a> {
-        let drawing = Drawing {
-            points: Vec::new(),
-            borders: Vec::new(),
-            lanes: Vec::new(),
-            rules: Vec::new(),
-            driving_side: motorway.driving_side,
-        };
-        let mut sketch = Sketch { motorway, plan, columns: Vec::new(), drawing };
+        let mut sketch = Sketch { motorway, plan, columns: Vec::new(), canvas: Canvas::new() };
         for (station, x) in plan.stations.iter().enumerate() {
             let rows = station.saturating_sub(1)..(station + 1).min(plan.rows());
             let outer = rows.map(|row| plan.outer_line(row)).min().unwrap_or(0);
-            let first = sketch.drawing.points.len() as u32;
-            for line in outer..=sketch.fast_line() {
-                sketch.point(*x, f64::from(line) * motorway.lane_width_m);
-            }
-            sketch.columns.push(Column { outer, first });
+            let lines = outer..=sketch.fast_line();
+            let points =
+                lines.map(|line| sketch.point(*x, f64::from(line) * motorway.lane_width_m)).collect();
+            sketch.columns.push(Column { outer, points });
         }
         sketch
     }
@@ -54,14 +47,14 @@ impl<'a> Sketch<'a> {
     /// Draws the lanelets between two stations.
     pub(super) fn row(&mut self, row: usize) {
         let (outer, fast) = (self.plan.outer_line(row), self.fast_line());
-        let first = self.drawing.borders.len() as u32;
-        for line in outer..=fast {
+        let mut border = |line| {
             let points = vec![self.columns[row].point(line), self.columns[row + 1].point(line)];
             let is_edge = line == outer || line == fast;
-            self.border(points, if is_edge { Crossing::NEVER } else { Crossing::BOTH_WAYS });
-        }
-        for slow_side in first..first + (fast - outer) as u32 {
-            self.lane(slow_side, slow_side + 1, self.motorway.speed_limit_kmh);
+            self.canvas.line(points, if is_edge { Crossing::NEVER } else { Crossing::BOTH_WAYS })
+        };
+        let borders: Vec<u32> = (outer..=fast).map(&mut border).collect();
+        for sides in borders.windows(2) {
+            self.lane(sides[0], sides[1], self.motorway.speed_limit_kmh);
         }
     }
 
@@ -72,15 +65,15 @@ impl<'a> Sketch<'a> {
         let pieces = (ramp::LENGTH / self.motorway.lanelet_length_m).round().max(1.0);
         let segments = (SEGMENTS / pieces).ceil() as usize;
         let pieces = pieces as usize;
-        let station = self.plan.station(ramp.at);
+        let station = self.plan.station(ramp.at());
         let edge = self.plan.slow_line(station);
         let outer = self.ramp_line(ramp, station, edge - 1, pieces * segments);
         let inner = self.ramp_line(ramp, station, edge, pieces * segments);
         let limit = self.motorway.speed_limit_kmh.min(ramp::SPEED_LIMIT);
         for piece in 0..pieces {
             let points = piece * segments..=(piece + 1) * segments;
-            let slow_side = self.border(outer[points.clone()].to_vec(), Crossing::NEVER);
-            let fast_side = self.border(inner[points].to_vec(), Crossing::NEVER);
+            let slow_side = self.canvas.line(outer[points.clone()].to_vec(), Crossing::NEVER);
+            let fast_side = self.canvas.line(inner[points].to_vec(), Crossing::NEVER);
             self.lane(slow_side, fast_side, limit);
         }
     }
@@ -108,29 +101,18 @@ impl<'a> Sketch<'a> {
         self.motorway.lanes as i32
     }
 
-    /// Adds a point `y` to the fast side of the road's outer edge, to the millimetre.
+    /// Adds a point `y` to the fast side of the road's outer edge.
     fn point(&mut self, x: f64, y: f64) -> u32 {
-        let rounded = |metres: f64| (metres * 1000.0).round() / 1000.0;
-        let y = match self.motorway.driving_side {
-            DrivingSide::Right => rounded(y),
-            DrivingSide::Left => -rounded(y),
-        };
-        self.drawing.points.push(Point::new(rounded(x), y, 0.0));
-        self.drawing.points.len() as u32 - 1
-    }
-
-    fn border(&mut self, points: Vec<u32>, crossing: Crossing) -> u32 {
-        self.drawing.borders.push(Border { points, crossing });
-        self.drawing.borders.len() as u32 - 1
+        self.canvas.point(Point::new(x, y, 0.0))
     }
 
     fn lane(&mut self, slow_side: u32, fast_side: u32, limit_kmh: f64) {
-        let [slow_side, fast_side] = [slow_side, fast_side].map(|border| Edge { border, reversed: false });
-        let (left, right) = match self.motorway.driving_side {
-            DrivingSide::Right => (fast_side, slow_side),
-            DrivingSide::Left => (slow_side, fast_side),
-        };
-        let id = self.drawing.lanes.len() as i64 + 1;
-        self.drawing.lanes.push(Lane { id, line: None, left, right, is_two_way: false, limit_kmh });
+        let [left, right] = [fast_side, slow_side].map(|border| Edge { border, reversed: false });
+        self.canvas.lane([left, right], Surroundings::Motorway, limit_kmh);
+    }
+
+    /// The drawing of all that was drawn.
+    pub(super) fn finish(self) -> Drawing {
+        self.canvas.finish(self.motorway.driving_side)
     }
 }

@@ -1,14 +1,19 @@
 //! The plan of a motorway: what fits on it, and where its rows of lanelets are cut.
 
-use super::ramp::{Direction, Ramp};
-use super::{GenerateError, Motorway};
+use std::fmt;
+
+use super::ramp::{self, Direction, Ramp};
+use super::{Motorway, Weaving};
+use crate::generate::error::{GenerateError, check_count, check_range};
 
 /// Wider roads are not built.
-pub(super) const MAXIMUM_LANES: usize = 12;
+const MAXIMUM_LANES: usize = 12;
 /// Ramps, lane drops and the ends of the road keep this distance, so that no row is shorter [m].
 const CLEARANCE: f64 = 10.0;
 /// Shorter roads have no ramps [m].
 const SHORTEST_WITH_RAMPS: f64 = 500.0;
+/// Between these lengths a weaving section may be [m]. Ours.
+const WEAVING_LENGTHS: [f64; 2] = [100.0, 1000.0];
 /// More lanelets than this are a mistake.
 const MAXIMUM_LANELETS: f64 = 5e6;
 
@@ -25,12 +30,11 @@ pub(super) struct Plan {
 impl Plan {
     pub(super) fn of(motorway: &Motorway) -> Result<Plan, GenerateError> {
         check_numbers(motorway)?;
-        let ramp = |direction| move |at: &f64| Ramp { direction, at: *at };
-        let on = motorway.on_ramp_at.iter().map(ramp(Direction::On));
-        let mut ramps: Vec<Ramp> = on.chain(motorway.off_ramp_at.iter().map(ramp(Direction::Off))).collect();
-        ramps.sort_by(|a, b| a.at.total_cmp(&b.at));
+        let mut features = Feature::all(motorway);
+        features.sort_by(|a, b| a.extent()[0].total_cmp(&b.extent()[0]));
+        check_places(&features, motorway.length_m)?;
+        let ramps = features.iter().flat_map(Feature::ramps).collect();
         let plan = Plan { stations: Vec::new(), ramps, lane_drop: motorway.lane_drop_at };
-        plan.check_places(motorway)?;
         Ok(Plan { stations: plan.stations(motorway), ..plan })
     }
 
@@ -47,7 +51,7 @@ impl Plan {
     /// The outermost line of `row`: beyond the slow lane's where an acceleration or deceleration lane runs.
     pub(super) fn outer_line(&self, row: usize) -> i32 {
         let middle = (self.stations[row] + self.stations[row + 1]) / 2.0;
-        let has_lane = self.ramps.iter().map(Ramp::lane).any(|(from, to)| from < middle && middle < to);
+        let has_lane = self.ramps.iter().any(|it| it.lane[0] < middle && middle < it.lane[1]);
         self.slow_line(row) - i32::from(has_lane)
     }
 
@@ -56,36 +60,13 @@ impl Plan {
         self.stations.partition_point(|it| *it < x)
     }
 
-    fn check_places(&self, motorway: &Motorway) -> Result<(), GenerateError> {
-        let mut taken: Vec<(String, f64, f64)> = self
-            .ramps
-            .iter()
-            .map(|ramp| (ramp.to_string(), ramp.extent().0, ramp.extent().1))
-            .chain(self.lane_drop.map(|at| (format!("lane drop at {at} m"), at, at)))
-            .collect();
-        taken.sort_by(|a, b| a.1.total_cmp(&b.1));
-        for (what, from, to) in &taken {
-            // Written so that numbers that are none are refused.
-            if !(*from >= CLEARANCE && *to <= motorway.length_m - CLEARANCE) {
-                return Err(GenerateError::OutsideRoad {
-                    what: what.clone(),
-                    from: *from,
-                    to: *to,
-                    length: motorway.length_m,
-                });
-            }
-        }
-        match taken.windows(2).find(|pair| pair[1].1 - pair[0].2 < CLEARANCE) {
-            Some(pair) => Err(GenerateError::Overlap(pair[0].0.clone(), pair[1].0.clone())),
-            None => Ok(()),
-        }
-    }
-
     fn stations(&self, motorway: &Motorway) -> Vec<f64> {
         let mut cuts = vec![0.0, motorway.length_m];
         cuts.extend(self.lane_drop);
-        cuts.extend(self.ramps.iter().flat_map(|ramp| [ramp.lane().0, ramp.lane().1]));
+        cuts.extend(self.ramps.iter().flat_map(|ramp| ramp.lane));
         cuts.sort_by(f64::total_cmp);
+        // Both ramps of a weaving section have the same lane.
+        cuts.dedup();
         let mut stations = vec![0.0];
         for pair in cuts.windows(2) {
             let (from, to) = (pair[0], pair[1]);
@@ -97,11 +78,76 @@ impl Plan {
     }
 }
 
-fn check_numbers(motorway: &Motorway) -> Result<(), GenerateError> {
-    if !(1..=MAXIMUM_LANES).contains(&motorway.lanes) {
-        return Err(GenerateError::Lanes(motorway.lanes));
+/// What takes room on the road.
+enum Feature {
+    Ramp(Ramp),
+    /// An on-ramp and an off-ramp with one lane between them.
+    Weaving(Weaving),
+    LaneDrop(f64),
+}
+
+impl Feature {
+    fn all(motorway: &Motorway) -> Vec<Feature> {
+        let ramp = |direction| move |at: &f64| Feature::Ramp(Ramp::usual(direction, *at));
+        let on = motorway.on_ramp_at.iter().map(ramp(Direction::On));
+        let off = motorway.off_ramp_at.iter().map(ramp(Direction::Off));
+        let weaving = motorway.weaving.iter().map(|it| Feature::Weaving(*it));
+        let lane_drop = motorway.lane_drop_at.map(Feature::LaneDrop);
+        on.chain(off).chain(weaving).chain(lane_drop).collect()
     }
-    let has_ramps = !(motorway.on_ramp_at.is_empty() && motorway.off_ramp_at.is_empty());
+
+    fn ramps(&self) -> Vec<Ramp> {
+        match *self {
+            Feature::Ramp(ramp) => vec![ramp],
+            Feature::Weaving(Weaving { from_m, length_m }) => {
+                let lane = [from_m, from_m + length_m];
+                vec![Ramp { direction: Direction::On, lane }, Ramp { direction: Direction::Off, lane }]
+            }
+            Feature::LaneDrop(_) => Vec::new(),
+        }
+    }
+
+    /// Where it begins and ends [m].
+    fn extent(&self) -> [f64; 2] {
+        match *self {
+            Feature::Ramp(ramp) => ramp.extent(),
+            Feature::Weaving(Weaving { from_m, length_m }) => {
+                [from_m - ramp::LENGTH, from_m + length_m + ramp::LENGTH]
+            }
+            Feature::LaneDrop(at) => [at, at],
+        }
+    }
+}
+
+impl fmt::Display for Feature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Feature::Ramp(ramp) => ramp.fmt(f),
+            Feature::Weaving(Weaving { from_m, .. }) => write!(f, "weaving section at {from_m} m"),
+            Feature::LaneDrop(at) => write!(f, "lane drop at {at} m"),
+        }
+    }
+}
+
+/// Refuses features, in order along the road, that do not fit on it or get in each other's way.
+fn check_places(features: &[Feature], length: f64) -> Result<(), GenerateError> {
+    for feature in features {
+        let [from, to] = feature.extent();
+        // Written so that numbers that are none are refused.
+        if !(from >= CLEARANCE && to <= length - CLEARANCE) {
+            return Err(GenerateError::OutsideRoad { what: feature.to_string(), from, to, length });
+        }
+    }
+    match features.windows(2).find(|pair| pair[1].extent()[0] - pair[0].extent()[1] < CLEARANCE) {
+        Some(pair) => Err(GenerateError::Overlap(pair[0].to_string(), pair[1].to_string())),
+        None => Ok(()),
+    }
+}
+
+fn check_numbers(motorway: &Motorway) -> Result<(), GenerateError> {
+    check_count("lanes", motorway.lanes, [1, MAXIMUM_LANES])?;
+    let has_ramps =
+        !(motorway.on_ramp_at.is_empty() && motorway.off_ramp_at.is_empty() && motorway.weaving.is_none());
     let shortest = if has_ramps { SHORTEST_WITH_RAMPS } else { CLEARANCE };
     let ranges = [
         ("a length", motorway.length_m, "m", shortest, 4e7),
@@ -110,9 +156,10 @@ fn check_numbers(motorway: &Motorway) -> Result<(), GenerateError> {
         ("a lanelet length", motorway.lanelet_length_m, "m", CLEARANCE, 1000.0),
     ];
     for (what, value, unit, from, to) in ranges {
-        if !(from..=to).contains(&value) {
-            return Err(GenerateError::OutOfRange { what, value, unit, from, to });
-        }
+        check_range(what, value, unit, [from, to])?;
+    }
+    if let Some(Weaving { length_m, .. }) = motorway.weaving {
+        check_range("a weaving section", length_m, "m", WEAVING_LENGTHS)?;
     }
     let lanelets = motorway.length_m / motorway.lanelet_length_m * motorway.lanes as f64;
     if lanelets > MAXIMUM_LANELETS {
@@ -136,8 +183,8 @@ mod tests {
 
     #[test]
     fn numbers_out_of_range_are_refused_with_the_range() {
-        assert_eq!(refusal(|it| it.lanes = 0), "a motorway of 0 lanes; choose 1 to 12");
-        assert_eq!(refusal(|it| it.lanes = 13), "a motorway of 13 lanes; choose 1 to 12");
+        assert_eq!(refusal(|it| it.lanes = 0), "0 lanes; choose 1 to 12");
+        assert_eq!(refusal(|it| it.lanes = 13), "13 lanes; choose 1 to 12");
         assert_eq!(refusal(|it| it.length_m = -1.0), "a length of -1 m; choose 10 to 40000000 m");
         assert_eq!(
             refusal(|it| it.speed_limit_kmh = f64::NAN),
@@ -174,6 +221,19 @@ mod tests {
         assert!(
             refusal(|it| (it.on_ramp_at, it.lane_drop_at) = (vec![1000.0], Some(1100.0))).contains("overlap")
         );
+    }
+
+    #[test]
+    fn a_weaving_section_takes_room_for_both_of_its_ramps() {
+        let weaving = |from_m, length_m| {
+            refusal(|it| (it.length_m, it.weaving) = (2000.0, Some(Weaving { from_m, length_m })))
+        };
+        assert_eq!(
+            weaving(1500.0, 400.0),
+            "the weaving section at 1500 m takes the road from 1300 m to 2100 m, of 2000 m; move it or lengthen the road"
+        );
+        assert_eq!(weaving(800.0, 50.0), "a weaving section of 50 m; choose 100 to 1000 m");
+        assert!(weaving(f64::NAN, 400.0).contains("takes the road"));
     }
 
     #[test]

@@ -1,0 +1,102 @@
+//! Roundabouts: a ring of one lane, around which traffic on the right drives counter-clockwise.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
+
+use laneweave_network::{DrivingSide, Point, Pose};
+
+use super::canvas::Canvas;
+use super::compass::Compass;
+use super::control::yielding;
+use super::junction::{Arm, Borders};
+use super::layout::{Junction, Kind, Layout, Place, Street, draw};
+use super::path::Path;
+use super::street::{LaneEnd, Profile, pose};
+use crate::drawing::{Crossing, Drawing, Edge, Surroundings};
+
+/// Radius of the middle of the ring [m]: with its lane 34.5 m across, where small roundabouts have 26 to 45 m (FGSV, Merkblatt
+/// für die Anlage von Kreisverkehren, from memory).
+const RADIUS: f64 = 15.0;
+/// Width of the ring's lane [m]. Ours.
+const LANE_WIDTH: f64 = 4.5;
+/// Ways in and out touch the ring at this angle before and after the middle of their arm [rad]. Ours.
+const TOUCH: f64 = FRAC_PI_6;
+/// Speed limit on the ring [km/h]. Ours.
+const SPEED_LIMIT: f64 = 30.0;
+/// How far from the middle arms end [m], so that ways in and out bend with a radius of about 11 m.
+pub(super) const SETBACK: f64 = 23.5;
+/// Speed limit on the arms [km/h].
+const ARM_SPEED_LIMIT: f64 = 50.0;
+/// How long the arms are, from the middle [m].
+const ARM: f64 = 200.0;
+
+/// Draws a roundabout with four arms of a lane in each direction.
+pub fn roundabout(driving_side: DrivingSide) -> Drawing {
+    let street = |towards: Compass| {
+        let (east, north) = towards.step();
+        let edge = pose(ARM * east, ARM * north, towards.heading());
+        let profile = Profile::street(1, 1, ARM_SPEED_LIMIT);
+        Street { from: Place::Arm(0, towards), to: Place::Edge(edge), profile }
+    };
+    let layout = Layout {
+        junctions: vec![Junction { at: (0.0, 0.0), kind: Kind::Roundabout }],
+        streets: Compass::ALL.into_iter().map(street).collect(),
+    };
+    let mut canvas = Canvas::new();
+    draw(&mut canvas, &layout);
+    canvas.finish(driving_side)
+}
+
+/// Draws a ring, and the ways to it and from it. Who comes to it gives way.
+pub(super) fn ring(canvas: &mut Canvas, middle: (f64, f64), arms: &[Arm]) {
+    let angle = |arm: &Arm| arm.towards.heading();
+    // Where ways out leave and ways in arrive, counter-clockwise.
+    let angles: Vec<f64> = arms.iter().flat_map(|it| [angle(it) - TOUCH, angle(it) + TOUCH]).collect();
+    let points: Vec<[u32; 2]> = angles
+        .iter()
+        .map(|angle| [-0.5, 0.5].map(|it| canvas.point(on_ring(middle, *angle, RADIUS + it * LANE_WIDTH).at)))
+        .collect();
+    // In front of each arm, then on to the next one.
+    let pieces: Vec<i64> = (0..angles.len())
+        .map(|it| {
+            let next = (it + 1) % angles.len();
+            let turn = (angles[next] - angles[it]).rem_euclid(TAU);
+            piece(canvas, middle, [points[it], points[next]], angles[it], turn)
+        })
+        .collect();
+    let mut borders = Borders::default();
+    for (number, arm) in arms.iter().enumerate() {
+        let (leaving, arriving) = (2 * number, 2 * number + 1);
+        let touch = |it: usize| LaneEnd { lanelet: pieces[it], left: points[it][0], right: points[it][1] };
+        let tangent = |it: usize| angles[it] + FRAC_PI_2;
+        for lane in &arm.leaving {
+            let headings = [tangent(leaving), arm.towards.heading()];
+            borders.connector(canvas, [touch(leaving), *lane], headings, SPEED_LIMIT);
+        }
+        for lane in &arm.arriving {
+            let headings = [arm.towards.opposite().heading(), tangent(arriving)];
+            let way_in = borders.connector(canvas, [*lane, touch(arriving)], headings, SPEED_LIMIT);
+            let before = pieces[(leaving + pieces.len() - 1) % pieces.len()];
+            yielding(canvas, &[*lane], vec![before, pieces[leaving]], vec![lane.lanelet, way_in]);
+        }
+    }
+}
+
+/// Draws a piece of the ring between two pairs of points, inner and outer.
+fn piece(canvas: &mut Canvas, middle: (f64, f64), [begin, end]: [[u32; 2]; 2], angle: f64, turn: f64) -> i64 {
+    let edges = [(0, -0.5), (1, 0.5)].map(|(side, out)| {
+        let radius = RADIUS + out * LANE_WIDTH;
+        let path = Path::arc(on_ring(middle, angle, radius), radius, turn);
+        let mut line = vec![begin[side]];
+        line.extend(path.bends().iter().map(|it| canvas.point(path.beside(*it, 0.0))));
+        line.push(end[side]);
+        let border = canvas.line(line, Crossing::NEVER);
+        Edge { border, reversed: false }
+    });
+    canvas.lane(edges, Surroundings::Town, SPEED_LIMIT)
+}
+
+/// Where somebody is on the ring, and where he drives.
+fn on_ring((x, y): (f64, f64), angle: f64, radius: f64) -> Pose {
+    let at = Point::new(x + radius * libm::cos(angle), y + radius * libm::sin(angle), 0.0);
+    Pose { at, heading: angle + FRAC_PI_2 }
+}
