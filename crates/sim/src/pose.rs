@@ -29,10 +29,7 @@ pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
             [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
         }
     };
-    let heading = (front.y - rear.y).atan2(front.x - rear.x);
-    // The body reaches from the front bumper back by its length, however far apart its ends were put.
-    let ends = front.distance(&rear).max(f64::EPSILON);
-    Pose { at: front.towards(&rear, 0.5 * f64::from(motion.length) / ends), heading }
+    Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
 }
 
 /// How far the vehicle's centre is to the left of the centre of its lane [m].
