@@ -1,33 +1,42 @@
-//! Demand: who arrives where and when, and waits at the entrances.
+//! Demand: who arrives where and when, and waits at the origins.
 //!
 //! Headways are negative exponential (May 1990). An arrival that finds no room waits in the queue of its lane, and
 //! never delays the draw of the next.
 
 use std::collections::VecDeque;
 
-use laneweave_models::Style;
-use laneweave_models::braking::is_secure;
-use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Gate, Network};
 
 use crate::navigate::{Destination, Navigator, Waypoint};
+use crate::place::{Place, Places};
 use crate::random::{Purpose, Random};
 use crate::scene::Scene;
 use crate::traffic::{Motion, VehicleId};
 use crate::vehicle::Class;
 use crate::world::WorldError;
 
-/// Who drives, and how many come.
+/// Who drives, where from and where to, and how many come.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Demand {
-    /// Vehicles per hour at each of the network's entrances.
-    pub rates: Vec<f64>,
-    /// Weight of each of the network's exits as a destination.
-    pub destinations: Vec<f64>,
+    /// Where trips start.
+    pub origins: Vec<Origin>,
+    /// Where they end.
+    pub destinations: Vec<Place>,
     /// Share of trucks.
     pub trucks: f64,
     /// The styles and their weights.
     pub population: Vec<Share>,
+}
+
+/// A place at which trips start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// Where it is.
+    pub place: Place,
+    /// Vehicles per hour.
+    pub rate: f64,
+    /// Weight of each of the destinations; those that cannot be reached from here do not count.
+    pub weights: Vec<f64>,
 }
 
 /// A style's share of the drivers.
@@ -44,14 +53,19 @@ pub struct Share {
 impl Demand {
     /// `total` vehicles per hour over all entrances, by their number of lanes; destinations with equal weights.
     pub fn even(network: &Network, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
-        let lanes: usize = network.entrances.iter().map(|gate| gate.chains.len()).sum();
-        let rate = |gate: &Gate| total * gate.chains.len() as f64 / lanes as f64;
-        Demand {
-            rates: network.entrances.iter().map(rate).collect(),
-            destinations: vec![1.0; network.exits.len()],
-            trucks,
-            population,
-        }
+        Demand::over(Places::at_gates(network), total, trucks, population)
+    }
+
+    /// `total` vehicles per hour over all origins, by their number of lanes; destinations with equal weights.
+    pub fn over(places: Places, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
+        let Places { origins, destinations } = places;
+        let lanes: usize = origins.iter().map(|place| place.chains().len()).sum();
+        let weights = vec![1.0; destinations.len()];
+        let origin = |place: Place| {
+            let rate = total * place.chains().len() as f64 / lanes as f64;
+            Origin { place, rate, weights: weights.clone() }
+        };
+        Demand { origins: origins.into_iter().map(origin).collect(), destinations, trucks, population }
     }
 }
 
@@ -61,8 +75,9 @@ impl Demand {
     /// # Errors
     /// The first that does not.
     pub(crate) fn check(&self) -> Result<(), WorldError> {
-        let rates = self.rates.iter().map(|it| ("a demand in veh/h", *it, Demand::LARGEST_RATE));
-        let exits = self.destinations.iter().map(|it| ("the weight of an exit", *it, f64::MAX));
+        let rates = self.origins.iter().map(|it| ("a demand in veh/h", it.rate, Demand::LARGEST_RATE));
+        let weights = self.origins.iter().flat_map(|it| &it.weights);
+        let exits = weights.map(|it| ("the weight of an exit", *it, f64::MAX));
         let styles = self.population.iter().map(|it| ("the weight of a style", it.weight, f64::MAX));
         let trucks = std::iter::once(("the share of trucks", self.trucks, 1.0));
         for (what, value, largest) in rates.chain(exits).chain(styles).chain(trucks) {
@@ -75,11 +90,16 @@ impl Demand {
         if self.population.iter().map(|it| it.weight).sum::<f64>() <= 0.0 {
             return Err(WorldError::NoCharacters);
         }
+        if self.destinations.len() > Demand::MOST_DESTINATIONS {
+            return Err(WorldError::Destinations(self.destinations.len()));
+        }
         Ok(())
     }
 
-    /// More vehicles per hour than this at one entrance are a mistake.
+    /// More vehicles per hour than this at one origin are a mistake.
     const LARGEST_RATE: f64 = 100_000.0;
+    /// A vehicle keeps its destination in two bytes.
+    const MOST_DESTINATIONS: usize = u16::MAX as usize;
 }
 
 /// A vehicle at the moment of its arrival.
@@ -91,7 +111,7 @@ pub(crate) struct Arrival {
     pub(crate) destination: Destination,
 }
 
-/// An entrance with its queues.
+/// An origin with its queues.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
     number: u32,
@@ -109,30 +129,39 @@ pub(crate) struct Source {
 #[derive(Clone, Debug)]
 pub(crate) struct Queue {
     pub(crate) chain: ChainIndex,
+    pub(crate) start: Start,
     pub(crate) waiting: VecDeque<Arrival>,
 }
 
+/// How vehicles come onto a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Start {
+    /// They come driving from before its start.
+    Driving,
+    /// They start from rest, with the rear bumper at this station [m].
+    FromRest(f64),
+}
+
 impl Source {
-    /// The sources of all entrances.
+    /// The sources of all origins.
     pub(crate) fn all(
         network: &Network,
         navigator: &Navigator,
         demand: &Demand,
         random: &Random,
     ) -> Vec<Source> {
-        network
-            .entrances
+        demand
+            .origins
             .iter()
-            .zip(&demand.rates)
             .zip(0..)
-            .map(|((gate, rate), number)| {
+            .map(|(origin, number)| {
                 let mut source = Source {
                     number,
-                    rate: rate / 3600.0,
+                    rate: origin.rate / 3600.0,
                     arrived: 0,
                     next_time: 0.0,
-                    lanes: from_the_slow_side(network, gate),
-                    destinations: destinations(navigator, gate, &demand.destinations),
+                    lanes: queues(network, &origin.place),
+                    destinations: destinations(network, navigator, origin),
                 };
                 source.next_time = source.headway(random);
                 source
@@ -224,8 +253,19 @@ impl Source {
     }
 }
 
+/// The queues of a place, ordered from the slow side.
+fn queues(network: &Network, place: &Place) -> Vec<Queue> {
+    let queue = |chain, start| Queue { chain, start, waiting: VecDeque::new() };
+    match place {
+        Place::Gate(gate) => {
+            from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving)).collect()
+        }
+        Place::Kerb(kerb) => vec![queue(kerb.chain, Start::FromRest(kerb.station))],
+    }
+}
+
 /// The gate's lanes, ordered from the slow side.
-fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<Queue> {
+fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<ChainIndex> {
     let slow = network.driving_side.overtaking().opposite();
     let lanes_beyond = |chain: ChainIndex| {
         let mut count = 0;
@@ -237,45 +277,29 @@ fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<Queue> {
     };
     let mut chains = gate.chains.clone();
     chains.sort_by_key(|chain| lanes_beyond(*chain));
-    chains.into_iter().map(|chain| Queue { chain, waiting: VecDeque::new() }).collect()
+    chains
 }
 
-/// The exits that can be reached from a gate, with cumulated weights.
-fn destinations(navigator: &Navigator, gate: &Gate, weights: &[f64]) -> Vec<(Destination, f64)> {
-    let mut sum = 0.0;
-    let mut reachable = Vec::new();
-    for (exit, weight) in weights.iter().enumerate() {
-        let destination = Some(exit as u16);
-        let leads = |chain: &ChainIndex| navigator.waypoint(destination, *chain).changes < Waypoint::NO_WAY;
-        if *weight > 0.0 && gate.chains.iter().any(leads) {
-            sum += weight;
-            reachable.push((destination, sum));
-        }
-    }
-    reachable
-}
-
-/// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
-pub(crate) fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
-    /// Braking that an entering driver puts up with [m/s²].
-    const GENTLE: f64 = 0.5;
-    /// Who would have to enter slower than this share of the leader's speed waits.
-    const SHARE_OF_LEADER: f64 = 1.0;
-    let Some(ahead) = ahead else { return Some(desired) };
-    let fits = |speed: f64| {
-        let demanded = style.follow.acceleration(Pace::new(speed, desired), Some(ahead));
-        ahead.gap >= style.safety.min_gap && demanded >= -GENTLE && is_secure(speed, ahead, dt)
+/// The destinations that can be reached from an origin, with cumulated weights.
+fn destinations(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<(Destination, f64)> {
+    let reachable: Vec<u16> = match &origin.place {
+        Place::Gate(gate) => (0u16..)
+            .take(origin.weights.len())
+            .filter(|number| {
+                let leads =
+                    |chain: &ChainIndex| navigator.waypoint(Some(*number), *chain).changes < Waypoint::NO_WAY;
+                gate.chains.iter().any(leads)
+            })
+            .collect(),
+        Place::Kerb(kerb) => navigator.trips_from(network, kerb).collect(),
     };
-    if fits(desired) {
-        return Some(desired);
-    }
-    let (mut slow, mut fast) = (SHARE_OF_LEADER * ahead.speed.min(desired), desired);
-    if !fits(slow) {
-        return None;
-    }
-    for _ in 0..20 {
-        let middle = 0.5 * (slow + fast);
-        if fits(middle) { slow = middle } else { fast = middle }
-    }
-    Some(slow)
+    let mut sum = 0.0;
+    let weighted = reachable.into_iter().map(|number| (number, origin.weights[usize::from(number)]));
+    weighted
+        .filter(|(_, weight)| *weight > 0.0)
+        .map(|(number, weight)| {
+            sum += weight;
+            (Some(number), sum)
+        })
+        .collect()
 }

@@ -20,6 +20,8 @@ pub(crate) struct Plan {
     pub(crate) notes: Vec<Note>,
     /// What some of them keep in mind beside.
     pub(crate) concerns: Vec<Concern>,
+    /// Entries whose trips ended.
+    pub(crate) arrived: Vec<u32>,
     /// Overlaps, if it was time to look for them.
     pub(crate) overlaps: u64,
     /// Counts.
@@ -47,6 +49,8 @@ pub(crate) struct Outbox {
     pub(crate) milestones: Vec<Milestone>,
     /// Entries that passed the ends of their chains.
     pub(crate) leaving: Vec<(ChainIndex, Entry)>,
+    /// Main entries whose trips ended on their chains.
+    pub(crate) arrived: Vec<(ChainIndex, Entry)>,
 }
 
 impl Outbox {
@@ -55,6 +59,7 @@ impl Outbox {
         self.requests.append(&mut other.requests);
         self.milestones.append(&mut other.milestones);
         self.leaving.append(&mut other.leaving);
+        self.arrived.append(&mut other.arrived);
     }
 }
 

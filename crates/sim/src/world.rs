@@ -5,10 +5,10 @@ use laneweave_network::{ChainIndex, Network, Pose};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::advance::advance;
+use crate::advance::{Ends, advance};
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
-use crate::demand::{Arrival, Demand, Source, entry_speed};
+use crate::demand::{Demand, Source};
 use crate::drive::drive;
 use crate::events::Event;
 use crate::navigate::{Destination, Navigator};
@@ -37,14 +37,14 @@ pub struct World {
     pub(crate) counts: Counts,
     /// One for each thread.
     pub(crate) outboxes: Vec<Outbox>,
-    demand: Demand,
-    sources: Vec<Source>,
-    random: Random,
+    pub(crate) demand: Demand,
+    pub(crate) sources: Vec<Source>,
+    pub(crate) random: Random,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
     /// Vehicles on the road.
     pub(crate) crowd: usize,
-    next_id: VehicleId,
+    pub(crate) next_id: VehicleId,
 }
 
 /// Counts of what the whole world, not a lane, does.
@@ -94,6 +94,9 @@ pub enum WorldError {
         /// Its upper limit, in words.
         limit: String,
     },
+    /// More destinations than a vehicle can tell apart.
+    #[error("{0} destinations: there can be 65535 at most")]
+    Destinations(usize),
 }
 
 /// A vehicle as it is put on the road.
@@ -131,7 +134,7 @@ impl World {
             return Err(WorldError::NoCharacters);
         }
         demand.check()?;
-        let navigator = Navigator::new(&network);
+        let navigator = Navigator::towards(&network, &demand.destinations);
         let random = Random::new(setup.seed);
         let lanes = vec![Lane::default(); network.chains.len()];
         let plans = lanes.iter().map(|_| Plan::default()).collect();
@@ -188,45 +191,13 @@ impl World {
             },
             |lane, outbox, index, plan| {
                 let chain = ChainIndex(index as u32);
-                advance(lane, chain, network.chain(chain).length, moment.clock, characters, plan, outbox);
+                let ends = Ends { length: network.chain(chain).length, trips: navigator.trip_ends(chain) };
+                advance(lane, chain, ends, moment.clock, characters, plan, outbox);
             },
         );
         if is_watched {
             self.counts.overlaps += self.plans.iter().map(|plan| plan.overlaps).sum::<u64>();
         }
-    }
-
-    /// Vehicles arrive, queue up, and enter where there is room.
-    fn enter(&mut self) {
-        let mut sources = std::mem::take(&mut self.sources);
-        let time = self.clock.time();
-        for source in &mut sources {
-            let scene = self.scene();
-            let mut next_id = self.next_id;
-            source.arrive(&scene, &self.demand, &self.random, time, &mut next_id);
-            self.next_id = next_id;
-            for queue in source.queues() {
-                while let Some(vehicle) = queue.waiting.front().and_then(|it| self.admit(queue.chain, it)) {
-                    let id = queue.waiting.pop_front().map_or(0, |it| it.id);
-                    self.put(vehicle, id);
-                    self.events.push(Event::Entered(id));
-                }
-            }
-        }
-        self.sources = sources;
-    }
-
-    /// The vehicle as it enters `chain`, if there is room for it.
-    fn admit(&self, chain: ChainIndex, arrival: &Arrival) -> Option<NewVehicle> {
-        let x = arrival.class.body().length;
-        let style = &self.characters[arrival.character as usize];
-        let desired = arrival.class.desired_speed(style, self.network.chain(chain).limit(x));
-        let scene = self.scene();
-        let from = scene.viewpoint_at(chain, 0.0, arrival.id, arrival.destination);
-        let ahead = scene.ahead(from).map(|it| laneweave_models::follow::Ahead { gap: it.gap - x, ..it });
-        let speed = entry_speed(style, desired, ahead, self.clock.dt)?;
-        let Arrival { class, character, destination, .. } = *arrival;
-        Some(NewVehicle { chain, x, speed, class, character, destination })
     }
 
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
@@ -237,7 +208,7 @@ impl World {
         id
     }
 
-    fn put(&mut self, vehicle: NewVehicle, id: VehicleId) {
+    pub(crate) fn put(&mut self, vehicle: NewVehicle, id: VehicleId) {
         let NewVehicle { chain, x, speed, class, character, destination } = vehicle;
         let style = &self.characters[character as usize];
         let body = class.body();
@@ -331,12 +302,12 @@ impl World {
         self.lanes.iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
     }
 
-    /// Vehicles that wait at the entrances.
+    /// Vehicles that wait to enter.
     pub fn waiting(&self) -> usize {
         self.sources.iter().map(Source::waiting).sum()
     }
 
-    /// Vehicles that have arrived at the entrances.
+    /// Vehicles that have arrived, whether they entered or wait.
     pub fn arrived(&self) -> u64 {
         self.sources.iter().map(|source| u64::from(source.arrived())).sum()
     }

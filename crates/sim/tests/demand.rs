@@ -100,8 +100,8 @@ fn entrances_share_the_demand_by_their_lanes() {
     let lanes: Vec<usize> = network.entrances.iter().map(|it| it.chains.len()).collect();
     assert_eq!(lanes, [3, 1]);
     let demand = drivers::demand(&network, 4000.0, 0.0, &[1.0]);
-    assert_eq!(demand.rates, [3000.0, 1000.0]);
-    assert_eq!(demand.destinations, [1.0]);
+    assert_eq!(demand.origins.iter().map(|it| it.rate).collect::<Vec<_>>(), [3000.0, 1000.0]);
+    assert!(demand.origins.iter().all(|it| it.weights == [1.0]));
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
     assert_eq!(refusal(&|_| (), 0.001), Some(WorldError::Step(0.001)));
     assert!(matches!(refusal(&|_| (), f64::NAN), Some(WorldError::Step(_))));
     assert_eq!(
-        message(&|it| it.rates[0] = -1.0),
+        message(&|it| it.origins[0].rate = -1.0),
         "a demand in veh/h is -1: it must be a number not below 0 and not above 100000"
     );
     assert_eq!(
@@ -125,7 +125,7 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
         "the share of trucks is 1.5: it must be a number not below 0 and not above 1"
     );
     assert_eq!(
-        message(&|it| it.destinations[0] = f64::NAN),
+        message(&|it| it.origins[0].weights[0] = f64::NAN),
         "the weight of an exit is NaN: it must be a number not below 0"
     );
     assert_eq!(refusal(&|it| it.population.clear(), 0.1), Some(WorldError::NoCharacters));

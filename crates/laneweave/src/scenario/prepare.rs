@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Map, MapError, Problem, ReadOptions, lanelet2, load};
+use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, lanelet2, load};
 use laneweave_models::Style;
-use laneweave_network::DrivingSide;
-use laneweave_sim::{Setup, World};
+use laneweave_network::{DrivingSide, LaneletIndex, Network};
+use laneweave_sim::{Place, Places, Setup, World};
 
 use super::traffic::{demand, mixture};
 use super::{MapOptions, Origin, Scenario};
@@ -33,10 +33,10 @@ pub struct Prepared {
     pub steps: u32,
     /// Steps between two samples of a trajectory, if there are any.
     pub record_steps: Option<u32>,
-    /// Demand over all entrances [veh/h].
+    /// Demand over all origins [veh/h].
     pub demand_veh_h: f64,
-    /// Demand of each of the network's entrances [veh/h].
-    pub entrance_demand_veh_h: Vec<f64>,
+    /// Where trips start, each with its demand [veh/h].
+    pub origins: Vec<(Place, f64)>,
     /// See [`entrance_capacity`] [veh/h].
     pub entrance_capacity_veh_h: f64,
     /// Names and weights of the styles.
@@ -57,20 +57,18 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let record_steps = record_steps(scenario, origin)?;
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
-    let Map { network, problems, .. } = read_map(scenario, origin)?;
-    if network.entrances.is_empty() {
-        let what = "the map has no entrance: no lanelet of 10 m or more begins at its edge";
-        return Err(Fault::new(
-            scenario.map.display(),
-            what,
-            "choose a map with a road that begins at its edge",
-        ));
+    let Map { network, graph, problems, .. } = read_map(scenario, origin)?;
+    let places = places(&network, &graph);
+    if places.origins.is_empty() {
+        let what = "nobody can drive on the map: no lanelet of 10 m or more begins at its edge, and from none of 20 m or \
+                    more that shares its ground with no other can another be reached";
+        return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
     }
-    let demand = demand(scenario, origin, &network, shares)?;
+    let demand = demand(scenario, origin, &network, places, shares)?;
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
-    let capacity = entrance_capacity(&network, &typical, demand.trucks);
-    let entrance_demand_veh_h = demand.rates.clone();
+    let capacity = entrance_capacity(&network, &demand, &typical);
+    let origins: Vec<(Place, f64)> = demand.origins.iter().map(|it| (it.place.clone(), it.rate)).collect();
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
@@ -79,14 +77,23 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         warmup_steps: in_steps(scenario.run.warmup_s),
         steps: in_steps(scenario.run.duration_s).max(1),
         record_steps,
-        demand_veh_h: entrance_demand_veh_h.iter().sum(),
-        entrance_demand_veh_h,
+        demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
+        origins,
         entrance_capacity_veh_h: capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
         problems,
         world,
     })
+}
+
+/// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.
+fn places(network: &Network, graph: &Graph) -> Places {
+    if !network.entrances.is_empty() && !network.exits.is_empty() {
+        return Places::at_gates(network);
+    }
+    let all = graph.conflicting.iter().zip(0..);
+    Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))
 }
 
 fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
