@@ -5,10 +5,10 @@ use laneweave_models::braking::is_secure;
 use laneweave_models::change::deceleration_to_avoid;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
-use crate::demand::{Arrival, Queue, Start};
 use crate::events::Event;
 use crate::perceive::driver;
 use crate::scene::{Found, Scene};
+use crate::source::{Arrival, Queue, Start};
 use crate::world::{NewVehicle, World};
 
 impl World {

@@ -8,9 +8,10 @@ use xxhash_rust::xxh3::Xxh3;
 use crate::advance::{Ends, advance};
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
-use crate::demand::{Demand, Source};
+use crate::demand::Demand;
 use crate::drive::drive;
 use crate::events::Event;
+use crate::headways::HeadwayError;
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
 use crate::plan::{Outbox, Plan};
@@ -19,6 +20,7 @@ use crate::pose::{lateral_offset, pose};
 use crate::random::Random;
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
+use crate::source::Source;
 use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
 use crate::turn::next_turn;
@@ -94,6 +96,9 @@ pub enum WorldError {
         /// Its upper limit, in words.
         limit: String,
     },
+    /// Headways cannot be as they should.
+    #[error(transparent)]
+    Headways(#[from] HeadwayError),
     /// More destinations than a vehicle can tell apart.
     #[error("{0} destinations: there can be 65535 at most")]
     Destinations(usize),
@@ -309,7 +314,7 @@ impl World {
 
     /// Vehicles that have arrived, whether they entered or wait.
     pub fn arrived(&self) -> u64 {
-        self.sources.iter().map(|source| u64::from(source.arrived())).sum()
+        self.sources.iter().map(Source::arrived).sum()
     }
 
     /// All vehicles, by chain and in driving order.

@@ -5,7 +5,7 @@ mod roads;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::Network;
-use laneweave_sim::{Class, Demand, Event, Setup, World, WorldError};
+use laneweave_sim::{Class, Demand, Event, Headways, Rate, Setup, World, WorldError};
 use roads::{Road, drivers};
 
 fn styles() -> Vec<Style> {
@@ -47,6 +47,56 @@ fn v27_arrivals_within_ten_seconds_are_poisson() {
     let products = counts.windows(2).map(|it| (it[0] as f64 - mean) * (it[1] as f64 - mean)).sum::<f64>();
     let autocorrelation = products / ((n - 1.0) * variance);
     assert!(autocorrelation.abs() < 1.96 / n.sqrt(), "{autocorrelation}");
+}
+
+#[test]
+fn arrivals_in_each_lane_follow_the_law_of_headways() {
+    const LANES: usize = 2;
+    const RATE: f64 = 1800.0;
+    let law = Headways::CowanM3 { minimum: 1.5, free: 0.6 };
+    let network = Road { lanes: LANES, length: 60.0, ..Road::default() }.network();
+    let demand = Demand { headways: law, ..drivers::demand(&network, RATE, 0.0, &[0.5, 0.5]) };
+    let mut world = world(network, demand, 0.1);
+    let mut times = Vec::new();
+    for _ in 0..200_000 {
+        let before = world.arrived();
+        world.step();
+        times.extend((before..world.arrived()).map(|_| world.clock().time()));
+    }
+    let n = times.len() as f64;
+    // Two streams, each with a mean of 4 s and a standard deviation of (4 − 1.5) √(2/0.6 − 1) s.
+    let deviation = 2.5 * (2.0_f64 / 0.6 - 1.0).sqrt();
+    let mean = 20_000.0 / n;
+    assert!((mean - 2.0).abs() < 2.6 * 2.0 * deviation / 4.0 / n.sqrt(), "{mean} s");
+    // Never three in less than the shortest headway: they would be three lanes.
+    assert!(times.windows(3).all(|it| it[2] - it[0] > 1.5 - 0.11));
+}
+
+#[test]
+fn the_rate_of_arrivals_changes_when_it_should() {
+    let network = Road { length: 60.0, ..Road::default() }.network();
+    for headways in
+        [Headways::Exponential, Headways::Shifted { minimum: 1.0 }, Headways::Erlang { stages: 3 }]
+    {
+        let mut demand = Demand { headways, ..drivers::demand(&network, 0.0, 0.0, &[1.0]) };
+        let hour = 3600.0;
+        demand.origins[0].rate =
+            Rate::by_pieces(&[(hour, 900.0), (11.0 * hour, 0.0), (12.0 * hour, 1800.0)]).unwrap();
+        let mut world = world(network.clone(), demand, 1.0);
+        let mut until = |hours: u32| {
+            let before = world.arrived();
+            (world.clock().step..3600 * hours).for_each(|_| world.step());
+            (world.arrived() - before) as f64
+        };
+        let counts = [until(1), until(11), until(12), until(22)];
+        assert_eq!((counts[0], counts[2]), (0.0, 0.0), "{headways:?}");
+        for (count, expected) in [(counts[1], 9000.0_f64), (counts[3], 18_000.0)] {
+            assert!(
+                (count - expected).abs() < 2.6 * expected.sqrt(),
+                "{headways:?}: {count}, not {expected}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -100,7 +150,8 @@ fn entrances_share_the_demand_by_their_lanes() {
     let lanes: Vec<usize> = network.entrances.iter().map(|it| it.chains.len()).collect();
     assert_eq!(lanes, [3, 1]);
     let demand = drivers::demand(&network, 4000.0, 0.0, &[1.0]);
-    assert_eq!(demand.origins.iter().map(|it| it.rate).collect::<Vec<_>>(), [3000.0, 1000.0]);
+    let rates: Vec<&Rate> = demand.origins.iter().map(|it| &it.rate).collect();
+    assert_eq!(rates, [&Rate::constant(3000.0), &Rate::constant(1000.0)]);
     assert!(demand.origins.iter().all(|it| it.weights == [1.0]));
 }
 
@@ -117,7 +168,7 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
     assert_eq!(refusal(&|_| (), 0.001), Some(WorldError::Step(0.001)));
     assert!(matches!(refusal(&|_| (), f64::NAN), Some(WorldError::Step(_))));
     assert_eq!(
-        message(&|it| it.origins[0].rate = -1.0),
+        message(&|it| it.origins[0].rate = Rate::constant(-1.0)),
         "a demand in veh/h is -1: it must be a number not below 0 and not above 100000"
     );
     assert_eq!(

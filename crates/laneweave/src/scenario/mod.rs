@@ -1,5 +1,6 @@
 //! Scenario files: what to simulate, in TOML. Every key but the map has a default.
 
+mod headways;
 mod origin;
 mod prepare;
 mod traffic;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::style::DEFAULT_MIXTURE;
 
+pub use headways::Headways;
 pub use origin::Origin;
 pub use prepare::{Prepared, open_map, prepare};
 
@@ -94,11 +96,19 @@ pub struct Demand {
     pub entrances: BTreeMap<String, f64>,
     /// Weights of the exits as destinations, by the smallest lanelet id there; 1 where nothing is said.
     pub exits: BTreeMap<String, f64>,
+    /// Law of the headways, the times between arrivals in a lane; the mean is that of the demand.
+    pub headways: Headways,
 }
 
 impl Default for Demand {
     fn default() -> Demand {
-        Demand { vehicles_per_hour: None, trucks: 0.1, entrances: BTreeMap::new(), exits: BTreeMap::new() }
+        Demand {
+            vehicles_per_hour: None,
+            trucks: 0.1,
+            entrances: BTreeMap::new(),
+            exits: BTreeMap::new(),
+            headways: Headways::default(),
+        }
     }
 }
 

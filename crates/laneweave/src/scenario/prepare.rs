@@ -6,7 +6,7 @@ use std::thread::available_parallelism;
 use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, lanelet2, load};
 use laneweave_models::Style;
 use laneweave_network::{DrivingSide, LaneletIndex, Network};
-use laneweave_sim::{Place, Places, Setup, World};
+use laneweave_sim::{Place, Places, Rate, Setup, World};
 
 use super::traffic::{demand, mixture};
 use super::{MapOptions, Origin, Scenario};
@@ -33,7 +33,7 @@ pub struct Prepared {
     pub steps: u32,
     /// Steps between two samples of a trajectory, if there are any.
     pub record_steps: Option<u32>,
-    /// Demand over all origins [veh/h].
+    /// Mean demand over all origins while it is measured [veh/h].
     pub demand_veh_h: f64,
     /// Where trips start, each with its demand [veh/h].
     pub origins: Vec<(Place, f64)>,
@@ -68,7 +68,10 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
     let capacity = entrance_capacity(&network, &demand, &typical);
-    let origins: Vec<(Place, f64)> = demand.origins.iter().map(|it| (it.place.clone(), it.rate)).collect();
+    let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
+    let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
+    let origins: Vec<(Place, f64)> =
+        demand.origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;

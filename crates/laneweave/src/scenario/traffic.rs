@@ -1,9 +1,9 @@
 //! From the demand and the styles of a scenario to those of the world.
 
 use laneweave_network::Network;
-use laneweave_sim::{Demand, Place, Places, Share};
+use laneweave_sim::{Demand, Place, Places, Rate, Share};
 
-use super::{Origin, Scenario};
+use super::{Origin, Scenario, headways};
 use crate::fault::{Fault, did_you_mean};
 use crate::style::{StyleTemplate, find};
 use crate::units::METRES_PER_KM;
@@ -65,7 +65,7 @@ pub(super) fn demand(
         let index = named(demand.origins.iter().map(|it| &it.place), id, "entrance", &place)?;
         let lanes = demand.origins[index].place.chains().len();
         check_rate(*rate, lanes, place, &format!("a demand at the entrance {id}"))?;
-        demand.origins[index].rate = *rate;
+        demand.origins[index].rate = Rate::constant(*rate);
     }
     let mut weights = vec![1.0; demand.destinations.len()];
     for (id, weight) in &wanted.exits {
@@ -82,6 +82,8 @@ pub(super) fn demand(
         return Err(Fault::new(place, "no exit has a weight", "give at least one of them a weight above 0"));
     }
     demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
+    demand.headways = wanted.headways.into();
+    headways::check(&demand, origin)?;
     Ok(demand)
 }
 

@@ -133,6 +133,15 @@ fn values_of_a_scenario_that_make_no_sense() {
         ("[demand.entrances]\n7 = 1\n", "s.toml:3:1: the map has no entrance \"7\"; known are 1, 95"),
         ("[demand.exits]\n88 = -1\n", "s.toml:3:1: the map has no exit \"88\"; known are "),
         (
+            "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 5\n",
+            "s.toml:4:1: the shortest headway is 5 s, where the mean is 3.60 s: it must be shorter; choose less, or \
+             a lower demand at the entrance 1",
+        ),
+        (
+            "[demand.headways]\nlaw = \"erlang\"\nstages = 0\n",
+            "s.toml:4:1: the stages of the headways is 0: it must lie between 1 and 400; choose 1 to 400",
+        ),
+        (
             "[run\n",
             "s.toml:2:5: unclosed table, expected `]`; correct this line; the format is TOML, https://toml.io",
         ),

@@ -149,6 +149,34 @@ fn single_entrances_and_exits_can_be_told() {
 }
 
 #[test]
+fn headways_follow_the_law_of_the_scenario() {
+    let maps = crate::program::maps();
+    let scenario = format!(
+        "map = \"{}/motorway_2_lanes.osm\"\n[run]\nduration_s = 60\n[demand.headways]\nlaw = \"pearson-iii\"\n",
+        maps.display()
+    );
+    let folder = Folder::new().with("own.toml", &scenario);
+    let hash = folder.summary("own.toml")["state_hash"].clone();
+    assert_eq!(folder.summary("own.toml")["state_hash"], hash);
+    let exponential = Folder::new().with("own.toml", &scenario.replace("pearson-iii", "exponential"));
+    assert_ne!(exponential.summary("own.toml")["state_hash"], hash);
+}
+
+#[test]
+fn on_a_map_without_gates_trips_start_and_end_along_its_lanes() {
+    const TOWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2/town10.osm");
+    if !std::path::Path::new(TOWN).exists() {
+        eprintln!("skipped: town10.osm is not there");
+        return;
+    }
+    let summary = Folder::new().summary(&format!("{TOWN} --demand 900 --duration 120 --quiet"));
+    let count = |name: &str| summary[name].as_u64().unwrap();
+    assert_eq!(number(&summary, "demand_veh_h").round(), 900.0);
+    assert_eq!(count("entered"), count("left") + count("on_road"));
+    assert!(count("left") > 5, "{summary}");
+}
+
+#[test]
 fn without_arguments_the_demo_runs() {
     let folder = Folder::new();
     let run = folder.laneweave("");

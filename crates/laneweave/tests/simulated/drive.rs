@@ -9,7 +9,7 @@ use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
 use laneweave_recordings::{Recording, RoadUser, State, Track};
 use laneweave_sim::{
-    Body, Class, Demand, Event, Place, Purpose, Random, Setup, Vehicle, VehicleId, World, perceive,
+    Body, Class, Demand, Event, Place, Purpose, Random, Rate, Setup, Vehicle, VehicleId, World, perceive,
 };
 
 use crate::view::View;
@@ -120,7 +120,7 @@ fn world(seed: u64) -> World {
     let mut demand = Demand::even(&network, 0.0, TRUCKS, shares);
     let weights: Vec<f64> = demand.destinations.iter().map(|it| by_lanes(it, STAYING, 1.0)).collect();
     for origin in &mut demand.origins {
-        origin.rate = by_lanes(&origin.place, ON_ROAD, ON_RAMP);
+        origin.rate = Rate::constant(by_lanes(&origin.place, ON_ROAD, ON_RAMP));
         origin.weights.clone_from(&weights);
     }
     World::new(network, characters, demand, Setup { step: STEP, seed, threads: 1 }).expect("it makes sense")
