@@ -103,7 +103,7 @@ impl Demand {
     /// More vehicles per hour than this at one origin are a mistake.
     const LARGEST_RATE: f64 = 100_000.0;
     /// A vehicle keeps its destination in two bytes.
-    const MOST_DESTINATIONS: usize = u16::MAX as usize;
+    pub(crate) const MOST_DESTINATIONS: usize = u16::MAX as usize;
 }
 
 impl Origin {

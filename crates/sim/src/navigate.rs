@@ -162,14 +162,19 @@ impl Navigator {
         self.reachable(chain, x).min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
-    /// The destinations that are worth a trip from `kerb`.
-    pub(crate) fn trips_from(&self, network: &Network, kerb: &Kerb) -> impl Iterator<Item = u16> {
-        let Kerb { chain, station, .. } = *kerb;
-        (0..self.tables.len() as u16 - 1).filter(move |number| {
-            let waypoint = self.waypoint_from(network, Some(*number), chain, station);
-            let distance = waypoint.distance - station;
-            waypoint.changes < Waypoint::NO_WAY && distance >= Navigator::SHORTEST_TRIP
-        })
+    /// Whether a destination can be reached from `place`; from a kerb, whether it is worth a trip, too.
+    pub(crate) fn leads(&self, network: &Network, place: &Place, destination: u16) -> bool {
+        match place {
+            Place::Gate(gate) => {
+                let waypoint = |chain: &ChainIndex| self.waypoint(Some(destination), *chain);
+                gate.chains.iter().any(|chain| waypoint(chain).changes < Waypoint::NO_WAY)
+            }
+            Place::Kerb(Kerb { chain, station, .. }) => {
+                let waypoint = self.waypoint_from(network, Some(destination), *chain, *station);
+                let distance = waypoint.distance - station;
+                waypoint.changes < Waypoint::NO_WAY && distance >= Navigator::SHORTEST_TRIP
+            }
+        }
     }
 
     /// Where on `chain` trips end.

@@ -2,6 +2,7 @@
 
 use laneweave_network::{ChainIndex, Gate, LaneletIndex, Network};
 
+use crate::demand::Demand;
 use crate::navigate::Navigator;
 
 /// Where trips start or end.
@@ -89,12 +90,13 @@ impl Places {
             }
         }
         kerbs.sort_by_key(|kerb| kerb.id);
-        let most = (Places::MOST_WAYPOINTS / network.chains.len()).max(1);
+        let most = (Places::MOST_WAYPOINTS / network.chains.len()).clamp(1, Demand::MOST_DESTINATIONS);
         let one_in = kerbs.len().div_ceil(most).max(1);
         let destinations: Vec<Place> = kerbs.iter().step_by(one_in).map(|kerb| Place::Kerb(*kerb)).collect();
         let navigator = Navigator::towards(network, &destinations);
-        let leads_somewhere = |kerb: &Kerb| navigator.trips_from(network, kerb).next().is_some();
-        let origins = kerbs.into_iter().filter(leads_somewhere).map(Place::Kerb).collect();
+        let leads_somewhere =
+            |place: &Place| (0..destinations.len()).any(|it| navigator.leads(network, place, it as u16));
+        let origins = kerbs.into_iter().map(Place::Kerb).filter(leads_somewhere).collect();
         Places { origins, destinations }
     }
 }

@@ -8,7 +8,7 @@ use laneweave_network::{ChainIndex, Gate, Network};
 
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::headways::Headways;
-use crate::navigate::{Destination, Navigator, Waypoint};
+use crate::navigate::{Destination, Navigator};
 use crate::place::Place;
 use crate::random::{Purpose, Random};
 use crate::rate::Rate;
@@ -233,21 +233,11 @@ fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<ChainIndex> {
 
 /// The destinations that can be reached from an origin, with cumulated weights.
 fn destinations(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<(Destination, f64)> {
-    let reachable: Vec<u16> = match &origin.place {
-        Place::Gate(gate) => (0u16..)
-            .take(origin.weights.len())
-            .filter(|number| {
-                let leads =
-                    |chain: &ChainIndex| navigator.waypoint(Some(*number), *chain).changes < Waypoint::NO_WAY;
-                gate.chains.iter().any(leads)
-            })
-            .collect(),
-        Place::Kerb(kerb) => navigator.trips_from(network, kerb).collect(),
-    };
+    let weighted = (0u16..)
+        .zip(&origin.weights)
+        .filter(|(number, weight)| **weight > 0.0 && navigator.leads(network, &origin.place, *number));
     let mut sum = 0.0;
-    let weighted = reachable.into_iter().map(|number| (number, origin.weights[usize::from(number)]));
     weighted
-        .filter(|(_, weight)| *weight > 0.0)
         .map(|(number, weight)| {
             sum += weight;
             (Some(number), sum)

@@ -284,6 +284,17 @@ impl World {
         &self.network
     }
 
+    /// Who comes, from where and to where.
+    pub fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
+    /// Whether drivers from an origin of the demand can reach one of its destinations, and would drive there.
+    pub fn leads(&self, origin: usize, destination: usize) -> bool {
+        let place = &self.demand.origins[origin].place;
+        self.navigator.leads(&self.network, place, destination as u16)
+    }
+
     /// What the drivers did so far, added up over the lanes.
     pub fn tally(&self) -> Tally {
         let mut sum = Tally::default();

@@ -5,7 +5,7 @@ mod roads;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::Network;
-use laneweave_sim::{Class, Demand, Event, Headways, Rate, Setup, World, WorldError};
+use laneweave_sim::{Class, Demand, Event, Headways, Origin, Rate, Setup, World, WorldError};
 use roads::{Road, drivers};
 
 fn styles() -> Vec<Style> {
@@ -141,6 +141,36 @@ fn classes_styles_and_destinations_come_in_their_shares() {
         let error = (share * (1.0 - share) / entered).sqrt();
         assert!((count / entered - share).abs() < 2.6 * error, "{} of {entered}", count / entered);
     }
+}
+
+#[test]
+fn drivers_of_each_origin_go_to_its_own_destinations() {
+    let plan = Motorway {
+        length_m: 3000.0,
+        on_ramp_at: vec![1000.0],
+        off_ramp_at: vec![2000.0],
+        ..Motorway::default()
+    };
+    let network = motorway(&plan).unwrap().build().unwrap().network;
+    let mut demand = drivers::demand(&network, 3000.0, 0.1, &[0.5, 0.5]);
+    (demand.origins[0].weights, demand.origins[1].weights) = (vec![300.0, 100.0], vec![0.0, 50.0]);
+    let mut world = world(network, demand, 0.5);
+    let mut counts = [[0.0_f64; 2]; 2];
+    for _ in 0..2 * 3600 {
+        world.step();
+        let is_new = |id| world.events().contains(&Event::Entered(id));
+        for vehicle in world.vehicles().filter(|it| is_new(it.id())) {
+            let origins = &world.demand().origins;
+            let at = |origin: &Origin| origin.place.chains().contains(&vehicle.spot.chain);
+            let origin = origins.iter().position(at).unwrap();
+            counts[origin][usize::from(vehicle.car.goal.destination().unwrap())] += 1.0;
+        }
+    }
+    let [[onward, off], from_the_ramp] = counts;
+    assert_eq!(from_the_ramp[0], 0.0);
+    assert!(from_the_ramp[1] > 500.0);
+    let (share, all) = (off / (onward + off), onward + off);
+    assert!((share - 0.25).abs() < 2.6 * (0.25 * 0.75 / all).sqrt(), "{share} of {all}");
 }
 
 #[test]

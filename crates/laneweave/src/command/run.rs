@@ -113,6 +113,7 @@ impl Arguments {
         let Scenario { demand, run, output, styles, .. } = scenario;
         if self.demand.is_some() {
             demand.entrances.clear();
+            demand.od.clear();
         }
         let total = self.demand.map(Some);
         replace(origin, ("demand.vehicles_per_hour", "--demand"), &mut demand.vehicles_per_hour, total);

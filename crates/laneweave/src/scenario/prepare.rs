@@ -8,7 +8,8 @@ use laneweave_models::Style;
 use laneweave_network::{DrivingSide, LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Rate, Setup, World};
 
-use super::traffic::{demand, mixture};
+use super::demand::{check_ways, demand};
+use super::mixture::mixture;
 use super::{MapOptions, Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
@@ -75,6 +76,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
+    check_ways(scenario, origin, &world)?;
     let in_steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
         warmup_steps: in_steps(scenario.run.warmup_s),
