@@ -3,7 +3,7 @@
 use laneweave_models::Style;
 use laneweave_models::follow::{CarFollowing, Pace};
 use laneweave_network::Network;
-use laneweave_sim::{Class, Demand, Place};
+use laneweave_sim::{Class, Demand, Fleet, Place};
 
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
@@ -28,7 +28,7 @@ pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, 
                 Some((_, lane)) => *lane,
                 None => {
                     let time = if is_gate { time_in_stream } else { time_to_make_room };
-                    let lane = lane_capacity(limit, drivers, demand.trucks, time);
+                    let lane = lane_capacity(limit, drivers, &demand.fleet, time);
                     known.push((key, lane));
                     lane
                 }
@@ -56,7 +56,7 @@ fn time_to_make_room(style: &Style, class: Class, limit: f64) -> f64 {
 fn lane_capacity(
     limit: f64,
     drivers: &[(Style, f64)],
-    trucks: f64,
+    fleet: &Fleet,
     time: fn(&Style, Class, f64) -> f64,
 ) -> f64 {
     let total: f64 = drivers.iter().map(|(_, weight)| weight).sum();
@@ -64,10 +64,8 @@ fn lane_capacity(
         .iter()
         .filter(|(_, weight)| *weight > 0.0)
         .map(|(style, weight)| {
-            let share = weight / total;
-            share
-                * ((1.0 - trucks) * time(style, Class::Car, limit)
-                    + trucks * time(style, Class::Truck, limit))
+            let of_class = |(class, share): (Class, f64)| share * time(style, class, limit);
+            weight / total * fleet.shares().into_iter().map(of_class).sum::<f64>()
         })
         .sum();
     1.0 / mean_time

@@ -92,7 +92,7 @@ fn consider(
     let has_another_way = stands_in_vain && navigator.reachable(spot.chain, beyond).next().is_some();
     if !waypoint.leads_on(motion.x) || has_another_way {
         let from = if has_another_way { beyond } else { motion.x };
-        concern.rerouted = Some(navigator.nearest(spot.chain, from));
+        concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
         plan.tally.missed_turns += 1;
         plan.concerns.push(concern);

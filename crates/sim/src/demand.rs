@@ -5,6 +5,7 @@ use laneweave_network::Network;
 use crate::headways::Headways;
 use crate::place::{Place, Places};
 use crate::rate::Rate;
+use crate::vehicle::Fleet;
 use crate::world::WorldError;
 
 /// Who drives, where from and where to, and how many come.
@@ -16,8 +17,8 @@ pub struct Demand {
     pub destinations: Vec<Place>,
     /// Law of the headways in each lane.
     pub headways: Headways,
-    /// Share of trucks.
-    pub trucks: f64,
+    /// Shares of the classes of vehicles.
+    pub fleet: Fleet,
     /// The styles and their weights.
     pub population: Vec<Share>,
 }
@@ -47,11 +48,11 @@ pub struct Share {
 impl Demand {
     /// `total` vehicles per hour over all entrances, by their number of lanes; destinations with equal weights.
     pub fn even(network: &Network, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
-        Demand::over(Places::at_gates(network), total, trucks, population)
+        Demand::over(Places::at_gates(network), total, Fleet::with_trucks(trucks), population)
     }
 
     /// `total` vehicles per hour over all origins, by their number of lanes; destinations with equal weights.
-    pub fn over(places: Places, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
+    pub fn over(places: Places, total: f64, fleet: Fleet, population: Vec<Share>) -> Demand {
         let Places { origins, destinations } = places;
         let lanes: usize = origins.iter().map(|place| place.chains().len()).sum();
         let weights = vec![1.0; destinations.len()];
@@ -63,7 +64,7 @@ impl Demand {
             origins: origins.into_iter().map(origin).collect(),
             destinations,
             headways: Headways::default(),
-            trucks,
+            fleet,
             population,
         }
     }
@@ -80,8 +81,15 @@ impl Demand {
         let weights = self.origins.iter().flat_map(|it| &it.weights);
         let exits = weights.map(|it| ("the weight of an exit", *it, f64::MAX));
         let styles = self.population.iter().map(|it| ("the weight of a style", it.weight, f64::MAX));
-        let trucks = std::iter::once(("the share of trucks", self.trucks, 1.0));
-        for (what, value, largest) in rates.chain(exits).chain(styles).chain(trucks) {
+        let Fleet { trucks, buses, motorcycles } = self.fleet;
+        let [(_, cars), ..] = self.fleet.shares();
+        let classes = [
+            ("the share of trucks", trucks, 1.0),
+            ("the share of buses", buses, 1.0),
+            ("the share of motorcycles", motorcycles, 1.0),
+            ("the share of cars", cars, 1.0),
+        ];
+        for (what, value, largest) in rates.chain(exits).chain(styles).chain(classes) {
             if !(0.0..=largest).contains(&value) {
                 let limit =
                     if largest == f64::MAX { String::new() } else { format!(" and not above {largest}") };
@@ -95,15 +103,15 @@ impl Demand {
             self.headways.check(origin.rate_of_a_lane())?;
         }
         if self.destinations.len() > Demand::MOST_DESTINATIONS {
-            return Err(WorldError::Destinations(self.destinations.len()));
+            return Err(WorldError::Destinations(self.destinations.len(), Demand::MOST_DESTINATIONS));
         }
         Ok(())
     }
 
     /// More vehicles per hour than this at one origin are a mistake.
     const LARGEST_RATE: f64 = 100_000.0;
-    /// A vehicle keeps its destination in two bytes.
-    pub(crate) const MOST_DESTINATIONS: usize = u16::MAX as usize;
+    /// A vehicle keeps in two bytes where it goes and how its class sees the roads.
+    pub(crate) const MOST_DESTINATIONS: usize = 32_000;
 }
 
 impl Origin {

@@ -33,6 +33,7 @@ mod tally;
 mod traffic;
 mod turn;
 mod vehicle;
+mod views;
 mod world;
 
 pub use clock::Clock;
@@ -49,5 +50,5 @@ pub use scene::{Found, LaneSight, Scene, Spot, Viewpoint};
 pub use snapshot::{Across, Seen, Snapshot};
 pub use tally::Tally;
 pub use traffic::{Car, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
-pub use vehicle::{Body, Class};
+pub use vehicle::{Body, Class, Fleet};
 pub use world::{Counts, NewVehicle, Setup, Vehicle, World, WorldError};

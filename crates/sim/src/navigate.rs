@@ -7,6 +7,8 @@ use std::collections::BinaryHeap;
 use laneweave_network::{Chain, ChainIndex, Network, Side};
 
 use crate::place::{Kerb, Place};
+use crate::vehicle::Class;
+use crate::views::Views;
 
 /// Where a driver goes, as its place in the list of destinations; `None`: it drives on as the road leads.
 pub type Destination = Option<u16>;
@@ -86,8 +88,11 @@ pub(crate) struct TripEnd {
 /// The waypoints of all destinations.
 #[derive(Clone, Debug)]
 pub struct Navigator {
-    /// For each destination the waypoints by chain; last, those of drivers without a destination.
+    /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one.
     tables: Vec<Vec<Waypoint>>,
+    /// Number of tables of each view.
+    of_view: usize,
+    views: Views,
     /// For each chain where trips end before its end.
     trip_ends: Vec<Vec<TripEnd>>,
 }
@@ -97,6 +102,9 @@ impl Navigator {
     const CHANGE_COST: f64 = 20.0;
     /// Road that is kept for each further change before the last place [m].
     const ROOM_FOR_A_CHANGE: f64 = 40.0;
+    /// What a chain counts for beside its time in the choice of a route, if it is avoided [s], ours: no detour in a town is
+    /// as long.
+    const AVOIDED: f64 = 600.0;
     /// Nobody starts for a place on the same map that is nearer [m], ours.
     const SHORTEST_TRIP: f64 = 100.0;
 
@@ -106,24 +114,47 @@ impl Navigator {
         Navigator::towards(network, &exits)
     }
 
-    /// Plans all routes to `destinations`, of which there are fewer than 65,535.
+    /// Plans all routes to `destinations`, for classes that avoid nothing.
     pub fn towards(network: &Network, destinations: &[Place]) -> Navigator {
+        Navigator::with_views(network, destinations, Views::default())
+    }
+
+    /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with their
+    /// views of the roads.
+    pub(crate) fn with_views(network: &Network, destinations: &[Place], views: Views) -> Navigator {
         let into = beside_into(network);
-        let mut tables: Vec<_> = destinations.iter().map(|place| plan(network, &into, place)).collect();
-        tables.push(wander(network));
+        let of_view = destinations.len() + 1;
+        let mut tables = Vec::new();
         let mut trip_ends = vec![Vec::new(); network.chains.len()];
-        for (place, number) in destinations.iter().zip(0u16..) {
-            if let Place::Kerb(Kerb { chain, station, .. }) = place {
-                trip_ends[chain.at()].push(TripEnd { station: *station, goal: Goal(number) });
+        for view in 0..views.count() {
+            let delay = |chain| if views.avoids(view, chain) { Navigator::AVOIDED } else { 0.0 };
+            for place in destinations {
+                if let Place::Kerb(Kerb { chain, station, .. }) = place {
+                    let goal = Goal(tables.len() as u16);
+                    trip_ends[chain.at()].push(TripEnd { station: *station, goal });
+                }
+                tables.push(plan(network, &into, place, delay));
             }
+            tables.push(wander(network));
         }
-        Navigator { tables, trip_ends }
+        Navigator { tables, of_view, views, trip_ends }
+    }
+
+    /// A destination as a class sees the way to it.
+    pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
+        let number = usize::from(destination?) % self.of_view;
+        Some((self.views.of_class(class) * self.of_view + number) as u16)
+    }
+
+    /// The destination's place in the list of destinations, whoever sees it.
+    pub fn number(&self, destination: Destination) -> Option<usize> {
+        destination.map(|it| usize::from(it) % self.of_view)
     }
 
     /// The waypoint of `chain`, from its start, on the way to `destination`.
     #[inline]
     pub fn waypoint(&self, destination: Destination, chain: ChainIndex) -> &Waypoint {
-        let table = destination.map_or(self.tables.len() - 1, usize::from);
+        let table = destination.map_or(self.of_view - 1, usize::from);
         &self.tables[table][chain.at()]
     }
 
@@ -150,16 +181,28 @@ impl Navigator {
 
     /// The destinations that can be reached from `x` on `chain`, with their free travel times [s].
     pub fn reachable(&self, chain: ChainIndex, x: f64) -> impl Iterator<Item = (Destination, f64)> {
-        let destinations = &self.tables[..self.tables.len() - 1];
-        destinations.iter().zip(0u16..).filter_map(move |(table, number)| {
+        self.reachable_in(0, chain, x)
+    }
+
+    fn reachable_in(
+        &self,
+        view: usize,
+        chain: ChainIndex,
+        x: f64,
+    ) -> impl Iterator<Item = (Destination, f64)> {
+        let first = view * self.of_view;
+        let tables = self.tables[first..].iter().zip(first..).take(self.of_view - 1);
+        tables.filter_map(move |(table, number)| {
             let waypoint = &table[chain.at()];
-            waypoint.leads_on(x).then_some((Some(number), waypoint.time))
+            waypoint.leads_on(x).then_some((Some(number as u16), waypoint.time))
         })
     }
 
-    /// The reachable destination of least time; of none, to wander.
-    pub fn nearest(&self, chain: ChainIndex, x: f64) -> Destination {
-        self.reachable(chain, x).min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
+    /// The reachable destination of least time, for one who was on its way to `before`; of none, to wander.
+    pub fn nearest(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+        let view = before.map_or(0, |it| usize::from(it) / self.of_view);
+        let reachable = self.reachable_in(view, chain, x);
+        reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
     /// Whether a destination can be reached from `place`; from a kerb, whether it is worth a trip, too.
@@ -206,8 +249,8 @@ fn before(chain: &Chain, next: ChainIndex, onward: &Waypoint) -> Waypoint {
 /// Stretches from which a change leads into a chain: chain, side and number.
 type Into = Vec<(ChainIndex, Side, usize)>;
 
-/// Best waypoints towards `place`, spread backwards from it until none improves.
-fn plan(network: &Network, into: &[Into], place: &Place) -> Vec<Waypoint> {
+/// Best waypoints towards `place`, spread backwards from it until none improves, with a `delay` on each chain [s].
+fn plan(network: &Network, into: &[Into], place: &Place, delay: impl Fn(ChainIndex) -> f64) -> Vec<Waypoint> {
     let chains = &network.chains;
     let mut table = vec![Waypoint::NOWHERE; chains.len()];
     let mut ranks = vec![rank(network, &Waypoint::NOWHERE); chains.len()];
@@ -242,7 +285,8 @@ fn plan(network: &Network, into: &[Into], place: &Place) -> Vec<Waypoint> {
             }
         };
         for back in &chains[index.at()].previous {
-            offer(*back, before(network.chain(*back), index, &here));
+            let waypoint = before(network.chain(*back), index, &here);
+            offer(*back, Waypoint { time: waypoint.time + delay(*back), ..waypoint });
         }
         for (from, side, number) in &into[index.at()] {
             let chain = network.chain(*from);

@@ -115,7 +115,7 @@ impl Source {
             (first.next <= time).then_some(index)
         };
         while let Some(stream) = due(self) {
-            let arrival = self.draw(demand, random, *next_id);
+            let arrival = self.draw(scene.navigator, demand, random, *next_id);
             *next_id += 1;
             self.streams[stream].arrived += 1;
             self.draw_next(stream, random);
@@ -124,9 +124,9 @@ impl Source {
         }
     }
 
-    fn draw(&self, demand: &Demand, random: &Random, id: VehicleId) -> Arrival {
+    fn draw(&self, navigator: &Navigator, demand: &Demand, random: &Random, id: VehicleId) -> Arrival {
         let uniform = |purpose| random.uniform(id, purpose, 0);
-        let class = if uniform(Purpose::Class) < demand.trucks { Class::Truck } else { Class::Car };
+        let class = demand.fleet.class(uniform(Purpose::Class));
         let total: f64 = demand.population.iter().map(|it| it.weight).sum();
         let mut at = uniform(Purpose::Style) * total;
         let share = demand
@@ -143,20 +143,21 @@ impl Source {
         let last = self.destinations.last().map_or(0.0, |it| it.1);
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
+        let destination = navigator.seen_by(class, destination);
         Arrival { id, class, character, destination }
     }
 
-    /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then trucks
-    /// on the slow side, others where fewer wait and where there is more room.
+    /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long
+    /// vehicles on the slow side, others where fewer wait and where there is more room.
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
         /// Road per lane change within which a driver takes its lane from the start [m].
         const SOON: f64 = 600.0;
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
             let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
-            let (queued, room) = match arrival.class {
-                Class::Truck => (0, 0.0),
-                Class::Car => (queue.waiting.len(), room),
+            let (queued, room) = match arrival.class.is_long() {
+                true => (0, 0.0),
+                false => (queue.waiting.len(), room),
             };
             let is_pressing = waypoint.last_place < SOON * f64::from(waypoint.changes);
             (if is_pressing { waypoint.changes } else { 0 }, queued, -room)

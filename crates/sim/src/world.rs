@@ -25,6 +25,7 @@ use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
 use crate::turn::next_turn;
 use crate::vehicle::Class;
+use crate::views::Views;
 
 /// Traffic on a network, and all that moves it.
 pub struct World {
@@ -100,8 +101,8 @@ pub enum WorldError {
     #[error(transparent)]
     Headways(#[from] HeadwayError),
     /// More destinations than a vehicle can tell apart.
-    #[error("{0} destinations: there can be 65535 at most")]
-    Destinations(usize),
+    #[error("{0} destinations: there can be {1} at most")]
+    Destinations(usize, usize),
 }
 
 /// A vehicle as it is put on the road.
@@ -139,7 +140,8 @@ impl World {
             return Err(WorldError::NoCharacters);
         }
         demand.check()?;
-        let navigator = Navigator::towards(&network, &demand.destinations);
+        let views = Views::of(&network, &demand.fleet);
+        let navigator = Navigator::with_views(&network, &demand.destinations, views);
         let random = Random::new(setup.seed);
         let lanes = vec![Lane::default(); network.chains.len()];
         let plans = lanes.iter().map(|_| Plan::default()).collect();
@@ -227,7 +229,7 @@ impl World {
             character,
             due: next_turn(id, self.clock.step, period),
             calm_until: 0,
-            goal: destination.into(),
+            goal: self.navigator.seen_by(class, destination).into(),
             class,
             phase: Phase::Cruises,
             is_shadow: false,

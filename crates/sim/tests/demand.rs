@@ -5,7 +5,7 @@ mod roads;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::Network;
-use laneweave_sim::{Class, Demand, Event, Headways, Origin, Rate, Setup, World, WorldError};
+use laneweave_sim::{Demand, Event, Fleet, Headways, Origin, Rate, Setup, World, WorldError};
 use roads::{Road, drivers};
 
 fn styles() -> Vec<Style> {
@@ -123,21 +123,23 @@ fn classes_styles_and_destinations_come_in_their_shares() {
     let plan = Motorway { length_m: 2000.0, off_ramp_at: vec![1000.0], ..Motorway::default() };
     let network = motorway(&plan).unwrap().build().unwrap().network;
     assert_eq!(network.exits.len(), 2);
-    let demand = drivers::demand(&network, 3000.0, 0.1, &[0.119, 0.881]);
+    let fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.2 };
+    let demand = Demand { fleet, ..drivers::demand(&network, 3000.0, 0.0, &[0.119, 0.881]) };
     let mut world = world(network, demand, 0.5);
-    let (mut entered, mut trucks, mut aggressive, mut to_the_ramp) = (0.0_f64, 0.0, 0.0, 0.0);
+    let (mut entered, mut classes, mut aggressive, mut to_the_ramp) = (0.0_f64, [0.0; 4], 0.0, 0.0);
     for _ in 0..2 * 3600 {
         world.step();
         let is_new = |id| world.events().contains(&Event::Entered(id));
         for vehicle in world.vehicles().filter(|it| it.x() < 60.0 && is_new(it.id())) {
             entered += 1.0;
-            trucks += f64::from(u8::from(vehicle.car.class == Class::Truck));
+            classes[vehicle.car.class as usize] += 1.0;
             aggressive += f64::from(u8::from(vehicle.style().name == "aggressive"));
             to_the_ramp += f64::from(u8::from(vehicle.car.goal.destination() == Some(1)));
         }
     }
     assert_eq!(entered as u64, world.counts().entered);
-    for (count, share) in [(trucks, 0.1), (aggressive, 0.119), (to_the_ramp, 0.5)] {
+    let of_classes = classes.into_iter().zip([0.65, 0.1, 0.05, 0.2]);
+    for (count, share) in of_classes.chain([(aggressive, 0.119), (to_the_ramp, 0.5)]) {
         let error = (share * (1.0 - share) / entered).sqrt();
         assert!((count / entered - share).abs() < 2.6 * error, "{} of {entered}", count / entered);
     }
@@ -202,8 +204,12 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
         "a demand in veh/h is -1: it must be a number not below 0 and not above 100000"
     );
     assert_eq!(
-        message(&|it| it.trucks = 1.5),
+        message(&|it| it.fleet.trucks = 1.5),
         "the share of trucks is 1.5: it must be a number not below 0 and not above 1"
+    );
+    assert_eq!(
+        message(&|it| it.fleet = Fleet { trucks: 0.5, buses: 0.5, motorcycles: 0.25 }),
+        "the share of cars is -0.25: it must be a number not below 0 and not above 1"
     );
     assert_eq!(
         message(&|it| it.origins[0].weights[0] = f64::NAN),

@@ -1,7 +1,7 @@
 //! From the demand of a scenario to that of the world.
 
 use laneweave_network::Network;
-use laneweave_sim::{Demand, Place, Places, Rate, Share, World};
+use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
 
 use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
 use crate::fault::{Fault, did_you_mean};
@@ -32,7 +32,8 @@ pub(super) fn demand(
     let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
     let total = wanted.vehicles_per_hour.unwrap_or_else(usual);
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
-    let mut demand = Demand::over(places, total, wanted.trucks, population);
+    let fleet = Fleet { trucks: wanted.trucks, buses: wanted.buses, motorcycles: wanted.motorcycles };
+    let mut demand = Demand::over(places, total, fleet, population);
     let weights = weights(scenario, origin, &demand)?;
     demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
     set_single_rates(scenario, origin, &mut demand)?;

@@ -93,6 +93,10 @@ pub struct Demand {
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
     pub trucks: f64,
+    /// Share of buses, 0 to 1.
+    pub buses: f64,
+    /// Share of motorcycles, 0 to 1; all other vehicles are cars.
+    pub motorcycles: f64,
     /// Vehicles per hour at single entrances, by the smallest lanelet id there, in place of their split share.
     pub entrances: BTreeMap<String, VehiclesPerHour>,
     /// Weights of the exits as destinations, by the smallest lanelet id there; 1 where nothing is said.
@@ -111,6 +115,8 @@ impl Default for Demand {
         Demand {
             vehicles_per_hour: None,
             trucks: 0.1,
+            buses: 0.0,
+            motorcycles: 0.0,
             entrances: BTreeMap::new(),
             exits: BTreeMap::new(),
             od: Vec::new(),

@@ -114,6 +114,10 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["run", "duration_s"], "a duration", run.duration_s, (run.step_s, LONGEST), " s")?;
     check(&["run", "warmup_s"], "a warm-up", run.warmup_s, (0.0, LONGEST), " s")?;
     check(&["demand", "trucks"], "a share of trucks", demand.trucks, (0.0, 1.0), "")?;
+    let room = 1.0 - demand.trucks;
+    check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
+    let room = room - demand.buses;
+    check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
     check(&["output", "record_s"], "a recording interval", output.record_s, (0.0, LONGEST), " s")
 }
 

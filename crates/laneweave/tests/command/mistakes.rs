@@ -125,6 +125,10 @@ fn values_of_a_scenario_that_make_no_sense() {
             "[run]\nduration_s = \"long\"\n",
             "s.toml:3:14: invalid type: string \"long\", expected f64; correct the value",
         ),
+        (
+            "[demand]\ntrucks = 0.5\nbuses = 0.25\nmotorcycles = 0.5\n",
+            "s.toml:5:1: a share of motorcycles of 0.5; choose 0 to 0.25",
+        ),
         ("[demand]\ntrucks = -0.1\n", "s.toml:3:1: a share of trucks of -0.1; choose 0 to 1"),
         (
             "[demand.entrances]\n1 = 1e9\n",
