@@ -98,6 +98,8 @@ pub struct Navigator {
 }
 
 impl Navigator {
+    /// Waypoints that may be planned, ours: 2.4 GB.
+    pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
     /// What a lane change counts for in the choice of a route [s].
     const CHANGE_COST: f64 = 20.0;
     /// Road that is kept for each further change before the last place [m].
@@ -360,4 +362,37 @@ fn wander(network: &Network) -> Vec<Waypoint> {
         table[index.at()] = Waypoint { changes: 1, last_place, ..table[index.at()] };
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
+
+    use super::*;
+
+    /// A lane to the east between two stations [m], followed by `following`.
+    fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
+        let line = Polyline::new([from, to].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
+        let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
+        lanelet.following = following.iter().map(|it| LaneletIndex(*it)).collect();
+        lanelet
+    }
+
+    #[test]
+    fn of_two_equal_ways_drivers_go_that_of_the_smaller_lanelet_id_however_chains_are_stored() {
+        let network = |[one, other]: [i64; 2]| {
+            let (first, last) = (lanelet(1, [0.0, 100.0], &[1, 2]), lanelet(9, [200.0, 300.0], &[]));
+            let between = [one, other].map(|id| lanelet(id, [100.0, 200.0], &[3]));
+            let [one, other] = between;
+            Network::new(vec![first, one, other, last], DrivingSide::Right).unwrap()
+        };
+        for ids in [[4, 5], [5, 4]] {
+            for network in [network(ids), network(ids).with_chains_reversed()] {
+                let start = network.entrances[0].chains[0];
+                let waypoint = *Navigator::new(&network).waypoint(Some(0), start);
+                assert_eq!(network.lanelet_at(waypoint.next.unwrap(), 0.0).0.id, 4);
+                assert_eq!((waypoint.time, waypoint.distance, waypoint.changes), (30.0, 300.0, 0));
+            }
+        }
+    }
 }

@@ -103,6 +103,14 @@ pub enum WorldError {
     /// More destinations than a vehicle can tell apart.
     #[error("{0} destinations: there can be {1} at most")]
     Destinations(usize, usize),
+    /// The ways to all destinations would not fit into memory.
+    #[error("the ways to {destinations} destinations over {chains} lanes would not fit into memory")]
+    Ways {
+        /// Number of destinations.
+        destinations: usize,
+        /// Number of chains.
+        chains: usize,
+    },
 }
 
 /// A vehicle as it is put on the road.
@@ -126,7 +134,7 @@ impl World {
     /// An empty world on `network`, whose drivers come from `demand` with the given `characters`.
     ///
     /// # Errors
-    /// If the step is not between 0.01 and 1 s, there are no characters, or the demand is no demand.
+    /// If the step is not between 0.01 and 1 s, there are no characters, the demand is no demand, or has too many destinations.
     pub fn new(
         network: Network,
         characters: Vec<Style>,
@@ -140,6 +148,10 @@ impl World {
             return Err(WorldError::NoCharacters);
         }
         demand.check()?;
+        let (destinations, chains) = (demand.destinations.len(), network.chains.len());
+        if destinations * chains > Navigator::MOST_WAYPOINTS {
+            return Err(WorldError::Ways { destinations, chains });
+        }
         let views = Views::of(&network, &demand.fleet);
         let navigator = Navigator::with_views(&network, &demand.destinations, views);
         let random = Random::new(setup.seed);

@@ -129,6 +129,29 @@ fn a_driver_beyond_its_kerb_goes_round() {
 }
 
 #[test]
+fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
+    let network = ring(2);
+    let places = kerbs(&network);
+    let mut world = world(network, places, 0.0, 1);
+    let car = NewVehicle {
+        chain: ChainIndex(1),
+        x: 145.0,
+        speed: 14.0,
+        class: Class::Car,
+        character: 1,
+        destination: Some(0),
+    };
+    world.place(car);
+    for x in [100.0, 116.0, 132.0, 148.0, 164.0] {
+        world.place(NewVehicle { chain: ChainIndex(0), x, class: Class::Truck, destination: None, ..car });
+    }
+    (0..600).for_each(|_| world.step());
+    assert_eq!((world.tally().missed_turns, world.counts().left), (1, 0));
+    (0..600).for_each(|_| world.step());
+    assert_eq!((world.tally().missed_turns, world.counts().left), (1, 1));
+}
+
+#[test]
 fn the_way_to_a_kerb_is_counted_from_where_the_driver_is() {
     let network = ring(2);
     let navigator = Navigator::towards(&network, &kerbs(&network).destinations);
