@@ -79,7 +79,7 @@ impl Source {
         let sources = demand.origins.iter().zip(0..).map(|(origin, number)| {
             let lanes = queues(network, &origin.place);
             let count = if demand.headways == Headways::Exponential { 1 } else { lanes.len() };
-            let numbers = std::iter::once(number).chain(further.by_ref().take(count - 1));
+            let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
             let mut source = Source {
                 headways: demand.headways,
                 rate: origin.rate.times(&Rate::constant(1.0 / count as f64)),
@@ -155,10 +155,7 @@ impl Source {
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
             let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
-            let (queued, room) = match arrival.class.is_long() {
-                true => (0, 0.0),
-                false => (queue.waiting.len(), room),
-            };
+            let (queued, room) = if arrival.class.is_long() { (0, 0.0) } else { (queue.waiting.len(), room) };
             let is_pressing = waypoint.last_place < SOON * f64::from(waypoint.changes);
             (if is_pressing { waypoint.changes } else { 0 }, queued, -room)
         };

@@ -21,10 +21,11 @@ impl Views {
     /// How a fleet sees `network`.
     pub(crate) fn of(network: &Network, fleet: &Fleet) -> Views {
         let has_long = fleet.shares().iter().any(|(class, share)| class.is_long() && *share > 0.0);
-        let is_tight: Vec<bool> = match has_long {
-            true => network.chains.iter().map(|it| tightest_turn(&it.centre) < TIGHTEST_TURN).collect(),
-            false => Vec::new(),
-        };
+        if !has_long {
+            return Views::default();
+        }
+        let is_tight: Vec<bool> =
+            network.chains.iter().map(|it| tightest_turn(&it.centre) < TIGHTEST_TURN).collect();
         Views { of_long: is_tight.contains(&true).then_some(is_tight) }
     }
 
