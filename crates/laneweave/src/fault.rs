@@ -47,15 +47,20 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
-/// A remedy for an unknown name: the nearest of those that are known, else all of them.
+/// A remedy for an unknown name: the nearest of those that are known, else all of them, if they are not too many.
 pub fn did_you_mean<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     /// Names less alike than this are not meant.
     const ALIKE: f64 = 0.5;
+    /// Of more names only so many are listed.
+    const LISTED: usize = 30;
     let known: Vec<&str> = known.into_iter().collect();
     let likeness = |name: &&str| strsim::normalized_damerau_levenshtein(unknown, name);
     let nearest = known.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
     match nearest {
         Some(name) if likeness(&name) >= ALIKE => format!("did you mean {name:?}?"),
+        Some(_) if known.len() > LISTED => {
+            format!("known are {} and {} more", known[..LISTED].join(", "), known.len() - LISTED)
+        }
         Some(_) => format!("known are {}", known.join(", ")),
         None => "leave it out".into(),
     }

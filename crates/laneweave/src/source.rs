@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
-use toml::de::{DeTable, DeValue, Error};
+use toml::de::{DeArray, DeTable, DeValue, Error};
 
 use crate::fault::{Fault, did_you_mean};
 
@@ -40,15 +40,20 @@ impl Source {
         format!("{}:{line}:{column}", self.path.display())
     }
 
-    /// Where the key at `path` stands, or else the nearest table around it that does; the file if none does.
+    /// Where the key at `path` stands, or else the nearest table around it that does; the file if none does. The elements of
+    /// a list are called by their numbers from 0 on.
     pub fn place(&self, path: &[&str]) -> String {
         let Ok(root) = DeTable::parse(&self.text) else { return self.path.display().to_string() };
-        let (mut table, mut found) = (Some(root.get_ref()), None);
-        for name in path {
-            let entry = table.and_then(|table| table.iter().find(|(key, _)| key.get_ref() == name));
-            let Some((key, value)) = entry else { break };
-            found = Some(key.span());
-            table = value.get_ref().as_table();
+        let mut names = path.iter();
+        let mut at = names.next().and_then(|name| entry(root.get_ref(), name));
+        let mut found = None;
+        while let Some((span, value)) = at {
+            found = Some(span);
+            at = names.next().and_then(|name| match value {
+                DeValue::Table(table) => entry(table, name),
+                DeValue::Array(list) => element(list, name),
+                _ => None,
+            });
         }
         found.map_or(self.path.display().to_string(), |span| self.at(span.start))
     }
@@ -101,6 +106,18 @@ impl Source {
     }
 }
 
+/// Where a key of `table` stands, and its value.
+fn entry<'t, 'i>(table: &'t DeTable<'i>, name: &str) -> Option<(Range<usize>, &'t DeValue<'i>)> {
+    let (key, value) = table.iter().find(|(key, _)| key.get_ref() == name)?;
+    Some((key.span(), value.get_ref()))
+}
+
+/// Where an element of `list` stands, and its value.
+fn element<'t, 'i>(list: &'t DeArray<'i>, number: &str) -> Option<(Range<usize>, &'t DeValue<'i>)> {
+    let found = list.get(number.parse::<usize>().ok()?)?;
+    Some((found.span(), found.get_ref()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,6 +133,14 @@ mod tests {
         assert_eq!(source.place(&["run", "seed"]), "a.toml:4:3");
         assert_eq!(source.place(&["run", "threads"]), "a.toml:3:2");
         assert_eq!(source.place(&["demand"]), "a.toml");
+    }
+
+    #[test]
+    fn an_element_of_a_list_has_the_place_of_its_table() {
+        let source = source("[[a.od]]\nfrom = 1\n[[a.od]]\nfrom = 2\n[b]\nlist = [[1, 2],\n [3, 4]]\n");
+        assert_eq!(source.place(&["a", "od", "1", "from"]), "a.toml:4:1");
+        assert_eq!(source.place(&["b", "list", "1"]), "a.toml:7:2");
+        assert_eq!(source.place(&["b", "list", "2"]), "a.toml:6:1");
     }
 
     #[test]

@@ -160,7 +160,9 @@ fn allowed(class: Class, limit: f64) -> f64 {
 
 fn class_of(road_user: RoadUser) -> Class {
     match road_user {
-        RoadUser::Truck | RoadUser::Bus => Class::Truck,
+        RoadUser::Truck => Class::Truck,
+        RoadUser::Bus => Class::Bus,
+        RoadUser::Motorcycle => Class::Motorcycle,
         _ => Class::Car,
     }
 }

@@ -4,6 +4,7 @@ use laneweave_models::Style;
 
 use crate::clock::Clock;
 use crate::junction::NO_PASSAGE;
+use crate::navigate::TripEnd;
 use crate::plan::{Outbox, Plan, Progress};
 use crate::pose::least_way;
 use crate::traffic::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
@@ -14,11 +15,20 @@ const EASING: f64 = 1.5;
 /// Share of its usual pace at which a change goes on at standstill.
 const SLOWEST_SHARE: f64 = 0.2;
 
+/// Where vehicles go off a chain.
+#[derive(Clone, Copy)]
+pub(crate) struct Ends<'a> {
+    /// Its length [m].
+    pub(crate) length: f64,
+    /// Where trips end before that.
+    pub(crate) trips: &'a [TripEnd],
+}
+
 /// All vehicles of a lane move, and what else became of them is kept.
 pub(crate) fn advance(
     lane: &mut Lane,
     chain: ChainIndex,
-    length: f64,
+    ends: Ends,
     clock: Clock,
     characters: &[Style],
     plan: &mut Plan,
@@ -58,11 +68,28 @@ pub(crate) fn advance(
             car.heeds_more = mind.last_place.is_finite() || mind.passage != NO_PASSAGE;
         }
     }
+    end_trips(lane, chain, ends.trips, plan, outbox);
     if has_ended {
         lane.remove_ended();
     }
-    while let Some(entry) = lane.pop_beyond(length) {
+    while let Some(entry) = lane.pop_beyond(ends.length) {
         outbox.leaving.push((chain, entry));
+    }
+}
+
+/// Vehicles whose front bumpers passed the places that they go to in this step are gone.
+fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &mut Plan, outbox: &mut Outbox) {
+    let Plan { next: before, arrived, .. } = plan;
+    arrived.clear();
+    for trip in trips {
+        let (from, cars) = (lane.ahead_of(trip.station), lane.cars());
+        let passed = before[from..].iter().zip(from..).take_while(|(it, _)| it.x <= trip.station);
+        let ends = |index: usize| cars[index].goal == trip.goal && !cars[index].is_shadow;
+        arrived.extend(passed.map(|(_, index)| index).filter(|it| ends(*it)).map(|it| it as u32));
+    }
+    arrived.sort_unstable_by(|a, b| b.cmp(a));
+    for index in arrived.iter() {
+        outbox.arrived.push((chain, lane.remove(*index as usize)));
     }
 }
 

@@ -85,18 +85,23 @@ fn consider(
     plan.notes.push(note);
     let mut concern =
         Concern { index: note.index, last_place: None, urgency: 0.0, gives_up: false, rerouted: None };
-    let waypoint = scene.navigator.waypoint(car.goal.destination(), spot.chain);
+    let (navigator, goal) = (scene.navigator, car.goal.destination());
+    let waypoint = navigator.waypoint_from(scene.network, goal, spot.chain, motion.x);
     // Where it stands in vain, the driver takes another way if there is one.
     let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - motion.x < AT_THE_PLACE;
     let beyond = waypoint.last_place + 1.0;
-    let has_another_way = stands_in_vain && scene.navigator.reachable(spot.chain, beyond).next().is_some();
+    let has_another_way = stands_in_vain && navigator.reachable(spot.chain, beyond).next().is_some();
     if !waypoint.leads_on(motion.x) || has_another_way {
         let from = if has_another_way { beyond } else { motion.x };
-        concern.rerouted = Some(scene.navigator.nearest(spot.chain, from));
+        concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
         plan.tally.missed_turns += 1;
         plan.concerns.push(concern);
         return;
+    }
+    // Who passed the last place goes round, if there is a way round.
+    if !navigator.waypoint(goal, spot.chain).leads_on(motion.x) {
+        plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
     concern.last_place = Some(waypoint.last_place).filter(|it| it - motion.x < HEEDED_WITHIN);
     let outlook = Outlook::new(scene, spot);
@@ -348,10 +353,7 @@ impl Gap {
         let here = scene.viewpoint(spot);
         let there = Viewpoint { chain: self.chain, x: self.x, ..here };
         let way = way.max(LEAST);
-        let has_passage = |it: &Found| {
-            let passage = scene.passages.of(scene.mind(it.spot).passage, scene.motion(it.spot).id);
-            passage.is_some_and(|passage| passage.left() > it.distance - f64::from(motion.length))
-        };
+        let has_passage = |it: &Found| scene.has_passage(it.spot, it.distance - f64::from(motion.length));
         ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
             && !self.follower.as_ref().is_some_and(has_passage)
     }

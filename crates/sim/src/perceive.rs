@@ -2,7 +2,7 @@
 
 use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation};
 use laneweave_models::follow::{Ahead, Pace};
-use laneweave_network::{Beside, ChainIndex, Side};
+use laneweave_network::{Beside, Side};
 
 use crate::navigate::Waypoint;
 use crate::scene::{LaneSight, Scene, Spot, Viewpoint};
@@ -47,7 +47,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
         let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length);
-        let here = lane_view(scene, &me, from, &sight);
+        let waypoint = scene.navigator.waypoint_from(scene.network, from.destination, from.chain, from.x);
+        let here = lane_view(scene, &me, from, &sight, waypoint);
         Outlook { scene, car: scene.car(spot), me, from, sight, here }
     }
 
@@ -73,7 +74,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
         *hint = self.scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
         let from = Viewpoint { chain: beside.chain, x, ahead: *hint, ..self.from };
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length);
-        let mut there = lane_view(self.scene, &self.me, from, &sight);
+        let mut there = lane_view(self.scene, &self.me, from, &sight, self.waypoint_beside(from));
         let mut here = self.here;
         let section = here.route.remaining.min(there.route.remaining).min(SIGHT);
         let on_section = section / self.scene.network.chain(self.from.chain).limit(self.from.x);
@@ -84,6 +85,17 @@ impl<'s, 'a> Outlook<'s, 'a> {
             (there.route.onward - on_section).max(0.0)
         };
         Situation { me: self.me, here, there, section, merging: self.merging(side, from, &sight) }
+    }
+
+    /// The way on from beside. Only a driver who goes round already would go round from there.
+    fn waypoint_beside(&self, there: Viewpoint) -> Waypoint {
+        let Scene { network, navigator, .. } = self.scene;
+        let Viewpoint { destination, chain, x, .. } = there;
+        if navigator.waypoint(destination, self.from.chain).leads_on(self.from.x) {
+            *navigator.waypoint(destination, chain)
+        } else {
+            navigator.waypoint_from(network, destination, chain, x)
+        }
     }
 
     /// A neighbour on the other side than the driver would leave to cannot be seen from here; one on this side that
@@ -109,7 +121,13 @@ impl<'s, 'a> Outlook<'s, 'a> {
     }
 }
 
-fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, from: Viewpoint, sight: &LaneSight) -> LaneView<'a> {
+fn lane_view<'a>(
+    scene: &Scene<'a>,
+    me: &Driver,
+    from: Viewpoint,
+    sight: &LaneSight,
+    waypoint: Waypoint,
+) -> LaneView<'a> {
     let behind =
         sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, it.spot) });
     LaneView {
@@ -117,14 +135,13 @@ fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, from: Viewpoint, sight: &LaneSi
         behind,
         flow: sight.flow,
         prospect: sight.prospect,
-        route: route_view(scene, from.chain, from),
+        route: route_view(scene, from, waypoint),
     }
 }
 
-/// What a lane means for the driver's route; `onward` counts from the driver's place on.
-fn route_view(scene: &Scene, chain: ChainIndex, from: Viewpoint) -> RouteView {
-    let waypoint = scene.navigator.waypoint(from.destination, chain);
-    let onward = (waypoint.time - from.x / scene.network.chain(chain).limit(from.x)).max(0.0);
+/// What a lane means for the driver's route, whose waypoint there is `waypoint`; `onward` counts from the driver's place on.
+fn route_view(scene: &Scene, from: Viewpoint, waypoint: Waypoint) -> RouteView {
+    let onward = (waypoint.time - from.x / scene.network.chain(from.chain).limit(from.x)).max(0.0);
     if !waypoint.leads_on(from.x) {
         return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };
     }

@@ -26,6 +26,8 @@ pub(crate) struct Plan {
     pub(crate) waited: Vec<Waiting>,
     /// Drivers who give a passage back, and from where on.
     pub(crate) returns: Vec<(u32, f64)>,
+    /// Entries whose trips ended.
+    pub(crate) arrived: Vec<u32>,
     /// Overlaps, if it was time to look for them.
     pub(crate) overlaps: u64,
     /// Counts.
@@ -64,6 +66,8 @@ pub(crate) struct Outbox {
     pub(crate) claims: Vec<(ZoneIndex, u8, Claim)>,
     /// Room for the thread's work.
     pub(crate) survey: Survey,
+    /// Main entries whose trips ended on their chains.
+    pub(crate) arrived: Vec<(ChainIndex, Entry)>,
 }
 
 impl Outbox {
@@ -75,6 +79,7 @@ impl Outbox {
         self.progress.append(&mut other.progress);
         self.appeals.append(&mut other.appeals);
         self.claims.append(&mut other.claims);
+        self.arrived.append(&mut other.arrived);
     }
 }
 

@@ -188,9 +188,10 @@ impl World {
         }
     }
 
-    /// Entries that passed the ends of their chains go on, or leave the map.
+    /// Entries whose trips ended leave; those that passed the ends of their chains go on, or leave the map.
     pub(crate) fn transfer(&mut self) {
         let mut leaving = std::mem::take(&mut self.outboxes[0].leaving);
+        self.end_trips(&mut leaving);
         // A vehicle's main entry comes before its shadow.
         leaving.sort_unstable_by_key(|(_, it)| (it.motion.id, it.car.is_shadow));
         let mut index = 0;
@@ -212,6 +213,20 @@ impl World {
         }
         leaving.clear();
         self.outboxes[0].leaving = leaving;
+    }
+
+    /// Entries whose trips ended leave, with their shadows, which may just have passed the ends of their own chains.
+    fn end_trips(&mut self, leaving: &mut Vec<(ChainIndex, Entry)>) {
+        let mut arrived = std::mem::take(&mut self.outboxes[0].arrived);
+        arrived.sort_unstable_by_key(|(_, it)| it.motion.id);
+        if !arrived.is_empty() {
+            let is_gone = |id| arrived.binary_search_by_key(&id, |(_, it)| it.motion.id).is_ok();
+            leaving.retain(|(_, it)| !is_gone(it.motion.id));
+        }
+        for (chain, entry) in arrived.drain(..) {
+            self.leave(chain, entry);
+        }
+        self.outboxes[0].arrived = arrived;
     }
 
     /// Where an entry that passed the end of its chain stands now.

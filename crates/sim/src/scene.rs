@@ -130,6 +130,12 @@ impl<'a> Scene<'a> {
         self.network.junctions.lights[light.at()].program.state(self.time)
     }
 
+    /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it there.
+    pub(crate) fn has_passage(&self, spot: Spot, distance: f64) -> bool {
+        let passage = self.passages.of(self.mind(spot).passage, self.motion(spot).id);
+        passage.is_some_and(|it| it.left() > distance)
+    }
+
     /// How the entry at `spot` moves.
     #[inline]
     pub fn motion(&self, spot: Spot) -> &'a Motion {
@@ -255,6 +261,21 @@ impl<'a> Scene<'a> {
             .filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY))
             .map(|it| Ahead { gap: base + it.gap, ..it })
             .fold(None, |nearest, it| nearer(nearest, Some(it)))
+    }
+
+    /// Rear bumper of a vehicle without a passage that forked off from `chain` to another one than `next` and is still in
+    /// the way, from the fork on [m].
+    pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
+        let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
+        let waiting = siblings.filter_map(|it| {
+            let lane = &self.lanes[it.at()];
+            let mut came = lane.motions().iter().zip(lane.minds());
+            let (other, mind) = came.find(|(it, mind)| it.id != id && mind.came_from == Some(chain))?;
+            let is_in_the_way = other.rear() < self.network.chain(*it).fork_clearance;
+            let waits = self.passages.of(mind.passage, other.id).is_none();
+            (is_in_the_way && waits).then(|| other.rear())
+        });
+        waiting.reduce(f64::min)
     }
 
     /// Distance to the vehicle `it`, `base` before the start of the chain that it is on [m]. Whose rear is still on

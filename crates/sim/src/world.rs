@@ -5,15 +5,15 @@ use laneweave_network::{ChainIndex, Network, Pose};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::accelerate::speed_before_a_stop;
-use crate::advance::advance;
+use crate::advance::{Ends, advance};
 use crate::appeal::appeal;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
-use crate::demand::{Arrival, Demand, Source, entry_speed};
+use crate::demand::Demand;
 use crate::drive::drive;
 use crate::events::Event;
-use crate::junction::{NO_PASSAGE, Passages, sight, stop_ahead};
+use crate::headways::HeadwayError;
+use crate::junction::{NO_PASSAGE, Passages};
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
 use crate::plan::{Outbox, Plan};
@@ -22,10 +22,12 @@ use crate::pose::{lateral_offset, pose};
 use crate::random::Random;
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
+use crate::source::Source;
 use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
 use crate::turn::next_turn;
 use crate::vehicle::Class;
+use crate::views::Views;
 
 /// Traffic on a network, and all that moves it.
 pub struct World {
@@ -41,14 +43,14 @@ pub struct World {
     pub(crate) counts: Counts,
     /// One for each thread.
     pub(crate) outboxes: Vec<Outbox>,
-    demand: Demand,
-    sources: Vec<Source>,
-    random: Random,
+    pub(crate) demand: Demand,
+    pub(crate) sources: Vec<Source>,
+    pub(crate) random: Random,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
     /// Vehicles on the road.
     pub(crate) crowd: usize,
-    next_id: VehicleId,
+    pub(crate) next_id: VehicleId,
 }
 
 /// Counts of what the whole world, not a lane, does.
@@ -98,6 +100,20 @@ pub enum WorldError {
         /// Its upper limit, in words.
         limit: String,
     },
+    /// Headways cannot be as they should.
+    #[error(transparent)]
+    Headways(#[from] HeadwayError),
+    /// More destinations than a vehicle can tell apart.
+    #[error("{0} destinations: there can be {1} at most")]
+    Destinations(usize, usize),
+    /// The ways to all destinations would not fit into memory.
+    #[error("the ways to {destinations} destinations over {chains} lanes would not fit into memory")]
+    Ways {
+        /// Number of destinations.
+        destinations: usize,
+        /// Number of chains.
+        chains: usize,
+    },
 }
 
 /// A vehicle as it is put on the road.
@@ -121,7 +137,7 @@ impl World {
     /// An empty world on `network`, whose drivers come from `demand` with the given `characters`.
     ///
     /// # Errors
-    /// If the step is not between 0.01 and 1 s, there are no characters, or the demand is no demand.
+    /// If the step is not between 0.01 and 1 s, there are no characters, the demand is no demand, or has too many destinations.
     pub fn new(
         network: Network,
         characters: Vec<Style>,
@@ -135,7 +151,12 @@ impl World {
             return Err(WorldError::NoCharacters);
         }
         demand.check()?;
-        let navigator = Navigator::new(&network);
+        let (destinations, chains) = (demand.destinations.len(), network.chains.len());
+        if destinations * chains > Navigator::MOST_WAYPOINTS {
+            return Err(WorldError::Ways { destinations, chains });
+        }
+        let views = Views::of(&network, &demand.fleet);
+        let navigator = Navigator::with_views(&network, &demand.destinations, views);
         let random = Random::new(setup.seed);
         let lanes = vec![Lane::default(); network.chains.len()];
         let plans = lanes.iter().map(|_| Plan::default()).collect();
@@ -199,47 +220,13 @@ impl World {
             },
             |lane, outbox, index, plan| {
                 let chain = ChainIndex(index as u32);
-                advance(lane, chain, network.chain(chain).length, moment.clock, characters, plan, outbox);
+                let ends = Ends { length: network.chain(chain).length, trips: navigator.trip_ends(chain) };
+                advance(lane, chain, ends, moment.clock, characters, plan, outbox);
             },
         );
         if is_watched {
             self.counts.overlaps += self.plans.iter().map(|plan| plan.overlaps).sum::<u64>();
         }
-    }
-
-    /// Vehicles arrive, queue up, and enter where there is room.
-    fn enter(&mut self) {
-        let mut sources = std::mem::take(&mut self.sources);
-        let time = self.clock.time();
-        for source in &mut sources {
-            let scene = self.scene();
-            let mut next_id = self.next_id;
-            source.arrive(&scene, &self.demand, &self.random, time, &mut next_id);
-            self.next_id = next_id;
-            for queue in source.queues() {
-                while let Some(vehicle) = queue.waiting.front().and_then(|it| self.admit(queue.chain, it)) {
-                    let id = queue.waiting.pop_front().map_or(0, |it| it.id);
-                    self.put(vehicle, id);
-                    self.events.push(Event::Entered(id));
-                }
-            }
-        }
-        self.sources = sources;
-    }
-
-    /// The vehicle as it enters `chain`, if there is room for it.
-    fn admit(&self, chain: ChainIndex, arrival: &Arrival) -> Option<NewVehicle> {
-        let x = arrival.class.body().length;
-        let style = &self.characters[arrival.character as usize];
-        let desired = arrival.class.desired_speed(style, self.network.chain(chain).limit(x));
-        let scene = self.scene();
-        let from = scene.viewpoint_at(chain, 0.0, arrival.id, arrival.destination);
-        let stop = stop_ahead(&scene, from, 0.0, sight(desired)).map(|it| it - x);
-        let ahead = scene.ahead(from).map(|it| laneweave_models::follow::Ahead { gap: it.gap - x, ..it });
-        let speed = entry_speed(style, desired, ahead, self.clock.dt)?;
-        let speed = stop.map_or(speed, |it| speed.min(speed_before_a_stop(it)));
-        let Arrival { class, character, destination, .. } = *arrival;
-        Some(NewVehicle { chain, x, speed, class, character, destination })
     }
 
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
@@ -250,7 +237,7 @@ impl World {
         id
     }
 
-    fn put(&mut self, vehicle: NewVehicle, id: VehicleId) {
+    pub(crate) fn put(&mut self, vehicle: NewVehicle, id: VehicleId) {
         let NewVehicle { chain, x, speed, class, character, destination } = vehicle;
         let style = &self.characters[character as usize];
         let body = class.body();
@@ -264,7 +251,7 @@ impl World {
             character,
             due: next_turn(id, self.clock.step, period),
             calm_until: 0,
-            goal: destination.into(),
+            goal: self.navigator.seen_by(class, destination).into(),
             class,
             phase: Phase::Cruises,
             is_shadow: false,
@@ -324,6 +311,17 @@ impl World {
         &self.network
     }
 
+    /// Who comes, from where and to where.
+    pub fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
+    /// Whether drivers from an origin of the demand can reach one of its destinations, and would drive there.
+    pub fn leads(&self, origin: usize, destination: usize) -> bool {
+        let place = &self.demand.origins[origin].place;
+        self.navigator.leads(&self.network, place, destination as u16)
+    }
+
     /// What the drivers did so far, added up over the lanes.
     pub fn tally(&self) -> Tally {
         let mut sum = Tally::default();
@@ -347,14 +345,14 @@ impl World {
         self.lanes.iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
     }
 
-    /// Vehicles that wait at the entrances.
+    /// Vehicles that wait to enter.
     pub fn waiting(&self) -> usize {
         self.sources.iter().map(Source::waiting).sum()
     }
 
-    /// Vehicles that have arrived at the entrances.
+    /// Vehicles that have arrived, whether they entered or wait.
     pub fn arrived(&self) -> u64 {
-        self.sources.iter().map(|source| u64::from(source.arrived())).sum()
+        self.sources.iter().map(Source::arrived).sum()
     }
 
     /// All vehicles, by chain and in driving order.

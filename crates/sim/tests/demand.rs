@@ -5,7 +5,7 @@ mod roads;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::Network;
-use laneweave_sim::{Class, Demand, Event, Setup, World, WorldError};
+use laneweave_sim::{Demand, Event, Fleet, Headways, Origin, Rate, Setup, World, WorldError};
 use roads::{Road, drivers};
 
 fn styles() -> Vec<Style> {
@@ -50,6 +50,56 @@ fn v27_arrivals_within_ten_seconds_are_poisson() {
 }
 
 #[test]
+fn arrivals_in_each_lane_follow_the_law_of_headways() {
+    const LANES: usize = 2;
+    const RATE: f64 = 1800.0;
+    let law = Headways::CowanM3 { minimum: 1.5, free: 0.6 };
+    let network = Road { lanes: LANES, length: 60.0, ..Road::default() }.network();
+    let demand = Demand { headways: law, ..drivers::demand(&network, RATE, 0.0, &[0.5, 0.5]) };
+    let mut world = world(network, demand, 0.1);
+    let mut times = Vec::new();
+    for _ in 0..200_000 {
+        let before = world.arrived();
+        world.step();
+        times.extend((before..world.arrived()).map(|_| world.clock().time()));
+    }
+    let n = times.len() as f64;
+    // Two streams, each with a mean of 4 s and a standard deviation of (4 − 1.5) √(2/0.6 − 1) s.
+    let deviation = 2.5 * (2.0_f64 / 0.6 - 1.0).sqrt();
+    let mean = 20_000.0 / n;
+    assert!((mean - 2.0).abs() < 2.6 * 2.0 * deviation / 4.0 / n.sqrt(), "{mean} s");
+    // Never three in less than the shortest headway: they would be three lanes.
+    assert!(times.windows(3).all(|it| it[2] - it[0] > 1.5 - 0.11));
+}
+
+#[test]
+fn the_rate_of_arrivals_changes_when_it_should() {
+    let network = Road { length: 60.0, ..Road::default() }.network();
+    for headways in
+        [Headways::Exponential, Headways::Shifted { minimum: 1.0 }, Headways::Erlang { stages: 3 }]
+    {
+        let mut demand = Demand { headways, ..drivers::demand(&network, 0.0, 0.0, &[1.0]) };
+        let hour = 3600.0;
+        demand.origins[0].rate =
+            Rate::by_pieces(&[(hour, 900.0), (11.0 * hour, 0.0), (12.0 * hour, 1800.0)]).unwrap();
+        let mut world = world(network.clone(), demand, 1.0);
+        let mut until = |hours: u32| {
+            let before = world.arrived();
+            (world.clock().step..3600 * hours).for_each(|_| world.step());
+            (world.arrived() - before) as f64
+        };
+        let counts = [until(1), until(11), until(12), until(22)];
+        assert_eq!((counts[0], counts[2]), (0.0, 0.0), "{headways:?}");
+        for (count, expected) in [(counts[1], 9000.0_f64), (counts[3], 18_000.0)] {
+            assert!(
+                (count - expected).abs() < 2.6 * expected.sqrt(),
+                "{headways:?}: {count}, not {expected}"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_full_road_delays_no_arrival() {
     let arrivals = |lanes| {
         let network = Road { lanes, length: 1000.0, ..Road::default() }.network();
@@ -73,24 +123,56 @@ fn classes_styles_and_destinations_come_in_their_shares() {
     let plan = Motorway { length_m: 2000.0, off_ramp_at: vec![1000.0], ..Motorway::default() };
     let network = motorway(&plan).unwrap().build().unwrap().network;
     assert_eq!(network.exits.len(), 2);
-    let demand = drivers::demand(&network, 3000.0, 0.1, &[0.119, 0.881]);
+    let fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.2 };
+    let demand = Demand { fleet, ..drivers::demand(&network, 3000.0, 0.0, &[0.119, 0.881]) };
     let mut world = world(network, demand, 0.5);
-    let (mut entered, mut trucks, mut aggressive, mut to_the_ramp) = (0.0_f64, 0.0, 0.0, 0.0);
+    let (mut entered, mut classes, mut aggressive, mut to_the_ramp) = (0.0_f64, [0.0; 4], 0.0, 0.0);
     for _ in 0..2 * 3600 {
         world.step();
         let is_new = |id| world.events().contains(&Event::Entered(id));
         for vehicle in world.vehicles().filter(|it| it.x() < 60.0 && is_new(it.id())) {
             entered += 1.0;
-            trucks += f64::from(u8::from(vehicle.car.class == Class::Truck));
+            classes[vehicle.car.class as usize] += 1.0;
             aggressive += f64::from(u8::from(vehicle.style().name == "aggressive"));
             to_the_ramp += f64::from(u8::from(vehicle.car.goal.destination() == Some(1)));
         }
     }
     assert_eq!(entered as u64, world.counts().entered);
-    for (count, share) in [(trucks, 0.1), (aggressive, 0.119), (to_the_ramp, 0.5)] {
+    let of_classes = classes.into_iter().zip([0.65, 0.1, 0.05, 0.2]);
+    for (count, share) in of_classes.chain([(aggressive, 0.119), (to_the_ramp, 0.5)]) {
         let error = (share * (1.0 - share) / entered).sqrt();
         assert!((count / entered - share).abs() < 2.6 * error, "{} of {entered}", count / entered);
     }
+}
+
+#[test]
+fn drivers_of_each_origin_go_to_its_own_destinations() {
+    let plan = Motorway {
+        length_m: 3000.0,
+        on_ramp_at: vec![1000.0],
+        off_ramp_at: vec![2000.0],
+        ..Motorway::default()
+    };
+    let network = motorway(&plan).unwrap().build().unwrap().network;
+    let mut demand = drivers::demand(&network, 3000.0, 0.1, &[0.5, 0.5]);
+    (demand.origins[0].weights, demand.origins[1].weights) = (vec![300.0, 100.0], vec![0.0, 50.0]);
+    let mut world = world(network, demand, 0.5);
+    let mut counts = [[0.0_f64; 2]; 2];
+    for _ in 0..2 * 3600 {
+        world.step();
+        let is_new = |id| world.events().contains(&Event::Entered(id));
+        for vehicle in world.vehicles().filter(|it| is_new(it.id())) {
+            let origins = &world.demand().origins;
+            let at = |origin: &Origin| origin.place.chains().contains(&vehicle.spot.chain);
+            let origin = origins.iter().position(at).unwrap();
+            counts[origin][usize::from(vehicle.car.goal.destination().unwrap())] += 1.0;
+        }
+    }
+    let [[onward, off], from_the_ramp] = counts;
+    assert_eq!(from_the_ramp[0], 0.0);
+    assert!(from_the_ramp[1] > 500.0);
+    let (share, all) = (off / (onward + off), onward + off);
+    assert!((share - 0.25).abs() < 2.6 * (0.25 * 0.75 / all).sqrt(), "{share} of {all}");
 }
 
 #[test]
@@ -100,8 +182,9 @@ fn entrances_share_the_demand_by_their_lanes() {
     let lanes: Vec<usize> = network.entrances.iter().map(|it| it.chains.len()).collect();
     assert_eq!(lanes, [3, 1]);
     let demand = drivers::demand(&network, 4000.0, 0.0, &[1.0]);
-    assert_eq!(demand.rates, [3000.0, 1000.0]);
-    assert_eq!(demand.destinations, [1.0]);
+    let rates: Vec<&Rate> = demand.origins.iter().map(|it| &it.rate).collect();
+    assert_eq!(rates, [&Rate::constant(3000.0), &Rate::constant(1000.0)]);
+    assert!(demand.origins.iter().all(|it| it.weights == [1.0]));
 }
 
 #[test]
@@ -117,15 +200,19 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
     assert_eq!(refusal(&|_| (), 0.001), Some(WorldError::Step(0.001)));
     assert!(matches!(refusal(&|_| (), f64::NAN), Some(WorldError::Step(_))));
     assert_eq!(
-        message(&|it| it.rates[0] = -1.0),
+        message(&|it| it.origins[0].rate = Rate::constant(-1.0)),
         "a demand in veh/h is -1: it must be a number not below 0 and not above 100000"
     );
     assert_eq!(
-        message(&|it| it.trucks = 1.5),
+        message(&|it| it.fleet.trucks = 1.5),
         "the share of trucks is 1.5: it must be a number not below 0 and not above 1"
     );
     assert_eq!(
-        message(&|it| it.destinations[0] = f64::NAN),
+        message(&|it| it.fleet = Fleet { trucks: 0.5, buses: 0.5, motorcycles: 0.25 }),
+        "the share of cars is -0.25: it must be a number not below 0 and not above 1"
+    );
+    assert_eq!(
+        message(&|it| it.origins[0].weights[0] = f64::NAN),
         "the weight of an exit is NaN: it must be a number not below 0"
     );
     assert_eq!(refusal(&|it| it.population.clear(), 0.1), Some(WorldError::NoCharacters));

@@ -25,8 +25,8 @@ pub(crate) struct Arguments {
     /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
     #[arg(value_name = "SCENARIO.toml|MAP")]
     input: PathBuf,
-    /// Vehicles per hour in total, split over the entrances by their number of lanes, whatever the scenario says of
-    /// them [default for a map: 1000 a lane].
+    /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
+    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 1000 a lane, or 200 a kilometre].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
@@ -113,6 +113,7 @@ impl Arguments {
         let Scenario { demand, run, output, styles, .. } = scenario;
         if self.demand.is_some() {
             demand.entrances.clear();
+            demand.od.clear();
         }
         let total = self.demand.map(Some);
         replace(origin, ("demand.vehicles_per_hour", "--demand"), &mut demand.vehicles_per_hour, total);

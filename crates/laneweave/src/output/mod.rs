@@ -55,8 +55,7 @@ pub fn observers(scenario: &Scenario, prepared: &Prepared) -> Result<Vec<Box<dyn
     observers.push(Box::new(LaneChanges::create(dir, format, begin)?));
     let duration = f64::from(prepared.steps) * scenario.run.step_s;
     observers.push(Box::new(LaneChangeRate::new(dir, &prepared.world, begin, duration)));
-    let demand = &prepared.entrance_demand_veh_h;
-    observers.push(Box::new(TimeSpace::new(dir, &prepared.world, demand, begin, duration)));
+    observers.push(Box::new(TimeSpace::new(dir, &prepared.world, &prepared.origins, begin, duration)));
     Ok(observers)
 }
 

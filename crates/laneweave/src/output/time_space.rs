@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use laneweave_network::{ChainIndex, Gate, Network};
-use laneweave_sim::{Event, VehicleId, World};
+use laneweave_sim::{Event, Place, VehicleId, World};
 use laneweave_study::{Mark, Sample, time_space};
 
 use super::road::Road;
@@ -33,12 +33,15 @@ pub struct TimeSpace {
 }
 
 impl TimeSpace {
-    /// For the figure in `dir`, over at most `duration` [s] from the time `begin` [s] on; `demand` [veh/h] tells the
-    /// busiest entrance.
-    pub fn new(dir: &Path, world: &World, demand: &[f64], begin: f64, duration: f64) -> TimeSpace {
+    /// For the figure in `dir`, over at most `duration` [s] from the time `begin` [s] on; `origins`, each with its
+    /// demand [veh/h], tell the busiest entrance.
+    pub fn new(dir: &Path, world: &World, origins: &[(Place, f64)], begin: f64, duration: f64) -> TimeSpace {
         let network = world.network();
-        let busiest = network.entrances.iter().zip(demand).max_by(|a, b| a.1.total_cmp(b.1));
-        let start = busiest.and_then(|(gate, _)| slow_lane(network, gate));
+        let busiest = origins.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let start = busiest.and_then(|(place, _)| match place {
+            Place::Gate(gate) => slow_lane(network, gate),
+            Place::Kerb(kerb) => Some(kerb.chain),
+        });
         let lanelet = start.map_or(0, |chain| network.lanelet_at(chain, 0.0).0.id);
         TimeSpace {
             path: dir.join("time_space.svg"),

@@ -1,8 +1,10 @@
 //! Scenario files: what to simulate, in TOML. Every key but the map has a default.
 
+mod demand;
+mod headways;
+mod mixture;
 mod origin;
 mod prepare;
-mod traffic;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -13,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::style::DEFAULT_MIXTURE;
 
+pub use headways::Headways;
 pub use origin::Origin;
 pub use prepare::{Prepared, open_map, prepare};
 
@@ -90,16 +93,59 @@ pub struct Demand {
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
     pub trucks: f64,
+    /// Share of buses, 0 to 1.
+    pub buses: f64,
+    /// Share of motorcycles, 0 to 1; all other vehicles are cars.
+    pub motorcycles: f64,
     /// Vehicles per hour at single entrances, by the smallest lanelet id there, in place of their split share.
-    pub entrances: BTreeMap<String, f64>,
+    pub entrances: BTreeMap<String, VehiclesPerHour>,
     /// Weights of the exits as destinations, by the smallest lanelet id there; 1 where nothing is said.
     pub exits: BTreeMap<String, f64>,
+    /// Vehicles per hour from single entrances to single exits, in place of their split share and the weights of the
+    /// exits.
+    pub od: Vec<OdRow>,
+    /// Factors on all demands: [[time_s, factor], …], each from its time after the start (with the warm-up) on.
+    pub profile: Vec<[f64; 2]>,
+    /// Law of the headways, the times between arrivals in a lane; the mean is that of the demand.
+    pub headways: Headways,
 }
 
 impl Default for Demand {
     fn default() -> Demand {
-        Demand { vehicles_per_hour: None, trucks: 0.1, entrances: BTreeMap::new(), exits: BTreeMap::new() }
+        Demand {
+            vehicles_per_hour: None,
+            trucks: 0.1,
+            buses: 0.0,
+            motorcycles: 0.0,
+            entrances: BTreeMap::new(),
+            exits: BTreeMap::new(),
+            od: Vec::new(),
+            profile: Vec::new(),
+            headways: Headways::default(),
+        }
     }
+}
+
+/// Vehicles per hour at an entrance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "invalid value: expected a number or a list [[time_s, vehicles_per_hour], …]")]
+pub enum VehiclesPerHour {
+    /// The same at all times.
+    Constant(f64),
+    /// [[time_s, vehicles_per_hour], …], each from its time after the start (with the warm-up) on.
+    OverTime(Vec<[f64; 2]>),
+}
+
+/// A row of the table of origins and destinations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OdRow {
+    /// The smallest lanelet id at the entrance.
+    pub from: String,
+    /// The smallest lanelet id at the exit.
+    pub to: String,
+    /// Vehicles per hour.
+    pub vehicles_per_hour: f64,
 }
 
 /// How long and how finely to simulate.

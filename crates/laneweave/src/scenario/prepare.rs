@@ -3,12 +3,13 @@
 use std::path::Path;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Map, MapError, Problem, ReadOptions, lanelet2, load, regulations};
+use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, lanelet2, load, regulations};
 use laneweave_models::Style;
-use laneweave_network::DrivingSide;
-use laneweave_sim::{Setup, World};
+use laneweave_network::{DrivingSide, LaneletIndex, Network};
+use laneweave_sim::{Place, Places, Rate, Setup, World};
 
-use super::traffic::{demand, mixture};
+use super::demand::{check_ways, demand};
+use super::mixture::mixture;
 use super::{MapOptions, Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
@@ -33,10 +34,10 @@ pub struct Prepared {
     pub steps: u32,
     /// Steps between two samples of a trajectory, if there are any.
     pub record_steps: Option<u32>,
-    /// Demand over all entrances [veh/h].
+    /// Mean demand over all origins while it is measured [veh/h].
     pub demand_veh_h: f64,
-    /// Demand of each of the network's entrances [veh/h].
-    pub entrance_demand_veh_h: Vec<f64>,
+    /// Where trips start, each with its demand [veh/h].
+    pub origins: Vec<(Place, f64)>,
     /// See [`entrance_capacity`] [veh/h].
     pub entrance_capacity_veh_h: f64,
     /// Names and weights of the styles.
@@ -59,37 +60,48 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
     let regulations = regulations(&map);
-    let Map { network, problems, .. } = map;
+    let Map { network, graph, problems, .. } = map;
     let network = network.regulated(&regulations);
-    if network.entrances.is_empty() {
-        let what = "the map has no entrance: no lanelet of 10 m or more begins at its edge";
-        return Err(Fault::new(
-            scenario.map.display(),
-            what,
-            "choose a map with a road that begins at its edge",
-        ));
+    let places = places(&network, &graph);
+    if places.origins.is_empty() {
+        let what = "nobody can drive on the map: no lanelet of 10 m or more begins at its edge, and from none of 20 m or \
+                    more that shares its ground with no other can another be reached";
+        return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
     }
-    let demand = demand(scenario, origin, &network, shares)?;
+    let demand = demand(scenario, origin, &network, places, shares)?;
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
-    let capacity = entrance_capacity(&network, &typical, demand.trucks);
-    let entrance_demand_veh_h = demand.rates.clone();
+    let capacity = entrance_capacity(&network, &demand, &typical);
+    let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
+    let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
+    let origins: Vec<(Place, f64)> =
+        demand.origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
+    check_ways(scenario, origin, &world)?;
     let in_steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
         warmup_steps: in_steps(scenario.run.warmup_s),
         steps: in_steps(scenario.run.duration_s).max(1),
         record_steps,
-        demand_veh_h: entrance_demand_veh_h.iter().sum(),
-        entrance_demand_veh_h,
+        demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
+        origins,
         entrance_capacity_veh_h: capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
         problems,
         world,
     })
+}
+
+/// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.
+fn places(network: &Network, graph: &Graph) -> Places {
+    if !network.entrances.is_empty() && !network.exits.is_empty() {
+        return Places::at_gates(network);
+    }
+    let all = graph.conflicting.iter().zip(0..);
+    Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))
 }
 
 fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
@@ -105,6 +117,10 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["run", "duration_s"], "a duration", run.duration_s, (run.step_s, LONGEST), " s")?;
     check(&["run", "warmup_s"], "a warm-up", run.warmup_s, (0.0, LONGEST), " s")?;
     check(&["demand", "trucks"], "a share of trucks", demand.trucks, (0.0, 1.0), "")?;
+    let room = 1.0 - demand.trucks;
+    check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
+    let room = room - demand.buses;
+    check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
     check(&["output", "record_s"], "a recording interval", output.record_s, (0.0, LONGEST), " s")
 }
 

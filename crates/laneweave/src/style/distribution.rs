@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::normal::quantile;
+use laneweave_sim::normal_quantile;
 
 /// A distribution as a style file has it: `{ distribution = "normal", mean = 1.0, sd = 0.1, min = 0.7, max = 1.3 }`.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -47,11 +47,11 @@ impl Distribution {
     /// The value below which the share `p` of drivers lies, 0 < p < 1.
     pub fn value(&self, p: f64) -> f64 {
         let value = match *self {
-            Distribution::Normal { mean, sd, .. } => mean + sd * quantile(p),
+            Distribution::Normal { mean, sd, .. } => mean + sd * normal_quantile(p),
             Distribution::Uniform { low, high, .. } => low + p * (high - low),
             Distribution::Lognormal { mean, sd, .. } => {
                 let variance = libm::log1p((sd / mean) * (sd / mean));
-                libm::exp(libm::log(mean) - 0.5 * variance + libm::sqrt(variance) * quantile(p))
+                libm::exp(libm::log(mean) - 0.5 * variance + libm::sqrt(variance) * normal_quantile(p))
             }
         };
         let (least, largest) = self.clipping();

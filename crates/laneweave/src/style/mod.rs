@@ -3,7 +3,6 @@
 
 mod distribution;
 mod library;
-mod normal;
 mod population;
 mod ranges;
 mod template;

@@ -125,6 +125,10 @@ fn values_of_a_scenario_that_make_no_sense() {
             "[run]\nduration_s = \"long\"\n",
             "s.toml:3:14: invalid type: string \"long\", expected f64; correct the value",
         ),
+        (
+            "[demand]\ntrucks = 0.5\nbuses = 0.25\nmotorcycles = 0.5\n",
+            "s.toml:5:1: a share of motorcycles of 0.5; choose 0 to 0.25",
+        ),
         ("[demand]\ntrucks = -0.1\n", "s.toml:3:1: a share of trucks of -0.1; choose 0 to 1"),
         (
             "[demand.entrances]\n1 = 1e9\n",
@@ -132,6 +136,45 @@ fn values_of_a_scenario_that_make_no_sense() {
         ),
         ("[demand.entrances]\n7 = 1\n", "s.toml:3:1: the map has no entrance \"7\"; known are 1, 95"),
         ("[demand.exits]\n88 = -1\n", "s.toml:3:1: the map has no exit \"88\"; known are "),
+        (
+            "[demand.entrances]\n1 = \"many\"\n",
+            "s.toml:3:5: invalid value: expected a number or a list [[time_s, vehicles_per_hour], …]; correct the value",
+        ),
+        (
+            "[demand.entrances]\n1 = [[0, -5]]\n",
+            "s.toml:3:1: a demand at the entrance 1 of -5 veh/h; choose 0 to 30000 veh/h",
+        ),
+        (
+            "[demand]\nprofile = [[9, 1], [3, 1]]\n",
+            "s.toml:3:1: the times do not rise; write [[time_s, value], …]",
+        ),
+        ("[demand]\nprofile = [[0, -1]]\n", "s.toml:3:1: a factor of -1; choose 0 or more"),
+        (
+            "[[demand.od]]\nfrom = \"1\"\nto = \"94\"\nvehicles_per_hour = 1\n[[demand.od]]\nfrom = \"2\"\n\
+             to = \"94\"\nvehicles_per_hour = 1\n",
+            "s.toml:7:1: the map has no entrance \"2\"; ",
+        ),
+        (
+            "[[demand.od]]\nfrom = \"95\"\nto = \"94\"\nvehicles_per_hour = 1\n",
+            "s.toml:4:1: nobody drives from 95 to 94: there is no way, or it is too short; leave the row out",
+        ),
+        (
+            "[[demand.od]]\nfrom = \"1\"\nto = \"94\"\nvehicles_per_hour = -1\n",
+            "s.toml:5:1: a demand from 1 to 94 of -1 veh/h; choose 0 to 30000 veh/h",
+        ),
+        (
+            "[[demand.od]]\nfrom = \"1\"\nto = \"94\"\nvehicles_per_hour = 1\n[demand.entrances]\n1 = 5\n",
+            "s.toml:3:1: the entrance 1 has a demand of its own in demand.entrances; leave it out there, or here",
+        ),
+        (
+            "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 5\n",
+            "s.toml:4:1: the shortest headway is 5 s, where the mean is 3.60 s: it must be shorter; choose less, or \
+             a lower demand at the entrance 1",
+        ),
+        (
+            "[demand.headways]\nlaw = \"erlang\"\nstages = 0\n",
+            "s.toml:4:1: the stages of the headways is 0: it must lie between 1 and 400; choose 1 to 400",
+        ),
         (
             "[run\n",
             "s.toml:2:5: unclosed table, expected `]`; correct this line; the format is TOML, https://toml.io",

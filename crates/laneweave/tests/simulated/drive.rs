@@ -9,7 +9,7 @@ use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
 use laneweave_recordings::{Recording, RoadUser, State, Track};
 use laneweave_sim::{
-    Body, Class, Demand, Event, Purpose, Random, Setup, Vehicle, VehicleId, World, perceive,
+    Body, Class, Demand, Event, Place, Purpose, Random, Rate, Setup, Vehicle, VehicleId, World, perceive,
 };
 
 use crate::view::View;
@@ -116,15 +116,13 @@ fn world(seed: u64) -> World {
     let road = Motorway { length_m: 3000.0, on_ramp_at, off_ramp_at, ..Motorway::default() };
     let network = motorway(&road).expect("it fits").build().expect("it has lanes").network;
     let Population { characters, shares } = Population::usual(seed).expect("built-in styles");
-    let by_lanes = |gates: &[laneweave_network::Gate], road, ramp| {
-        gates.iter().map(|it| if it.chains.len() > 1 { road } else { ramp }).collect()
-    };
-    let demand = Demand {
-        rates: by_lanes(&network.entrances, ON_ROAD, ON_RAMP),
-        destinations: by_lanes(&network.exits, STAYING, 1.0),
-        trucks: TRUCKS,
-        population: shares,
-    };
+    let by_lanes = |place: &Place, road, ramp| if place.chains().len() > 1 { road } else { ramp };
+    let mut demand = Demand::even(&network, 0.0, TRUCKS, shares);
+    let weights: Vec<f64> = demand.destinations.iter().map(|it| by_lanes(it, STAYING, 1.0)).collect();
+    for origin in &mut demand.origins {
+        origin.rate = Rate::constant(by_lanes(&origin.place, ON_ROAD, ON_RAMP));
+        origin.weights.clone_from(&weights);
+    }
     World::new(network, characters, demand, Setup { step: STEP, seed, threads: 1 }).expect("it makes sense")
 }
 

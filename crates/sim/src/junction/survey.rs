@@ -81,12 +81,17 @@ fn points(
     let junctions = &scene.network.junctions;
     let (mut chain, mut base) = (from.chain, -from.x);
     loop {
+        let trip_end = base + scene.navigator.waypoint(from.destination, chain).end;
+        let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
         let on = junctions.on(chain);
         let (mut crossings, mut stops) = (on.crossings.iter().peekable(), on.stops.iter().peekable());
         loop {
             let zone_at = crossings.peek().map_or(f64::INFINITY, |it| junctions.reach(**it).start);
             let stop_at = stops.peek().map_or(f64::INFINITY, |it| it.station);
             let at = base + zone_at.min(stop_at);
+            if at > trip_end {
+                return f64::INFINITY;
+            }
             if at > until {
                 if at < f64::INFINITY {
                     return until;
@@ -114,6 +119,9 @@ fn points(
         base += scene.network.chain(chain).length;
         if base > until {
             return until;
+        }
+        if base > trip_end {
+            return f64::INFINITY;
         }
         match scene.next(from.destination, chain) {
             Some(next) => chain = next,
@@ -159,10 +167,14 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
             return base + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
         }
         base += scene.network.chain(chain).length;
-        match scene.next(from.destination, chain) {
-            Some(next) if base < until => (chain, index) = (next, 0),
-            _ => return f64::INFINITY,
+        let Some(next) = scene.next(from.destination, chain).filter(|_| base < until) else {
+            return f64::INFINITY;
+        };
+        // Who waits within the fork is in the way of all that come after.
+        if let Some(rear) = scene.waits_in_fork(chain, next, from.id) {
+            return base + rear;
         }
+        (chain, index) = (next, 0);
     }
 }
 

@@ -81,7 +81,7 @@ const FAR_RATIO: [[f64; 8]; 2] = [
 ];
 
 /// The number that a standard normal variable stays below with probability `p`, 0 < p < 1.
-pub(super) fn quantile(p: f64) -> f64 {
+pub fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= MIDDLE {
         return q * ratio(&MIDDLE_RATIO, MIDDLE_SQUARED - q * q);

@@ -1,0 +1,114 @@
+//! The law of headways as a scenario has it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use laneweave_sim::{self as sim, Demand, HeadwayError};
+
+use super::Origin;
+use crate::fault::Fault;
+
+/// Law of the headways, the times between arrivals in a lane; the mean is that of the demand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Headways {
+    /// Negative exponential: vehicles that know nothing of each other.
+    #[default]
+    Exponential,
+    /// Exponential beyond a shortest headway.
+    Shifted {
+        /// Shortest headway [s].
+        #[serde(default = "usual_minimum")]
+        minimum_s: f64,
+    },
+    /// Erlang: the sum of exponential stages.
+    Erlang {
+        /// Number of stages.
+        #[serde(default = "usual_stages")]
+        stages: u32,
+    },
+    /// Pearson III: gamma beyond a shortest headway.
+    PearsonIii {
+        /// Shortest headway [s].
+        #[serde(default = "usual_minimum")]
+        minimum_s: f64,
+        /// Standard deviation relative to the mean.
+        #[serde(default = "usual_variation")]
+        variation: f64,
+    },
+    /// Lognormal.
+    Lognormal {
+        /// Standard deviation relative to the mean.
+        #[serde(default = "usual_variation")]
+        variation: f64,
+    },
+    /// Cowan's M3: who follows does so at the shortest headway, the free are exponential beyond it.
+    CowanM3 {
+        /// Shortest headway [s].
+        #[serde(default = "usual_following")]
+        minimum_s: f64,
+        /// Share of free drivers.
+        #[serde(default = "usual_free")]
+        free: f64,
+    },
+}
+
+/// Nobody follows closer [s], ours.
+fn usual_minimum() -> f64 {
+    0.5
+}
+
+/// Headway of who follows [s], ours.
+fn usual_following() -> f64 {
+    1.5
+}
+
+/// Share of free drivers, ours.
+fn usual_free() -> f64 {
+    0.6
+}
+
+/// Half as wide as that of an exponential law, ours.
+fn usual_variation() -> f64 {
+    0.5
+}
+
+/// The fewest that are not exponential.
+fn usual_stages() -> u32 {
+    2
+}
+
+impl From<Headways> for sim::Headways {
+    fn from(law: Headways) -> sim::Headways {
+        match law {
+            Headways::Exponential => sim::Headways::Exponential,
+            Headways::Shifted { minimum_s } => sim::Headways::Shifted { minimum: minimum_s },
+            Headways::Erlang { stages } => sim::Headways::Erlang { stages },
+            Headways::PearsonIii { minimum_s, variation } => {
+                sim::Headways::PearsonIii { minimum: minimum_s, variation }
+            }
+            Headways::Lognormal { variation } => sim::Headways::Lognormal { variation },
+            Headways::CowanM3 { minimum_s, free } => sim::Headways::CowanM3 { minimum: minimum_s, free },
+        }
+    }
+}
+
+/// Whether the headways of `demand` can be at each of its origins.
+///
+/// # Errors
+/// The first origin at which they cannot.
+pub(super) fn check(demand: &Demand, origin: &Origin) -> Result<(), Fault> {
+    for it in &demand.origins {
+        let Err(error) = demand.headways.check(it.rate_of_a_lane()) else { continue };
+        let (key, remedy) = match error {
+            HeadwayError::Minimum { .. } => {
+                ("minimum_s", format!("choose less, or a lower demand at the entrance {}", it.place.id()))
+            }
+            HeadwayError::Parameter { key, least, most, .. } => {
+                (if key == "minimum" { "minimum_s" } else { key }, format!("choose {least} to {most}"))
+            }
+        };
+        return Err(Fault::new(origin.place(&["demand", "headways", key]), error, remedy));
+    }
+    Ok(())
+}

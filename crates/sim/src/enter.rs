@@ -1,0 +1,109 @@
+//! Vehicles come onto the road: at the edge of the map with the traffic there, at a kerb from rest.
+
+use laneweave_models::Style;
+use laneweave_models::braking::is_secure;
+use laneweave_models::change::deceleration_to_avoid;
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+
+use crate::accelerate::speed_before_a_stop;
+use crate::events::Event;
+use crate::junction::{sight, stop_ahead};
+use crate::perceive::driver;
+use crate::scene::{Found, Scene};
+use crate::source::{Arrival, Queue, Start};
+use crate::world::{NewVehicle, World};
+
+impl World {
+    /// Vehicles arrive, queue up, and enter where there is room.
+    pub(crate) fn enter(&mut self) {
+        let mut sources = std::mem::take(&mut self.sources);
+        let time = self.clock.time();
+        for source in &mut sources {
+            let scene = self.scene();
+            let mut next_id = self.next_id;
+            source.arrive(&scene, &self.demand, &self.random, time, &mut next_id);
+            self.next_id = next_id;
+            for queue in source.queues() {
+                while let Some(vehicle) = queue.waiting.front().and_then(|it| self.admit(queue, it)) {
+                    let id = queue.waiting.pop_front().map_or(0, |it| it.id);
+                    self.put(vehicle, id);
+                    self.events.push(Event::Entered(id));
+                }
+            }
+        }
+        self.sources = sources;
+    }
+
+    /// The vehicle as it comes onto the lane of `queue`, if there is room for it.
+    fn admit(&self, queue: &Queue, arrival: &Arrival) -> Option<NewVehicle> {
+        let Arrival { id, class, character, destination } = *arrival;
+        let chain = queue.chain;
+        let rear = match queue.start {
+            Start::Driving => 0.0,
+            Start::FromRest(station) => station,
+        };
+        let length = class.body().length;
+        let x = rear + length;
+        let style = &self.characters[character as usize];
+        let scene = self.scene();
+        let from = scene.viewpoint_at(chain, rear, id, destination);
+        let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
+        let dt = self.clock.dt;
+        let speed = match queue.start {
+            Start::Driving => {
+                let desired = class.desired_speed(style, self.network.chain(chain).limit(x));
+                let speed = entry_speed(style, desired, ahead, dt)?;
+                let stop = stop_ahead(&scene, from, 0.0, sight(desired));
+                stop.map_or(speed, |it| speed.min(speed_before_a_stop(it - length)))
+            }
+            Start::FromRest(_) => {
+                let leaves_room = ahead.is_none_or(|it| it.gap >= style.safety.min_gap);
+                let follower = scene.follower(from);
+                let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
+                (leaves_room && is_let_in).then_some(0.0)?
+            }
+        };
+        Some(NewVehicle { chain, x, speed, class, character, destination })
+    }
+}
+
+/// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
+fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
+    /// Braking that an entering driver puts up with [m/s²].
+    const GENTLE: f64 = 0.5;
+    /// Who would have to enter slower than this share of the leader's speed waits.
+    const SHARE_OF_LEADER: f64 = 1.0;
+    let Some(ahead) = ahead else { return Some(desired) };
+    let fits = |speed: f64| {
+        let demanded = style.follow.acceleration(Pace::new(speed, desired), Some(ahead));
+        ahead.gap >= style.safety.min_gap && demanded >= -GENTLE && is_secure(speed, ahead, dt)
+    };
+    if fits(desired) {
+        return Some(desired);
+    }
+    let (mut slow, mut fast) = (SHARE_OF_LEADER * ahead.speed.min(desired), desired);
+    if !fits(slow) {
+        return None;
+    }
+    for _ in 0..20 {
+        let middle = 0.5 * (slow + fast);
+        if fits(middle) { slow = middle } else { fast = middle }
+    }
+    Some(slow)
+}
+
+/// Whether a vehicle at rest may appear before `follower`: it must be secure, and neither its model nor kinematics may
+/// demand more than moderate braking.
+fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
+    /// Braking that one may expect of who drives behind [m/s²], ours.
+    const MODERATE: f64 = 2.0;
+    if scene.has_passage(follower.spot, follower.distance) {
+        return false;
+    }
+    let behind = driver(scene, follower.spot);
+    let ahead = Ahead::standing(follower.distance);
+    ahead.gap >= min_gap
+        && is_secure(behind.pace.speed, ahead, dt)
+        && deceleration_to_avoid(ahead.gap, behind.pace.speed, 0.0) <= MODERATE
+        && behind.follow.acceleration(behind.pace, Some(ahead)) >= -MODERATE
+}

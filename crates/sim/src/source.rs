@@ -1,0 +1,244 @@
+//! Sources: vehicles arrive at the origins of the demand, and wait there.
+//!
+//! An arrival that finds no room waits in the queue of its lane, and never delays the draw of the next.
+
+use std::collections::VecDeque;
+
+use laneweave_network::{ChainIndex, Gate, Network};
+
+use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
+use crate::headways::Headways;
+use crate::navigate::{Destination, Navigator};
+use crate::place::Place;
+use crate::random::{Purpose, Random};
+use crate::rate::Rate;
+use crate::scene::Scene;
+use crate::traffic::{Motion, VehicleId};
+use crate::vehicle::Class;
+
+/// A vehicle at the moment of its arrival.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Arrival {
+    pub(crate) id: VehicleId,
+    pub(crate) class: Class,
+    pub(crate) character: u32,
+    pub(crate) destination: Destination,
+}
+
+/// An origin with its queues.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    headways: Headways,
+    /// Arrivals per hour in each stream.
+    rate: Rate,
+    /// What comes together here. Memoryless streams are one; of others there is one for each lane.
+    streams: Vec<Stream>,
+    /// Its lanes from the slow side to the fast one.
+    lanes: Vec<Queue>,
+    /// Destinations with their cumulated weights.
+    destinations: Vec<(Destination, f64)>,
+}
+
+/// Vehicles that come one after the other.
+#[derive(Clone, Copy, Debug)]
+struct Stream {
+    /// Subject of its draws.
+    number: u32,
+    arrived: u32,
+    /// When the next one comes [s].
+    next: f64,
+}
+
+/// The vehicles that wait for one lane.
+#[derive(Clone, Debug)]
+pub(crate) struct Queue {
+    pub(crate) chain: ChainIndex,
+    pub(crate) start: Start,
+    pub(crate) waiting: VecDeque<Arrival>,
+}
+
+/// How vehicles come onto a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Start {
+    /// They come driving from before its start.
+    Driving,
+    /// They start from rest, with the rear bumper at this station [m].
+    FromRest(f64),
+}
+
+impl Source {
+    /// The sources of all origins.
+    pub(crate) fn all(
+        network: &Network,
+        navigator: &Navigator,
+        demand: &Demand,
+        random: &Random,
+    ) -> Vec<Source> {
+        // The first stream of each source is called like it; further ones follow.
+        let mut further = demand.origins.len() as u32..;
+        let sources = demand.origins.iter().zip(0..).map(|(origin, number)| {
+            let lanes = queues(network, &origin.place);
+            let count = if demand.headways == Headways::Exponential { 1 } else { lanes.len() };
+            let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
+            let mut source = Source {
+                headways: demand.headways,
+                rate: origin.rate.times(&Rate::constant(1.0 / count as f64)),
+                streams: numbers.map(|number| Stream { number, arrived: 0, next: 0.0 }).collect(),
+                lanes,
+                destinations: destinations(network, navigator, origin),
+            };
+            (0..count).for_each(|stream| source.draw_next(stream, random));
+            source
+        });
+        sources.collect()
+    }
+
+    /// Draws when the next vehicle of a stream comes after the last one.
+    fn draw_next(&mut self, stream: usize, random: &Random) {
+        let Stream { number, arrived, next } = self.streams[stream];
+        let chance = random.uniform(number, Purpose::Arrival, arrived);
+        self.streams[stream].next = next_arrival(self.headways, &self.rate, next, chance);
+    }
+
+    /// Lets those arrive who are due by `time` [s] and queue up; `next_id` names them.
+    pub(crate) fn arrive(
+        &mut self,
+        scene: &Scene,
+        demand: &Demand,
+        random: &Random,
+        time: f64,
+        next_id: &mut VehicleId,
+    ) {
+        let due = |source: &Source| {
+            let streams = source.streams.iter().enumerate();
+            let (index, first) = streams.min_by(|(_, a), (_, b)| a.next.total_cmp(&b.next))?;
+            (first.next <= time).then_some(index)
+        };
+        while let Some(stream) = due(self) {
+            let arrival = self.draw(scene.navigator, demand, random, *next_id);
+            *next_id += 1;
+            self.streams[stream].arrived += 1;
+            self.draw_next(stream, random);
+            let lane = self.lane_for(scene, &arrival);
+            self.lanes[lane].waiting.push_back(arrival);
+        }
+    }
+
+    fn draw(&self, navigator: &Navigator, demand: &Demand, random: &Random, id: VehicleId) -> Arrival {
+        let uniform = |purpose| random.uniform(id, purpose, 0);
+        let class = demand.fleet.class(uniform(Purpose::Class));
+        let total: f64 = demand.population.iter().map(|it| it.weight).sum();
+        let mut at = uniform(Purpose::Style) * total;
+        let share = demand
+            .population
+            .iter()
+            .find(|it| {
+                at -= it.weight;
+                at < 0.0
+            })
+            .or(demand.population.last());
+        let character = share.map_or(0, |it| {
+            it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
+        });
+        let last = self.destinations.last().map_or(0.0, |it| it.1);
+        let wanted = uniform(Purpose::Destination) * last;
+        let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
+        let destination = navigator.seen_by(class, destination);
+        Arrival { id, class, character, destination }
+    }
+
+    /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long
+    /// vehicles on the slow side, others where fewer wait and where there is more room.
+    fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
+        /// Road per lane change within which a driver takes its lane from the start [m].
+        const SOON: f64 = 600.0;
+        let key = |queue: &Queue| {
+            let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
+            let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
+            let (queued, room) = if arrival.class.is_long() { (0, 0.0) } else { (queue.waiting.len(), room) };
+            let is_pressing = waypoint.last_place < SOON * f64::from(waypoint.changes);
+            (if is_pressing { waypoint.changes } else { 0 }, queued, -room)
+        };
+        let order = |a: &(u32, usize, f64), b: &(u32, usize, f64)| {
+            (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
+        };
+        let keys = self.lanes.iter().map(key).enumerate();
+        keys.min_by(|a, b| order(&a.1, &b.1)).map_or(0, |(index, _)| index)
+    }
+
+    /// Its queues.
+    pub(crate) fn queues(&mut self) -> &mut [Queue] {
+        &mut self.lanes
+    }
+
+    /// Vehicles that wait.
+    pub(crate) fn waiting(&self) -> usize {
+        self.lanes.iter().map(|queue| queue.waiting.len()).sum()
+    }
+
+    /// Vehicles that have arrived.
+    pub(crate) fn arrived(&self) -> u64 {
+        self.streams.iter().map(|it| u64::from(it.arrived)).sum()
+    }
+}
+
+/// When the vehicle after the one at `last` [s] comes, whose headway is exceeded with `chance`, in a stream of `rate` [veh/h].
+///
+/// Where the rate changes in the meantime, the share of the headway that is left goes on at the new rate. So Poisson
+/// arrivals stay Poisson at any time, and the shortest headway of a law is kept.
+fn next_arrival(headways: Headways, rate: &Rate, last: f64, chance: f64) -> f64 {
+    let (mut time, mut left) = (last, 1.0);
+    while time < f64::INFINITY {
+        let (now, until) = (rate.at(time) / SECONDS_PER_HOUR, rate.changes_after(time));
+        if now > 0.0 {
+            let headway = headways.exceeded(chance, now);
+            if time + left * headway <= until {
+                return time + left * headway;
+            }
+            left -= (until - time) / headway;
+        }
+        time = until;
+    }
+    f64::INFINITY
+}
+
+/// The queues of a place, ordered from the slow side.
+fn queues(network: &Network, place: &Place) -> Vec<Queue> {
+    let queue = |chain, start| Queue { chain, start, waiting: VecDeque::new() };
+    match place {
+        Place::Gate(gate) => {
+            from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving)).collect()
+        }
+        Place::Kerb(kerb) => vec![queue(kerb.chain, Start::FromRest(kerb.station))],
+    }
+}
+
+/// The gate's lanes, ordered from the slow side.
+fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<ChainIndex> {
+    let slow = network.driving_side.overtaking().opposite();
+    let lanes_beyond = |chain: ChainIndex| {
+        let mut count = 0;
+        let mut at = chain;
+        while let Some(beside) = network.chain(at).beside(slow, 0.0).filter(|_| count < gate.chains.len()) {
+            (at, count) = (beside.chain, count + 1);
+        }
+        count
+    };
+    let mut chains = gate.chains.clone();
+    chains.sort_by_key(|chain| lanes_beyond(*chain));
+    chains
+}
+
+/// The destinations that can be reached from an origin, with cumulated weights.
+fn destinations(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<(Destination, f64)> {
+    let weighted = (0u16..)
+        .zip(&origin.weights)
+        .filter(|(number, weight)| **weight > 0.0 && navigator.leads(network, &origin.place, *number));
+    let mut sum = 0.0;
+    weighted
+        .map(|(number, weight)| {
+            sum += weight;
+            (Some(number), sum)
+        })
+        .collect()
+}

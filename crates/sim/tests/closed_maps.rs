@@ -1,0 +1,253 @@
+//! Maps without gates: trips start and end at kerbs.
+
+mod roads;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use laneweave_maps::{Map, ReadOptions, load};
+use laneweave_network::{ChainIndex, LaneletIndex, Network};
+use laneweave_sim::{
+    Class, Demand, Destination, Event, Fleet, Kerb, Navigator, NewVehicle, Place, Places, Setup, VehicleId,
+    World,
+};
+use roads::{Road, drivers};
+
+/// A ring of 1,000 m of two lanelets a lane.
+fn ring(lanes: usize) -> Network {
+    Road { lanes, length: 1000.0, limit: 14.0, is_ring: true, ..Road::default() }.network()
+}
+
+/// The kerbs of all lanelets.
+fn kerbs(network: &Network) -> Places {
+    Places::along(network, (0..network.lanelets.len()).map(|it| LaneletIndex(it as u32)))
+}
+
+/// All classes.
+const FLEET: Fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.1 };
+
+fn demand(network: &Network, places: Places, total: f64) -> Demand {
+    let population = drivers::demand(network, 0.0, 0.0, &[0.3, 0.7]).population;
+    Demand::over(places, total, FLEET, population)
+}
+
+fn world(network: Network, places: Places, total: f64, seed: u64) -> World {
+    let demand = demand(&network, places, total);
+    let styles = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, styles, demand, Setup { step: 0.1, seed, threads: 1 })
+        .expect("the set-up makes sense")
+}
+
+/// Runs `world` and checks in every step that nobody is lost and that who left was at its kerb; returns how many left.
+fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
+    /// Nobody drives faster [m/s].
+    const FASTEST: f64 = 60.0;
+    let mut before: BTreeMap<VehicleId, (ChainIndex, f64, Destination)> = BTreeMap::new();
+    for _ in 0..steps {
+        world.step();
+        let counts = world.counts();
+        assert_eq!(world.arrived(), counts.entered + world.waiting() as u64);
+        assert_eq!(counts.entered, counts.left + world.on_road() as u64);
+        for event in world.events() {
+            let Event::Left { vehicle, .. } = event else { continue };
+            let (chain, x, destination) = before[vehicle];
+            let number = world.scene().navigator.number(destination);
+            let Some(Place::Kerb(kerb)) = number.map(|it| &places.destinations[it]) else {
+                panic!("{vehicle} had no kerb to go to");
+            };
+            let to_go = if kerb.chain == chain {
+                kerb.station - x
+            } else {
+                assert!(world.network().chain(chain).following.contains(&kerb.chain));
+                world.network().chain(chain).length - x + kerb.station
+            };
+            assert!((0.0..0.1 * FASTEST).contains(&to_go), "{vehicle} left {to_go} m before its kerb");
+        }
+        before = world
+            .vehicles()
+            .map(|it| (it.id(), (it.spot.chain, it.x(), it.car.goal.destination())))
+            .collect();
+    }
+    world.counts().left
+}
+
+#[test]
+fn every_lanelet_of_20_m_has_a_kerb_at_two_fifths_of_it() {
+    let places = kerbs(&ring(2));
+    let all: Vec<(i64, u32, f64)> = places
+        .origins
+        .iter()
+        .filter_map(|it| {
+            if let Place::Kerb(kerb) = it { Some((kerb.id, kerb.chain.0, kerb.station)) } else { None }
+        })
+        .collect();
+    assert_eq!(all, [(1, 0, 200.0), (2, 1, 200.0), (3, 0, 700.0), (4, 1, 700.0)]);
+    assert_eq!(places.destinations, places.origins);
+    let short = Road { length: 19.0, is_ring: true, ..Road::default() }.network();
+    assert_eq!(kerbs(&short), Places { origins: vec![], destinations: vec![] });
+    // From a road that goes nowhere nobody starts.
+    let dead_end = Road { length: 400.0, ..Road::default() }.network();
+    assert_eq!((kerbs(&dead_end).origins.len(), kerbs(&dead_end).destinations.len()), (0, 1));
+}
+
+#[test]
+fn trips_on_a_ring_start_and_end_at_kerbs_and_nobody_collides() {
+    let network = ring(2);
+    let places = kerbs(&network);
+    let mut world = world(network, places.clone(), 900.0, 5);
+    let left = drive(&mut world, &places, 18_000);
+    assert!(left > 350, "{left}");
+    let tally = world.tally();
+    assert_eq!(
+        (tally.collisions, world.counts().overlaps, tally.stuck, tally.emergency_brakings),
+        (0, 0, 0, 0)
+    );
+    // Half of the destinations are in the other lane.
+    assert!(world.counts().route_changes > 100, "{:?}", world.counts());
+}
+
+#[test]
+fn a_driver_beyond_its_kerb_goes_round() {
+    let network = ring(1);
+    let places = kerbs(&network);
+    let mut world = world(network, places, 0.0, 1);
+    let new = NewVehicle {
+        chain: ChainIndex(0),
+        x: 300.0,
+        speed: 14.0,
+        class: Class::Car,
+        character: 1,
+        destination: Some(0),
+    };
+    world.place(new);
+    (0..620).for_each(|_| world.step());
+    assert_eq!((world.on_road(), world.counts().left), (1, 0));
+    (0..60).for_each(|_| world.step());
+    assert_eq!((world.on_road(), world.counts().left, world.tally().missed_turns), (0, 1, 0));
+    let distance = world.tally().distance;
+    assert!((900.0..901.5).contains(&distance), "{distance} m");
+}
+
+#[test]
+fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
+    let network = ring(2);
+    let places = kerbs(&network);
+    let mut world = world(network, places, 0.0, 1);
+    let car = NewVehicle {
+        chain: ChainIndex(1),
+        x: 145.0,
+        speed: 14.0,
+        class: Class::Car,
+        character: 1,
+        destination: Some(0),
+    };
+    world.place(car);
+    for x in [100.0, 116.0, 132.0, 148.0, 164.0] {
+        world.place(NewVehicle { chain: ChainIndex(0), x, class: Class::Truck, destination: None, ..car });
+    }
+    (0..600).for_each(|_| world.step());
+    assert_eq!((world.tally().missed_turns, world.counts().left), (1, 0));
+    (0..600).for_each(|_| world.step());
+    assert_eq!((world.tally().missed_turns, world.counts().left), (1, 1));
+}
+
+#[test]
+fn the_way_to_a_kerb_is_counted_from_where_the_driver_is() {
+    let network = ring(2);
+    let navigator = Navigator::towards(&network, &kerbs(&network).destinations);
+    let way = |chain, x| {
+        let it = navigator.waypoint_from(&network, Some(0), ChainIndex(chain), x);
+        (it.changes, it.last_place, it.end, it.distance - x)
+    };
+    assert_eq!(way(0, 150.0), (0, f64::INFINITY, 200.0, 50.0));
+    assert_eq!(way(0, 250.0), (0, f64::INFINITY, f64::INFINITY, 950.0));
+    // From the lane beside up to 40 m before it; from then on, once round.
+    assert_eq!(way(1, 150.0), (1, 160.0, f64::INFINITY, 50.0));
+    assert_eq!(way(1, 170.0), (1, 1160.0, f64::INFINITY, 1030.0));
+}
+
+#[test]
+fn nobody_starts_before_a_driver_who_would_have_to_brake_harder_than_2_mps2() {
+    let network = ring(1);
+    let places = kerbs(&network);
+    let mut world = world(network, places, 1500.0, 2);
+    let (mut started, mut hardest, mut was_refused) = (0, 0.0_f64, false);
+    for _ in 0..6000 {
+        world.step();
+        was_refused |= world.waiting() > 0;
+        let new: Vec<VehicleId> = world
+            .events()
+            .iter()
+            .filter_map(|event| if let Event::Entered(id) = event { Some(*id) } else { None })
+            .collect();
+        let places: Vec<(VehicleId, f64)> = world.vehicles().map(|it| (it.id(), it.x())).collect();
+        let behind = |id: VehicleId| {
+            let x = places.iter().find(|it| it.0 == id)?.1;
+            let others = places.iter().filter(|it| it.0 != id);
+            let back = |it: &(VehicleId, f64)| (x - it.1).rem_euclid(1000.0);
+            others.min_by(|a, b| back(a).total_cmp(&back(b))).map(|it| it.0)
+        };
+        let followers: Vec<VehicleId> = new.iter().filter_map(|id| behind(*id)).collect();
+        started += new.len();
+        if !new.is_empty() {
+            world.step();
+            let braking = world.vehicles().filter(|it| followers.contains(&it.id()));
+            hardest = braking.map(|it| -f64::from(it.motion.acceleration)).fold(hardest, f64::max);
+        }
+    }
+    assert!(started > 100 && was_refused);
+    assert!((1.0..2.0 + 1e-3).contains(&hardest), "{hardest} m/s²");
+    assert_eq!((world.tally().collisions, world.tally().emergency_brakings), (0, 0));
+}
+
+#[test]
+fn threads_and_the_storage_of_chains_change_nothing() {
+    let hash = |network: Network, threads| {
+        let demand = demand(&network, kerbs(&network), 1200.0);
+        let styles = vec![drivers::aggressive(), drivers::conservative()];
+        let mut world = World::new(network, styles, demand, Setup { step: 0.1, seed: 9, threads }).unwrap();
+        (0..6000).for_each(|_| world.step());
+        assert!(world.counts().left > 50);
+        world.state_hash()
+    };
+    let first = hash(ring(3), 1);
+    assert_eq!(hash(ring(3), 2), first);
+    assert_eq!(hash(ring(3).with_chains_reversed(), 1), first);
+}
+
+/// A map of the shared data with its kerbs, if it is there.
+fn real(file: &str) -> Option<(Network, Places)> {
+    const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
+    let path = Path::new(DATA).join(file);
+    if !path.exists() {
+        eprintln!("skipped: {file} is not there");
+        return None;
+    }
+    let Map { network, graph, .. } = load(&path, &ReadOptions::default()).expect("the map is sound");
+    let alone = graph.conflicting.iter().zip(0..).filter(|(others, _)| others.is_empty());
+    let places = Places::along(&network, alone.map(|(_, it)| LaneletIndex(it)));
+    Some((network, places))
+}
+
+#[test]
+fn trips_in_towns_end_at_their_places() {
+    for (file, total, kerbs, least) in
+        [("town10.osm", 1200.0, 45, 120), ("crossroads_with_stoplines.osm", 600.0, 23, 50)]
+    {
+        let Some((network, places)) = real(file) else { continue };
+        assert!(network.entrances.is_empty() || network.exits.is_empty());
+        assert_eq!((places.origins.len(), places.destinations.len()), (kerbs, kerbs), "{file}");
+        let mut world = world(network, places.clone(), total, 1);
+        let left = drive(&mut world, &places, 6_000);
+        assert!(left >= least, "{file}: {left}");
+    }
+}
+
+#[test]
+fn a_kerb_keeps_clear_of_the_lanelets_before_and_behind() {
+    let longest = FLEET.shares().map(|(class, _)| class.body().length).into_iter().fold(0.0, f64::max);
+    let shortest = Kerb::SHORTEST_LANELET;
+    let lanelet = Road { length: shortest, is_ring: true, ..Road::default() }.network();
+    let Place::Kerb(kerb) = &kerbs(&lanelet).destinations[0] else { panic!("a kerb") };
+    assert!(kerb.station + longest <= shortest);
+}
