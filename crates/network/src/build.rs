@@ -49,6 +49,8 @@ impl Network {
     /// A chain is cut at the next lanelet beyond a length between these [m]: long enough that what is done once for every
     /// chain does not matter, short enough that a vehicle gets into the row of the others soon.
     const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
+    /// So much of a lane before a junction is too short for a change [m]. Ours.
+    const ROOM_TO_CHANGE: f64 = 15.0;
     /// So much of a lane is outside of junctions where vehicles come onto the map [m]: what the longest needs. Ours.
     const ROOM_TO_ENTER: f64 = 15.0;
     /// Within these bounds there are as many chains, so that threads share them evenly.
@@ -93,7 +95,30 @@ impl Network {
         let is_free = |chain: &ChainIndex| self.junctions.is_clear_until(*chain, Network::ROOM_TO_ENTER);
         self.entrances.iter_mut().for_each(|it| it.chains.retain(is_free));
         self.entrances.retain(|it| !it.chains.is_empty());
+        for index in 0..self.chains.len() {
+            for side in Side::BOTH {
+                let stretches = self.outside_of_junctions(ChainIndex(index as u32), side);
+                match side {
+                    Side::Left => self.chains[index].left = stretches,
+                    Side::Right => self.chains[index].right = stretches,
+                }
+            }
+        }
         self
+    }
+
+    /// The stretches of a chain from which a change to `side` is allowed and can be over before the next junction.
+    fn outside_of_junctions(&self, index: ChainIndex, side: Side) -> Vec<Beside> {
+        let mut left = Vec::new();
+        for stretch in self.chain(index).stretches(side) {
+            let here = self.junctions.extents(index);
+            let there = self.junctions.extents(stretch.chain).into_iter();
+            let there = there.map(|extent| extent.map(|station| stretch.back(station)));
+            let taken =
+                here.into_iter().chain(there).map(|[start, end]| [start - Network::ROOM_TO_CHANGE, end]);
+            left.extend(stretch.without(taken.collect()));
+        }
+        left
     }
 
     /// The chain at `index`.

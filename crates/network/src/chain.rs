@@ -72,6 +72,21 @@ impl Beside {
         self.other_start + (station - self.start) * self.scale
     }
 
+    /// What is left of the stretch outside of those `taken` [m], in order; pieces too short to begin a change are left out.
+    pub(crate) fn without(&self, mut taken: Vec<[f64; 2]>) -> Vec<Beside> {
+        const SHORTEST: f64 = 1.0;
+        taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let (mut pieces, mut start) = (Vec::new(), self.start);
+        for [from, to] in taken.into_iter().chain([[self.end, self.end]]) {
+            let end = from.min(self.end);
+            if end - start >= SHORTEST {
+                pieces.push(Beside { start, end, other_start: self.across(start), ..*self });
+            }
+            start = start.max(to);
+        }
+        pieces
+    }
+
     /// The station here that lies beside `station` there [m].
     pub fn back(&self, station: f64) -> f64 {
         self.start + (station - self.other_start) / self.scale

@@ -5,7 +5,7 @@ use laneweave_network::ChainIndex;
 
 use crate::clock::Clock;
 use crate::junction::{Asking, Hindrance, may_pass, sight, survey};
-use crate::plan::{Appeal, Outbox, Plan, Plea};
+use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
 use crate::world::World;
 
@@ -35,10 +35,17 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 let claims = outbox.survey.holds.iter().map(|it| (it.zone, it.side, asking.claim));
                 outbox.claims.extend(claims);
             }
+            Err(Hindrance::Room) if motion.speed < STANDS => {
+                let Waiting { since, id, .. } = *waiting;
+                outbox.blocked.push(Appeal { since, id, chain, x: motion.x, what: Plea::Pass });
+            }
             Err(Hindrance::Light | Hindrance::Sign | Hindrance::Room) => {}
         }
     }
 }
+
+/// Slower than this [m/s] a vehicle stands.
+const STANDS: f64 = 0.3;
 
 /// Surveys what the driver at `spot` needs next.
 fn surveyed(scene: &Scene, spot: Spot, outbox: &mut Outbox) -> bool {
@@ -82,6 +89,13 @@ impl World {
                 }
             }
         }
+        let mut blocked = std::mem::take(&mut self.outboxes[0].blocked);
+        if blocked.len() > 1 && self.clock.step.is_multiple_of(self.clock.steps(1.0)) {
+            blocked.sort_unstable_by_key(|it| it.id);
+            self.rotate(&blocked);
+        }
+        blocked.clear();
+        self.outboxes[0].blocked = blocked;
         self.outboxes[0].appeals = appeals;
         self.outboxes[0].claims = claims;
     }
@@ -93,13 +107,27 @@ impl World {
         let may =
             surveyed(&scene, spot, &mut outbox) && may_pass(&scene, spot, &outbox.survey, asking).is_ok();
         if may {
-            let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
-            let length = f64::from(motion.length);
-            mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);
-            car.heeds_more = true;
-            let (speed, desired) = (motion.speed, f64::from(car.desired));
-            self.passages.advance(mind.passage, 0.0, speed, desired);
+            self.give_surveyed(spot, &mut outbox);
         }
         self.outboxes[0] = outbox;
+    }
+
+    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if only there were room.
+    pub(crate) fn may_but_for_room(&self, spot: Spot, asking: Asking, outbox: &mut Outbox) -> bool {
+        let scene = self.scene();
+        let is_there = surveyed(&scene, spot, outbox);
+        outbox.survey.room = f64::INFINITY;
+        is_there && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
+    }
+
+    /// Gives the driver at `spot` the passage that it needs next.
+    pub(crate) fn give_surveyed(&mut self, spot: Spot, outbox: &mut Outbox) {
+        surveyed(&self.scene(), spot, outbox);
+        let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
+        let length = f64::from(motion.length);
+        mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);
+        car.heeds_more = true;
+        let (speed, desired) = (motion.speed, f64::from(car.desired));
+        self.passages.advance(mind.passage, 0.0, speed, desired);
     }
 }

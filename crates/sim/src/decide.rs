@@ -349,12 +349,18 @@ impl Gap {
     fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
         /// Least way before such a place on which a lane is still changed, at walking speed [m].
         const LEAST: f64 = 15.0;
+        /// So far into a chain a junction may reach [m].
+        const JUNCTION: f64 = 15.0;
         let motion = scene.motion(spot);
         let here = scene.viewpoint(spot);
         let there = Viewpoint { chain: self.chain, x: self.x, ..here };
         let way = way.max(LEAST);
         let has_passage = |it: &Found| scene.has_passage(it.spot, it.distance - f64::from(motion.length));
-        ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
+        // Room that is kept for others beyond a junction stays theirs.
+        let kept = scene.passages.kept_on(self.chain);
+        let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
+        !takes_room
+            && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
             && !self.follower.as_ref().is_some_and(has_passage)
     }
 

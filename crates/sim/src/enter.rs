@@ -60,7 +60,9 @@ impl World {
                 let leaves_room = ahead.is_none_or(|it| it.gap >= style.safety.min_gap);
                 let follower = scene.follower(from);
                 let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
-                (leaves_room && is_let_in).then_some(0.0)?
+                // Room that is kept for others stays theirs.
+                let is_free = scene.passages.kept_on(chain) == 0.0;
+                (leaves_room && is_let_in && is_free).then_some(0.0)?
             }
         };
         Some(NewVehicle { chain, x, speed, class, character, destination })

@@ -28,6 +28,7 @@ mod random;
 mod rate;
 mod records;
 mod resolve;
+mod rotation;
 mod scene;
 mod snapshot;
 mod source;

@@ -62,6 +62,8 @@ pub(crate) struct Outbox {
     pub(crate) progress: Vec<Progress>,
     /// What drivers ask for at junctions.
     pub(crate) appeals: Vec<Appeal>,
+    /// Drivers who stand because there is no room for them beyond a junction.
+    pub(crate) blocked: Vec<Appeal>,
     /// Who waits for which side of a zone because of others.
     pub(crate) claims: Vec<(ZoneIndex, u8, Claim)>,
     /// Room for the thread's work.
@@ -79,6 +81,7 @@ impl Outbox {
         self.progress.append(&mut other.progress);
         self.appeals.append(&mut other.appeals);
         self.claims.append(&mut other.claims);
+        self.blocked.append(&mut other.blocked);
         self.arrived.append(&mut other.arrived);
     }
 }

@@ -228,6 +228,19 @@ impl<'a> Scene<'a> {
         nearer(last(sibling, back, 0.0), hanging)
     }
 
+    /// The next vehicle on one's way within sight, wherever it comes from.
+    pub(crate) fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
+        let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+        loop {
+            let motions = &self.motions(chain)[index..];
+            if let Some(place) = motions.iter().position(|it| it.id != from.id) {
+                return Some(Spot { chain, index: index + place });
+            }
+            base += self.network.chain(chain).length;
+            (chain, index) = (self.next(from.destination, chain).filter(|_| base < SIGHT)?, 0);
+        }
+    }
+
     /// The leader beyond the end of the chain.
     fn ahead_beyond(&self, from: Viewpoint) -> Option<Ahead> {
         let mut chain = from.chain;

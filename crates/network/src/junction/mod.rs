@@ -158,6 +158,13 @@ impl Junctions {
         zones.next().is_none_or(|it| self.reach(*it).start >= station)
     }
 
+    /// The stretches of `chain` that are part of junctions: zones, and the places where drivers stop [m].
+    pub(crate) fn extents(&self, chain: ChainIndex) -> Vec<[f64; 2]> {
+        let on = self.on(chain);
+        let zones = on.crossings.iter().map(|it| self.reach(*it)).map(|it| [it.start, it.end]);
+        zones.chain(on.stops.iter().map(|it| [it.station, it.station])).collect()
+    }
+
     /// The stretch of a side of a zone.
     #[inline]
     pub fn reach(&self, crossing: Crossing) -> &Reach {

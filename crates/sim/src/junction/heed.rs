@@ -1,7 +1,7 @@
 //! What a driver heeds at a junction while it drives on.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{LightState, ZoneKind};
+use laneweave_network::{LightIndex, LightState, ZoneKind};
 
 use super::passages::{Hold, NO_PASSAGE, Passage};
 use super::survey::stop_ahead;
@@ -94,12 +94,15 @@ pub(super) fn leader_into(passage: &Passage, hold: &Hold, other: &Passage) -> Op
     Some(Ahead { gap, speed: other.speed })
 }
 
-/// The first light ahead that is no longer green and where the driver can still stop with comfort.
+/// Where a driver stops, from the beginning of its passage on [m], for the first light ahead that is no longer green if it
+/// can do so with comfort and outside of all zones.
 fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
-    let lights = passage.lights();
-    let mut to_stop_at = lights.filter(|(light, at)| {
-        let is_green = scene.light(*light) == LightState::Green;
-        !is_green && *at > 0.0 && speed * speed < 2.0 * STOPS_AT_YELLOW * at
-    });
-    to_stop_at.next().map(|(_, at)| passage.travelled + at)
+    let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
+    let (_, at) = passage.lights().find(is_red)?;
+    // Zones that reach beyond the line have to be stopped for, too.
+    let line = passage.travelled + at;
+    let zones = passage.holds.iter().filter(|it| it.leave > line).map(|it| it.enter);
+    let from = zones.fold(line, f64::min);
+    let room = from - passage.travelled;
+    (room > 0.0 && speed * speed < 2.0 * STOPS_AT_YELLOW * room).then_some(from)
 }

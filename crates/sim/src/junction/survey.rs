@@ -246,10 +246,11 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> ChainIndex {
     chain
 }
 
-/// Room from `clear` on [m], to `limit` or the last vehicle that is out of the zones, where that can stop.
+/// Room from `clear` on [m], to `limit` or to where the vehicles that are out of the zones can all have stopped.
 fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
     let mut taken = scene.passages.kept_on(chain_at(scene, from, clear));
+    let mut end = f64::INFINITY;
     loop {
         let lane = &scene.lanes[chain.at()];
         for (motion, index) in lane.motions()[index..].iter().zip(index..) {
@@ -257,19 +258,22 @@ fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
             if motion.id == from.id {
                 continue;
             }
-            if rear >= clear {
-                let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
-                return stops_at.min(limit) - clear - taken;
+            if rear > limit || rear > clear + ROOM_SIGHT {
+                return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear;
             }
-            if scene.passages.of(lane.minds()[index].passage, motion.id).is_none() {
+            let is_out = rear >= clear;
+            if is_out {
+                let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
+                end = end.min(stops_at - taken);
+            }
+            if is_out || scene.passages.of(lane.minds()[index].passage, motion.id).is_none() {
                 taken += f64::from(motion.length) + SPARE_ROOM;
             }
         }
         base += scene.network.chain(chain).length;
         match scene.next(from.destination, chain) {
             Some(next) if base < clear + ROOM_SIGHT => (chain, index) = (next, 0),
-            _ => break,
+            _ => return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear,
         }
     }
-    limit.min(clear + ROOM_SIGHT) - clear - taken
 }
