@@ -72,14 +72,18 @@ impl Beside {
         self.other_start + (station - self.start) * self.scale
     }
 
-    /// What is left of the stretch outside of those `taken` [m], in order; pieces too short to begin a change are left out.
+    /// What is left of the stretch outside of those `taken` [m], in order; pieces too short for a change are left out.
     pub(crate) fn without(&self, mut taken: Vec<[f64; 2]>) -> Vec<Beside> {
+        /// Shortest piece at the beginning of the stretch, and after a place that is taken: who comes from there has to get its
+        /// rear out of it first [m]. Ours.
         const SHORTEST: f64 = 1.0;
+        const SHORTEST_AFTER: f64 = 25.0;
         taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let (mut pieces, mut start) = (Vec::new(), self.start);
         for [from, to] in taken.into_iter().chain([[self.end, self.end]]) {
             let end = from.min(self.end);
-            if end - start >= SHORTEST {
+            let shortest = if start > self.start { SHORTEST_AFTER } else { SHORTEST };
+            if end - start >= shortest {
                 pieces.push(Beside { start, end, other_start: self.across(start), ..*self });
             }
             start = start.max(to);

@@ -16,7 +16,7 @@ const COMFORTABLE_BRAKING: f64 = 2.0;
 /// get past another vehicle and into the lane.
 const ROOM_AT_THE_END: f64 = 16.0;
 /// Road that a driver keeps before a place where it stops at a junction [m].
-const ROOM_AT_A_STOP: f64 = 0.7;
+pub(crate) const ROOM_AT_A_STOP: f64 = 0.7;
 /// What is left of it when it is used [m].
 const LEAST_ROOM: f64 = 1.0;
 /// Who has waited this long [s] for a gap, and hardly moves [m/s], uses that room.

@@ -90,8 +90,11 @@ fn consider(
     // Where it stands in vain, the driver takes another way if there is one.
     let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - motion.x < AT_THE_PLACE;
     let beyond = waypoint.last_place + 1.0;
-    let has_another_way = stands_in_vain && navigator.reachable(spot.chain, beyond).next().is_some();
-    if !waypoint.leads_on(motion.x) || has_another_way {
+    // Who has a passage goes the way that it was given for.
+    let is_free = !scene.has_passage(spot, f64::NEG_INFINITY);
+    let has_another_way =
+        is_free && stands_in_vain && navigator.reachable(spot.chain, beyond).next().is_some();
+    if (is_free && !waypoint.leads_on(motion.x)) || has_another_way {
         let from = if has_another_way { beyond } else { motion.x };
         concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
@@ -233,7 +236,7 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
         |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
     match gap(scene, spot, mind.side) {
         None => {}
-        Some(_) if scene.passages.of(mind.passage, motion.id).is_some() => {}
+        Some(_) if scene.has_passage(spot, f64::NEG_INFINITY) => {}
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
             outbox.requests.push(request(Ask::Change));
         }
@@ -359,7 +362,9 @@ impl Gap {
         // Room that is kept for others beyond a junction stays theirs.
         let kept = scene.passages.kept_on(self.chain);
         let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
+        let is_in_fork = self.x - f64::from(motion.length) < scene.network.chain(self.chain).fork_clearance;
         !takes_room
+            && !is_in_fork
             && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
             && !self.follower.as_ref().is_some_and(has_passage)
     }

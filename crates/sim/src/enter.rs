@@ -57,7 +57,7 @@ impl World {
                 stop.map_or(speed, |it| speed.min(speed_before_a_stop(it - length)))
             }
             Start::FromRest(_) => {
-                let leaves_room = ahead.is_none_or(|it| it.gap >= style.safety.min_gap);
+                let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));
                 let follower = scene.follower(from);
                 let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
                 // Room that is kept for others stays theirs.
@@ -92,6 +92,14 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
         if fits(middle) { slow = middle } else { fast = middle }
     }
     Some(slow)
+}
+
+/// Gap to a leader [m] with which a driver starts from a kerb: into a queue nobody squeezes.
+fn room_to_start(style: &Style, ahead: Ahead) -> f64 {
+    /// Who drives slower than this [m/s] queues, and so much way to a queue is left free [m]; ours.
+    const QUEUES: f64 = 2.0;
+    const WAY_TO_A_QUEUE: f64 = 30.0;
+    if ahead.speed < QUEUES { WAY_TO_A_QUEUE } else { style.safety.min_gap }
 }
 
 /// Whether a vehicle at rest may appear before `follower`: it must be secure, and neither its model nor kinematics may

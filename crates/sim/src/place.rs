@@ -70,6 +70,14 @@ impl Places {
         Places { origins: places(&network.entrances), destinations: places(&network.exits) }
     }
 
+    /// The same without origins from which no destination can be reached.
+    pub fn reachable(mut self, network: &Network) -> Places {
+        let navigator = Navigator::towards(network, &self.destinations);
+        let count = self.destinations.len() as u16;
+        self.origins.retain(|place| (0..count).any(|it| navigator.leads(network, place, it)));
+        self
+    }
+
     /// For a map without entrance or exit: kerbs along those of `lanelets` that are long enough. Who starts at one of the
     /// origins can reach a destination.
     pub fn along(network: &Network, lanelets: impl IntoIterator<Item = LaneletIndex>) -> Places {
@@ -93,10 +101,7 @@ impl Places {
         let most = (Places::MOST_WAYPOINTS / network.chains.len()).clamp(1, Demand::MOST_DESTINATIONS);
         let one_in = kerbs.len().div_ceil(most).max(1);
         let destinations: Vec<Place> = kerbs.iter().step_by(one_in).map(|kerb| Place::Kerb(*kerb)).collect();
-        let navigator = Navigator::towards(network, &destinations);
-        let leads_somewhere =
-            |place: &Place| (0..destinations.len()).any(|it| navigator.leads(network, place, it as u16));
-        let origins = kerbs.into_iter().map(Place::Kerb).filter(leads_somewhere).collect();
-        Places { origins, destinations }
+        let origins = kerbs.into_iter().map(Place::Kerb).collect();
+        Places { origins, destinations }.reachable(network)
     }
 }

@@ -87,6 +87,10 @@ impl World {
     fn begin_to_change(&mut self, spot: Spot) {
         let scene = self.scene();
         let mind = scene.lanes[spot.chain.at()].minds()[spot.index];
+        // Who has just been given a passage keeps its lane.
+        if scene.has_passage(spot, f64::NEG_INFINITY) {
+            return;
+        }
         let Some(gap) = gap(&scene, spot, mind.side) else { return };
         if gap.accepted(&scene, spot, self.clock.dt).is_err() {
             return;

@@ -237,8 +237,30 @@ impl<'a> Scene<'a> {
                 return Some(Spot { chain, index: index + place });
             }
             base += self.network.chain(chain).length;
-            (chain, index) = (self.next(from.destination, chain).filter(|_| base < SIGHT)?, 0);
+            let next = self.next(from.destination, chain).filter(|_| base < SIGHT)?;
+            if let Some(beside) = self.spot_in_fork(chain, next, from.id) {
+                return Some(beside);
+            }
+            (chain, index) = (next, 0);
         }
+    }
+
+    /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, if nobody on `next`
+    /// is before it.
+    fn spot_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<Spot> {
+        let last = |it: ChainIndex| {
+            let lane = &self.lanes[it.at()];
+            let mut came = lane.motions().iter().zip(lane.minds()).enumerate();
+            let (index, (motion, _)) =
+                came.find(|(_, (it, mind))| it.id != id && mind.came_from == Some(chain))?;
+            Some((Spot { chain: it, index }, motion.rear()))
+        };
+        let on_way = last(next).map_or(f64::INFINITY, |it| it.1);
+        let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
+        let in_the_way = siblings
+            .filter_map(|it| last(*it))
+            .filter(|(spot, rear)| *rear < self.network.chain(spot.chain).fork_clearance && *rear < on_way);
+        in_the_way.min_by(|a, b| a.1.total_cmp(&b.1)).map(|it| it.0)
     }
 
     /// The leader beyond the end of the chain.
@@ -280,15 +302,32 @@ impl<'a> Scene<'a> {
     /// the way, from the fork on [m].
     pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
-        let waiting = siblings.filter_map(|it| {
-            let lane = &self.lanes[it.at()];
-            let mut came = lane.motions().iter().zip(lane.minds());
-            let (other, mind) = came.find(|(it, mind)| it.id != id && mind.came_from == Some(chain))?;
-            let is_in_the_way = other.rear() < self.network.chain(*it).fork_clearance;
-            let waits = self.passages.of(mind.passage, other.id).is_none();
-            (is_in_the_way && waits).then(|| other.rear())
+        siblings.filter_map(|it| self.waits_on(chain, *it, id, f64::NEG_INFINITY)).reduce(f64::min)
+    }
+
+    /// The same for who is within the fork itself.
+    pub(crate) fn waits_beside_in_fork(&self, from: Viewpoint) -> Option<f64> {
+        let chain = self.network.chain(from.chain);
+        if from.x >= chain.fork_clearance {
+            return None;
+        }
+        let siblings = chain.previous.iter().flat_map(|back| {
+            let following = self.network.chain(*back).following.iter();
+            following.filter(|it| **it != from.chain).map(|it| (*back, *it))
         });
-        waiting.reduce(f64::min)
+        siblings.filter_map(|(back, it)| self.waits_on(back, it, from.id, from.x)).reduce(f64::min)
+    }
+
+    /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling`, if it is in the way of those who
+    /// forked off, and no passage leads it out of it [m].
+    fn waits_on(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<f64> {
+        let lane = &self.lanes[sibling.at()];
+        let mut came = lane.motions().iter().zip(lane.minds());
+        let is_ahead = |it: &Motion| it.id != id && (it.x, id) > (x, it.id);
+        let (other, mind) = came.find(|(it, mind)| is_ahead(it) && mind.came_from == Some(back))?;
+        let goes_on = self.passages.of(mind.passage, other.id).map_or(0.0, |it| it.left().max(0.0));
+        let stays = other.rear() + goes_on < self.network.chain(sibling).fork_clearance;
+        stays.then(|| other.rear())
     }
 
     /// Distance to the vehicle `it`, `base` before the start of the chain that it is on [m]. Whose rear is still on

@@ -98,7 +98,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
 /// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.
 fn places(network: &Network, graph: &Graph) -> Places {
     if !network.entrances.is_empty() && !network.exits.is_empty() {
-        return Places::at_gates(network);
+        return Places::at_gates(network).reachable(network);
     }
     let all = graph.conflicting.iter().zip(0..);
     Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))

@@ -31,6 +31,8 @@ const AT_THE_LINE: f64 = 4.0;
 /// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
 /// while it clears.
 const APPROACHES: f64 = 1.5;
+/// Room that who gives way leaves for one who goes first [m] (ours): so a roundabout does not fill up.
+const ROOM_FOR_ANOTHER: f64 = 7.0;
 /// Who comes from the side that does not go first has waited for this long before it takes its turn [s] (ours): so ends
 /// a standoff in which everybody gives way to somebody.
 const STANDOFF: f64 = 4.0;
@@ -78,7 +80,11 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     if survey.has_stop_sign && (speed > STOPPED || survey.stop > AT_THE_LINE) {
         return Err(Hindrance::Sign);
     }
-    if survey.room < survey.needed {
+    let gives_way = |hold: &Hold| {
+        scene.network.junctions.zones[hold.zone.at()].precedence == Precedence::Side(1 - hold.side)
+    };
+    let spare = if survey.holds.iter().any(gives_way) { ROOM_FOR_ANOTHER } else { 0.0 };
+    if survey.room < (survey.needed + spare).min(survey.most) {
         return Err(Hindrance::Room);
     }
     if survey.holds.iter().all(|hold| may_hold(scene, spot, hold, asking)) {

@@ -52,7 +52,9 @@ pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
     let until = sight(motion.speed);
     if let Some(stop) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
-        junction.asks = !car.is_shadow && !car.phase.is_between_lanes();
+        // Who has to leave the lane before does not go on along it.
+        let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
+        junction.asks = keeps_lane && !car.is_shadow && !car.phase.is_between_lanes();
     }
     junction
 }

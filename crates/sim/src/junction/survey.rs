@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Sign, ZoneKind};
 
 use super::passages::Hold;
-use crate::scene::{Scene, Viewpoint};
+use crate::accelerate::ROOM_AT_A_STOP;
+use crate::scene::{Scene, Spot, Viewpoint};
 
 /// How far before a zone a vehicle stops [m] (ours).
 const BEFORE_A_ZONE: f64 = 1.0;
@@ -39,6 +40,8 @@ pub(crate) struct Survey {
     pub(crate) needed: f64,
     /// Room that there is.
     pub(crate) room: f64,
+    /// Room that there would be on an empty road.
+    pub(crate) most: f64,
 }
 
 impl Default for Survey {
@@ -52,6 +55,7 @@ impl Default for Survey {
             refuge: ChainIndex(0),
             needed: 0.0,
             room: 0.0,
+            most: 0.0,
         }
     }
 }
@@ -159,6 +163,9 @@ pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool
 /// How far the way of the vehicle ahead is free [m]: who is behind it need not look further.
 fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+    if let Some(rear) = scene.waits_beside_in_fork(from) {
+        return rear - from.x;
+    }
     loop {
         let lane = &scene.lanes[chain.at()];
         let ahead = lane.motions()[index..].iter().zip(index..).find(|(it, _)| it.id != from.id);
@@ -204,11 +211,11 @@ pub(crate) fn survey(
         }
         let start = *first.get_or_insert(point.stop);
         let is_apart = match point.what {
-            _ if clear > f64::NEG_INFINITY => point.stop >= clear + length + SPARE_ROOM,
+            _ if clear > f64::NEG_INFINITY => point.stop - ROOM_AT_A_STOP >= clear + length + SPARE_ROOM,
             _ => point.stop > start + LINE_TO_ZONE,
         };
         if is_apart {
-            next_stop = point.stop;
+            next_stop = point.stop - ROOM_AT_A_STOP;
             return ControlFlow::Break(());
         }
         match point.what {
@@ -231,6 +238,7 @@ pub(crate) fn survey(
     out.needed = length + SPARE_ROOM;
     out.refuge = chain_at(scene, from, clear);
     let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
+    out.most = (limit - clear).max(out.needed);
     out.room = room(scene, from, clear, limit);
     true
 }
@@ -246,8 +254,29 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> ChainIndex {
     chain
 }
 
-/// Room from `clear` on [m], to `limit` or to where the vehicles that are out of the zones can all have stopped.
+/// Distances are not told apart closer than this [m].
+const ROUNDING: f64 = 0.5;
+
+/// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite if it
+/// goes on along it.
+fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
+    let own = scene.next(from.destination, spot.chain);
+    let theirs = scene.next(scene.car(spot).goal.destination(), spot.chain);
+    match theirs {
+        Some(next) if theirs != own => {
+            base + scene.network.chain(spot.chain).length + scene.network.chain(next).fork_clearance
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// Room from `clear` on [m], to `limit` or to where the vehicles that are out of the zones can all have stopped; none if
+/// somebody ahead who is not out of them, and of the way, has no passage out.
 fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
+    const NONE: f64 = f64::NEG_INFINITY;
+    if scene.waits_beside_in_fork(from).is_some() {
+        return NONE;
+    }
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
     let mut taken = scene.passages.kept_on(chain_at(scene, from, clear));
     let mut end = f64::INFINITY;
@@ -261,18 +290,26 @@ fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
             if rear > limit || rear > clear + ROOM_SIGHT {
                 return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear;
             }
-            let is_out = rear >= clear;
-            if is_out {
+            if rear >= clear {
                 let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
                 end = end.min(stops_at - taken);
-            }
-            if is_out || scene.passages.of(lane.minds()[index].passage, motion.id).is_none() {
                 taken += f64::from(motion.length) + SPARE_ROOM;
+                continue;
+            }
+            let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
+            let gets_to = rear + passage.map_or(0.0, |it| it.left().max(0.0));
+            if gets_to < clear.min(parts(scene, from, Spot { chain, index }, base)) - ROUNDING {
+                return NONE;
             }
         }
         base += scene.network.chain(chain).length;
         match scene.next(from.destination, chain) {
-            Some(next) if base < clear + ROOM_SIGHT => (chain, index) = (next, 0),
+            Some(next) if base < clear + ROOM_SIGHT => {
+                if base < clear && scene.waits_in_fork(chain, next, from.id).is_some() {
+                    return NONE;
+                }
+                (chain, index) = (next, 0);
+            }
             _ => return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear,
         }
     }
