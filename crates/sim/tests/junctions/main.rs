@@ -2,6 +2,7 @@
 
 #[path = "../roads/drivers.rs"]
 mod drivers;
+mod flow;
 mod giving_way;
 mod lights;
 mod room;
