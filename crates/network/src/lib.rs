@@ -11,6 +11,7 @@ mod geometry;
 mod junction;
 mod lanelet;
 mod polygon;
+mod symmetry;
 
 pub use alongside::Alongside;
 pub use build::{Network, NetworkError};
@@ -23,3 +24,4 @@ pub use junction::{
 };
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;
+pub use symmetry::{Symmetry, symmetry};

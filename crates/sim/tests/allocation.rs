@@ -6,7 +6,9 @@ mod roads;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use laneweave_network::ChainIndex;
+use laneweave_maps::generate::{Grid, grid};
+use laneweave_maps::regulations;
+use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
 
@@ -51,8 +53,7 @@ fn allocations_of_a_step(world: &mut World) -> u64 {
     ALLOCATIONS.get() - before
 }
 
-fn world(road: Road, total: f64) -> World {
-    let network = road.network();
+fn world(network: Network, total: f64) -> World {
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
     let characters = vec![drivers::aggressive(), drivers::conservative()];
     World::new(network, characters, demand, Setup { step: 0.1, seed: 1, threads: 1 })
@@ -61,7 +62,7 @@ fn world(road: Road, total: f64) -> World {
 
 #[test]
 fn steps_of_traffic_that_stays_in_its_lanes_allocate_nothing() {
-    let mut world = world(Road { length: 3000.0, is_ring: true, ..Road::default() }, 0.0);
+    let mut world = world(Road { length: 3000.0, is_ring: true, ..Road::default() }.network(), 0.0);
     for number in 0..100 {
         let x = 30.0 * f64::from(number) + 10.0;
         let (chain, character) = (ChainIndex(0), number % 2);
@@ -75,7 +76,7 @@ fn steps_of_traffic_that_stays_in_its_lanes_allocate_nothing() {
 #[test]
 fn steps_of_traffic_that_enters_changes_lanes_and_leaves_allocate_only_while_a_lane_is_fuller_than_ever() {
     const STEPS: u64 = 3000;
-    let mut world = world(Road { lanes: 3, length: 9000.0, ..Road::default() }, 4000.0);
+    let mut world = world(Road { lanes: 3, length: 9000.0, ..Road::default() }.network(), 4000.0);
     (0..12_000).for_each(|_| world.step());
     let changes_before = world.counts().discretionary_changes;
     let mut steps_that_allocate = 0;
@@ -84,4 +85,21 @@ fn steps_of_traffic_that_enters_changes_lanes_and_leaves_allocate_only_while_a_l
     }
     assert!(world.counts().discretionary_changes > changes_before + 100);
     assert!(steps_that_allocate <= STEPS / 500, "{steps_that_allocate} of {STEPS} steps");
+}
+
+#[test]
+fn steps_of_traffic_at_lights_allocate_only_while_a_lane_or_a_queue_is_fuller_than_ever() {
+    const STEPS: u64 = 3000;
+    let map = grid(&Grid::default()).expect("the grid is possible").build().expect("the drawing is sound");
+    let regulations = regulations(&map);
+    let mut world = world(map.network.regulated(&regulations), 1500.0);
+    (0..6000).for_each(|_| world.step());
+    let left_before = world.counts().left;
+    let mut steps_that_allocate = 0;
+    for _ in 0..STEPS {
+        steps_that_allocate += u64::from(allocations_of_a_step(&mut world) > 0);
+    }
+    let left = world.counts().left - left_before;
+    assert!(left > 100, "{left} left");
+    assert!(steps_that_allocate <= STEPS / 100, "{steps_that_allocate} of {STEPS} steps");
 }

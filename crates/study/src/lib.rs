@@ -5,11 +5,13 @@
 mod edie;
 mod figures;
 mod rate;
+mod signal;
 mod statistics;
 mod table;
 
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
 pub use figures::{Mark, RateSeries, Sample, escaped, rate_density, text_width, time_space};
 pub use rate::{RatePoint, rate_by_density};
+pub use signal::{Signal, SignalQueue};
 pub use statistics::{Estimate, Interval, geh, mean, poisson_interval, required_replications};
 pub use table::{Cell, Column, Format, Kind, TableError, TableWriter};

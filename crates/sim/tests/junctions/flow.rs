@@ -1,0 +1,28 @@
+//! Traffic that a junction can take flows.
+
+use laneweave_sim::{Setup, World};
+
+use crate::drivers;
+use crate::town::{STEP, assert_sound, network};
+
+#[test]
+fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {
+    const MINUTES: u32 = 15;
+    let demands = [
+        ("priority.osm", 1000.0),
+        ("right_before_left.osm", 1000.0),
+        ("all_way_stop.osm", 1000.0),
+        ("roundabout.osm", 800.0),
+    ];
+    for ((name, total), seed) in demands.into_iter().zip(1..) {
+        let network = network(name);
+        let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
+        let characters = vec![drivers::aggressive(), drivers::conservative()];
+        let setup = Setup { step: STEP, seed, threads: 1 };
+        let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+        (0..MINUTES * 600).for_each(|_| world.step());
+        assert_sound(&world);
+        assert!(world.on_road() < 30 && world.waiting() == 0, "{name}: {} on the road", world.on_road());
+        assert!(world.counts().left as f64 > 0.7 * total / 4.0, "{name}: {} left", world.counts().left);
+    }
+}

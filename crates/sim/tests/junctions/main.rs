@@ -1,0 +1,10 @@
+//! Drivers at junctions: who waits, who goes, and that nobody waits for ever.
+
+#[path = "../roads/drivers.rs"]
+mod drivers;
+mod flow;
+mod giving_way;
+mod lights;
+mod room;
+mod same_bits;
+mod town;

@@ -1,0 +1,145 @@
+//! Room beyond a junction: nobody stands in the way of others, and those who wait for each other's room go together.
+
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
+
+use laneweave_models::Style;
+use laneweave_models::follow::{FollowingModel, Idm};
+use laneweave_network::{ChainIndex, Network, ZoneKind};
+use laneweave_sim::{Class, NewVehicle, VehicleId};
+
+use crate::drivers;
+use crate::town::{Arm, Comer, assert_sound, empty, exit_to, lane_to, network, put, run_until};
+
+/// Who hardly moves in an hour.
+fn immobile() -> Style {
+    let idm = Idm { acceleration: 1e-9, ..Idm::default() };
+    Style { follow: FollowingModel::Idm(idm), ..drivers::conservative() }
+}
+
+/// Whether part of a vehicle stands where lanes cross or merge: on its chain, or on the one before.
+fn is_in_the_way(
+    network: &Network,
+    chain: ChainIndex,
+    x: f64,
+    length: f64,
+    before: Option<ChainIndex>,
+) -> bool {
+    let stands_in = |chain: ChainIndex, x: f64| {
+        let junctions = &network.junctions;
+        junctions.on(chain).crossings.iter().any(|crossing| {
+            let reach = junctions.reach(*crossing);
+            let is_tight = junctions.zones[crossing.zone.at()].kind == ZoneKind::Tight;
+            !is_tight && x > reach.start && x - length < reach.end.min(network.chain(chain).length)
+        })
+    };
+    stands_in(chain, x) || before.is_some_and(|it| stands_in(it, network.chain(it).length + x))
+}
+
+#[test]
+fn nobody_stands_within_a_junction_whose_exit_is_full() {
+    for name in ["priority.osm", "right_before_left.osm", "all_way_stop.osm"] {
+        let mut world = empty(network(name), vec![drivers::conservative(), immobile()]);
+        let chain = lane_to(world.network(), Arm::North);
+        let destination = Some(exit_to(world.network(), Arm::North));
+        // It leaves room for one.
+        let blocker = NewVehicle { chain, x: 14.0, speed: 0.0, class: Class::Car, character: 1, destination };
+        world.place(blocker);
+        for from in [Arm::East, Arm::West, Arm::South] {
+            for place in 0..4 {
+                let to = if place % 2 == 0 { Arm::North } else { from.turned(2) };
+                let distance = 15.0 + 15.0 * f64::from(place);
+                put(&mut world, Comer { from, to, distance, speed: 5.0, character: 0 });
+            }
+        }
+        let mut ways: HashMap<VehicleId, [Option<ChainIndex>; 2]> = HashMap::new();
+        let mut standing: HashMap<VehicleId, u32> = HashMap::new();
+        run_until(&mut world, 120.0, |world| {
+            for vehicle in world.vehicles() {
+                let (id, chain) = (vehicle.id(), vehicle.spot.chain);
+                let way = ways.entry(id).or_insert([None, Some(chain)]);
+                if way[1] != Some(chain) {
+                    *way = [way[1], Some(chain)];
+                }
+                let length = f64::from(vehicle.motion.length);
+                let stands = vehicle.speed() < 0.05
+                    && is_in_the_way(world.network(), chain, vehicle.x(), length, way[0]);
+                let steps = standing.entry(id).or_default();
+                *steps = if stands { *steps + 1 } else { 0 };
+                // A moment to let another go first is no standing.
+                assert!(*steps < 50, "{name}: {id} stands at {:.1} m of {chain:?}", vehicle.x());
+            }
+            false
+        });
+        // Those behind the first who wants to the north wait with it.
+        let waiting = world.vehicles().filter(|it| it.speed() < 0.05 && it.car.character == 0).count();
+        assert!(waiting >= 3, "{name}: {waiting} wait");
+        assert_sound(&world);
+    }
+}
+
+/// The lanes of the ring, from one without a zone on.
+fn ring(network: &Network) -> Vec<ChainIndex> {
+    let is_in_ring = |first: ChainIndex| {
+        let (mut open, mut seen) = (vec![first], Vec::new());
+        while let Some(here) = open.pop() {
+            for next in &network.chain(here).following {
+                if *next == first {
+                    return true;
+                }
+                if !seen.contains(next) {
+                    seen.push(*next);
+                    open.push(*next);
+                }
+            }
+        }
+        false
+    };
+    let all = (0..network.chains.len() as u32).map(ChainIndex);
+    let has_no_zone = |it: &ChainIndex| network.junctions.on(*it).crossings.is_empty();
+    let first = all.clone().find(|it| is_in_ring(*it) && has_no_zone(it)).expect("there is a ring");
+    let mut ring = vec![first];
+    while let Some(next) =
+        network.chain(ring[ring.len() - 1]).following.iter().find(|it| is_in_ring(**it) && **it != first)
+    {
+        ring.push(*next);
+    }
+    ring
+}
+
+/// Places along the ring in which cars of `length` [m] stand in nobody's way.
+fn free_places(network: &Network, ring: &[ChainIndex], length: f64) -> Vec<(ChainIndex, f64)> {
+    /// Distance between cars at rest, and before a zone [m].
+    const GAP: f64 = 2.2;
+    let mut places = Vec::new();
+    // From one zone to the next the ring has two chains.
+    for pair in ring.chunks(2) {
+        let [before, at_zone] = pair else { continue };
+        let zone = network.junctions.on(*at_zone).crossings[0];
+        let (from, start) = (network.chain(*before).length, network.junctions.reach(zone).start);
+        let mut front = start - GAP;
+        while from + front - length > 0.0 {
+            places.push(if front > 0.0 { (*at_zone, front) } else { (*before, from + front) });
+            front -= length + GAP;
+        }
+    }
+    places
+}
+
+#[test]
+fn a_full_ring_turns() {
+    let mut world = empty(network("roundabout.osm"), vec![drivers::conservative()]);
+    let lanes = ring(world.network());
+    let places = free_places(world.network(), &lanes, Class::Car.body().length);
+    assert_eq!(places.len(), 8);
+    for (chain, x) in places {
+        // Everybody wants to leave where it has just passed.
+        let at = world.network().chain(chain).centre.at(x);
+        let quarter = at.y.atan2(at.x).div_euclid(FRAC_PI_2).rem_euclid(4.0) as usize;
+        let destination = Some(exit_to(world.network(), Arm::ALL[quarter]));
+        world.place(NewVehicle { chain, x, speed: 0.0, class: Class::Car, character: 0, destination });
+    }
+    let time = run_until(&mut world, 90.0, |world| world.on_road() == 0);
+    assert!(time.is_some(), "{} are still there", world.on_road());
+    assert_sound(&world);
+}

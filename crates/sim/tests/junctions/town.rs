@@ -1,0 +1,130 @@
+//! Traffic on the maps that come with the program.
+
+use laneweave_maps::generate::own_maps;
+use laneweave_maps::{Map, regulations};
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Network};
+use laneweave_sim::{Class, NewVehicle, Setup, VehicleId, World};
+
+use crate::drivers;
+
+/// Length of a step [s].
+pub(crate) const STEP: f64 = 0.1;
+
+/// Where an arm of a single junction lies, seen from its middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arm {
+    East,
+    North,
+    West,
+    South,
+}
+
+impl Arm {
+    /// Counter-clockwise.
+    pub(crate) const ALL: [Arm; 4] = [Arm::East, Arm::North, Arm::West, Arm::South];
+
+    /// The arm that follows counter-clockwise after so many quarters.
+    pub(crate) fn turned(self, quarters: usize) -> Arm {
+        Arm::ALL[(self as usize + quarters) % 4]
+    }
+
+    /// Which arm the end of the map at (`x`, `y`) belongs to.
+    fn at(x: f64, y: f64) -> Arm {
+        match (x.abs() > y.abs(), x + y > 0.0) {
+            (true, true) => Arm::East,
+            (false, true) => Arm::North,
+            (true, false) => Arm::West,
+            (false, false) => Arm::South,
+        }
+    }
+}
+
+/// The network of a map in the folder `maps`, with its junctions.
+pub(crate) fn network(name: &str) -> Network {
+    let maps = own_maps().expect("they can be drawn");
+    let (_, drawing) = maps.into_iter().find(|it| it.0 == name).expect("there is one of this name");
+    let map = drawing.build().expect("the drawing is sound");
+    let regulations = regulations(&map);
+    let Map { network, .. } = map;
+    network.regulated(&regulations)
+}
+
+/// An empty world into which nobody comes.
+pub(crate) fn empty(network: Network, characters: Vec<Style>) -> World {
+    let demand = drivers::demand(&network, 0.0, 0.0, &[1.0]);
+    let setup = Setup { step: STEP, seed: 1, threads: 1 };
+    World::new(network, characters, demand, setup).expect("the set-up makes sense")
+}
+
+/// The lane that comes from an arm to the only junction.
+pub(crate) fn lane_from(network: &Network, arm: Arm) -> ChainIndex {
+    let lanes = network.entrances.iter().flat_map(|it| it.chains.iter().copied());
+    let mut from_there = lanes.filter(|it| {
+        let start = network.chain(*it).centre.at(0.0);
+        Arm::at(start.x, start.y) == arm
+    });
+    from_there.next().expect("a lane comes from there")
+}
+
+/// The lane that leads from the only junction to an arm.
+pub(crate) fn lane_to(network: &Network, arm: Arm) -> ChainIndex {
+    network.exits[usize::from(exit_to(network, arm))].chains[0]
+}
+
+/// The destination beyond an arm.
+pub(crate) fn exit_to(network: &Network, arm: Arm) -> u16 {
+    let leads_there = |lane: &ChainIndex| {
+        let chain = network.chain(*lane);
+        let end = chain.centre.at(chain.length);
+        Arm::at(end.x, end.y) == arm
+    };
+    network.exits.iter().position(|it| it.chains.iter().any(leads_there)).expect("a lane leads there") as u16
+}
+
+/// Somebody who comes from an arm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Comer {
+    pub(crate) from: Arm,
+    pub(crate) to: Arm,
+    /// Way of the front to the end of the lane [m].
+    pub(crate) distance: f64,
+    pub(crate) speed: f64,
+    pub(crate) character: u32,
+}
+
+/// Puts somebody on the road.
+pub(crate) fn put(world: &mut World, comer: Comer) -> VehicleId {
+    let network = world.network();
+    let chain = lane_from(network, comer.from);
+    let x = network.chain(chain).length - comer.distance;
+    let destination = Some(exit_to(network, comer.to));
+    let Comer { speed, character, .. } = comer;
+    world.place(NewVehicle { chain, x, speed, class: Class::Car, character, destination })
+}
+
+/// Steps until `is_over` holds, at most so long [s]; the time that it took [s].
+pub(crate) fn run_until(
+    world: &mut World,
+    longest: f64,
+    mut is_over: impl FnMut(&World) -> bool,
+) -> Option<f64> {
+    let steps = (longest / STEP).round() as u32;
+    (1..=steps)
+        .find(|_| {
+            world.step();
+            is_over(world)
+        })
+        .map(|steps| f64::from(steps) * STEP)
+}
+
+/// Whether a vehicle has left the lane on which it came.
+pub(crate) fn has_gone(world: &World, id: VehicleId, lane: ChainIndex) -> bool {
+    world.vehicles().all(|it| it.id() != id || it.spot.chain != lane)
+}
+
+/// Nothing bad has happened.
+pub(crate) fn assert_sound(world: &World) {
+    let (tally, counts) = (world.tally(), world.counts());
+    assert_eq!((tally.collisions, counts.overlaps, tally.stuck), (0, 0, 0));
+}
