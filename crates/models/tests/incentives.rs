@@ -4,8 +4,8 @@ mod situations;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Chances, Comfort, Courtesy, Flow, Incentive, LaneView, Merging, Returning, Route, RouteView, Situation,
-    Speed, Urgency, anticipated_speed, discomfort, expected_time, urgency,
+    Chances, Comfort, Courtesy, Flow, Incentive, LaneChangeModel, LaneView, Merging, Returning, Route,
+    RouteView, Situation, Speed, Urgency, anticipated_speed, discomfort, expected_time, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace};
 use situations::{ON_ROUTE, behind, driver, empty_road, mcdm};
@@ -376,4 +376,16 @@ fn the_rows_of_an_appraisal_are_the_incentives_in_their_order() {
     }
     let sum: f64 = appraisal.rows.iter().map(|row| row.earning * row.weight).sum();
     assert_near(appraisal.gain, sum, 1e-12);
+}
+
+#[test]
+fn where_comfort_weighs_more_nothing_else_does() {
+    let usual = LaneChangeModel::Mcdm(mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1));
+    let situation = leaving_route(between_followers(), 40.0);
+    let [before, after] = [usual.appraise(&situation), usual.with_comfort(2.5).appraise(&situation)];
+    let comfort = before.rows[2];
+    assert_eq!((after.rows[2].weight, after.rows[2].earning), (7.5, comfort.earning));
+    assert_near(after.gain, before.gain + 4.5 * comfort.earning, 1e-12);
+    let coin = LaneChangeModel::ConstantHazard(Default::default());
+    assert_eq!(coin.with_comfort(2.5), coin);
 }

@@ -8,9 +8,9 @@ use crate::navigate::Waypoint;
 use crate::scene::{LaneSight, Scene, Spot, Viewpoint};
 use crate::traffic::{Car, Phase};
 
-/// What a driver knows when it considers the lane on `side`; `None` where it may not change to one.
+/// What a concentrated driver knows when it considers the lane on `side`; `None` where it may not change to one.
 pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation<'a>> {
-    let outlook = Outlook::new(scene, me);
+    let outlook = Outlook::new(scene, me, SIGHT);
     let beside = outlook.beside(side)?;
     let hint = scene.lanes[beside.chain.at()].ahead_of(beside.across(outlook.from.x));
     Some(outlook.situation(side, beside, &mut { hint }))
@@ -37,18 +37,20 @@ pub(crate) struct Outlook<'s, 'a> {
     car: &'a Car,
     me: Driver<'a>,
     from: Viewpoint,
+    /// How far ahead it sees [m].
+    reach: f64,
     sight: LaneSight,
     here: LaneView<'a>,
 }
 
 impl<'s, 'a> Outlook<'s, 'a> {
-    /// Looks along the driver's own lane.
-    pub(crate) fn new(scene: &'s Scene<'a>, spot: Spot) -> Outlook<'s, 'a> {
+    /// Looks along the own lane of a driver who sees `reach` [m] ahead.
+    pub(crate) fn new(scene: &'s Scene<'a>, spot: Spot, reach: f64) -> Outlook<'s, 'a> {
         let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
-        let sight = scene.look(from, me.pace.desired, me.length);
+        let sight = scene.look(from, me.pace.desired, me.length, reach);
         let here = lane_view(scene, &me, from, &sight);
-        Outlook { scene, car: scene.car(spot), me, from, sight, here }
+        Outlook { scene, car: scene.car(spot), me, from, reach, sight, here }
     }
 
     /// The driver's own vehicle.
@@ -72,10 +74,10 @@ impl<'s, 'a> Outlook<'s, 'a> {
         let x = beside.across(self.from.x);
         *hint = self.scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
         let from = Viewpoint { chain: beside.chain, x, ahead: *hint, ..self.from };
-        let sight = self.scene.look(from, self.me.pace.desired, self.me.length);
+        let sight = self.scene.look(from, self.me.pace.desired, self.me.length, self.reach);
         let mut there = lane_view(self.scene, &self.me, from, &sight);
         let mut here = self.here;
-        let section = here.route.remaining.min(there.route.remaining).min(SIGHT);
+        let section = here.route.remaining.min(there.route.remaining).min(self.reach);
         let on_section = section / self.scene.network.chain(self.from.chain).limit(self.from.x);
         here.route.onward = (here.route.onward - on_section).max(0.0);
         there.route.onward = if there.route.changes == Waypoint::NO_WAY {

@@ -43,7 +43,7 @@ pub struct World {
     pub(crate) outboxes: Vec<Outbox>,
     demand: Demand,
     sources: Vec<Source>,
-    random: Random,
+    pub(crate) random: Random,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
     /// Vehicles on the road.

@@ -6,6 +6,7 @@ mod roads;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use laneweave_models::{Attention, Style};
 use laneweave_network::ChainIndex;
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
@@ -54,7 +55,8 @@ fn allocations_of_a_step(world: &mut World) -> u64 {
 fn world(road: Road, total: f64) -> World {
     let network = road.network();
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let attention = Attention { concentrated_for: 20.0, inattentive_for: 20.0, ..Attention::default() };
+    let characters = vec![drivers::aggressive(), Style { attention, ..drivers::conservative() }];
     World::new(network, characters, demand, Setup { step: 0.1, seed: 1, threads: 1 })
         .expect("the set-up makes sense")
 }

@@ -27,7 +27,7 @@ fn assert_near(value: f64, expected: f64) {
 fn world(network: Network) -> World {
     let eager = Style {
         change: LaneChangeModel::ConstantHazard(ConstantHazard { hazard: 1.0 }),
-        attention: Attention { epoch: 0.1 },
+        attention: Attention { epoch: 0.1, ..Attention::default() },
         speed_factor: 1.0,
         ..drivers::aggressive()
     };
