@@ -288,9 +288,13 @@ fn courtesy_makes_room_for_a_merging_vehicle_the_more_the_closer_its_lane_ends()
         let relief = share_of(&courtesy, 8.0, blocked, freed);
         for urgency in [0.0, 0.4, 1.0] {
             let driver = driver(&IDM, 8.0, 14.0);
-            situation.merging = Some(Merging { driver, blocked: Some(blocked), freed: Some(freed), urgency });
-            let earning = courtesy.earning(&situation, chances(1.0));
-            assert_near(earning, harm + (1.0 + urgency) * relief, 1e-12);
+            let merging = Some(Merging { driver, blocked: Some(blocked), freed: Some(freed), urgency });
+            // As fast as its lane, the driver is not in the way of those behind: this is another case.
+            for (all, counted) in [([merging, None], 1.0), ([None, merging], 1.0), ([merging; 2], 2.0)] {
+                situation.merging = all;
+                let earning = courtesy.earning(&situation, chances(1.0));
+                assert_near(earning, harm + counted * (1.0 + urgency) * relief, 1e-12);
+            }
         }
         assert_near(courtesy.earning(&leaving_route(situation, 50.0), chances(0.5)), harm, 1e-12);
     }

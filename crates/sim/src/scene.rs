@@ -472,7 +472,7 @@ impl View {
 }
 
 /// The nearer of two.
-fn nearer(one: Option<Ahead>, other: Option<Ahead>) -> Option<Ahead> {
+pub(crate) fn nearer(one: Option<Ahead>, other: Option<Ahead>) -> Option<Ahead> {
     match (one, other) {
         (Some(one), Some(other)) => Some(if other.gap < one.gap { other } else { one }),
         (one, other) => one.or(other),

@@ -122,7 +122,7 @@ fn the_inattentive_let_in_whom_they_saw_when_they_last_looked() {
     /// Steps from the wish of a driver at the end of its lane to the first in which the one behind beside makes room,
     /// and whether that one considered lanes in between.
     fn let_in_after(follower: Style) -> (u32, bool) {
-        let plan = Motorway { lane_drop_at: Some(2500.0), length_m: 4000.0, ..Motorway::default() };
+        let plan = Motorway { lanes: 2, lane_drop_at: Some(2500.0), length_m: 4000.0, ..Motorway::default() };
         let network = motorway(&plan).expect("a road").build().expect("a network").network;
         let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
         let mut world = world(network, vec![drivers::conservative(), follower], nobody);
