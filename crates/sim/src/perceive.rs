@@ -111,14 +111,17 @@ impl<'s, 'a> Outlook<'s, 'a> {
     /// The vehicle at `spot` on `side`, beside whose lane the driver is at `x` [m], if it signals a change and nobody is
     /// between it and the driver in the driver's lane.
     fn signalling(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
-        let (motion, car, mind) = (self.scene.motion(spot), self.scene.car(spot), self.scene.mind(spot));
-        let forward = motion.x - x;
+        let mind = self.scene.mind(spot);
+        if self.scene.car(spot).phase != Phase::Wants || mind.side != side.opposite() {
+            return None;
+        }
+        let forward = self.scene.motion(spot).x - x;
         let is_next = if forward > 0.0 {
             self.sight.ahead.is_none_or(|it| it.gap > forward)
         } else {
             self.sight.follower.is_none_or(|it| it.distance > -forward)
         };
-        if car.phase != Phase::Wants || mind.side != side.opposite() || !is_next {
+        if !is_next {
             return None;
         }
         let me_ahead = Ahead { gap: -forward - self.me.length, speed: self.me.pace.speed };
