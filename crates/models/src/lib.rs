@@ -4,6 +4,7 @@
 //! [`change`]: the columns are [`change::Outcomes`], the rows one file each. Where the paper's formula misses
 //! its own intent, both readings exist: [`Reading::Literal`] and [`Reading::Repaired`], chosen by a style.
 
+mod attention;
 pub mod braking;
 pub mod change;
 mod exponential;
@@ -11,7 +12,8 @@ pub mod follow;
 mod style;
 pub mod yielding;
 
-pub use style::{Attention, Manner, Style};
+pub use attention::{Alertness, Attention, Concentration};
+pub use style::{Manner, Style};
 
 use serde::{Deserialize, Serialize};
 

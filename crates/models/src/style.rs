@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::attention::Attention;
 use crate::change::{LaneChangeModel, Safety};
 use crate::follow::FollowingModel;
 use crate::yielding::Yielding;
@@ -25,7 +26,7 @@ pub struct Style {
     /// Which gaps it accepts.
     #[serde(default)]
     pub safety: Safety,
-    /// How often it considers lanes.
+    /// How it attends to lanes, and how steadily.
     #[serde(default)]
     pub attention: Attention,
     /// How it goes about a change.
@@ -38,20 +39,6 @@ pub struct Style {
 
 fn as_the_limit() -> f64 {
     1.0
-}
-
-/// How often a driver considers lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Attention {
-    /// τ_d: time between two considerations [s].
-    pub epoch: f64,
-}
-
-impl Default for Attention {
-    fn default() -> Attention {
-        Attention { epoch: 1.0 }
-    }
 }
 
 /// How a driver waits for a gap, changes and relaxes. The paper has it in words; the forms are those of Schakel,

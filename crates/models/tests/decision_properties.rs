@@ -79,7 +79,8 @@ fn any_merging() -> impl Strategy<Value = Merging<'static>> {
 }
 
 fn any_situation() -> impl Strategy<Value = Situation<'static>> {
-    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, option::of(any_merging()))
+    let merging = [option::of(any_merging()), option::of(any_merging())];
+    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging)
         .prop_map(|(me, here, there, section, merging)| Situation { me, here, there, section, merging })
 }
 
@@ -142,9 +143,9 @@ proptest! {
         model in any_model(), mut situation in any_situation(), merging in any_merging(), gap in 0.5..30.0_f64,
         speed in 0.0..40.0_f64, share in 0.0..1.0_f64,
     ) {
-        situation.merging = Some(Merging { freed: Some(Ahead { gap, speed }), ..merging });
+        situation.merging[0] = Some(Merging { freed: Some(Ahead { gap, speed }), ..merging });
         let before = model.appraise(&situation).gain;
-        situation.merging = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
+        situation.merging[0] = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
         prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
     }
 }

@@ -4,8 +4,8 @@ mod situations;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Chances, Comfort, Courtesy, Flow, Incentive, LaneView, Merging, Returning, Route, RouteView, Situation,
-    Speed, Urgency, anticipated_speed, discomfort, expected_time, urgency,
+    Chances, Comfort, Courtesy, Flow, Incentive, LaneChangeModel, LaneView, Merging, Returning, Route,
+    RouteView, Situation, Speed, Urgency, anticipated_speed, discomfort, expected_time, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace};
 use situations::{ON_ROUTE, behind, driver, empty_road, mcdm};
@@ -288,9 +288,13 @@ fn courtesy_makes_room_for_a_merging_vehicle_the_more_the_closer_its_lane_ends()
         let relief = share_of(&courtesy, 8.0, blocked, freed);
         for urgency in [0.0, 0.4, 1.0] {
             let driver = driver(&IDM, 8.0, 14.0);
-            situation.merging = Some(Merging { driver, blocked: Some(blocked), freed: Some(freed), urgency });
-            let earning = courtesy.earning(&situation, chances(1.0));
-            assert_near(earning, harm + (1.0 + urgency) * relief, 1e-12);
+            let merging = Some(Merging { driver, blocked: Some(blocked), freed: Some(freed), urgency });
+            // As fast as its lane, the driver is not in the way of those behind: this is another case.
+            for (all, counted) in [([merging, None], 1.0), ([None, merging], 1.0), ([merging; 2], 2.0)] {
+                situation.merging = all;
+                let earning = courtesy.earning(&situation, chances(1.0));
+                assert_near(earning, harm + counted * (1.0 + urgency) * relief, 1e-12);
+            }
         }
         assert_near(courtesy.earning(&leaving_route(situation, 50.0), chances(0.5)), harm, 1e-12);
     }
@@ -376,4 +380,16 @@ fn the_rows_of_an_appraisal_are_the_incentives_in_their_order() {
     }
     let sum: f64 = appraisal.rows.iter().map(|row| row.earning * row.weight).sum();
     assert_near(appraisal.gain, sum, 1e-12);
+}
+
+#[test]
+fn where_comfort_weighs_more_nothing_else_does() {
+    let usual = LaneChangeModel::Mcdm(mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1));
+    let situation = leaving_route(between_followers(), 40.0);
+    let [before, after] = [usual.appraise(&situation), usual.with_comfort(2.5).appraise(&situation)];
+    let comfort = before.rows[2];
+    assert_eq!((after.rows[2].weight, after.rows[2].earning), (7.5, comfort.earning));
+    assert_near(after.gain, before.gain + 4.5 * comfort.earning, 1e-12);
+    let coin = LaneChangeModel::ConstantHazard(Default::default());
+    assert_eq!(coin.with_comfort(2.5), coin);
 }

@@ -1,12 +1,16 @@
 //! Drivers consider lanes, wait for gaps, and call changes off.
 
-use laneweave_models::Style;
+use std::borrow::Cow;
+
 use laneweave_models::change::{
-    Appraisal, GapPair, Refusal, Situation, deceleration_to_avoid, time_to_collision, urgency,
+    Appraisal, GapPair, LaneChangeModel, Refusal, Situation, deceleration_to_avoid, time_to_collision,
+    urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_models::{Concentration, Style};
 use laneweave_network::{ChainIndex, Side};
 
+use crate::attention::concentration;
 use crate::clock::Clock;
 use crate::junction::is_place_ahead;
 use crate::perceive::{Outlook, driver};
@@ -79,7 +83,9 @@ fn consider(
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let style = &scene.characters[car.character as usize];
     plan.tally.considerations += 1;
-    let period = moment.clock.steps(style.attention.epoch);
+    let state = concentration(&style.attention, moment.random, motion.id, moment.clock.time());
+    let alertness = style.attention.alertness(state);
+    let period = moment.clock.steps(alertness.epoch);
     let note = note(scene, moment, spot, period);
     plan.tally.stuck += u64::from(car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER);
     plan.notes.push(note);
@@ -107,12 +113,16 @@ fn consider(
         plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
     concern.last_place = Some(waypoint.last_place).filter(|it| it - motion.x < HEEDED_WITHIN);
-    let outlook = Outlook::new(scene, spot);
+    let outlook = Outlook::new(scene, spot, alertness.sight);
+    let change = match state {
+        Concentration::Concentrated => Cow::Borrowed(&style.change),
+        Concentration::Inattentive => Cow::Owned(style.change.with_comfort(alertness.comfort)),
+    };
     let sides = [moment.overtaking, moment.overtaking.opposite()];
     let [first_hint, second_hint] = hints;
     let options = [
-        Choice::of(&outlook, moment, style, sides[0], first_hint),
-        Choice::of(&outlook, moment, style, sides[1], second_hint),
+        Choice::of(&outlook, moment, &change, sides[0], first_hint),
+        Choice::of(&outlook, moment, &change, sides[1], second_hint),
     ];
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
@@ -121,9 +131,9 @@ fn consider(
         let wanted = options.iter().flatten().find(|it| it.side == mind.side);
         concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
-        let epochs = f64::from(period) * moment.clock.dt / style.attention.epoch;
+        let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
-        let drawn = style.change.drawn(appraisals, epochs, draw);
+        let drawn = change.drawn(appraisals, epochs, draw);
         let chosen = drawn.and_then(|it| options[it].as_ref());
         count_signs(outlook.here().prospect, f64::from(car.desired), &options, chosen.is_some(), plan);
         if let Some(choice) = chosen {
@@ -150,13 +160,19 @@ struct Choice {
 
 impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
-    fn of(outlook: &Outlook, moment: Moment, style: &Style, side: Side, hint: &mut usize) -> Option<Choice> {
+    fn of(
+        outlook: &Outlook,
+        moment: Moment,
+        change: &LaneChangeModel,
+        side: Side,
+        hint: &mut usize,
+    ) -> Option<Choice> {
         let situation = outlook.situation(side, outlook.beside(side)?, hint);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
         let is_calm = moment.clock.step < outlook.car().calm_until;
         (helps_the_route || !is_calm).then(|| Choice {
             side,
-            appraisal: style.change.appraise(&situation),
+            appraisal: change.appraise(&situation),
             is_symmetric: situation.is_symmetric(),
             urgency: if helps_the_route { pressure(&situation) } else { 0.0 },
             prospect: situation.there.prospect,

@@ -6,6 +6,7 @@
 mod accelerate;
 mod advance;
 mod appeal;
+mod attention;
 mod clock;
 mod decide;
 mod demand;

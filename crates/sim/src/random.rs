@@ -20,6 +20,8 @@ pub enum Purpose {
     Destination,
     /// A parameter of a character.
     Parameter,
+    /// Whether a driver is concentrated.
+    Attention,
 }
 
 /// Source of all draws of a run.

@@ -1,8 +1,10 @@
 //! Requests that concern other lanes are granted one after the other, the most pressing first: of two drivers who
 //! want one gap exactly one goes, whoever asked first and on whichever thread.
 
+use laneweave_models::Concentration;
 use laneweave_network::ChainIndex;
 
+use crate::attention::concentration;
 use crate::decide::gap;
 use crate::events::{Event, LaneChange};
 use crate::junction::NO_PASSAGE;
@@ -38,7 +40,9 @@ impl World {
             Ask::Want(want) if phase == Phase::Cruises => self.begin_to_want(spot, request, &want),
             Ask::Change if phase == Phase::Wants => self.begin_to_change(spot),
             Ask::LetIn { follower, chain, x, gap, speed } => {
-                if let Some(index) = self.lanes[chain.at()].find(follower, x) {
+                let since = lane.minds()[spot.index].since;
+                let found = self.lanes[chain.at()].find(follower, x);
+                if let Some(index) = found.filter(|it| self.has_seen(Spot { chain, index: *it }, since)) {
                     let (_, car, mind) = self.lanes[chain.at()].entry_mut(index);
                     let manner = &self.characters[car.character as usize].manner;
                     if manner.yield_deceleration > 0.0 && car.phase == Phase::Cruises {
@@ -50,6 +54,19 @@ impl World {
             // Who has crossed the line in the meantime goes on.
             Ask::Abort if phase == Phase::Changes && progress < 0.5 => self.turn_back(spot),
             _ => {}
+        }
+    }
+
+    /// Whether the driver at `spot` has seen who signals since the step `since`: an inattentive one sees of the lane beside
+    /// what it saw when it last considered lanes.
+    fn has_seen(&self, spot: Spot, since: u32) -> bool {
+        let lane = &self.lanes[spot.chain.at()];
+        let (id, car) = (lane.motions()[spot.index].id, &lane.cars()[spot.index]);
+        let attention = &self.characters[car.character as usize].attention;
+        match concentration(attention, self.random, id, self.clock.time()) {
+            Concentration::Concentrated => true,
+            // No longer than an epoch lies between its last consideration and the next, which is due.
+            Concentration::Inattentive => since + self.clock.steps(attention.inattentive.epoch) <= car.due,
         }
     }
 

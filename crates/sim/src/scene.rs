@@ -397,12 +397,13 @@ impl<'a> Scene<'a> {
         nearest
     }
 
-    /// All that a driver who wants `desired` [m/s] sees along the lane it looks at.
-    pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64) -> LaneSight {
-        let mut view = View { window: Window::default(), ahead: None, leader: None, prospect: desired };
+    /// All that a driver who wants `desired` [m/s] and sees `sight` [m] ahead sees along the lane it looks at.
+    pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64, sight: f64) -> LaneSight {
+        let mut view =
+            View { sight, window: Window::default(), ahead: None, leader: None, prospect: desired };
         let ahead = self.look_ahead(from, desired, &mut view);
         let (follower, back) = self.look_back(from, &mut view.window);
-        let View { window, ahead: leader_ahead, leader, prospect } = view;
+        let View { window, ahead: leader_ahead, leader, prospect, .. } = view;
         let flow = window.flow(ahead + back, desired, own_length);
         LaneSight { ahead: leader_ahead, leader, follower, prospect, flow }
     }
@@ -411,16 +412,17 @@ impl<'a> Scene<'a> {
     #[inline]
     fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
         let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+        let window_ahead = view.window_ahead();
         loop {
             if let Some(red) = self.red_ahead(chain, -base) {
                 view.stop_at(base + red, desired);
             }
             if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
-                return WINDOW_AHEAD;
+                return window_ahead;
             }
             base += self.network.chain(chain).length;
-            if base > SIGHT {
-                return WINDOW_AHEAD;
+            if base > view.sight {
+                return window_ahead;
             }
             let Some(next) = self.next(from.destination, chain) else {
                 if self.network.chain(chain).is_lane_drop {
@@ -428,7 +430,7 @@ impl<'a> Scene<'a> {
                     view.ahead = view.ahead.or(Some(end));
                     view.prospect = view.prospect.min(anticipated_speed(end, desired));
                 }
-                return base.clamp(1.0, WINDOW_AHEAD);
+                return base.clamp(1.0, window_ahead);
             };
             (chain, index) = (next, 0);
         }
@@ -483,6 +485,8 @@ impl<'a> Scene<'a> {
 
 /// What is gathered while looking ahead.
 struct View {
+    /// How far one sees [m].
+    sight: f64,
     window: Window,
     ahead: Option<Ahead>,
     leader: Option<Spot>,
@@ -490,8 +494,16 @@ struct View {
 }
 
 impl View {
+    /// How far the window reaches ahead [m].
+    fn window_ahead(&self) -> f64 {
+        WINDOW_AHEAD.min(self.sight)
+    }
+
     /// A red light counts as a standing leader, `distance` ahead [m].
     fn stop_at(&mut self, distance: f64, desired: f64) {
+        if distance > self.sight {
+            return;
+        }
         let line = Ahead::standing(distance);
         self.prospect = self.prospect.min(anticipated_speed(line, desired));
     }
@@ -508,10 +520,11 @@ impl View {
         id: VehicleId,
         desired: f64,
     ) -> bool {
+        let window_ahead = self.window_ahead();
         for (index, it) in (first..).zip(motions) {
             let front = base + it.x;
             let ahead = Ahead { gap: front - f64::from(it.length), speed: it.speed };
-            if ahead.gap > SIGHT {
+            if ahead.gap > self.sight {
                 return true;
             }
             if it.id == id {
@@ -523,7 +536,7 @@ impl View {
             }
             let anticipated = anticipated_speed(ahead, desired);
             self.prospect = if anticipated < self.prospect { anticipated } else { self.prospect };
-            if front <= WINDOW_AHEAD {
+            if front <= window_ahead {
                 self.window.add(it);
             }
         }
@@ -532,7 +545,7 @@ impl View {
 }
 
 /// The nearer of two.
-fn nearer(one: Option<Ahead>, other: Option<Ahead>) -> Option<Ahead> {
+pub(crate) fn nearer(one: Option<Ahead>, other: Option<Ahead>) -> Option<Ahead> {
     match (one, other) {
         (Some(one), Some(other)) => Some(if other.gap < one.gap { other } else { one }),
         (one, other) => one.or(other),

@@ -8,6 +8,7 @@ use std::cell::Cell;
 
 use laneweave_maps::generate::{Grid, grid};
 use laneweave_maps::regulations;
+use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
@@ -55,7 +56,8 @@ fn allocations_of_a_step(world: &mut World) -> u64 {
 
 fn world(network: Network, total: f64) -> World {
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let attention = Attention { concentrated_for: 20.0, inattentive_for: 20.0, ..Attention::default() };
+    let characters = vec![drivers::aggressive(), Style { attention, ..drivers::conservative() }];
     World::new(network, characters, demand, Setup { step: 0.1, seed: 1, threads: 1 })
         .expect("the set-up makes sense")
 }

@@ -3,8 +3,8 @@
 mod roads;
 
 use laneweave_maps::generate::{Motorway, motorway};
-use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Mcdm, Rule};
+use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
@@ -22,8 +22,10 @@ fn ramps() -> Network {
     motorway(&plan).expect("the motorway is possible").build().expect("the drawing is sound").network
 }
 
+/// Of whom the conservative are inattentive now and then.
 fn styles() -> Vec<Style> {
-    vec![drivers::aggressive(), drivers::conservative()]
+    let attention = Attention { concentrated_for: 20.0, inattentive_for: 20.0, ..Attention::default() };
+    vec![drivers::aggressive(), Style { attention, ..drivers::conservative() }]
 }
 
 /// State after six minutes of dense traffic of both styles with trucks, enough of it to be shared among threads.
@@ -92,7 +94,8 @@ fn v29_another_seed_is_another_run() {
 /// A style without chance, that is easily moved: it wants to change when G > θ.
 fn resolute(style: Style) -> Style {
     let LaneChangeModel::Mcdm(mcdm) = style.change else { unreachable!() };
-    Style { change: LaneChangeModel::Mcdm(Mcdm { rule: Rule::Threshold, theta: 0.02, ..mcdm }), ..style }
+    let change = LaneChangeModel::Mcdm(Mcdm { rule: Rule::Threshold, theta: 0.02, ..mcdm });
+    Style { change, attention: Attention::default(), ..style }
 }
 
 #[test]

@@ -16,7 +16,7 @@ const STEP: f64 = 0.1;
 /// Wants to change wherever it may, at once.
 fn eager(style: Style) -> Style {
     let change = LaneChangeModel::ConstantHazard(ConstantHazard { hazard: 1.0 });
-    Style { change, attention: Attention { epoch: STEP }, ..style }
+    Style { change, attention: Attention { epoch: STEP, ..Attention::default() }, ..style }
 }
 
 /// Never wants to change.

@@ -27,7 +27,7 @@ fn assert_near(value: f64, expected: f64) {
 fn world(network: Network) -> World {
     let eager = Style {
         change: LaneChangeModel::ConstantHazard(ConstantHazard { hazard: 1.0 }),
-        attention: Attention { epoch: 0.1 },
+        attention: Attention { epoch: 0.1, ..Attention::default() },
         speed_factor: 1.0,
         ..drivers::aggressive()
     };
@@ -97,7 +97,7 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     assert_eq!((here.route.changes, there.route.changes), (0, 0));
     assert_eq!((here.route.remaining, section), (f64::INFINITY, SIGHT));
     assert_near(here.route.onward, (500.0 - SIGHT) / 30.0);
-    assert!(merging.is_none() && here.route.alternative.is_none());
+    assert!(merging == [None; 2] && here.route.alternative.is_none());
 }
 
 #[test]
@@ -227,4 +227,115 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
     }
     // Before and after its centre crossed the line.
     assert_eq!(seen_from.into_iter().collect::<Vec<_>>(), [ChainIndex(0), ChainIndex(1)]);
+}
+
+/// Drivers at 20 m/s on three lanes: one beside the middle, who waits to change there from where its front bumper is
+/// `forward` of that of the driver of the middle lane [m], and others, each by its lane and how far it is ahead.
+struct Waiting {
+    world: World,
+    me: u32,
+    waiting: u32,
+}
+
+impl Waiting {
+    fn new(lane: u32, forward: f64, others: &[(u32, f64)]) -> Waiting {
+        let mut world = world(Road { lanes: 3, length: 1000.0, limit: 30.0, ..Road::default() }.network());
+        let me = car(&mut world, 1, 500.0, 20.0);
+        let (chain, destination) = (ChainIndex(lane), Some(0));
+        let (x, class) = (500.0 + forward, Class::Car);
+        let waiting = world.place(NewVehicle { chain, x, speed: 20.0, class, character: 1, destination });
+        for (lane, ahead) in others {
+            car(&mut world, *lane, 500.0 + ahead, 20.0);
+        }
+        // It wants to change at once, and has no room to.
+        world.step();
+        let phase = world.vehicles().find(|it| it.id() == waiting).expect("it is on the road").car.phase;
+        assert_eq!(phase, Phase::Wants);
+        Waiting { world, me, waiting }
+    }
+
+    /// Whom the driver would make room for if it left to `side`: on the other side, and on this one.
+    fn seen(&self, side: Side) -> [Option<[Option<Ahead>; 2]>; 2] {
+        let scene = self.world.scene();
+        let merging = look(&scene, &self.world, self.me, side).merging;
+        let speed = scene.motion(spot(&self.world, self.waiting)).speed;
+        merging.map(|it| {
+            it.map(|it| {
+                assert_eq!((it.driver.pace.speed, it.urgency), (speed, 0.0));
+                [it.blocked, it.freed]
+            })
+        })
+    }
+
+    /// What is ahead from the one who waits to vehicle `id`, wherever both are.
+    fn ahead(&self, id: u32) -> Option<Ahead> {
+        let scene = self.world.scene();
+        let [from, to] = [self.waiting, id].map(|it| scene.motion(spot(&self.world, it)));
+        Some(Ahead { gap: to.rear() - from.x, speed: to.speed })
+    }
+}
+
+#[track_caller]
+fn assert_ahead(found: Option<Ahead>, expected: Option<Ahead>) {
+    let [found, expected] = [found, expected].map(|it| it.map_or((f64::NAN, 0.0), |it| (it.gap, it.speed)));
+    assert_eq!(found.0.is_nan(), expected.0.is_nan());
+    assert!(found.0.is_nan() || (found.0 - expected.0).abs() < 1e-9, "{found:?} is not {expected:?}");
+    assert_eq!(found.1, expected.1);
+}
+
+#[test]
+fn who_waits_behind_on_the_other_side_than_one_would_leave_to_follows_ones_leader_then() {
+    let (leader, own_leader) = (2, 3);
+    let scenery = [(1, 50.0), (0, 30.0)];
+    // Behind, side by side, and ahead.
+    for (forward, is_behind) in [(-6.0, true), (-2.0, false), (2.0, false), (6.0, false)] {
+        let waiting = Waiting::new(0, forward, &scenery);
+        let [across, near] = waiting.seen(Side::Left);
+        let [blocked, freed] = across.expect("it is seen");
+        assert_ahead(blocked, waiting.ahead(if is_behind { waiting.me } else { own_leader }));
+        assert_ahead(freed, waiting.ahead(leader));
+        assert!(near.is_none());
+    }
+    // On a free road.
+    let waiting = Waiting::new(0, 2.0, &[]);
+    assert_eq!(waiting.seen(Side::Left), [Some([None, None]), None]);
+}
+
+#[test]
+fn on_the_side_that_one_would_leave_to_the_new_leader_may_merge_and_the_new_follower_is_just_that() {
+    let waiting = Waiting::new(0, 2.0, &[(1, 50.0)]);
+    let [across, near] = waiting.seen(Side::Right);
+    assert!(across.is_none());
+    assert_ahead(near.expect("it is seen")[1], waiting.ahead(2));
+    assert_eq!(Waiting::new(0, -2.0, &[]).seen(Side::Right), [None, None]);
+}
+
+#[test]
+fn room_is_made_only_for_those_who_signal_into_the_own_lane_with_nobody_between() {
+    // Behind the own follower, and beside the own leader.
+    assert_eq!(Waiting::new(0, -12.0, &[(1, -10.0)]).seen(Side::Left), [None, None]);
+    assert_eq!(Waiting::new(0, 12.0, &[(1, 10.0)]).seen(Side::Left), [None, None]);
+    // Who keeps its lane is no merging vehicle.
+    let mut world = world(Road { lanes: 3, length: 1000.0, limit: 30.0, ..Road::default() }.network());
+    let me = car(&mut world, 1, 500.0, 20.0);
+    car(&mut world, 0, 498.0, 20.0);
+    let scene = world.scene();
+    assert_eq!(look(&scene, &world, me, Side::Left).merging, [None; 2]);
+}
+
+#[test]
+fn who_waits_at_the_end_of_its_lane_has_that_ahead_and_its_urgency() {
+    let mut world = drawn(Motorway { lanes: 3, lane_drop_at: Some(2500.0), ..Motorway::default() });
+    let merging = car(&mut world, 0, 2400.0, 20.0);
+    let me = car(&mut world, 1, 2399.0, 20.0);
+    let phase = |world: &World| world.vehicles().find(|it| it.id() == merging).unwrap().car.phase;
+    while phase(&world) != Phase::Wants {
+        world.step();
+    }
+    let scene = world.scene();
+    let seen = look(&scene, &world, me, Side::Left).merging[0].expect("it is seen");
+    let end = Ahead { gap: 2500.0 - scene.motion(spot(&world, merging)).x, speed: 0.0 };
+    assert_ahead(seen.blocked, Some(end));
+    // At once, 100 m before the end at 20 m/s.
+    assert!((seen.urgency - 0.883721).abs() < 1e-6, "{}", seen.urgency);
 }

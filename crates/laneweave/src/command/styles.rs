@@ -12,7 +12,7 @@ use super::say;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Deed {
-    /// List the styles that come with the program.
+    /// List the styles that come with the program, each with a sentence about it.
     List,
     /// Print a style file.
     Show {

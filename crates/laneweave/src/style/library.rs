@@ -22,8 +22,17 @@ macro_rules! built_in {
 }
 
 /// The styles that come with the program.
-pub const BUILT_IN: &[BuiltIn] =
-    built_in!["aggressive", "conservative", "paper-aggressive", "paper-conservative", "constant-hazard"];
+pub const BUILT_IN: &[BuiltIn] = built_in![
+    "aggressive",
+    "conservative",
+    "cautious",
+    "inattentive",
+    "altruistic",
+    "egoistic",
+    "paper-aggressive",
+    "paper-conservative",
+    "constant-hazard"
+];
 
 /// Who drives where nothing is said: the paper's mixture, one aggressive driver to 7.4 conservative ones.
 pub const DEFAULT_MIXTURE: [(&str, f64); 2] = [("aggressive", 1.0), ("conservative", 7.4)];

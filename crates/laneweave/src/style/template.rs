@@ -210,8 +210,9 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_models::Reading;
+    use laneweave_models::change::{Courtesy, Mcdm};
     use laneweave_models::follow::FollowingModel;
+    use laneweave_models::{Alertness, Attention, Manner, Reading};
 
     use super::*;
     use crate::style::built_in;
@@ -296,6 +297,49 @@ mod tests {
             };
             assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
         }
+    }
+
+    #[test]
+    fn the_other_characters_are_the_conservative_driver_but_for_what_their_names_say() {
+        let usual = template("conservative").typical().clone();
+        let LaneChangeModel::Mcdm(table) = usual.change.clone() else { panic!("conservative") };
+        let with_courtesy = |weight| {
+            let courtesy = Courtesy { weight, ..table.courtesy };
+            LaneChangeModel::Mcdm(Mcdm { courtesy, ..table.clone() })
+        };
+        let with_manner = |yield_deceleration| Manner { yield_deceleration, ..usual.manner };
+        let attention = Attention {
+            epoch: 1.0,
+            concentrated_for: 15.0,
+            inattentive_for: 60.0,
+            inattentive: Alertness { epoch: 2.0, sight: 150.0, comfort: 5.0 },
+        };
+        for (name, expected) in [
+            ("inattentive", Style { attention, ..usual.clone() }),
+            ("altruistic", Style { change: with_courtesy(3.44), manner: with_manner(3.0), ..usual.clone() }),
+            ("egoistic", Style { change: with_courtesy(0.0), manner: with_manner(0.0), ..usual.clone() }),
+        ] {
+            let found = template(name).typical().clone();
+            let description = found.description.clone();
+            assert_eq!(found, Style { name: name.into(), description, ..expected });
+        }
+    }
+
+    #[test]
+    fn the_cautious_keep_longer_gaps_than_the_conservative_everywhere_and_drive_slower() {
+        let [cautious, usual] = ["cautious", "conservative"].map(|it| template(it).typical().clone());
+        let (FollowingModel::Idm(gaps), FollowingModel::Idm(usual_gaps)) = (cautious.follow, usual.follow)
+        else {
+            panic!("both follow by IDM")
+        };
+        assert!(gaps.time_gap > usual_gaps.time_gap && gaps.jam_gap > usual_gaps.jam_gap);
+        assert!(cautious.safety.min_gap > usual.safety.min_gap);
+        assert!(cautious.safety.min_time_to_collision > usual.safety.min_time_to_collision);
+        assert!(cautious.safety.max_deceleration < usual.safety.max_deceleration);
+        assert!(cautious.manner.tightest > usual.manner.tightest);
+        assert!(cautious.yielding.critical_gap > usual.yielding.critical_gap);
+        assert!(cautious.speed_factor < usual.speed_factor);
+        assert_eq!(cautious.change, usual.change);
     }
 
     #[test]

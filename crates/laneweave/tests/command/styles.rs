@@ -45,7 +45,17 @@ fn every_built_in_style_is_listed_shown_and_driven() {
     let names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!(
         names,
-        ["aggressive", "conservative", "paper-aggressive", "paper-conservative", "constant-hazard"]
+        [
+            "aggressive",
+            "conservative",
+            "cautious",
+            "inattentive",
+            "altruistic",
+            "egoistic",
+            "paper-aggressive",
+            "paper-conservative",
+            "constant-hazard"
+        ]
     );
     for name in names {
         assert!(

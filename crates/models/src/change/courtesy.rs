@@ -2,7 +2,7 @@
 //!
 //! A = Σ_r (|v_r − v_r,des| − |ṽ_r − v_r,des|) / |v_r − v_r,des|
 //!
-//! over the old follower, the new follower, and a vehicle that signals a change into the own lane. Both speeds are
+//! over the old follower, the new follower, and vehicles that signal a change into the own lane. Both speeds are
 //! expected one second ahead by r's own car-following model.
 //!
 //! * literal: the denominator, which vanishes for a follower at its desired speed, is floored at 1 m/s.
@@ -90,9 +90,10 @@ impl Courtesy {
             .filter(|_| in_the_way)
             .map_or(0.0, |behind| self.old_follower(situation, behind));
         let room = merging
-            .as_ref()
-            .map_or(0.0, |it| (1.0 + it.urgency) * self.driver_share(&it.driver, it.blocked, it.freed));
-        harm + relief + room
+            .iter()
+            .flatten()
+            .map(|it| (1.0 + it.urgency) * self.driver_share(&it.driver, it.blocked, it.freed));
+        harm + relief + room.sum::<f64>()
     }
 }
 

@@ -88,6 +88,17 @@ impl LaneChangeModel {
         }
     }
 
+    /// The same model where comfort weighs `factor` times as much.
+    pub fn with_comfort(&self, factor: f64) -> LaneChangeModel {
+        match self {
+            LaneChangeModel::Mcdm(model) => {
+                let comfort = Comfort { weight: factor * model.comfort.weight, ..model.comfort };
+                LaneChangeModel::Mcdm(Mcdm { comfort, ..model.clone() })
+            }
+            LaneChangeModel::ConstantHazard(_) => self.clone(),
+        }
+    }
+
     /// Chances [first, second] that within one epoch the desire for either side comes, given the appraisals of
     /// the sides that there are. With one side only this is the paper's rule.
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {

@@ -16,10 +16,10 @@ pub struct Situation<'a> {
     /// The lane it would change to.
     pub there: LaneView<'a>,
     /// Length over which the lanes' speeds differ for this driver [m]: to the end of the section, at most
-    /// [`SIGHT`].
+    /// as far as it sees.
     pub section: f64,
-    /// A vehicle that signals a change into the driver's lane and that it would make room for.
-    pub merging: Option<Merging<'a>>,
+    /// Vehicles that signal a change into the driver's lane and that it would make room for.
+    pub merging: [Option<Merging<'a>>; 2],
 }
 
 impl Situation<'_> {
