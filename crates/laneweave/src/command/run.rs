@@ -185,13 +185,6 @@ fn warn(prepared: &Prepared) {
     if problems.len() > LISTED_PROBLEMS {
         eprintln!("warning: map: {} more problems like these", problems.len() - LISTED_PROBLEMS);
     }
-    let merges = prepared.world.network().chains.iter().filter(|it| it.previous.len() > 1).count();
-    if merges > 0 {
-        eprintln!(
-            "warning: map: lanes merge in {merges} places; vehicles there do not give way to each other yet and may \
-             collide: expect sensible results on motorways without such places"
-        );
-    }
 }
 
 /// A flag that Ctrl-C raises, so that the run ends with what it has; a second Ctrl-C ends at once.
