@@ -25,7 +25,7 @@ impl Default for Yielding {
 /// Share of the critical gap that is accepted when patience ends (ours).
 const LEAST_SHARE: f64 = 0.6;
 /// Time that is left between two vehicles in one place [s] (ours).
-const MARGIN: f64 = 0.5;
+pub const MARGIN: f64 = 0.5;
 
 impl Yielding {
     /// Whether a driver who has `waited` [s], and needs `needed` [s] to be out of the way, goes before a vehicle that

@@ -44,8 +44,8 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
     }
 }
 
-/// Slower than this [m/s] a vehicle stands.
-const STANDS: f64 = 0.3;
+/// Slower than this [m/s] a vehicle stands before a junction (ours).
+pub(crate) const STANDS: f64 = 0.3;
 
 /// Surveys what the driver at `spot` needs next.
 fn surveyed(scene: &Scene, spot: Spot, outbox: &mut Outbox) -> bool {

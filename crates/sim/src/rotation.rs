@@ -1,13 +1,12 @@
 //! Rings of drivers each of whom waits for the room that the next takes up: on a full roundabout, around a full block. None of
 //! them could ever go if each waited for the other's room to be free; so they go together, each into the room of the next.
 
+use crate::appeal::STANDS;
 use crate::junction::{Asking, Hold};
 use crate::plan::Appeal;
 use crate::scene::{Scene, Spot};
 use crate::world::World;
 
-/// Slower than this [m/s] a vehicle stands.
-const STANDS: f64 = 0.3;
 /// No ring of standing vehicles that leads from one waiting driver to the next is longer.
 const LONGEST_QUEUE: usize = 100;
 

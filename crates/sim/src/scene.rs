@@ -197,15 +197,19 @@ impl<'a> Scene<'a> {
     /// A vehicle ahead that forked off to another chain before, and is still in the way.
     #[inline(never)]
     fn beside_within_the_fork(&self, from: Viewpoint) -> Option<Ahead> {
-        let previous = self.network.chain(from.chain).previous.iter();
-        let siblings = previous.flat_map(|back| {
-            let following = self.network.chain(*back).following.iter();
-            following.filter(|it| **it != from.chain).map(|it| (*back, *it))
-        });
-        siblings
+        self.siblings(from.chain)
             .filter_map(|(back, sibling)| self.last_in_fork(back, sibling, from.id, from.x))
             .map(|it| Ahead { gap: it.gap - from.x, ..it })
             .fold(None, |nearest, it| nearer(nearest, Some(it)))
+    }
+
+    /// The chains that fork off together with `chain`, each with the one before the fork.
+    fn siblings(&self, chain: ChainIndex) -> impl Iterator<Item = (ChainIndex, ChainIndex)> + 'a {
+        let network = self.network;
+        network.chain(chain).previous.iter().flat_map(move |back| {
+            let following = network.chain(*back).following.iter();
+            following.filter(move |it| **it != chain).map(move |it| (*back, *it))
+        })
     }
 
     /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet: its rear
@@ -298,8 +302,8 @@ impl<'a> Scene<'a> {
             .fold(None, |nearest, it| nearer(nearest, Some(it)))
     }
 
-    /// Rear bumper of a vehicle without a passage that forked off from `chain` to another one than `next` and is still in
-    /// the way, from the fork on [m].
+    /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has no
+    /// passage out of it, from the fork on [m].
     pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
         siblings.filter_map(|it| self.waits_on(chain, *it, id, f64::NEG_INFINITY)).reduce(f64::min)
@@ -311,11 +315,9 @@ impl<'a> Scene<'a> {
         if from.x >= chain.fork_clearance {
             return None;
         }
-        let siblings = chain.previous.iter().flat_map(|back| {
-            let following = self.network.chain(*back).following.iter();
-            following.filter(|it| **it != from.chain).map(|it| (*back, *it))
-        });
-        siblings.filter_map(|(back, it)| self.waits_on(back, it, from.id, from.x)).reduce(f64::min)
+        self.siblings(from.chain)
+            .filter_map(|(back, it)| self.waits_on(back, it, from.id, from.x))
+            .reduce(f64::min)
     }
 
     /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling`, if it is in the way of those who

@@ -8,9 +8,9 @@ use super::zone::{Precedence, Zone, ZoneKind};
 use super::{Regulations, StopKind, lineage};
 use crate::build::Network;
 use crate::chain::ChainIndex;
-use crate::lanelet::{DrivingSide, LaneletIndex};
+use crate::lanelet::LaneletIndex;
 
-/// Signs say nothing of lanelets further before a zone than chains are kin.
+/// Stop signs that the drivers on a lanelet heed.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 struct Marks {
     stops: bool,
@@ -104,10 +104,7 @@ const OPPOSITE: f64 = 0.75 * PI;
 const TURNS: f64 = PI / 6.0;
 
 fn by_shape(network: &Network, zone: &Zone) -> Precedence {
-    let near_side = match network.driving_side {
-        DrivingSide::Right => 1.0,
-        DrivingSide::Left => -1.0,
-    };
+    let near_sign = network.driving_side.overtaking().sign();
     let from = zone.sides.map(|it| {
         let centre = &network.chain(it.chain).centre;
         centre.heading((it.start - COMES_FROM).max(0.0))
@@ -115,9 +112,9 @@ fn by_shape(network: &Network, zone: &Zone) -> Precedence {
     let turns = [0, 1].map(|side| {
         let reach = &zone.sides[side];
         let chain = network.chain(reach.chain);
-        near_side * turned(from[side], chain.centre.heading((reach.end + COMES_FROM).min(chain.length)))
+        near_sign * turned(from[side], chain.centre.heading((reach.end + COMES_FROM).min(chain.length)))
     });
-    let between = near_side * turned(from[0], from[1]);
+    let between = near_sign * turned(from[0], from[1]);
     if between.abs() < ONE_ROAD || zone.kind == ZoneKind::Tight {
         Precedence::Arrival
     } else if between.abs() > OPPOSITE {
@@ -138,10 +135,7 @@ fn turned(from: f64, to: f64) -> f64 {
 fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
     const LONGEST: f64 = 250.0;
     const ONCE_AROUND: std::ops::Range<f64> = 1.6 * PI..2.4 * PI;
-    let near_side = match network.driving_side {
-        DrivingSide::Right => 1.0,
-        DrivingSide::Left => -1.0,
-    };
+    let near_sign = network.driving_side.overtaking().sign();
     let turn_of = |it: ChainIndex| {
         let points = network.chain(it).centre.points();
         let headings: Vec<f64> =
@@ -161,7 +155,7 @@ fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
             let (first, within, last) = turn_of(*next);
             let joint = turned(heading, first);
             if *next == chain {
-                return ONCE_AROUND.contains(&(near_side * (turn + joint)));
+                return ONCE_AROUND.contains(&(near_sign * (turn + joint)));
             }
             let further = length + network.chain(*next).length;
             if further <= LONGEST && !seen.contains(next) {

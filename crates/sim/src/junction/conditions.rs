@@ -1,11 +1,10 @@
 //! Whether a driver may pass now.
 
 use laneweave_models::braking::is_secure;
-use laneweave_models::follow::Ahead;
-use laneweave_models::yielding::time_to_cover;
+use laneweave_models::yielding::{MARGIN, time_to_cover};
 use laneweave_network::{LightState, Precedence, ZoneKind};
 
-use super::heed::{LONG, STOPS_AT_YELLOW};
+use super::heed::{LONG, STOPS_AT_YELLOW, leader_into};
 use super::oncoming::lag;
 use super::passages::{Claim, Hold, Passage};
 use super::survey::Survey;
@@ -36,8 +35,6 @@ const ROOM_FOR_ANOTHER: f64 = 7.0;
 /// Who comes from the side that does not go first has waited for this long before it takes its turn [s] (ours): so ends
 /// a standoff in which everybody gives way to somebody.
 const STANDOFF: f64 = 4.0;
-/// Time between two vehicles in one place [s] (ours).
-const MARGIN: f64 = 0.5;
 
 /// Who asks.
 #[derive(Clone, Copy, Debug)]
@@ -131,10 +128,9 @@ fn goes_first(precedence: Precedence, other_side: u8, claim: Claim, asking: Aski
 /// Whether there is room enough behind `other`, who goes first into the merge.
 fn follows(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage, dt: f64) -> bool {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let Some(theirs) = other.holds.iter().find(|it| it.zone == hold.zone) else { return true };
-    let gap = hold.leave - (theirs.leave - other.travelled) - other.length;
+    let Some(ahead) = leader_into(hold.leave, hold, other) else { return true };
     let least = scene.characters[car.character as usize].safety.min_gap;
-    gap >= least && is_secure(motion.speed, Ahead { gap, speed: other.speed }, dt)
+    ahead.gap >= least && is_secure(motion.speed, ahead, dt)
 }
 
 /// Whether `other` will be out of the crossing by the time that one gets there.

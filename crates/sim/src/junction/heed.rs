@@ -4,7 +4,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, ZoneKind};
 
 use super::passages::{Hold, NO_PASSAGE, Passage};
-use super::survey::stop_ahead;
+use super::survey::{BEFORE_A_ZONE, stop_ahead};
 use crate::scene::{Scene, Spot};
 
 /// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
@@ -69,7 +69,7 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
         match kind {
             ZoneKind::Merging(_) => {
                 if let Some((_, other)) = others.last() {
-                    let ahead = leader_into(passage, hold, other);
+                    let ahead = leader_into(hold.leave - passage.travelled, hold, other);
                     let is_nearer =
                         junction.leader.is_none_or(|it| ahead.is_some_and(|new| new.gap < it.gap));
                     junction.leader = if is_nearer { ahead.or(junction.leader) } else { junction.leader };
@@ -80,7 +80,7 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
                 let matters = |other: &Passage| kind == ZoneKind::Crossing || is_long || other.length >= LONG;
                 let distance = hold.enter - passage.travelled;
                 if distance > 0.0 && others.any(|(_, other)| matters(other)) {
-                    let stop = distance - 1.0;
+                    let stop = distance - BEFORE_A_ZONE;
                     junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
                 }
             }
@@ -88,10 +88,9 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
     }
 }
 
-/// Who goes before into a merge, as far ahead as it is nearer to it.
-pub(super) fn leader_into(passage: &Passage, hold: &Hold, other: &Passage) -> Option<Ahead> {
+/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it.
+pub(super) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
     let theirs = other.holds.iter().find(|it| it.zone == hold.zone && it.side != hold.side)?;
-    let to_merge = hold.leave - passage.travelled;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead { gap, speed: other.speed })
 }

@@ -9,7 +9,7 @@ use crate::accelerate::ROOM_AT_A_STOP;
 use crate::scene::{Scene, Spot, Viewpoint};
 
 /// How far before a zone a vehicle stops [m] (ours).
-const BEFORE_A_ZONE: f64 = 1.0;
+pub(super) const BEFORE_A_ZONE: f64 = 1.0;
 /// How far before a line it stops [m] (ours).
 const BEFORE_A_LINE: f64 = 0.3;
 /// Room that a vehicle needs beyond the zones beside its length [m] (ours).
