@@ -26,6 +26,12 @@ impl Side {
     /// Both sides, left first.
     pub const BOTH: [Side; 2] = [Side::Left, Side::Right];
 
+    /// Its place in [`Side::BOTH`].
+    #[inline]
+    pub fn at(self) -> usize {
+        self as usize
+    }
+
     /// The other side.
     pub fn opposite(self) -> Side {
         match self {

@@ -22,10 +22,18 @@ pub(crate) fn concentration(
     id: VehicleId,
     time: f64,
 ) -> Concentration {
-    let share = attention.inattentive_share();
+    if attention.inattentive_share() == 0.0 {
+        return Concentration::Concentrated;
+    }
+    drawn(attention, random, id, time)
+}
+
+/// The state of a driver who is inattentive at times.
+#[inline(never)]
+fn drawn(attention: &Attention, random: Random, id: VehicleId, time: f64) -> Concentration {
     let is_inattentive = match attention.memory() {
-        0.0 => share > 0.0,
-        memory => last_draw(random, id, (time * SLOTS / memory) as u32) < share,
+        0.0 => true,
+        memory => last_draw(random, id, (time * SLOTS / memory) as u32) < attention.inattentive_share(),
     };
     if is_inattentive { Concentration::Inattentive } else { Concentration::Concentrated }
 }

@@ -97,10 +97,10 @@ fn consider(
     let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - motion.x < AT_THE_PLACE;
     let beyond = waypoint.last_place + 1.0;
     // Who has a passage goes the way that it was given for.
-    let is_free = !scene.has_passage(spot, f64::NEG_INFINITY);
+    let is_free = || !scene.has_passage(spot, f64::NEG_INFINITY);
     let has_another_way =
-        is_free && stands_in_vain && navigator.reachable(spot.chain, beyond).next().is_some();
-    if (is_free && !waypoint.leads_on(motion.x)) || has_another_way {
+        stands_in_vain && is_free() && navigator.reachable(spot.chain, beyond).next().is_some();
+    if (!waypoint.leads_on(motion.x) && is_free()) || has_another_way {
         let from = if has_another_way { beyond } else { motion.x };
         concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
@@ -109,21 +109,19 @@ fn consider(
         return;
     }
     // Who passed the last place goes round, if there is a way round.
-    if !navigator.waypoint(goal, spot.chain).leads_on(motion.x) {
+    if matches!(waypoint, Cow::Owned(_)) {
         plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
     concern.last_place = Some(waypoint.last_place).filter(|it| it - motion.x < HEEDED_WITHIN);
-    let outlook = Outlook::new(scene, spot, alertness.sight);
+    let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, hints);
     let change = match state {
         Concentration::Concentrated => Cow::Borrowed(&style.change),
         Concentration::Inattentive => Cow::Owned(style.change.with_comfort(alertness.comfort)),
     };
     let sides = [moment.overtaking, moment.overtaking.opposite()];
-    let [first_hint, second_hint] = hints;
-    let options = [
-        Choice::of(&outlook, moment, &change, sides[0], first_hint),
-        Choice::of(&outlook, moment, &change, sides[1], second_hint),
-    ];
+    let [first, second] = sides;
+    let options =
+        [Choice::of(&outlook, moment, &change, first), Choice::of(&outlook, moment, &change, second)];
     let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
         let mind = scene.mind(spot);
@@ -160,14 +158,8 @@ struct Choice {
 
 impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
-    fn of(
-        outlook: &Outlook,
-        moment: Moment,
-        change: &LaneChangeModel,
-        side: Side,
-        hint: &mut usize,
-    ) -> Option<Choice> {
-        let situation = outlook.situation(side, outlook.beside(side)?, hint);
+    fn of(outlook: &Outlook, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
+        let situation = outlook.situation(side, outlook.beside(side)?);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
         let is_calm = moment.clock.step < outlook.car().calm_until;
         (helps_the_route || !is_calm).then(|| Choice {

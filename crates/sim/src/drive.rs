@@ -19,15 +19,17 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
     let upcoming = upcoming(scene, chain);
     let [first_place, last_place] = scene.network.junctions.places(chain);
     let fork_clearance = scene.network.chain(chain).fork_clearance;
+    let plain_from = last_place.max(fork_clearance);
     for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
         if let Some(upcoming) = upcoming {
             upcoming.prefetch(index);
         }
         // Where it may have to stop behind its leader it looks more closely.
-        let is_there =
-            |leader: &&Motion| (leader.x > first_place && motion.x < last_place) || motion.x < fork_clearance;
+        let is_plain = |leader: &Motion| {
+            motion.x >= plain_from || (motion.x >= fork_clearance && leader.x <= first_place)
+        };
         let leader = motions.get(index + 1).filter(|_| end.is_none() && car.only_follows());
-        let leader = leader.filter(|it| !is_there(it));
+        let leader = leader.filter(|it| is_plain(it));
         let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
         let (acceleration, stretch) = match usual {
             Some(acceleration) => (acceleration, 1.0),

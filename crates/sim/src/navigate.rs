@@ -1,6 +1,7 @@
 //! Which lanes lead where: for every destination and chain the lane changes still to make, the last place for the
 //! next of them, and the way on.
 
+use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -161,18 +162,24 @@ impl Navigator {
     }
 
     /// The waypoint of `chain` from `x` on: where that is too late for the usual way, of the way round over its end.
+    #[inline]
     pub fn waypoint_from(
         &self,
         network: &Network,
         destination: Destination,
         chain: ChainIndex,
         x: f64,
-    ) -> Waypoint {
+    ) -> Cow<'_, Waypoint> {
         let usual = self.waypoint(destination, chain);
-        if usual.leads_on(x) { *usual } else { self.detour(network, destination, chain) }
+        if usual.leads_on(x) {
+            Cow::Borrowed(usual)
+        } else {
+            Cow::Owned(self.detour(network, destination, chain))
+        }
     }
 
     /// The way to `destination` over the end of `chain`.
+    #[inline(never)]
     fn detour(&self, network: &Network, destination: Destination, chain: ChainIndex) -> Waypoint {
         let here = network.chain(chain);
         let onward = here.following.iter().map(|it| (*it, self.waypoint(destination, *it)));

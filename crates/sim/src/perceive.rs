@@ -1,5 +1,7 @@
 //! Traffic as one driver sees it. The only bridge from traffic to models, for simulated and for recorded drivers.
 
+use std::borrow::Cow;
+
 use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation};
 use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::{Beside, Side};
@@ -13,10 +15,13 @@ const LEAST_ROOM: f64 = 0.1;
 
 /// What a concentrated driver knows when it considers the lane on `side`; `None` where it may not change to one.
 pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation<'a>> {
-    let outlook = Outlook::new(scene, me, SIGHT);
-    let beside = outlook.beside(side)?;
-    let hint = scene.lanes[beside.chain.at()].ahead_of(beside.across(outlook.from.x));
-    Some(outlook.situation(side, beside, &mut { hint }))
+    let Viewpoint { chain, x, destination, .. } = scene.viewpoint(me);
+    let here = scene.network.chain(chain);
+    let ahead = |it: &Beside| scene.lanes[it.chain.at()].ahead_of(it.across(x));
+    let mut hints = Side::BOTH.map(|side| here.beside(side, x).map_or(0, ahead));
+    let waypoint = scene.navigator.waypoint_from(scene.network, destination, chain, x);
+    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, &mut hints);
+    Some(outlook.situation(side, outlook.beside(side)?))
 }
 
 /// A driver with its vehicle.
@@ -44,17 +49,35 @@ pub(crate) struct Outlook<'s, 'a> {
     reach: f64,
     sight: LaneSight,
     here: LaneView<'a>,
+    /// Its usual way is over, and it goes round.
+    goes_round: bool,
+    /// Where it would be in the lanes beside, left and right, where it may change to them.
+    beside: [Option<Viewpoint>; 2],
 }
 
 impl<'s, 'a> Outlook<'s, 'a> {
-    /// Looks along the own lane of a driver who sees `reach` [m] ahead.
-    pub(crate) fn new(scene: &'s Scene<'a>, spot: Spot, reach: f64) -> Outlook<'s, 'a> {
+    /// Looks along the own lane of a driver whose waypoint is `waypoint`, and who sees `reach` [m] ahead. The first entries
+    /// ahead in the lanes beside are sought from `hints` on, left and right, and kept in them.
+    pub(crate) fn new(
+        scene: &'s Scene<'a>,
+        spot: Spot,
+        waypoint: &Waypoint,
+        reach: f64,
+        hints: &mut [usize; 2],
+    ) -> Outlook<'s, 'a> {
         let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length, reach);
-        let waypoint = scene.navigator.waypoint_from(scene.network, from.destination, from.chain, from.x);
         let here = lane_view(scene, &me, from, &sight, waypoint);
-        Outlook { scene, car: scene.car(spot), me, from, reach, sight, here }
+        let chain = scene.network.chain(from.chain);
+        let beside = Side::BOTH.map(|side| {
+            let beside = chain.beside(side, from.x)?;
+            let (x, hint) = (beside.across(from.x), &mut hints[side.at()]);
+            *hint = scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
+            Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })
+        });
+        let goes_round = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
+        Outlook { scene, car: scene.car(spot), me, from, reach, sight, here, goes_round, beside }
     }
 
     /// The driver's own vehicle.
@@ -67,19 +90,15 @@ impl<'s, 'a> Outlook<'s, 'a> {
         &self.here
     }
 
-    /// The stretch beside on `side`.
-    pub(crate) fn beside(&self, side: Side) -> Option<&'a Beside> {
-        self.scene.network.chain(self.from.chain).beside(side, self.from.x)
+    /// Where the driver would be in the lane on `side`; `None` where it may not change to one.
+    pub(crate) fn beside(&self, side: Side) -> Option<Viewpoint> {
+        self.beside[side.at()]
     }
 
-    /// What the driver knows about the lane on `side`, along the stretch `beside`. The first entry ahead there is
-    /// sought from `hint` on, and kept in it.
-    pub(crate) fn situation(&self, side: Side, beside: &Beside, hint: &mut usize) -> Situation<'a> {
-        let x = beside.across(self.from.x);
-        *hint = self.scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
-        let from = Viewpoint { chain: beside.chain, x, ahead: *hint, ..self.from };
+    /// What the driver knows about the lane on `side`, where it would look `from`.
+    pub(crate) fn situation(&self, side: Side, from: Viewpoint) -> Situation<'a> {
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length, self.reach);
-        let mut there = lane_view(self.scene, &self.me, from, &sight, self.waypoint_beside(from));
+        let mut there = lane_view(self.scene, &self.me, from, &sight, &self.waypoint_beside(from));
         let mut here = self.here;
         let section = here.route.remaining.min(there.route.remaining).min(self.reach);
         let on_section = section / self.scene.network.chain(self.from.chain).limit(self.from.x);
@@ -89,42 +108,43 @@ impl<'s, 'a> Outlook<'s, 'a> {
         } else {
             (there.route.onward - on_section).max(0.0)
         };
-        Situation { me: self.me, here, there, section, merging: self.merging(side, x, &sight) }
+        Situation { me: self.me, here, there, section, merging: self.merging(side, from, &sight) }
     }
 
     /// The way on from beside. Only a driver who goes round already would go round from there.
-    fn waypoint_beside(&self, there: Viewpoint) -> Waypoint {
+    fn waypoint_beside(&self, there: Viewpoint) -> Cow<'a, Waypoint> {
         let Scene { network, navigator, .. } = self.scene;
         let Viewpoint { destination, chain, x, .. } = there;
-        if navigator.waypoint(destination, self.from.chain).leads_on(self.from.x) {
-            *navigator.waypoint(destination, chain)
-        } else {
+        if self.goes_round {
             navigator.waypoint_from(network, destination, chain, x)
+        } else {
+            Cow::Borrowed(navigator.waypoint(destination, chain))
         }
     }
 
-    /// Who signals a change into the lane that the driver would leave to `side`, where it would be at `x` [m] and see
+    /// Who signals a change into the lane that the driver would leave to `side`, where it would look `from` and see
     /// `there`: on the other side the next one behind, or else ahead; on this side the new leader. The new follower counts
     /// as such.
-    fn merging(&self, side: Side, x: f64, there: &LaneSight) -> [Option<Merging<'a>>; 2] {
-        let across = self.beside(side.opposite()).and_then(|beside| {
-            let (chain, x) = (beside.chain, beside.across(self.from.x));
-            let lane = &self.scene.lanes[chain.at()];
-            let ahead = lane.ahead_of(x);
-            let next = [ahead.checked_sub(1), (ahead < lane.cars().len()).then_some(ahead)];
-            let mut spots = next.into_iter().flatten().map(|index| Spot { chain, index });
-            spots.find_map(|it| self.signalling(it, side.opposite(), x))
+    fn merging(&self, side: Side, from: Viewpoint, there: &LaneSight) -> [Option<Merging<'a>>; 2] {
+        let across = self.beside(side.opposite()).and_then(|Viewpoint { chain, x, ahead, .. }| {
+            let cars = self.scene.cars(chain);
+            let at = |index: usize| {
+                let signals = cars.get(index)?.phase == Phase::Wants;
+                signals.then(|| self.merging_from(Spot { chain, index }, side.opposite(), x)).flatten()
+            };
+            ahead.checked_sub(1).and_then(at).or_else(|| at(ahead))
         });
-        let chain = self.beside(side).map(|it| it.chain);
-        let leader = there.leader.filter(|it| Some(it.chain) == chain);
-        [across, leader.and_then(|it| self.signalling(it, side, x))]
+        let signals = |it: &Spot| it.chain == from.chain && self.scene.car(*it).phase == Phase::Wants;
+        let leader = there.leader.filter(signals);
+        [across, leader.and_then(|it| self.merging_from(it, side, from.x))]
     }
 
-    /// The vehicle at `spot` on `side`, beside whose lane the driver is at `x` [m], if it signals a change and nobody is
-    /// between it and the driver in the driver's lane.
-    fn signalling(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
+    /// The vehicle at `spot` on `side`, which signals a change and beside whose lane the driver is at `x` [m], if it wants
+    /// into the driver's lane and nobody is between it and the driver there.
+    #[inline(never)]
+    fn merging_from(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
         let mind = self.scene.mind(spot);
-        if self.scene.car(spot).phase != Phase::Wants || mind.side != side.opposite() {
+        if mind.side != side.opposite() {
             return None;
         }
         let forward = self.scene.motion(spot).x - x;
@@ -155,7 +175,7 @@ fn lane_view<'a>(
     me: &Driver,
     from: Viewpoint,
     sight: &LaneSight,
-    waypoint: Waypoint,
+    waypoint: &Waypoint,
 ) -> LaneView<'a> {
     let behind =
         sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, it.spot) });
@@ -169,7 +189,7 @@ fn lane_view<'a>(
 }
 
 /// What a lane means for the driver's route, whose waypoint there is `waypoint`; `onward` counts from the driver's place on.
-fn route_view(scene: &Scene, from: Viewpoint, waypoint: Waypoint) -> RouteView {
+fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint) -> RouteView {
     let onward = (waypoint.time - from.x / scene.network.chain(from.chain).limit(from.x)).max(0.0);
     if !waypoint.leads_on(from.x) {
         return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };

@@ -3,9 +3,9 @@
 use laneweave_models::Style;
 use laneweave_models::change::{Flow, SIGHT, anticipated_speed};
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach, Sign};
+use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach, Sign, Stop};
 
-use crate::junction::Passages;
+use crate::junction::{Passage, Passages};
 use crate::navigate::{Destination, Navigator};
 use crate::traffic::{Car, Lane, Mind, Motion, VehicleId};
 
@@ -132,8 +132,15 @@ impl<'a> Scene<'a> {
 
     /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it there.
     pub(crate) fn has_passage(&self, spot: Spot, distance: f64) -> bool {
-        let passage = self.passages.of(self.mind(spot).passage, self.motion(spot).id);
-        passage.is_some_and(|it| it.left() > distance)
+        self.passage(spot).is_some_and(|it| it.left() > distance)
+    }
+
+    /// The passage of the vehicle at `spot`.
+    #[inline]
+    pub(crate) fn passage(&self, spot: Spot) -> Option<&'a Passage> {
+        // Where nobody has one, the mind is not worth a look into cold memory.
+        let mind = Some(spot).filter(|_| self.passages.are_given()).map(|it| self.mind(it))?;
+        self.passages.of(mind.passage, self.motion(spot).id)
     }
 
     /// How the entry at `spot` moves.
@@ -188,19 +195,17 @@ impl<'a> Scene<'a> {
             Some(it) => Some(Ahead { gap: it.rear() - from.x, speed: it.speed }),
             None => self.ahead_beyond(from),
         };
-        if from.x < self.network.chain(from.chain).fork_clearance {
-            return nearer(on_way, self.beside_within_the_fork(from));
-        }
-        on_way
+        let is_in_fork = from.x < self.network.chain(from.chain).fork_clearance;
+        if is_in_fork { self.nearest_in_fork(from, on_way) } else { on_way }
     }
 
-    /// A vehicle ahead that forked off to another chain before, and is still in the way.
+    /// The nearer of who is ahead on one's way, and who forked off to another chain before and is still in the way.
     #[inline(never)]
-    fn beside_within_the_fork(&self, from: Viewpoint) -> Option<Ahead> {
+    fn nearest_in_fork(&self, from: Viewpoint, on_way: Option<Ahead>) -> Option<Ahead> {
         self.siblings(from.chain)
             .filter_map(|(back, sibling)| self.last_in_fork(back, sibling, from.id, from.x))
             .map(|it| Ahead { gap: it.gap - from.x, ..it })
-            .fold(None, |nearest, it| nearer(nearest, Some(it)))
+            .fold(on_way, |nearest, it| nearer(nearest, Some(it)))
     }
 
     /// The chains that fork off together with `chain`, each with the one before the fork.
@@ -401,8 +406,14 @@ impl<'a> Scene<'a> {
 
     /// All that a driver who wants `desired` [m/s] and sees `sight` [m] ahead sees along the lane it looks at.
     pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64, sight: f64) -> LaneSight {
-        let mut view =
-            View { sight, window: Window::default(), ahead: None, leader: None, prospect: desired };
+        let mut view = View {
+            sight,
+            window_ahead: WINDOW_AHEAD.min(sight),
+            window: Window::default(),
+            ahead: None,
+            leader: None,
+            prospect: desired,
+        };
         let ahead = self.look_ahead(from, desired, &mut view);
         let (follower, back) = self.look_back(from, &mut view.window);
         let View { window, ahead: leader_ahead, leader, prospect, .. } = view;
@@ -414,10 +425,11 @@ impl<'a> Scene<'a> {
     #[inline]
     fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
         let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
-        let window_ahead = view.window_ahead();
+        let window_ahead = view.window_ahead;
         loop {
-            if let Some(red) = self.red_ahead(chain, -base) {
-                view.stop_at(base + red, desired);
+            let stops = &self.network.junctions.on(chain).stops[..];
+            if !stops.is_empty() {
+                self.heed_red(stops, base, desired, view);
             }
             if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
                 return window_ahead;
@@ -438,11 +450,15 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Station of the first line beyond `x` on `chain` at which a light stops its drivers [m].
-    fn red_ahead(&self, chain: ChainIndex, x: f64) -> Option<f64> {
-        let stops = self.network.junctions.on(chain).stops.iter();
+    /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a chain whose
+    /// start is `base` ahead [m].
+    #[inline(never)]
+    fn heed_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
         let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
-        stops.filter(|it| it.station > x && is_red(it.sign)).map(|it| it.station).next()
+        let red = stops.iter().find(|it| base + it.station > 0.0 && is_red(it.sign));
+        if let Some(line) = red.map(|it| base + it.station).filter(|it| *it <= view.sight) {
+            view.prospect = view.prospect.min(anticipated_speed(Ahead::standing(line), desired));
+        }
     }
 
     /// Looks at what is behind; returns the follower and the window's extent [m].
@@ -489,6 +505,8 @@ impl<'a> Scene<'a> {
 struct View {
     /// How far one sees [m].
     sight: f64,
+    /// How far the window reaches ahead [m].
+    window_ahead: f64,
     window: Window,
     ahead: Option<Ahead>,
     leader: Option<Spot>,
@@ -496,20 +514,6 @@ struct View {
 }
 
 impl View {
-    /// How far the window reaches ahead [m].
-    fn window_ahead(&self) -> f64 {
-        WINDOW_AHEAD.min(self.sight)
-    }
-
-    /// A red light counts as a standing leader, `distance` ahead [m].
-    fn stop_at(&mut self, distance: f64, desired: f64) {
-        if distance > self.sight {
-            return;
-        }
-        let line = Ahead::standing(distance);
-        self.prospect = self.prospect.min(anticipated_speed(line, desired));
-    }
-
     /// Looks along `motions`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
     /// Returns whether the end of sight was reached.
     #[inline]
@@ -522,7 +526,6 @@ impl View {
         id: VehicleId,
         desired: f64,
     ) -> bool {
-        let window_ahead = self.window_ahead();
         for (index, it) in (first..).zip(motions) {
             let front = base + it.x;
             let ahead = Ahead { gap: front - f64::from(it.length), speed: it.speed };
@@ -538,7 +541,7 @@ impl View {
             }
             let anticipated = anticipated_speed(ahead, desired);
             self.prospect = if anticipated < self.prospect { anticipated } else { self.prospect };
-            if front <= window_ahead {
+            if front <= self.window_ahead {
                 self.window.add(it);
             }
         }

@@ -76,6 +76,8 @@ pub struct OnChain {
     /// Places to stop.
     pub stops: Vec<Stop>,
     places: [f64; 2],
+    /// From the chain's end to the next place on any way on [m].
+    beyond: f64,
 }
 
 /// A side of a zone.
@@ -108,8 +110,12 @@ pub enum Sign {
 }
 
 impl OnChain {
-    const EMPTY: OnChain =
-        OnChain { crossings: Vec::new(), stops: Vec::new(), places: [f64::INFINITY, f64::NEG_INFINITY] };
+    const EMPTY: OnChain = OnChain {
+        crossings: Vec::new(),
+        stops: Vec::new(),
+        places: [f64::INFINITY, f64::NEG_INFINITY],
+        beyond: f64::INFINITY,
+    };
 }
 
 /// What drivers meet on a chain without junctions.
@@ -134,6 +140,7 @@ impl Junctions {
         let mut junctions = Junctions { zones, lights: Vec::new(), chains };
         junctions.place_stops(network, regulations);
         junctions.note_places();
+        junctions.look_beyond(network);
         junctions.lights = light::with_made_programs(network, &junctions);
         junctions
     }
@@ -149,6 +156,14 @@ impl Junctions {
     #[inline]
     pub fn places(&self, chain: ChainIndex) -> [f64; 2] {
         self.on(chain).places
+    }
+
+    /// How far it is from `x` on `chain`, which is `length` long, to the next place where drivers may have to stop, whichever
+    /// way they go [m].
+    #[inline]
+    pub fn free_way(&self, chain: ChainIndex, x: f64, length: f64) -> f64 {
+        let OnChain { places: [first, last], beyond, .. } = *self.on(chain);
+        if x >= last { length - x + beyond } else { (first - x).max(0.0) }
     }
 
     /// Whether a lane is outside of junctions from its start to `station` [m].
@@ -211,6 +226,24 @@ impl Junctions {
                 chain.crossings.iter().map(|it| zones[it.zone.at()].sides[usize::from(it.side)].start);
             for station in starts.chain(chain.stops.iter().map(|it| it.station)) {
                 chain.places = [chain.places[0].min(station), chain.places[1].max(station)];
+            }
+        }
+    }
+
+    /// Spreads the distances to the next places backwards until none becomes shorter.
+    fn look_beyond(&mut self, network: &Network) {
+        let chains = &mut self.chains;
+        let mut open: Vec<usize> = (0..chains.len()).collect();
+        while let Some(index) = open.pop() {
+            let to_place = |it: &ChainIndex| {
+                let OnChain { places: [first, _], beyond, .. } = chains[it.at()];
+                first.min(network.chain(*it).length + beyond)
+            };
+            let here = &network.chains[index];
+            let beyond = here.following.iter().map(to_place).fold(f64::INFINITY, f64::min);
+            if beyond < chains[index].beyond {
+                chains[index].beyond = beyond;
+                open.extend(here.previous.iter().map(|it| it.at()));
             }
         }
     }

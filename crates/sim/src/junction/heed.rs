@@ -3,8 +3,8 @@
 use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, ZoneKind};
 
-use super::passages::{Hold, NO_PASSAGE, Passage};
-use super::survey::{BEFORE_A_ZONE, stop_ahead};
+use super::passages::{Hold, Passage};
+use super::survey::{BEFORE_A_ZONE, is_far, stop_ahead};
 use crate::scene::{Scene, Spot};
 
 /// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
@@ -32,24 +32,32 @@ pub(crate) struct Junction {
 }
 
 /// How far ahead a driver at `speed` [m/s] heeds junctions [m].
+#[inline]
 pub(crate) fn sight(speed: f64) -> f64 {
     speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
 }
 
 /// What the driver at `spot` heeds.
+#[inline]
 pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
+    let until = sight(scene.motion(spot).speed);
+    if is_far(scene, scene.viewpoint(spot), until) && scene.passage(spot).is_none() {
+        return Junction::default();
+    }
+    look_closely(scene, spot, until)
+}
+
+/// What it heeds within `until` [m].
+#[inline(never)]
+fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let mut junction = Junction::default();
     let mut granted = 0.0;
-    let slot = scene.mind(spot).passage;
-    if slot != NO_PASSAGE
-        && let Some(passage) = scene.passages.of(slot, motion.id)
-    {
-        heed_earlier(scene, passage, slot, &mut junction);
+    if let Some(passage) = scene.passage(spot) {
+        heed_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
         junction.gives_back = to_give_back(scene, passage, motion.speed);
         granted = passage.left().max(0.0);
     }
-    let until = sight(motion.speed);
     if let Some(stop) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // Who has to leave the lane before does not go on along it.

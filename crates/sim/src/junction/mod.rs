@@ -18,5 +18,5 @@ mod survey;
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
 pub(crate) use heed::{Junction, look, sight};
 pub use passages::Passages;
-pub(crate) use passages::{Claim, Hold, NO_PASSAGE};
+pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
 pub(crate) use survey::{Survey, is_place_ahead, stop_ahead, survey};

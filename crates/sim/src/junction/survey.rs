@@ -138,6 +138,9 @@ fn points(
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
 /// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
+    if is_far(scene, from, until) {
+        return None;
+    }
     let shield = shield(scene, from, until);
     let mut found = None;
     points(scene, from, until.min(shield), |point, at, _| {
@@ -152,12 +155,24 @@ pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f6
 
 /// Whether there is a place within `until` [m] where who looks `from` might have to stop.
 pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool {
+    if is_far(scene, from, until) {
+        return false;
+    }
     let mut is_there = false;
     points(scene, from, until, |_, _, _| {
         is_there = true;
         ControlFlow::Break(())
     });
     is_there
+}
+
+/// Whether there is no place within `until` [m], whichever way one goes.
+#[inline]
+pub(super) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
+    /// Sums of lengths are not told apart closer than this [m].
+    const ROUNDING: f64 = 0.001;
+    let length = scene.network.chain(from.chain).length;
+    scene.network.junctions.free_way(from.chain, from.x, length) - ROUNDING > until
 }
 
 /// How far the way of the vehicle ahead is free [m]: who is behind it need not look further.
