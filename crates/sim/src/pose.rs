@@ -1,35 +1,46 @@
 //! Where a vehicle's body is. Computed when somebody asks.
 
 use laneweave_models::change::moved_share;
-use laneweave_network::{ChainIndex, Point, Pose};
+use laneweave_network::{ChainIndex, Network, Point, Pose};
 
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Entry, Motion};
+use crate::trail::Trail;
 
 /// Pose of the centre of the vehicle whose main entry is `spot`.
 ///
 /// In a lane change its front and rear bumpers both lie on the path: the rear bumper follows the front one, so that a
 /// long vehicle does not swing out.
 pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
-    let entry = scene.lanes[spot.chain.at()].entry(spot.index);
+    let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
     let Entry { motion, mind, .. } = &entry;
     let [front, rear] = match mind.twin {
         Some(twin) => {
             let [share_of_front, share_of_rear] = shares(scene, &entry);
             let between = |x: f64, twin_x: f64, share: f64| {
-                let here = on_path(scene, spot.chain, mind.came_from, x, 0.0);
-                here.towards(&on_path(scene, twin.chain, None, twin_x, 0.0), share)
+                let here = on_path(network, spot.chain, mind.trail, x, 0.0);
+                here.towards(&on_path(network, twin.chain, Trail::NONE, twin_x, 0.0), share)
             };
-            let twin_rear = twin.x - f64::from(motion.length) * f64::from(twin.stretch);
-            [between(motion.x, twin.x, share_of_front), between(motion.rear(), twin_rear, share_of_rear)]
+            let [length, twin_length] = lengths(motion, mind.progress, twin.stretch);
+            let (rear, twin_rear) = (motion.x - length, twin.x - twin_length);
+            [between(motion.x, twin.x, share_of_front), between(rear, twin_rear, share_of_rear)]
         }
         None => {
             let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
-            let at = |x: f64, offset: f64| on_path(scene, spot.chain, mind.came_from, x, offset);
+            let at = |x: f64, offset: f64| on_path(network, spot.chain, mind.trail, x, offset);
             [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
         }
     };
     Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
+}
+
+/// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres for
+/// one [m]: true in the old lane when the change begins, and in the new one when it ends.
+fn lengths(motion: &Motion, progress: f32, stretch: f32) -> [f64; 2] {
+    let (length, progress, stretch) = (f64::from(motion.length), f64::from(progress), f64::from(stretch));
+    let is_across = progress >= 0.5;
+    let here = if is_across { progress } else { 1.0 - progress };
+    [length * (here + (1.0 - here) / stretch), length * (here * stretch + (1.0 - here))]
 }
 
 /// How far the vehicle's centre is to the left of the centre of its lane [m].
@@ -84,13 +95,33 @@ fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
     }
 }
 
-/// The point at `x` along the path that came from `previous` onto `chain`, `offset` to the left [m].
-fn on_path(scene: &Scene, chain: ChainIndex, previous: Option<ChainIndex>, x: f64, offset: f64) -> Point {
-    match previous {
-        Some(previous) if x < 0.0 => {
-            let before = scene.network.chain(previous);
-            before.centre.beside(before.length + x, offset)
+/// The point at `x` along the path that came over `trail` onto `chain`, `offset` to the left [m].
+fn on_path(network: &Network, chain: ChainIndex, trail: Trail, x: f64, offset: f64) -> Point {
+    let (mut here, mut x) = (network.chain(chain), x);
+    let mut back = trail.back(network, chain);
+    while x < 0.0
+        && let Some(previous) = back.next()
+    {
+        here = network.chain(previous);
+        x += here.length;
+    }
+    here.centre.beside(x, offset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vehicle_has_the_same_length_in_both_lanes_just_before_and_after_it_crosses() {
+        let motion = Motion { x: 0.0, speed: 10.0, acceleration: 0.0, tightness: 1.0, length: 12.0, id: 1 };
+        for stretch in [0.7, 1.0, 1.3] {
+            assert_eq!(lengths(&motion, 0.0, stretch)[0], 12.0, "true in the old lane when it begins");
+            assert_eq!(lengths(&motion, 1.0, 1.0 / stretch)[0], 12.0, "true in the new one when it ends");
+            let [old, new] = lengths(&motion, 0.499_999, stretch);
+            // Its main entry is in the other lane now.
+            let [new_after, old_after] = lengths(&motion, 0.5, 1.0 / stretch);
+            assert!((old - old_after).abs() < 1e-4 && (new - new_after).abs() < 1e-4, "{stretch}");
         }
-        _ => scene.network.chain(chain).centre.beside(x, offset),
     }
 }

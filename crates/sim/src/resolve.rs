@@ -11,6 +11,7 @@ use crate::junction::NO_PASSAGE;
 use crate::plan::{Ask, Request, Want};
 use crate::scene::Spot;
 use crate::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin};
+use crate::trail::Trail;
 use crate::world::World;
 
 impl World {
@@ -132,7 +133,7 @@ impl World {
             mind: Mind {
                 twin: Some(Twin { chain: spot.chain, x: motion.x, stretch: 1.0 }),
                 stretch,
-                came_from: None,
+                trail: Trail::NONE,
                 last_place: f64::INFINITY,
                 lets_in: Mind::NOBODY,
                 passage: NO_PASSAGE,
@@ -267,7 +268,7 @@ impl World {
         let length = self.network.chain(from).length;
         entry.motion.x -= length;
         entry.mind.last_place -= length;
-        entry.mind.came_from = Some(from);
+        entry.mind.trail = entry.mind.trail.left(from);
         let limit = self.network.chain(next).limit(entry.motion.x);
         let style = &self.characters[entry.car.character as usize];
         entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;

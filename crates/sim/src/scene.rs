@@ -224,7 +224,7 @@ impl<'a> Scene<'a> {
         let last = |on: ChainIndex, came_from: ChainIndex, base: f64| {
             let lane = &self.lanes[on.at()];
             let all = lane.motions().iter().zip(lane.minds());
-            let came = all.filter(|(it, mind)| it.id != id && mind.came_from == Some(came_from));
+            let came = all.filter(|(it, mind)| it.id != id && mind.trail.last() == Some(came_from));
             let ahead = came.map(|(it, _)| it).find(|it| (base + it.x, id) > (x, it.id))?;
             let rear = base + ahead.rear();
             (rear < chain.fork_clearance).then_some(Ahead { gap: rear, speed: ahead.speed })
@@ -261,7 +261,7 @@ impl<'a> Scene<'a> {
             let lane = &self.lanes[it.at()];
             let mut came = lane.motions().iter().zip(lane.minds()).enumerate();
             let (index, (motion, _)) =
-                came.find(|(_, (it, mind))| it.id != id && mind.came_from == Some(chain))?;
+                came.find(|(_, (it, mind))| it.id != id && mind.trail.last() == Some(chain))?;
             Some((Spot { chain: it, index }, motion.rear()))
         };
         let on_way = last(next).map_or(f64::INFINITY, |it| it.1);
@@ -331,7 +331,7 @@ impl<'a> Scene<'a> {
         let lane = &self.lanes[sibling.at()];
         let mut came = lane.motions().iter().zip(lane.minds());
         let is_ahead = |it: &Motion| it.id != id && (it.x, id) > (x, it.id);
-        let (other, mind) = came.find(|(it, mind)| is_ahead(it) && mind.came_from == Some(back))?;
+        let (other, mind) = came.find(|(it, mind)| is_ahead(it) && mind.trail.last() == Some(back))?;
         let goes_on = self.passages.of(mind.passage, other.id).map_or(0.0, |it| it.left().max(0.0));
         let stays = other.rear() + goes_on < self.network.chain(sibling).fork_clearance;
         stays.then(|| other.rear())
@@ -341,7 +341,7 @@ impl<'a> Scene<'a> {
     /// another way into that chain is in the way from where the ways meet on.
     fn gap_to(&self, chain: ChainIndex, base: f64, it: &Motion, mind: &Mind) -> f64 {
         let gap = base + it.rear();
-        match mind.came_from {
+        match mind.trail.last() {
             Some(other) if it.rear() < 0.0 && other != chain => {
                 let junctions = &self.network.junctions;
                 let crossings = junctions.on(chain).crossings.iter();

@@ -7,6 +7,7 @@ use crate::junction::{NO_PASSAGE, Passages};
 use crate::navigate::{Destination, Navigator};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
+use crate::trail::Trail;
 use crate::vehicle::Class;
 
 /// A vehicle as it was seen at one instant.
@@ -136,7 +137,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         progress: seen.change.map_or(0.0, |it| it.progress as f32),
         urgency: 0.0,
         record: 0,
-        came_from: None,
+        trail: Trail::NONE,
         twin: seen.change.map(twin),
         last_place: f64::INFINITY,
         lets_in: Mind::NOBODY,

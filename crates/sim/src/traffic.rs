@@ -9,6 +9,7 @@ use laneweave_network::{ChainIndex, Side};
 
 use crate::navigate::Goal;
 use crate::prefetch::prefetch;
+use crate::trail::Trail;
 use crate::vehicle::Class;
 
 /// Name of a vehicle; it never changes and is never given again.
@@ -127,8 +128,8 @@ pub struct Mind {
     pub urgency: f32,
     /// Where the appraisal of the desired or current change is kept.
     pub record: u32,
-    /// The chain it came from.
-    pub came_from: Option<ChainIndex>,
+    /// Where it came from.
+    pub trail: Trail,
     /// Where its other entry stands.
     pub twin: Option<Twin>,
     /// Where a driver in a wrong lane has to have left it, along the chain [m]; infinite in a right one.

@@ -25,6 +25,7 @@ use crate::scene::{Scene, Spot};
 use crate::source::Source;
 use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
+use crate::trail::Trail;
 use crate::turn::next_turn;
 use crate::vehicle::Class;
 use crate::views::Views;
@@ -268,7 +269,7 @@ impl World {
             progress: 0.0,
             urgency: 0.0,
             record: 0,
-            came_from: None,
+            trail: Trail::NONE,
             twin: None,
             last_place: f64::INFINITY,
             lets_in: Mind::NOBODY,

@@ -1,0 +1,44 @@
+//! Where a vehicle came from: over short chains its rear is still on an earlier one.
+
+use laneweave_network::{ChainIndex, Network};
+
+/// The last two chains that a vehicle left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Trail {
+    last: u32,
+    before: u32,
+}
+
+impl Trail {
+    const UNKNOWN: u32 = u32::MAX;
+
+    /// Of a vehicle that has just appeared.
+    pub const NONE: Trail = Trail { last: Trail::UNKNOWN, before: Trail::UNKNOWN };
+
+    /// The trail of a vehicle that goes on from `chain`.
+    pub fn left(self, chain: ChainIndex) -> Trail {
+        Trail { last: chain.0, before: self.last }
+    }
+
+    /// The chain before the one that the vehicle is on.
+    #[inline]
+    pub fn last(self) -> Option<ChainIndex> {
+        (self.last != Trail::UNKNOWN).then_some(ChainIndex(self.last))
+    }
+
+    /// The chains before `chain`, the nearest first: those that are known, then those that there is no choice of.
+    pub(crate) fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
+        let mut known = [self.last, self.before].into_iter();
+        std::iter::successors(Some(chain), move |here| match known.next() {
+            Some(index) if index != Trail::UNKNOWN => Some(ChainIndex(index)),
+            _ => {
+                if let [only] = network.chain(*here).previous[..] {
+                    Some(only)
+                } else {
+                    None
+                }
+            }
+        })
+        .skip(1)
+    }
+}

@@ -1,0 +1,56 @@
+//! Traffic on real maps of towns, whose lanes are short, bent and not parallel.
+
+#[path = "roads/drivers.rs"]
+mod drivers;
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use laneweave_maps::{Map, ReadOptions, load, regulations};
+use laneweave_network::{Network, Pose};
+use laneweave_sim::{Setup, VehicleId, World};
+
+/// Length of a step [s].
+const STEP: f64 = 0.1;
+
+/// A map of the shared data, if it is there.
+fn town(file: &str) -> Option<Network> {
+    const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
+    let path = Path::new(DATA).join(file);
+    if !path.exists() {
+        eprintln!("skipped: {file} is not there");
+        return None;
+    }
+    let map = load(&path, &ReadOptions::default()).expect("the map is sound");
+    let regulations = regulations(&map);
+    let Map { network, .. } = map;
+    Some(network.regulated(&regulations))
+}
+
+#[test]
+fn bodies_move_no_further_than_their_vehicles_drive() {
+    /// A body that turns, or goes across to another lane, moves further than its front along the lane by this [m].
+    const TURNING: f64 = 0.3;
+    const HARDEST_BRAKING: f64 = 8.0;
+    for (file, total) in [("karlsruhe.osm", 1500.0), ("kashiwanoha.osm", 600.0)] {
+        let Some(network) = town(file) else { continue };
+        let demand = drivers::demand(&network, total, 0.3, &[0.5, 0.5]);
+        let characters = vec![drivers::aggressive(), drivers::conservative()];
+        let setup = Setup { step: STEP, seed: 2, threads: 1 };
+        let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+        let mut before: HashMap<VehicleId, (Pose, f64)> = HashMap::new();
+        for _ in 0..2400 {
+            world.step();
+            let now: HashMap<VehicleId, (Pose, f64)> =
+                world.vehicles().map(|it| (it.id(), (it.pose(), it.speed()))).collect();
+            for (id, (pose, speed)) in &now {
+                let Some((was, old_speed)) = before.get(id) else { continue };
+                let driven = speed.max(*old_speed) * STEP + 0.5 * HARDEST_BRAKING * STEP * STEP;
+                let moved = pose.at.distance(&was.at);
+                assert!(moved < driven + TURNING, "{file}: {id} moved {moved} m at {speed} m/s");
+            }
+            before = now;
+        }
+        assert!(world.counts().left > 10, "{file}: {} left", world.counts().left);
+    }
+}
