@@ -111,14 +111,24 @@ impl Network {
     fn outside_of_junctions(&self, index: ChainIndex, side: Side) -> Vec<Beside> {
         let mut left = Vec::new();
         for stretch in self.chain(index).stretches(side) {
-            let here = self.junctions.extents(index);
-            let there = self.junctions.extents(stretch.chain).into_iter();
+            let there = self.taken_on(stretch.chain).into_iter();
             let there = there.map(|extent| extent.map(|station| stretch.back(station)));
-            let taken =
-                here.into_iter().chain(there).map(|[start, end]| [start - Network::ROOM_TO_CHANGE, end]);
-            left.extend(stretch.without(taken.collect()));
+            left.extend(stretch.without(self.taken_on(index).into_iter().chain(there).collect()));
         }
         left
+    }
+
+    /// Where on a chain nobody changes lanes [m]: before and within junctions, those right before its start, too, and while
+    /// it is still one with others that fork off.
+    fn taken_on(&self, index: ChainIndex) -> Vec<[f64; 2]> {
+        let chain = self.chain(index);
+        let before = chain.previous.iter().flat_map(|it| {
+            let length = self.chain(*it).length;
+            self.junctions.extents(*it).into_iter().map(move |extent| extent.map(|station| station - length))
+        });
+        let fork = (chain.fork_clearance > 0.0).then_some([0.0, chain.fork_clearance]);
+        let junctions = self.junctions.extents(index).into_iter().chain(before);
+        junctions.map(|[start, end]| [start - Network::ROOM_TO_CHANGE, end]).chain(fork).collect()
     }
 
     /// The chain at `index`.

@@ -74,19 +74,18 @@ impl Beside {
 
     /// What is left of the stretch outside of those `taken` [m], in order; pieces too short for a change are left out.
     pub(crate) fn without(&self, mut taken: Vec<[f64; 2]>) -> Vec<Beside> {
-        /// Shortest piece at the beginning of the stretch, and after a place that is taken: who comes from there has to get its
-        /// rear out of it first [m]. Ours.
+        /// Shortest piece [m], and way to its end from the place that was taken before: who comes from there has to get its
+        /// rear out of it first. Ours.
         const SHORTEST: f64 = 1.0;
         const SHORTEST_AFTER: f64 = 25.0;
         taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let (mut pieces, mut start) = (Vec::new(), self.start);
+        let (mut pieces, mut taken_until) = (Vec::new(), f64::NEG_INFINITY);
         for [from, to] in taken.into_iter().chain([[self.end, self.end]]) {
-            let end = from.min(self.end);
-            let shortest = if start > self.start { SHORTEST_AFTER } else { SHORTEST };
-            if end - start >= shortest {
+            let (start, end) = (self.start.max(taken_until), from.min(self.end));
+            if end - start >= SHORTEST && end - taken_until >= SHORTEST_AFTER {
                 pieces.push(Beside { start, end, other_start: self.across(start), ..*self });
             }
-            start = start.max(to);
+            taken_until = taken_until.max(to);
         }
         pieces
     }
@@ -185,4 +184,23 @@ pub(crate) fn join(stretches: &mut Vec<Beside>, next: Beside) {
         }
     }
     stretches.push(next);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_are_changed_where_a_vehicle_has_got_out_of_the_last_junction_and_not_yet_into_the_next() {
+        let stretch = Beside { start: 0.0, end: 100.0, chain: ChainIndex(1), other_start: 10.0, scale: 1.0 };
+        let pieces = |taken: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            stretch.without(taken.to_vec()).iter().map(|it| [it.start, it.end]).collect()
+        };
+        assert_eq!(pieces(&[]), [[0.0, 100.0]]);
+        assert_eq!(pieces(&[[30.0, 60.0]]), [[0.0, 30.0], [60.0, 100.0]]);
+        // The way from one to the next is too short, though one is on the chain before.
+        assert_eq!(pieces(&[[-20.0, -5.0], [10.0, 30.0], [50.0, 60.0]]), [[60.0, 100.0]]);
+        assert_eq!(pieces(&[[-20.0, -5.0], [20.0, 60.0]]), [[0.0, 20.0], [60.0, 100.0]]);
+        assert_eq!(stretch.without(vec![[0.0, 60.0]])[0].other_start, 70.0);
+    }
 }

@@ -150,7 +150,7 @@ fn heed(
     }
     if let Some(end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
         let kept = kept_room(scene, clock, spot);
-        wish = wish.min(approach(motion.speed, end - kept - motion.x, 0.0));
+        wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
         obstacle = Some(Ahead::standing(end - motion.x));
     }
     (wish, obstacle)
@@ -213,8 +213,11 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     if mind.last_place.is_finite() && matches!(car.phase, Phase::Cruises | Phase::Wants) {
         let room = mind.last_place - kept_room(scene, clock, spot) - motion.x;
         let passing = 0.5 * (pace.desired - WAITS_BELOW).max(0.0);
-        acceleration =
-            acceleration.min(approach(motion.speed, room, passing).max(-2.0 * COMFORTABLE_BRAKING));
+        acceleration = acceleration.min(if passing > 0.0 {
+            approach(motion.speed, room, passing)
+        } else {
+            to_stop_at(motion.speed, room, clock.dt)
+        });
     }
     acceleration
 }
@@ -229,10 +232,10 @@ fn leader_beside(scene: &Scene, spot: Spot) -> Option<Ahead> {
 /// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.
 fn approach(speed: f64, room: f64, passing: f64) -> f64 {
     if speed <= passing {
-        return if room <= 0.0 && passing == 0.0 { 0.0 } else { f64::INFINITY };
+        return f64::INFINITY;
     }
     let needed = (speed * speed - passing * passing) / (2.0 * room.max(0.1));
-    if needed > COMFORTABLE_BRAKING { -needed } else { f64::INFINITY }
+    if needed > COMFORTABLE_BRAKING { -needed.min(2.0 * COMFORTABLE_BRAKING) } else { f64::INFINITY }
 }
 
 /// The acceleration, or what kinematics leaves of it behind `obstacle`.

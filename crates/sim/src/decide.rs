@@ -108,11 +108,12 @@ fn consider(
         plan.concerns.push(concern);
         return;
     }
-    // Who passed the last place goes round, if there is a way round.
-    if matches!(waypoint, Cow::Owned(_)) {
+    // Who passed the last place goes round, if there is a way round; if not, it has a passage, and is re-routed beyond.
+    let leads_on = waypoint.leads_on(motion.x);
+    if leads_on && matches!(waypoint, Cow::Owned(_)) {
         plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
-    concern.last_place = Some(waypoint.last_place).filter(|it| it - motion.x < HEEDED_WITHIN);
+    concern.last_place = Some(waypoint.last_place).filter(|it| leads_on && it - motion.x < HEEDED_WITHIN);
     let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, hints);
     let change = match state {
         Concentration::Concentrated => Cow::Borrowed(&style.change),

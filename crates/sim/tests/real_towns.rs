@@ -27,6 +27,25 @@ fn town(file: &str) -> Option<Network> {
     Some(network.regulated(&regulations))
 }
 
+fn world(network: Network, total: f64, trucks: f64) -> World {
+    let demand = drivers::demand(&network, total, trucks, &[0.5, 0.5]);
+    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, characters, demand, Setup { step: STEP, seed: 2, threads: 1 })
+        .expect("it makes sense")
+}
+
+#[test]
+fn few_drivers_miss_their_turns_where_lanes_begin_and_end_at_junctions() {
+    for file in ["karlsruhe_roundabout.osm", "intersection.osm"] {
+        let Some(network) = town(file) else { continue };
+        let mut world = world(network, 1500.0, 0.1);
+        (0..4800).for_each(|_| world.step());
+        let (missed, counts) = (world.tally().missed_turns, world.counts());
+        assert!(counts.discretionary_changes + counts.route_changes > 0, "{file}");
+        assert!(missed as f64 <= 0.02 * counts.entered as f64, "{file}: {missed} of {}", counts.entered);
+    }
+}
+
 #[test]
 fn bodies_move_no_further_than_their_vehicles_drive() {
     /// A body that turns, or goes across to another lane, moves further than its front along the lane by this [m].
@@ -34,10 +53,7 @@ fn bodies_move_no_further_than_their_vehicles_drive() {
     const HARDEST_BRAKING: f64 = 8.0;
     for (file, total) in [("karlsruhe.osm", 1500.0), ("kashiwanoha.osm", 600.0)] {
         let Some(network) = town(file) else { continue };
-        let demand = drivers::demand(&network, total, 0.3, &[0.5, 0.5]);
-        let characters = vec![drivers::aggressive(), drivers::conservative()];
-        let setup = Setup { step: STEP, seed: 2, threads: 1 };
-        let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+        let mut world = world(network, total, 0.3);
         let mut before: HashMap<VehicleId, (Pose, f64)> = HashMap::new();
         for _ in 0..2400 {
             world.step();
