@@ -5,7 +5,7 @@ use rstar::primitives::GeomWithData;
 
 use super::kinship::{Kinship, Meeting};
 use crate::build::Network;
-use crate::chain::ChainIndex;
+use crate::chain::{Chain, ChainIndex};
 use crate::geometry::Point;
 
 /// A zone's place in [`super::Junctions::zones`].
@@ -126,24 +126,59 @@ pub(super) fn zones(network: &Network, kinship: &Kinship) -> Vec<Zone> {
 const SAG_AT_MOST: f64 = 2.0;
 
 fn samples(network: &Network) -> Vec<Sample> {
+    let half = 0.5 * LARGEST_VEHICLE[0];
     let mut samples = Vec::new();
-    for (index, chain) in network.chains.iter().enumerate() {
+    for (chain, index) in network.chains.iter().zip(0..) {
+        let index = ChainIndex(index);
         let count = (chain.length / SAMPLE).ceil() as usize;
         for number in 0..=count {
             let station = (number as f64 * SAMPLE).min(chain.length);
             let path = chain.centre.at(station);
-            let half = 0.5 * LARGEST_VEHICLE[0];
-            // On its own chain only: beyond its ends a path goes on as it comes.
-            let behind = chain.centre.at((station - half).max(0.0));
-            let before = chain.centre.at((station + half).min(chain.length));
-            let middle = behind.midpoint(&before);
-            let share = (SAG_AT_MOST / path.distance(&middle).max(SAG_AT_MOST)).min(1.0);
-            let is_whole = station >= half && station + half <= chain.length;
-            let inside = if is_whole { path.towards(&middle, share) } else { path };
-            samples.push(Sample { chain: ChainIndex(index as u32), station, path, inside });
+            let mut insides: Vec<Point> = Vec::new();
+            for rear in along(network, index, station - half, |it| &it.previous) {
+                for front in along(network, index, station + half, |it| &it.following) {
+                    let middle = rear.midpoint(&front);
+                    let share = (SAG_AT_MOST / path.distance(&middle).max(SAG_AT_MOST)).min(1.0);
+                    let inside = path.towards(&middle, share);
+                    if insides.iter().all(|it| it.distance(&inside) > SPACE) {
+                        insides.push(inside);
+                    }
+                }
+            }
+            if insides.is_empty() {
+                insides.push(path);
+            }
+            samples.extend(insides.into_iter().map(|inside| Sample { chain: index, station, path, inside }));
         }
     }
     samples
+}
+
+/// The places at `station` of a chain, beyond its ends on each way that goes on over the chains `next` to it.
+fn along(
+    network: &Network,
+    chain: ChainIndex,
+    station: f64,
+    next: fn(&Chain) -> &[ChainIndex],
+) -> Vec<Point> {
+    /// More chains than there are on the ways over half a vehicle's length at any junction.
+    const MOST: usize = 64;
+    let mut places = Vec::new();
+    let mut open = vec![(chain, station)];
+    for _ in 0..MOST {
+        let Some((index, station)) = open.pop() else { break };
+        let chain = network.chain(index);
+        if (0.0..=chain.length).contains(&station) {
+            places.push(chain.centre.at(station));
+        } else {
+            let beyond = |it: &ChainIndex| {
+                let length = network.chain(*it).length;
+                (*it, if station < 0.0 { station + length } else { station - chain.length })
+            };
+            open.extend(next(chain).iter().map(beyond));
+        }
+    }
+    places
 }
 
 fn contact(here: &Sample, there: &Sample) -> Option<Contact> {
