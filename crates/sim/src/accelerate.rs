@@ -200,7 +200,8 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let pace = pace(motion, car);
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
-    if car.phase == Phase::Wants {
+    // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
+    if car.phase == Phase::Wants && motion.speed > HARDLY_MOVES {
         let falling_in = style.follow.acceleration(pace, leader_beside(scene, spot));
         acceleration = falling_in.max(-style.manner.adjust_deceleration);
     }
@@ -210,7 +211,9 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         let giving_way = style.follow.acceleration(pace, Some(ahead));
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }
-    if mind.last_place.is_finite() && matches!(car.phase, Phase::Cruises | Phase::Wants) {
+    // Who is on its way through a junction waits for no gap there.
+    let may_wait = matches!(car.phase, Phase::Cruises | Phase::Wants) && scene.passage(spot).is_none();
+    if mind.last_place.is_finite() && may_wait {
         let room = mind.last_place - kept_room(scene, clock, spot) - motion.x;
         let passing = 0.5 * (pace.desired - WAITS_BELOW).max(0.0);
         acceleration = acceleration.min(if passing > 0.0 {

@@ -4,7 +4,7 @@
 use laneweave_network::ChainIndex;
 
 use crate::clock::Clock;
-use crate::junction::{Asking, Hindrance, may_pass, sight, survey};
+use crate::junction::{Asking, Hindrance, are_led_on, may_pass, sight, survey};
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
 use crate::world::World;
@@ -47,13 +47,14 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
 /// Slower than this [m/s] a vehicle stands before a junction (ours).
 pub(crate) const STANDS: f64 = 0.3;
 
-/// Surveys what the driver at `spot` needs next.
+/// Surveys what the driver at `spot` needs next. Returns whether there is something, and nobody before it waits there.
 fn surveyed(scene: &Scene, spot: Spot, outbox: &mut Outbox) -> bool {
     let motion = scene.motion(spot);
     let passage = scene.passages.of(scene.mind(spot).passage, motion.id);
     let granted = passage.map_or(0.0, |it| it.left().max(0.0));
     let (from, length) = (scene.viewpoint(spot), f64::from(motion.length));
     survey(scene, from, length, granted, sight(motion.speed), &mut outbox.survey)
+        && are_led_on(scene, spot, &outbox.survey)
 }
 
 impl World {

@@ -27,7 +27,7 @@ const VOLUNTARY_DESIRE: f64 = 0.3;
 /// What a driver who lets another in leaves beyond its usual gap [m].
 const ROOM_TO_YIELD: f64 = 1.0;
 /// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
-const STANDS_IN_VAIN: f32 = 60.0;
+const STANDS_IN_VAIN: f32 = 120.0;
 const AT_THE_PLACE: f64 = 20.0;
 /// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
 const HEEDED_WITHIN: f64 = 400.0;

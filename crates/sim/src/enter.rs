@@ -8,6 +8,7 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use crate::accelerate::speed_before_a_stop;
 use crate::events::Event;
 use crate::junction::{sight, stop_ahead};
+use crate::metering::Metering;
 use crate::perceive::driver;
 use crate::scene::{Found, Scene};
 use crate::source::{Arrival, Queue, Start};
@@ -17,6 +18,11 @@ impl World {
     /// Vehicles arrive, queue up, and enter where there is room.
     pub(crate) fn enter(&mut self) {
         let mut sources = std::mem::take(&mut self.sources);
+        if self.is_watched()
+            && let Some(metering) = &mut self.metering
+        {
+            metering.measure(&self.lanes);
+        }
         let time = self.clock.time();
         for source in &mut sources {
             let scene = self.scene();
@@ -62,7 +68,8 @@ impl World {
                 let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
                 // Room that is kept for others stays theirs.
                 let is_free = scene.passages.kept_on(chain) == 0.0;
-                (leaves_room && is_let_in && is_free).then_some(0.0)?
+                let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
+                (leaves_room && is_let_in && is_free && !is_full).then_some(0.0)?
             }
         };
         Some(NewVehicle { chain, x, speed, class, character, destination })

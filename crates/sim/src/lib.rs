@@ -16,6 +16,7 @@ mod events;
 mod gamma;
 mod headways;
 mod junction;
+mod metering;
 mod navigate;
 mod normal;
 mod overlap;

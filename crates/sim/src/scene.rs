@@ -202,10 +202,20 @@ impl<'a> Scene<'a> {
     /// The nearer of who is ahead on one's way, and who forked off to another chain before and is still in the way.
     #[inline(never)]
     fn nearest_in_fork(&self, from: Viewpoint, on_way: Option<Ahead>) -> Option<Ahead> {
-        self.siblings(from.chain)
-            .filter_map(|(back, sibling)| self.last_in_fork(back, sibling, from.id, from.x))
-            .map(|it| Ahead { gap: it.gap - from.x, ..it })
-            .fold(on_way, |nearest, it| nearer(nearest, Some(it)))
+        let beside = self.beside_in_fork(from);
+        nearer(on_way, beside.map(|(spot, rear)| self.rear_ahead(spot, rear - from.x)))
+    }
+
+    /// The nearest vehicle ahead that forked off to another chain before and is still in the way, and where its rear bumper is
+    /// from the fork on [m].
+    fn beside_in_fork(&self, from: Viewpoint) -> Option<(Spot, f64)> {
+        let siblings = self.siblings(from.chain);
+        nearest(siblings.filter_map(|(back, it)| self.last_in_fork(back, it, from.id, from.x)))
+    }
+
+    /// The vehicle at `spot`, whose rear bumper is `gap` ahead [m].
+    fn rear_ahead(&self, spot: Spot, gap: f64) -> Ahead {
+        Ahead { gap, speed: self.motion(spot).speed }
     }
 
     /// The chains that fork off together with `chain`, each with the one before the fork.
@@ -217,59 +227,55 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet: its rear
-    /// bumper from the fork on [m], and its speed.
-    fn last_in_fork(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<Ahead> {
+    /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet, and where its rear
+    /// bumper is from the fork on [m].
+    fn last_in_fork(
+        &self,
+        back: ChainIndex,
+        sibling: ChainIndex,
+        id: VehicleId,
+        x: f64,
+    ) -> Option<(Spot, f64)> {
         let chain = self.network.chain(sibling);
         let last = |on: ChainIndex, came_from: ChainIndex, base: f64| {
             let lane = &self.lanes[on.at()];
-            let all = lane.motions().iter().zip(lane.minds());
-            let came = all.filter(|(it, mind)| it.id != id && mind.trail.last() == Some(came_from));
-            let ahead = came.map(|(it, _)| it).find(|it| (base + it.x, id) > (x, it.id))?;
-            let rear = base + ahead.rear();
-            (rear < chain.fork_clearance).then_some(Ahead { gap: rear, speed: ahead.speed })
+            let mut all = lane.motions().iter().zip(lane.minds()).enumerate();
+            let is_ahead = |it: &Motion| it.id != id && (base + it.x, id) > (x, it.id);
+            let came = |mind: &Mind| mind.trail.last() == Some(came_from);
+            let (index, (it, _)) = all.find(|(_, (it, mind))| came(mind) && is_ahead(it))?;
+            let rear = base + it.rear();
+            (rear < chain.fork_clearance).then_some((Spot { chain: on, index }, rear))
         };
         let reaches_beyond = chain.length < chain.fork_clearance + LONGEST;
         let beyond = chain.following.iter().filter(|_| reaches_beyond);
-        let hanging = beyond
-            .filter_map(|it| last(*it, sibling, chain.length))
-            .reduce(|a, b| if b.gap < a.gap { b } else { a });
-        nearer(last(sibling, back, 0.0), hanging)
+        let hanging = beyond.filter_map(|it| last(*it, sibling, chain.length));
+        nearest(last(sibling, back, 0.0).into_iter().chain(hanging))
     }
 
-    /// The next vehicle on one's way within sight, wherever it comes from.
+    /// The next vehicle on one's way within sight, or beside it in a fork, wherever it comes from.
     pub(crate) fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
         let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+        let is_in_fork = from.x < self.network.chain(chain).fork_clearance;
+        let mut beside = if is_in_fork { self.beside_in_fork(from) } else { None };
         loop {
             let motions = &self.motions(chain)[index..];
-            if let Some(place) = motions.iter().position(|it| it.id != from.id) {
-                return Some(Spot { chain, index: index + place });
+            let place = motions.iter().position(|it| it.id != from.id);
+            let on_way = place.map(|it| (Spot { chain, index: index + it }, motions[it].rear()));
+            if let Some((spot, _)) = nearest(on_way.into_iter().chain(beside)) {
+                return Some(spot);
             }
             base += self.network.chain(chain).length;
             let next = self.next(from.destination, chain).filter(|_| base < SIGHT)?;
-            if let Some(beside) = self.spot_in_fork(chain, next, from.id) {
-                return Some(beside);
-            }
+            beside = self.beyond_the_fork(chain, next, from.id);
             (chain, index) = (next, 0);
         }
     }
 
-    /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, if nobody on `next`
-    /// is before it.
-    fn spot_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<Spot> {
-        let last = |it: ChainIndex| {
-            let lane = &self.lanes[it.at()];
-            let mut came = lane.motions().iter().zip(lane.minds()).enumerate();
-            let (index, (motion, _)) =
-                came.find(|(_, (it, mind))| it.id != id && mind.trail.last() == Some(chain))?;
-            Some((Spot { chain: it, index }, motion.rear()))
-        };
-        let on_way = last(next).map_or(f64::INFINITY, |it| it.1);
+    /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, and where its rear
+    /// bumper is from the fork on [m].
+    fn beyond_the_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<(Spot, f64)> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
-        let in_the_way = siblings
-            .filter_map(|it| last(*it))
-            .filter(|(spot, rear)| *rear < self.network.chain(spot.chain).fork_clearance && *rear < on_way);
-        in_the_way.min_by(|a, b| a.1.total_cmp(&b.1)).map(|it| it.0)
+        nearest(siblings.filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY)))
     }
 
     /// The leader beyond the end of the chain.
@@ -282,7 +288,8 @@ impl<'a> Scene<'a> {
                 self.motions(next).iter().zip(self.lanes[next.at()].minds()).find(|it| it.0.id != from.id);
             let leader =
                 on_way.map(|(it, mind)| Ahead { gap: self.gap_to(chain, base, it, mind), speed: it.speed });
-            let beside = self.beside_the_fork(chain, next, base, from.id);
+            let beside = self.beyond_the_fork(chain, next, from.id);
+            let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, base + rear));
             if let Some(nearest) = nearer(leader, beside) {
                 return Some(nearest);
             }
@@ -290,21 +297,6 @@ impl<'a> Scene<'a> {
             base += self.network.chain(chain).length;
         }
         None
-    }
-
-    /// A vehicle that forked off to another chain than `next` and is still in the way.
-    fn beside_the_fork(
-        &self,
-        chain: ChainIndex,
-        next: ChainIndex,
-        base: f64,
-        id: VehicleId,
-    ) -> Option<Ahead> {
-        let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
-        siblings
-            .filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY))
-            .map(|it| Ahead { gap: base + it.gap, ..it })
-            .fold(None, |nearest, it| nearer(nearest, Some(it)))
     }
 
     /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has no
@@ -547,6 +539,11 @@ impl View {
         }
         false
     }
+}
+
+/// The one whose rear bumper is nearest; of those that are as near the first.
+fn nearest(rears: impl Iterator<Item = (Spot, f64)>) -> Option<(Spot, f64)> {
+    rears.reduce(|nearest, it| if it.1 < nearest.1 { it } else { nearest })
 }
 
 /// The nearer of two.

@@ -14,8 +14,10 @@ use crate::drive::drive;
 use crate::events::Event;
 use crate::headways::HeadwayError;
 use crate::junction::{NO_PASSAGE, Passages};
+use crate::metering::Metering;
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
+use crate::place::Place;
 use crate::plan::{Outbox, Plan};
 use crate::pool::Pool;
 use crate::pose::{lateral_offset, pose};
@@ -46,6 +48,8 @@ pub struct World {
     pub(crate) outboxes: Vec<Outbox>,
     pub(crate) demand: Demand,
     pub(crate) sources: Vec<Source>,
+    /// Where trips begin within the map.
+    pub(crate) metering: Option<Metering>,
     pub(crate) random: Random,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
@@ -158,6 +162,7 @@ impl World {
         }
         let views = Views::of(&network, &demand.fleet);
         let navigator = Navigator::with_views(&network, &demand.destinations, views);
+        let begins_within = demand.origins.iter().any(|it| matches!(it.place, Place::Kerb(_)));
         let random = Random::new(setup.seed);
         let lanes = vec![Lane::default(); network.chains.len()];
         let plans = lanes.iter().map(|_| Plan::default()).collect();
@@ -167,6 +172,7 @@ impl World {
             pools: [Pool::new(setup.threads), Pool::new(1)],
             crowd: 0,
             passages: Passages::new(&network),
+            metering: begins_within.then(|| Metering::new(&network)),
             network,
             navigator,
             characters,
@@ -281,7 +287,7 @@ impl World {
     }
 
     /// Overlaps are looked for once a second.
-    fn is_watched(&self) -> bool {
+    pub(crate) fn is_watched(&self) -> bool {
         self.clock.step.is_multiple_of(self.clock.steps(1.0))
     }
 

@@ -5,7 +5,7 @@ mod roads;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use laneweave_maps::{Map, ReadOptions, load};
+use laneweave_maps::{Map, ReadOptions, load, regulations};
 use laneweave_network::{ChainIndex, LaneletIndex, Network};
 use laneweave_sim::{
     Class, Demand, Destination, Event, Fleet, Kerb, Navigator, NewVehicle, Place, Places, Setup, VehicleId,
@@ -223,7 +223,10 @@ fn real(file: &str) -> Option<(Network, Places)> {
         eprintln!("skipped: {file} is not there");
         return None;
     }
-    let Map { network, graph, .. } = load(&path, &ReadOptions::default()).expect("the map is sound");
+    let map = load(&path, &ReadOptions::default()).expect("the map is sound");
+    let regulations = regulations(&map);
+    let Map { network, graph, .. } = map;
+    let network = network.regulated(&regulations);
     let alone = graph.conflicting.iter().zip(0..).filter(|(others, _)| others.is_empty());
     let places = Places::along(&network, alone.map(|(_, it)| LaneletIndex(it)));
     Some((network, places))
@@ -241,6 +244,26 @@ fn trips_in_towns_end_at_their_places() {
         let left = drive(&mut world, &places, 6_000);
         assert!(left >= least, "{file}: {left}");
     }
+}
+
+#[test]
+fn a_town_in_which_far_more_start_than_it_can_bear_lets_them_wait_and_keeps_moving() {
+    let Some((network, places)) = real("town10.osm") else { return };
+    let roads: f64 = network.chains.iter().map(|it| it.length).sum();
+    let mut world = world(network, places, 4000.0, 1);
+    for _ in 0..9 {
+        let before = world.counts().left;
+        (0..1000).for_each(|_| world.step());
+        let taken: f64 = world.vehicles().map(|it| f64::from(it.motion.length) + 2.0).sum();
+        // What it can bear, and one more from each kerb before that is noticed.
+        assert!(taken < 0.21 * roads, "{taken} m of {roads} m are taken up");
+        assert!(
+            world.counts().left > before || world.clock().time() < 200.0,
+            "at {} s",
+            world.clock().time()
+        );
+    }
+    assert!(world.waiting() > 300, "{} wait", world.waiting());
 }
 
 #[test]

@@ -11,12 +11,14 @@
 
 mod conditions;
 mod heed;
+mod mergers;
 mod oncoming;
 mod passages;
 mod survey;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
 pub(crate) use heed::{Junction, look, sight};
+pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
 pub(crate) use survey::{Survey, is_place_ahead, stop_ahead, survey};

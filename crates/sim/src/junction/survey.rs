@@ -270,7 +270,7 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> ChainIndex {
 }
 
 /// Distances are not told apart closer than this [m].
-const ROUNDING: f64 = 0.5;
+pub(super) const ROUNDING: f64 = 0.5;
 
 /// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite if it
 /// goes on along it.

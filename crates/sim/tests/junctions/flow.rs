@@ -26,3 +26,16 @@ fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {
         assert!(world.counts().left as f64 > 0.7 * total / 4.0, "{name}: {} left", world.counts().left);
     }
 }
+
+#[test]
+fn a_roundabout_to_which_far_more_come_than_it_can_take_keeps_turning() {
+    const MINUTES: u32 = 15;
+    let network = network("roundabout.osm");
+    let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
+    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let mut world = World::new(network, characters, demand, Setup { step: STEP, seed: 1, threads: 1 })
+        .expect("it makes sense");
+    (0..MINUTES * 600).for_each(|_| world.step());
+    assert_sound(&world);
+    assert!(world.counts().left > 200, "{} left", world.counts().left);
+}
