@@ -178,13 +178,15 @@ pub struct Output {
     pub dir: PathBuf,
     /// Time between two samples of a trajectory [s]; 0: no trajectories.
     pub record_s: f64,
+    /// Length of the intervals over which flow, density and speed of every lanelet are measured [s]; 0: they are not.
+    pub flows_s: f64,
     /// Format of the tables.
     pub format: TableFormat,
 }
 
 impl Default for Output {
     fn default() -> Output {
-        Output { dir: "out".into(), record_s: 1.0, format: TableFormat::Parquet }
+        Output { dir: "out".into(), record_s: 1.0, flows_s: 0.0, format: TableFormat::Parquet }
     }
 }
 
