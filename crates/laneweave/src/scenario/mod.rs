@@ -5,6 +5,7 @@ mod headways;
 mod mixture;
 mod origin;
 mod prepare;
+mod signals;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -18,6 +19,7 @@ use crate::style::DEFAULT_MIXTURE;
 pub use headways::Headways;
 pub use origin::Origin;
 pub use prepare::{Prepared, open_map, prepare};
+pub use signals::{Signal, SignalPhase};
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +33,9 @@ pub struct Scenario {
     /// Who comes, how many, and where they go.
     #[serde(default)]
     pub demand: Demand,
+    /// Programs of lights; the others are given one.
+    #[serde(default)]
+    pub signals: Vec<Signal>,
     /// How long and how finely to simulate.
     #[serde(default)]
     pub run: Run,
@@ -211,6 +216,7 @@ impl Scenario {
             map,
             map_options: MapOptions::default(),
             demand: Demand::default(),
+            signals: Vec::new(),
             run: Run::default(),
             styles: default_styles(),
             output: Output::default(),

@@ -10,6 +10,7 @@ use laneweave_sim::{Place, Places, Rate, Setup, World};
 
 use super::demand::{check_ways, demand};
 use super::mixture::mixture;
+use super::signals::plans;
 use super::{MapOptions, Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
@@ -69,6 +70,8 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let regulations = regulations(&map);
     let Map { network, graph, problems, .. } = map;
     let network = network.regulated(&regulations);
+    let plans = plans(scenario, origin, &network)?;
+    let network = network.with_signals(&plans);
     let places = places(&network, &graph);
     if places.origins.is_empty() {
         let what = "nobody can drive on the map: no lanelet of 10 m or more begins at its edge, and from none of 20 m or \
