@@ -32,6 +32,25 @@ fn lights_follow_the_program_of_the_scenario() {
 }
 
 #[test]
+fn an_entrance_before_a_light_takes_in_what_passes_at_green() {
+    let signals = format!(
+        "[[signals]]\nphases = [{{ green = {EAST_AND_WEST}, green_s = 25 }}, \
+         {{ green = {NORTH_AND_SOUTH}, green_s = 15 }}]"
+    );
+    let capacity = |folder: &Folder| {
+        folder.summary("own.toml --duration 1")["entrance_capacity"].as_f64().unwrap()
+    };
+    let with_lights = folder(&signals);
+    let at_green = capacity(&with_lights);
+    let line = "generate grid --rows 1 --columns 1 --control priority one.osm";
+    let without = Folder::new().with("own.toml", "map = \"one.osm\"\n[output]\nrecord_s = 0\n");
+    assert_eq!(without.laneweave(line).code(), 0);
+    // Half of the lanes are green for 25 s of 50 s, the others for 15 s.
+    let expected = 0.5 * (25.0 + 15.0) / 50.0 * capacity(&without);
+    assert!((at_green / expected - 1.0).abs() < 1e-9, "{at_green} is not {expected}");
+}
+
+#[test]
 fn a_program_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
     let green = |lights: &str| format!("{{ green = {lights}, green_s = 25 }}");
     let two = format!("{}, {}", green(EAST_AND_WEST), green(NORTH_AND_SOUTH));
