@@ -67,12 +67,9 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
-    let regulations = regulations(&map);
-    let Map { network, graph, problems, .. } = map;
-    let network = network.regulated(&regulations);
+    let (network, places) = driven(&map);
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
-    let places = places(&network, &graph);
     if places.origins.is_empty() {
         let what = "nobody can drive on the map: no lanelet of 10 m or more begins at its edge, and from none of 20 m or \
                     more that shares its ground with no other can another be reached";
@@ -101,9 +98,16 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         entrance_capacity_veh_h: capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
-        problems,
+        problems: map.problems,
         world,
     })
+}
+
+/// The roads of `map` with their junctions, and where trips on them start and end.
+pub(crate) fn driven(map: &Map) -> (Network, Places) {
+    let network = map.network.clone().regulated(&regulations(map));
+    let places = places(&network, &map.graph);
+    (network, places)
 }
 
 /// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.

@@ -37,9 +37,8 @@ fn an_entrance_before_a_light_takes_in_what_passes_at_green() {
         "[[signals]]\nphases = [{{ green = {EAST_AND_WEST}, green_s = 25 }}, \
          {{ green = {NORTH_AND_SOUTH}, green_s = 15 }}]"
     );
-    let capacity = |folder: &Folder| {
-        folder.summary("own.toml --duration 1")["entrance_capacity"].as_f64().unwrap()
-    };
+    let capacity =
+        |folder: &Folder| folder.summary("own.toml --duration 1")["entrance_capacity"].as_f64().unwrap();
     let with_lights = folder(&signals);
     let at_green = capacity(&with_lights);
     let line = "generate grid --rows 1 --columns 1 --control priority one.osm";
