@@ -2,7 +2,7 @@
 
 use laneweave_models::Style;
 use laneweave_models::follow::{CarFollowing, Pace};
-use laneweave_network::Network;
+use laneweave_network::{ChainIndex, Network, Sign};
 use laneweave_sim::{Class, Demand, Fleet, Place};
 
 const SECONDS_PER_HOUR: f64 = 3600.0;
@@ -12,7 +12,8 @@ const SECONDS_PER_HOUR: f64 = 3600.0;
 /// Each driver takes up a lane for at least some time; the lane's capacity is one over the mean of these times. At a gate
 /// it is the time that it takes up in its own densest stream, one over the capacity of its car-following model at
 /// the lane's speed limit; at a kerb the time in which it makes room for the next on an empty road.
-/// Who is held up by slower vehicles takes longer, so this is an upper estimate.
+/// Where all lanes of a place lead to a light before they fork, each takes in no more than passes at green. Who is held up by
+/// slower vehicles takes longer, so this is an upper estimate.
 pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, f64)]) -> f64 {
     let mut known: Vec<((bool, f64), f64)> = Vec::new();
     let mut capacity = 0.0;
@@ -21,7 +22,10 @@ pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, 
             Place::Gate(_) => (true, 0.0),
             Place::Kerb(kerb) => (false, kerb.station),
         };
-        for chain in place.chains() {
+        let shares: Vec<f64> = place.chains().iter().map(|it| green_share(network, *it, station)).collect();
+        // Who may change to a lane without a light is not held up by one.
+        let are_all_lit = shares.iter().all(|it| *it < 1.0);
+        for (chain, share) in place.chains().iter().zip(&shares) {
             let limit = network.chain(*chain).limit(station);
             let key = (is_gate, limit);
             let lane = match known.iter().find(|(it, _)| *it == key) {
@@ -33,10 +37,32 @@ pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, 
                     lane
                 }
             };
-            capacity += lane;
+            let at_green = if are_all_lit {
+                share * lane_capacity(limit, drivers, &demand.fleet, time_in_stream)
+            } else {
+                f64::INFINITY
+            };
+            capacity += lane.min(at_green);
         }
     }
     capacity * SECONDS_PER_HOUR
+}
+
+/// Least share of the time that the lights are green to which a lane leads from `station` [m] of `chain` on before it forks.
+fn green_share(network: &Network, mut chain: ChainIndex, mut station: f64) -> f64 {
+    let Network { chains, junctions, .. } = network;
+    let mut least = 1.0_f64;
+    // A lane may lead in a ring.
+    for _ in 0..chains.len() {
+        for stop in junctions.on(chain).stops.iter().filter(|it| it.station > station) {
+            if let Sign::Light(light) = stop.sign {
+                least = least.min(junctions.lights[light.at()].program.green_share());
+            }
+        }
+        let [next] = network.chain(chain).following[..] else { break };
+        (chain, station) = (next, f64::NEG_INFINITY);
+    }
+    least
 }
 
 /// Time [s] that a driver takes up in its own densest stream under `limit` [m/s].

@@ -3,11 +3,11 @@
 use laneweave_sim::World;
 
 use crate::fault::Fault;
-use crate::output::Observer;
+use crate::output::{Observer, Queue, Queues};
 use crate::scenario::Prepared;
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Ending {
     /// Simulated time at which measuring began [s].
     pub measured_from_s: f64,
@@ -15,6 +15,8 @@ pub struct Ending {
     pub measured_s: f64,
     /// It was called off before its time.
     pub is_interrupted: bool,
+    /// The queues that are left at the entrances, the longest first.
+    pub queues: Vec<Queue>,
 }
 
 /// Runs `prepared` through its warm-up and its measured time. `observers` see the world after each measured step;
@@ -39,6 +41,7 @@ pub fn simulate(
     }
     world.reset_counts();
     when_warm();
+    let mut queues = Queues::of(world);
     let measured_from_s = world.clock().time();
     for _ in 0..*steps {
         is_interrupted = is_interrupted || !goes_on(world);
@@ -46,9 +49,11 @@ pub fn simulate(
             break;
         }
         world.step();
+        queues.observe(world);
         for observer in &mut *observers {
             observer.observe(world)?;
         }
     }
-    Ok(Ending { measured_from_s, measured_s: world.clock().time() - measured_from_s, is_interrupted })
+    let measured_s = world.clock().time() - measured_from_s;
+    Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world) })
 }

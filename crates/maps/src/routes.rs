@@ -2,7 +2,8 @@
 //!
 //! Lanelets between which lane changes are allowed are one *section* of road, and so are those that lead from the same section
 //! to the same section, as lanes do across a junction: ways that differ only in where lanes are changed are one way. A way is
-//! sensible if it enters no section twice and takes not much longer than the best one.
+//! sensible if it enters no section twice and takes not much longer than the best one. Of ways over the same *roads*, which are
+//! sections side by side whether or not a change between them is allowed, the fastest is named, and the others are counted.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -11,7 +12,7 @@ use hashbrown::HashMap;
 use laneweave_network::Network;
 
 use crate::format::Map;
-use crate::graph::{Graph, NodeIndex};
+use crate::graph::{Graph, Node, NodeIndex};
 
 /// A way through a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,8 @@ pub struct Route {
     pub length: f64,
     /// At the speed limits [s].
     pub time: f64,
+    /// How many ways over the same roads were found, which differ in their lanes: this one and slower ones.
+    pub variants: usize,
 }
 
 /// A lanelet of a way.
@@ -71,26 +74,38 @@ pub fn routes(map: &Map, from: NodeIndex, to: NodeIndex, sense: Sense) -> Vec<Ro
     if !search.remaining[from.at()].is_finite() {
         return Vec::new();
     }
-    let mut found: Vec<Route> = Vec::new();
+    let roads = joined(
+        &map.graph,
+        &sections(&map.graph, |it| [it.left, it.right, it.adjacent_left, it.adjacent_right]),
+    );
+    // Each with its roads.
+    let mut found: Vec<(Vec<u32>, Route)> = Vec::new();
     let mut open = BinaryHeap::from([Reverse(search.start(from))]);
     let mut latest = f64::INFINITY;
     for _ in 0..MOST_PARTIAL {
         let Some(Reverse(partial)) = open.pop() else { break };
-        if found.len() == sense.most || partial.estimate > latest {
+        if partial.estimate > latest {
             break;
         }
         if partial.costs.iter().any(|(node, _)| *node == to) {
             latest = latest.min(partial.estimate * sense.longest);
-            found.extend(search.route(from, &partial.sections));
+            let Some(route) = search.route(from, &partial.sections) else { continue };
+            let mut over: Vec<u32> = route.steps.iter().map(|it| roads[it.node.at()]).collect();
+            over.dedup();
+            match found.iter().position(|it| it.0 == over) {
+                Some(known) => found[known].1.variants += 1,
+                None if found.len() == sense.most => break,
+                None => found.push((over, route)),
+            }
         } else {
             open.extend(search.onward(&partial).into_iter().map(Reverse));
         }
     }
     if found.is_empty() {
         // Some ways lead back to where they began.
-        found.push(search.fastest(from));
+        return vec![search.fastest(from)];
     }
-    found
+    found.into_iter().map(|(_, route)| route).collect()
 }
 
 /// A way as far as it was thought out.
@@ -137,12 +152,19 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(map: &'a Map, goal: NodeIndex) -> Search<'a> {
         let Map { graph, network, .. } = map;
-        let lanelet = |network: &'a Network, it: &crate::graph::Node| &network.lanelets[it.lanelet.at()];
+        let lanelet = |network: &'a Network, it: &Node| &network.lanelets[it.lanelet.at()];
         let lengths: Vec<f64> = graph.nodes.iter().map(|it| lanelet(network, it).length()).collect();
         let limits = graph.nodes.iter().map(|it| lanelet(network, it).speed_limit);
         let times: Vec<f64> = lengths.iter().zip(limits).map(|(length, limit)| length / limit).collect();
         let remaining = remaining(graph, &times, goal);
-        Search { graph, times, lengths, sections: sections(graph), remaining, goal }
+        Search {
+            graph,
+            times,
+            lengths,
+            sections: joined(graph, &sections(graph, |it| [it.left, it.right])),
+            remaining,
+            goal,
+        }
     }
 
     fn start(&self, from: NodeIndex) -> Partial {
@@ -259,16 +281,16 @@ impl<'a> Search<'a> {
         let driven: Vec<NodeIndex> =
             driven.filter(|(_, next)| *next == By::Following).map(|(it, _)| it.node).collect();
         let sum = |of: &[f64]| driven.iter().map(|it| of[it.at()]).sum();
-        Route { length: sum(&self.lengths), time: sum(&self.times), steps }
+        Route { length: sum(&self.lengths), time: sum(&self.times), steps, variants: 1 }
     }
 }
 
-/// For each node a number that it shares with those to which lanes can be changed, either way.
-fn sections(graph: &Graph) -> Vec<u32> {
+/// For each node a number that it shares with those `beside` it, either way.
+fn sections<const N: usize>(graph: &Graph, beside_of: impl Fn(&Node) -> [Option<NodeIndex>; N]) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut beside: Vec<Vec<NodeIndex>> = vec![Vec::new(); graph.nodes.len()];
     for (here, node) in graph.nodes.iter().enumerate() {
-        for there in [node.left, node.right].into_iter().flatten() {
+        for there in beside_of(node).into_iter().flatten() {
             beside[here].push(there);
             beside[there.at()].push(NodeIndex(here as u32));
         }
@@ -283,7 +305,7 @@ fn sections(graph: &Graph) -> Vec<u32> {
             }
         }
     }
-    joined(graph, &sections)
+    sections
 }
 
 /// Sections with one number for those that lead from the same sections to the same sections.
@@ -379,6 +401,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn ways_over_the_same_roads_are_named_once_and_counted() {
+        let grid = crate::generate::own_maps().unwrap().into_iter().find(|it| it.0 == "grid.osm").unwrap();
+        let map = grid.1.build().unwrap();
+        let roads = joined(
+            &map.graph,
+            &sections(&map.graph, |it| [it.left, it.right, it.adjacent_left, it.adjacent_right]),
+        );
+        let first = |chain: &laneweave_network::ChainIndex| map.network.chain(*chain).lanelets[0];
+        let last = |chain: &laneweave_network::ChainIndex| map.network.chain(*chain).lanelets.last().copied();
+        let from = NodeIndex(first(&map.network.entrances[0].chains[0]).0);
+        let mut variants = 0;
+        for exit in &map.network.exits {
+            let to = NodeIndex(last(&exit.chains[0]).unwrap().0);
+            let found = routes(&map, from, to, Sense::default());
+            let mut over: Vec<Vec<u32>> = Vec::new();
+            for route in &found {
+                let mut roads: Vec<u32> = route.steps.iter().map(|it| roads[it.node.at()]).collect();
+                roads.dedup();
+                assert!(!over.contains(&roads), "{route:?}");
+                over.push(roads);
+                variants += route.variants - 1;
+            }
+        }
+        assert!(variants > 0);
     }
 
     #[test]

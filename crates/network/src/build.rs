@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::chain::{Beside, Chain, ChainIndex, join};
 use crate::gate::{Gate, gates, lane_drops};
-use crate::junction::{Junctions, Regulations};
+use crate::junction::{Junctions, LightConflict, Regulations, SignalPlan};
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 
 /// A road network; it never changes after loading.
@@ -102,6 +102,21 @@ impl Network {
                     Side::Left => self.chains[index].left = stretches,
                     Side::Right => self.chains[index].right = stretches,
                 }
+            }
+        }
+        self
+    }
+
+    /// Which traffic lights get in each other's way.
+    pub fn light_conflicts(&self) -> Vec<LightConflict> {
+        self.junctions.light_conflicts(self)
+    }
+
+    /// The same network with lights that follow these plans.
+    pub fn with_signals(mut self, plans: &[SignalPlan]) -> Network {
+        for plan in plans {
+            for light in plan.turns.iter().flat_map(|it| &it.lights) {
+                self.junctions.lights[light.at()].program = plan.program(*light);
             }
         }
         self

@@ -4,7 +4,7 @@
 use laneweave_network::ChainIndex;
 
 use crate::clock::Clock;
-use crate::junction::{Asking, Hindrance, are_led_on, may_pass, sight, survey};
+use crate::junction::{Asking, Hindrance, Survey, are_led_on, may_pass, sight, survey};
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
 use crate::world::World;
@@ -19,7 +19,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
     for waiting in &plan.waiting {
         let spot = Spot { chain, index: waiting.index as usize };
         let motion = scene.motion(spot);
-        if !surveyed(scene, spot, outbox) {
+        if !surveyed(scene, spot, &mut outbox.survey) {
             continue;
         }
         let asking = Asking::of(scene, spot, waiting.since, clock);
@@ -48,13 +48,12 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
 pub(crate) const STANDS: f64 = 0.3;
 
 /// Surveys what the driver at `spot` needs next. Returns whether there is something, and nobody before it waits there.
-fn surveyed(scene: &Scene, spot: Spot, outbox: &mut Outbox) -> bool {
+pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {
     let motion = scene.motion(spot);
     let passage = scene.passages.of(scene.mind(spot).passage, motion.id);
     let granted = passage.map_or(0.0, |it| it.left().max(0.0));
     let (from, length) = (scene.viewpoint(spot), f64::from(motion.length));
-    survey(scene, from, length, granted, sight(motion.speed), &mut outbox.survey)
-        && are_led_on(scene, spot, &outbox.survey)
+    survey(scene, from, length, granted, sight(motion.speed), out) && are_led_on(scene, spot, out)
 }
 
 impl World {
@@ -105,8 +104,8 @@ impl World {
         let mut outbox = std::mem::take(&mut self.outboxes[0]);
         let scene = self.scene();
         let asking = Asking::of(&scene, spot, since, self.clock);
-        let may =
-            surveyed(&scene, spot, &mut outbox) && may_pass(&scene, spot, &outbox.survey, asking).is_ok();
+        let may = surveyed(&scene, spot, &mut outbox.survey)
+            && may_pass(&scene, spot, &outbox.survey, asking).is_ok();
         if may {
             self.give_surveyed(spot, &mut outbox);
         }
@@ -116,14 +115,14 @@ impl World {
     /// Whether the driver at `spot`, whose way is surveyed anew, may pass if only there were room.
     pub(crate) fn may_but_for_room(&self, spot: Spot, asking: Asking, outbox: &mut Outbox) -> bool {
         let scene = self.scene();
-        let is_there = surveyed(&scene, spot, outbox);
+        let is_there = surveyed(&scene, spot, &mut outbox.survey);
         outbox.survey.room = f64::INFINITY;
         is_there && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
     }
 
     /// Gives the driver at `spot` the passage that it needs next.
     pub(crate) fn give_surveyed(&mut self, spot: Spot, outbox: &mut Outbox) {
-        surveyed(&self.scene(), spot, outbox);
+        surveyed(&self.scene(), spot, &mut outbox.survey);
         let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
         let length = f64::from(motion.length);
         mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);

@@ -88,6 +88,9 @@ fn consider(
     let period = moment.clock.steps(alertness.epoch);
     let note = note(scene, moment, spot, period);
     plan.tally.stuck += u64::from(car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER);
+    if note.standing > 0.0 && car.standing == 0.0 {
+        outbox.halts.push(motion.id);
+    }
     plan.notes.push(note);
     let mut concern =
         Concern { index: note.index, last_place: None, urgency: 0.0, gives_up: false, rerouted: None };

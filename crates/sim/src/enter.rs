@@ -44,10 +44,7 @@ impl World {
     fn admit(&self, queue: &Queue, arrival: &Arrival) -> Option<NewVehicle> {
         let Arrival { id, class, character, destination } = *arrival;
         let chain = queue.chain;
-        let rear = match queue.start {
-            Start::Driving => 0.0,
-            Start::FromRest(station) => station,
-        };
+        let rear = queue.start.station();
         let length = class.body().length;
         let x = rear + length;
         let style = &self.characters[character as usize];

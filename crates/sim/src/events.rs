@@ -3,14 +3,10 @@
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side};
 
-use crate::traffic::{Kind, VehicleId};
+use crate::traffic::{Kind, Motion, VehicleId};
 
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there are few events in a step, and a box would be allocated in it"
-)]
 pub enum Event {
     /// A vehicle entered.
     Entered(VehicleId),
@@ -20,6 +16,10 @@ pub enum Event {
         vehicle: VehicleId,
         /// Its time on the map [s].
         duration: f64,
+        /// Its last chain.
+        chain: ChainIndex,
+        /// How it moved in its last step, which may have ended beyond the chain.
+        motion: Motion,
     },
     /// A lane change is completed, or was aborted.
     LaneChange(LaneChange),

@@ -68,6 +68,8 @@ pub(crate) struct Outbox {
     pub(crate) claims: Vec<(ZoneIndex, u8, Claim)>,
     /// Room for the thread's work.
     pub(crate) survey: Survey,
+    /// Vehicles that came to a halt.
+    pub(crate) halts: Vec<VehicleId>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
 }
@@ -82,6 +84,7 @@ impl Outbox {
         self.appeals.append(&mut other.appeals);
         self.claims.append(&mut other.claims);
         self.blocked.append(&mut other.blocked);
+        self.halts.append(&mut other.halts);
         self.arrived.append(&mut other.arrived);
     }
 }

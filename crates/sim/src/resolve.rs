@@ -19,6 +19,7 @@ impl World {
     pub(crate) fn gather(&mut self) {
         let [first, others @ ..] = &mut self.outboxes[..] else { return };
         others.iter_mut().for_each(|it| first.gather(it));
+        first.halts.drain(..).for_each(|id| self.trips.stop(id));
     }
 
     /// Grants what can be granted.
@@ -305,7 +306,13 @@ impl World {
         self.crowd -= 1;
         let duration = f64::from(self.clock.step - mind.entered) * self.clock.dt;
         self.counts.trip_time += duration;
-        self.events.push(Event::Left { vehicle: motion.id, duration });
+        let trip = self.trips.end(motion.id);
+        self.counts.stops += u64::from(trip.stops);
+        if let Some(delay) = trip.delay(duration) {
+            self.counts.planned += 1;
+            self.counts.delay += delay;
+        }
+        self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion });
     }
 
     /// Tells the other entry of a vehicle where this one stands now.

@@ -66,6 +66,16 @@ pub(crate) enum Start {
     FromRest(f64),
 }
 
+impl Start {
+    /// Where the rear bumper of a vehicle is when it comes [m].
+    pub(crate) fn station(self) -> f64 {
+        match self {
+            Start::Driving => 0.0,
+            Start::FromRest(station) => station,
+        }
+    }
+}
+
 impl Source {
     /// The sources of all origins.
     pub(crate) fn all(
@@ -169,6 +179,11 @@ impl Source {
     /// Its queues.
     pub(crate) fn queues(&mut self) -> &mut [Queue] {
         &mut self.lanes
+    }
+
+    /// The same, to look at.
+    pub(crate) fn lanes(&self) -> &[Queue] {
+        &self.lanes
     }
 
     /// Vehicles that wait.

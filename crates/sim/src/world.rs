@@ -28,6 +28,7 @@ use crate::source::Source;
 use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
 use crate::trail::Trail;
+use crate::trips::{Trips, free_time};
 use crate::turn::next_turn;
 use crate::vehicle::Class;
 use crate::views::Views;
@@ -42,6 +43,7 @@ pub struct World {
     pub(crate) plans: Vec<Plan>,
     pub(crate) passages: Passages,
     pub(crate) records: Records,
+    pub(crate) trips: Trips,
     pub(crate) events: Vec<Event>,
     pub(crate) counts: Counts,
     /// One for each thread.
@@ -73,6 +75,13 @@ pub struct Counts {
     pub overlaps: u64,
     /// Time on the map of those that left [s].
     pub trip_time: f64,
+    /// Times that those that left came to a halt.
+    pub stops: u64,
+    /// Of those that left, those who had somewhere to go.
+    pub planned: u64,
+    /// What their trips took beyond the time on a free road, at the speeds that they desired, of the way that they had
+    /// before them when they entered [s].
+    pub delay: f64,
 }
 
 /// How a world is to run.
@@ -181,6 +190,7 @@ impl World {
             demand,
             random,
             records: Records::default(),
+            trips: Trips::default(),
             events: Vec::new(),
             counts: Counts::default(),
             outboxes: (0..setup.threads.max(1)).map(|_| Outbox::default()).collect(),
@@ -250,6 +260,9 @@ impl World {
         let body = class.body();
         let desired = class.desired_speed(style, self.network.chain(chain).limit(x)) as f32;
         let period = self.clock.steps(style.attention.epoch);
+        let destination = self.navigator.seen_by(class, destination);
+        let desires = |limit| class.desired_speed(style, limit);
+        self.trips.begin(id, free_time(&self.network, &self.navigator, destination, (chain, x), desires));
         let motion = Motion { x, speed, acceleration: 0.0, tightness: 1.0, length: body.length as f32, id };
         let car = Car {
             desired,
@@ -258,7 +271,7 @@ impl World {
             character,
             due: next_turn(id, self.clock.step, period),
             calm_until: 0,
-            goal: self.navigator.seen_by(class, destination).into(),
+            goal: destination.into(),
             class,
             phase: Phase::Cruises,
             is_shadow: false,

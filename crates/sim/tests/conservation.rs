@@ -36,7 +36,7 @@ fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_
                     entered += 1;
                     assert!(ids.insert(*vehicle), "{vehicle} entered twice");
                 }
-                Event::Left { vehicle, duration } => {
+                Event::Left { vehicle, duration, .. } => {
                     left += 1;
                     assert!(*duration > 0.0 && ids.remove(vehicle), "{vehicle} left twice");
                 }

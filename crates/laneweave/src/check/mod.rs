@@ -8,4 +8,4 @@ mod report;
 pub use graph::GraphJson;
 pub use picture::picture;
 pub use recording::{ChangeRow, RecordingReport, extension, open_recording, tracks};
-pub use report::{Opening, Report};
+pub use report::{Lit, Opening, Report};

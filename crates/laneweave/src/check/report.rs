@@ -4,9 +4,11 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Write};
 
 use laneweave_maps::{Map, Problem, RuleKind, check};
-use laneweave_network::{DrivingSide, Gate, Network};
+use laneweave_network::{ChainIndex, DrivingSide, Network, Sign};
+use laneweave_sim::{Place, Places};
 use serde::Serialize;
 
+use crate::scenario::driven;
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
 /// Kinds of problems that are listed in words.
@@ -37,10 +39,14 @@ pub struct Report {
     pub conflicts: usize,
     /// Lanes of the simulation: runs of lanelets without a fork or a merge.
     pub chains: usize,
-    /// Where vehicles come onto the map.
+    /// Where vehicles come onto the map and can drive to an exit; none on a closed map.
     pub entrances: Vec<Opening>,
-    /// Where they leave it.
+    /// Where they leave it; none on a closed map.
     pub exits: Vec<Opening>,
+    /// On a closed map, the lanelets along which trips start.
+    pub kerbs: usize,
+    /// Traffic lights.
+    pub lights: Vec<Lit>,
     /// The last lanelets of lanes that end beside a continuing one.
     pub lane_drops: Vec<i64>,
     /// Regulatory elements by kind.
@@ -58,11 +64,23 @@ pub struct Opening {
     pub lanes: usize,
 }
 
+/// A traffic light.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Lit {
+    /// Its name: the smallest id of the regulatory elements that drivers heed together.
+    pub id: i64,
+    /// The lanelets on which they stop.
+    pub lanelets: Vec<i64>,
+}
+
 impl Report {
     /// What `map` holds.
     pub fn of(map: &Map) -> Report {
         let Map { network, graph, rules, contents, problems, origin } = map;
-        let Network { lanelets, chains, entrances, exits, lane_drops, driving_side, .. } = network;
+        let Network { lanelets, chains, lane_drops, driving_side, .. } = network;
+        let (driven, Places { origins, destinations }) = driven(map);
+        let gates = |places: &[Place]| places.iter().filter_map(opening).collect::<Vec<_>>();
+        let (entrances, exits) = (gates(&origins), gates(&destinations));
         let limits = lanelets.iter().map(|it| it.speed_limit * KMH_PER_MPS);
         let bound = |pick: fn(f64, f64) -> f64| tenths(limits.clone().reduce(pick).unwrap_or_default());
         let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
@@ -90,8 +108,10 @@ impl Report {
             // A two-way lanelet is among its own.
             conflicts: (conflicts - two_way) / 2,
             chains: chains.len(),
-            entrances: entrances.iter().map(opening).collect(),
-            exits: exits.iter().map(opening).collect(),
+            kerbs: origins.len() - entrances.len(),
+            entrances,
+            exits,
+            lights: lights(&driven),
             lane_drops: lane_drops
                 .iter()
                 .filter_map(|it| network.chain(*it).lanelets.last())
@@ -139,7 +159,12 @@ impl Report {
         writeln!(out, "lanes (chains)         {}", self.chains)?;
         writeln!(out, "entrances              {}", openings(&self.entrances))?;
         writeln!(out, "exits                  {}", openings(&self.exits))?;
+        if self.kerbs > 0 {
+            writeln!(out, "closed                 trips start and end along {} lanelets", self.kerbs)?;
+        }
         writeln!(out, "lane drops             {}", listed(&self.lane_drops))?;
+        let lights: Vec<i64> = self.lights.iter().map(|it| it.id).collect();
+        writeln!(out, "traffic lights         {}", listed(&lights))?;
         let rules: Vec<String> = self.rules.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         writeln!(
             out,
@@ -167,8 +192,24 @@ fn tenths(number: f64) -> f64 {
     (10.0 * number).round() / 10.0
 }
 
-fn opening(gate: &Gate) -> Opening {
-    Opening { id: gate.id, lanes: gate.chains.len() }
+fn opening(place: &Place) -> Option<Opening> {
+    match place {
+        Place::Gate(gate) => Some(Opening { id: gate.id, lanes: gate.chains.len() }),
+        Place::Kerb(_) => None,
+    }
+}
+
+fn lights(network: &Network) -> Vec<Lit> {
+    let mut lights: Vec<Lit> =
+        network.junctions.lights.iter().map(|it| Lit { id: it.id, lanelets: Vec::new() }).collect();
+    for chain in (0..network.chains.len()).map(|it| ChainIndex(it as u32)) {
+        for stop in &network.junctions.on(chain).stops {
+            if let Sign::Light(light) = stop.sign {
+                lights[light.at()].lanelets.push(network.lanelet_at(chain, stop.station).0.id);
+            }
+        }
+    }
+    lights
 }
 
 /// Problems of one kind beside each other, in the order in which the kinds first came up.

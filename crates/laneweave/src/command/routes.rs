@@ -48,6 +48,8 @@ struct Way {
     length_m: f64,
     free_travel_time_s: f64,
     lane_changes: usize,
+    /// Ways over the same roads that were found, which differ in their lanes: this one and slower ones.
+    variants: usize,
     lanelets: Vec<Leg>,
 }
 
@@ -121,6 +123,7 @@ impl Way {
         Way {
             length_m: route.length,
             free_travel_time_s: route.time,
+            variants: route.variants,
             lane_changes: route.steps.iter().filter(|it| it.by != By::Following).count(),
             lanelets: legs.collect(),
         }
@@ -135,10 +138,14 @@ fn text(ways: &[Way], from: i64, to: i64) -> String {
     }
     let mut out = String::new();
     for (number, way) in ways.iter().enumerate() {
+        let variants = match way.variants {
+            1 => String::new(),
+            count => format!(", the fastest of {count} variants by lane"),
+        };
         // Writing to a string never fails.
         let _ = write!(
             out,
-            "{}. {:.0} m, {:.1} s at the speed limits, {} lane changes:\n  ",
+            "{}. {:.0} m, {:.1} s at the speed limits, {} lane changes{variants}:\n  ",
             number + 1,
             way.length_m,
             way.free_travel_time_s,

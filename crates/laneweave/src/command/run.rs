@@ -57,6 +57,9 @@ pub(crate) struct Arguments {
     /// Seconds between two samples of a trajectory; 0: no trajectories [default: 1].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     record: Option<f64>,
+    /// Seconds over which flow, density and speed of every lanelet are measured; 0: they are not [default: 0].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    flows: Option<f64>,
     /// Format of the tables [default: parquet].
     #[arg(long, value_name = "parquet|csv", value_parser = format)]
     format: Option<TableFormat>,
@@ -125,6 +128,7 @@ impl Arguments {
         replace(origin, ("run.threads", "--threads"), &mut run.threads, self.threads.map(Some));
         replace(origin, ("output.dir", "--out"), &mut output.dir, self.out);
         replace(origin, ("output.record_s", "--record"), &mut output.record_s, self.record);
+        replace(origin, ("output.flows_s", "--flows"), &mut output.flows_s, self.flows);
         replace(origin, ("output.format", "--format"), &mut output.format, self.format);
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
@@ -161,7 +165,7 @@ pub(crate) fn run(
         files.push(observer.finish(&prepared.world)?);
     }
     let wall_s = started.elapsed().as_secs_f64();
-    let summary = Summary::of(&prepared, Inputs { scenario, ending, wall_s, load_s });
+    let summary = Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s });
     let json = serde_json::to_string_pretty(&summary)
         .map_err(|error| Fault::new("summary.json", error, "report this as a bug"))?
         + "\n";

@@ -1,8 +1,10 @@
 //! What a run leaves behind: tables, figures and a summary, each made by an observer that reads the world and never
 //! writes it.
 
+mod flows;
 mod lane_change_rate;
 mod lane_changes;
+mod queues;
 mod road;
 mod summary;
 mod time_space;
@@ -18,8 +20,10 @@ use laneweave_study::{Format, TableError};
 use crate::fault::Fault;
 use crate::scenario::{Prepared, Scenario, TableFormat};
 
+pub use flows::Flows;
 pub use lane_change_rate::LaneChangeRate;
 pub use lane_changes::LaneChanges;
+pub use queues::{HeldFor, Queue, Queues};
 pub use summary::{Inputs, Summary};
 pub use time_space::TimeSpace;
 pub use trajectories::Trajectories;
@@ -51,6 +55,10 @@ pub fn observers(scenario: &Scenario, prepared: &Prepared) -> Result<Vec<Box<dyn
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
         observers.push(Box::new(Trajectories::create(dir, format, steps)?));
+    }
+    if let Some(every) = prepared.flows_steps {
+        let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
+        observers.push(Box::new(Flows::create(dir, format, &prepared.world, every, measured)?));
     }
     observers.push(Box::new(LaneChanges::create(dir, format, begin)?));
     let duration = f64::from(prepared.steps) * scenario.run.step_s;

@@ -6,9 +6,13 @@ use std::path::PathBuf;
 use laneweave_sim::World;
 use serde::Serialize;
 
+use super::queues::Queue;
 use crate::scenario::{Prepared, Scenario};
 use crate::simulation::Ending;
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
+
+/// Queues that are named on the screen.
+const LISTED_QUEUES: usize = 3;
 
 /// The numbers of a run. Fields are added, never renamed; what cannot be known (a mean of nothing) is null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -59,6 +63,12 @@ pub struct Summary {
     pub mean_speed_mps: Option<f64>,
     /// Mean time on the map of those that left [s].
     pub mean_trip_duration_s: Option<f64>,
+    /// Mean of what the trips of those that left took beyond the time on a free road [s].
+    pub mean_delay_s: Option<f64>,
+    /// Mean number of times that those that left came to a halt.
+    pub mean_stops: Option<f64>,
+    /// The queues that are left at the entrances, the longest first.
+    pub queues: Vec<Queue>,
     /// Most memory that the process held [MB]; 0 where the system does not tell.
     pub peak_rss_mb: f64,
     /// Hash of all vehicles' states at the end, 16 hexadecimal digits.
@@ -87,7 +97,7 @@ pub struct Inputs<'a> {
     /// The scenario.
     pub scenario: &'a Scenario,
     /// How the run ended.
-    pub ending: Ending,
+    pub ending: &'a Ending,
     /// See [`Summary::wall_s`].
     pub wall_s: f64,
     /// See [`Summary::load_s`].
@@ -126,6 +136,9 @@ impl Summary {
             updates_per_s: ratio(tally.updates as f64, wall_s - load_s).unwrap_or(0.0),
             mean_speed_mps: ratio(tally.distance, tally.updates as f64 * scenario.run.step_s),
             mean_trip_duration_s: ratio(counts.trip_time, counts.left as f64),
+            mean_delay_s: ratio(counts.delay, counts.planned as f64),
+            mean_stops: ratio(counts.stops as f64, counts.left as f64),
+            queues: ending.queues.clone(),
             peak_rss_mb: peak_rss_mb(),
             state_hash: format!("{:016x}", world.state_hash()),
             demand_veh_h: prepared.demand_veh_h,
@@ -150,7 +163,8 @@ impl Summary {
             let _ = writeln!(text, "  {name:<17}{value}");
         };
         let speed = self.mean_speed_mps.map_or("-".into(), |it| format!("{:.1} km/h", it * KMH_PER_MPS));
-        let trip = self.mean_trip_duration_s.map_or("-".into(), |it| format!("{it:.0} s"));
+        let mean = |mean: Option<f64>, unit| mean.map_or("-".into(), |it| format!("{it:.0}{unit}"));
+        let stops = self.mean_stops.map_or("-".into(), |it| format!("{it:.1}"));
         let per_km =
             |count: u64| ratio(count as f64, self.veh_km).map_or("-".into(), |it| format!("{it:.3}"));
         let early = if self.interrupted { ", interrupted" } else { "" };
@@ -173,7 +187,19 @@ impl Summary {
                 self.entered, self.left, self.on_road, self.waiting
             ),
         );
-        line("mean speed", format!("{speed} over {:.0} veh-km; mean trip {trip}", self.veh_km));
+        // The longest queues say enough.
+        for (number, queue) in self.queues.iter().take(LISTED_QUEUES).enumerate() {
+            line(if number == 0 { "waiting" } else { "" }, queue.to_text());
+        }
+        line("mean speed", format!("{speed} over {:.0} veh-km", self.veh_km));
+        line(
+            "mean trip",
+            format!(
+                "{}, of it {} of delay; {stops} stops",
+                mean(self.mean_trip_duration_s, " s"),
+                mean(self.mean_delay_s, " s")
+            ),
+        );
         line(
             "lane changes",
             format!(

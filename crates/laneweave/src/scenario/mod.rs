@@ -5,6 +5,7 @@ mod headways;
 mod mixture;
 mod origin;
 mod prepare;
+mod signals;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -17,7 +18,9 @@ use crate::style::DEFAULT_MIXTURE;
 
 pub use headways::Headways;
 pub use origin::Origin;
+pub(crate) use prepare::driven;
 pub use prepare::{Prepared, open_map, prepare};
+pub use signals::{Signal, SignalPhase};
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +34,9 @@ pub struct Scenario {
     /// Who comes, how many, and where they go.
     #[serde(default)]
     pub demand: Demand,
+    /// Programs of lights; the others are given one.
+    #[serde(default)]
+    pub signals: Vec<Signal>,
     /// How long and how finely to simulate.
     #[serde(default)]
     pub run: Run,
@@ -178,13 +184,15 @@ pub struct Output {
     pub dir: PathBuf,
     /// Time between two samples of a trajectory [s]; 0: no trajectories.
     pub record_s: f64,
+    /// Length of the intervals over which flow, density and speed of every lanelet are measured [s]; 0: they are not.
+    pub flows_s: f64,
     /// Format of the tables.
     pub format: TableFormat,
 }
 
 impl Default for Output {
     fn default() -> Output {
-        Output { dir: "out".into(), record_s: 1.0, format: TableFormat::Parquet }
+        Output { dir: "out".into(), record_s: 1.0, flows_s: 0.0, format: TableFormat::Parquet }
     }
 }
 
@@ -209,6 +217,7 @@ impl Scenario {
             map,
             map_options: MapOptions::default(),
             demand: Demand::default(),
+            signals: Vec::new(),
             run: Run::default(),
             styles: default_styles(),
             output: Output::default(),

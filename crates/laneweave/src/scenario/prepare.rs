@@ -10,6 +10,7 @@ use laneweave_sim::{Place, Places, Rate, Setup, World};
 
 use super::demand::{check_ways, demand};
 use super::mixture::mixture;
+use super::signals::plans;
 use super::{MapOptions, Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
@@ -23,6 +24,9 @@ const USUAL_THREADS: usize = 2;
 const STEPS: (f64, f64) = (0.01, 1.0);
 /// Longest time that can be simulated [s].
 const LONGEST: f64 = 1e7;
+/// What the intervals of the output are called.
+const RECORDING: &str = "a recording interval";
+const FLOWS: &str = "an interval of flows";
 
 /// A scenario that is ready to run.
 pub struct Prepared {
@@ -34,6 +38,8 @@ pub struct Prepared {
     pub steps: u32,
     /// Steps between two samples of a trajectory, if there are any.
     pub record_steps: Option<u32>,
+    /// Steps over which flows are measured, if they are.
+    pub flows_steps: Option<u32>,
     /// Mean demand over all origins while it is measured [veh/h].
     pub demand_veh_h: f64,
     /// Where trips start, each with its demand [veh/h].
@@ -55,14 +61,15 @@ pub struct Prepared {
 pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
     let threads = threads(scenario, origin)?;
-    let record_steps = record_steps(scenario, origin)?;
+    let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
+    let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
+    let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
-    let regulations = regulations(&map);
-    let Map { network, graph, problems, .. } = map;
-    let network = network.regulated(&regulations);
-    let places = places(&network, &graph);
+    let (network, places) = driven(&map);
+    let plans = plans(scenario, origin, &network)?;
+    let network = network.with_signals(&plans);
     if places.origins.is_empty() {
         let what = "nobody can drive on the map: no lanelet of 10 m or more begins at its edge, and from none of 20 m or \
                     more that shares its ground with no other can another be reached";
@@ -80,19 +87,27 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
     check_ways(scenario, origin, &world)?;
-    let in_steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
+    let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
-        warmup_steps: in_steps(scenario.run.warmup_s),
-        steps: in_steps(scenario.run.duration_s).max(1),
+        warmup_steps: steps(scenario.run.warmup_s),
+        steps: steps(scenario.run.duration_s).max(1),
         record_steps,
+        flows_steps,
         demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
         origins,
         entrance_capacity_veh_h: capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
-        problems,
+        problems: map.problems,
         world,
     })
+}
+
+/// The roads of `map` with their junctions, and where trips on them start and end.
+pub(crate) fn driven(map: &Map) -> (Network, Places) {
+    let network = map.network.clone().regulated(&regulations(map));
+    let places = places(&network, &map.graph);
+    (network, places)
 }
 
 /// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.
@@ -121,23 +136,29 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
     let room = room - demand.buses;
     check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
-    check(&["output", "record_s"], "a recording interval", output.record_s, (0.0, LONGEST), " s")
+    check(&["output", "record_s"], RECORDING, output.record_s, (0.0, LONGEST), " s")?;
+    check(&["output", "flows_s"], FLOWS, output.flows_s, (0.0, LONGEST), " s")
 }
 
-/// The recording interval in steps; none for an interval of 0.
-fn record_steps(scenario: &Scenario, origin: &Origin) -> Result<Option<u32>, Fault> {
+/// The interval [s] that the `key` of the output gives, and that is called `what`, in steps; none for an interval of 0.
+fn whole_steps(
+    step: f64,
+    origin: &Origin,
+    key: &str,
+    what: &str,
+    interval: f64,
+) -> Result<Option<u32>, Fault> {
     /// How far an interval may be off a whole number of steps, in steps.
     const TOLERANCE: f64 = 1e-6;
-    let (interval, step) = (scenario.output.record_s, scenario.run.step_s);
     let steps = interval / step;
     if (steps - steps.round()).abs() <= TOLERANCE {
         return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
     }
     // Rounded, as 3 × 0.1 would be shown with all its digits.
     let above = (steps.ceil() * step * 1e6).round() / 1e6;
-    let what = format!("a recording interval of {interval} s with steps of {step} s");
+    let what = format!("{what} of {interval} s with steps of {step} s");
     let remedy = format!("choose a multiple of the step, such as {above} s");
-    Err(Fault::new(origin.place(&["output", "record_s"]), what, remedy))
+    Err(Fault::new(origin.place(&["output", key]), what, remedy))
 }
 
 fn threads(scenario: &Scenario, origin: &Origin) -> Result<usize, Fault> {

@@ -14,5 +14,6 @@ mod program;
 mod run;
 #[cfg(test)]
 mod schema;
+mod signals;
 #[cfg(test)]
 mod styles;

@@ -67,6 +67,12 @@ fn options_out_of_range() {
             "--record: a recording interval of 0.25 s with steps of 0.1 s; \
              choose a multiple of the step, such as 0.3 s",
         ),
+        ("--flows -1", "--flows: an interval of flows of -1 s; choose 0 to 10000000 s"),
+        (
+            "--flows 60.05",
+            "--flows: an interval of flows of 60.05 s with steps of 0.1 s; \
+             choose a multiple of the step, such as 60.1 s",
+        ),
         (
             "--style aggressive=-1",
             "--style: the style \"aggressive\" has the weight -1; give it a finite weight of 0 or more",

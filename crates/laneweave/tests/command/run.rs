@@ -62,6 +62,32 @@ fn the_summary_has_all_its_fields_and_adds_up() {
 }
 
 #[test]
+fn flows_are_measured_where_that_is_asked_for() {
+    let folder = Folder::new();
+    folder.summary("MAPS/motorway_2_lanes.osm --duration 90 --record 0 --flows 60 --format csv");
+    let table = folder.read("out/flows.csv");
+    let times: Vec<&str> = table.lines().skip(1).map(|it| it.rsplitn(5, ',').last().unwrap()).collect();
+    assert!(times.iter().all(|it| ["0.0,60.0", "60.0,90.0"].contains(it)), "{}", times[0]);
+    assert!(times.len() > 10 && times.contains(&"60.0,90.0"));
+}
+
+#[test]
+fn queues_at_the_entrances_are_named_with_what_holds_them() {
+    let folder = Folder::new();
+    let line = "run MAPS/grid.osm --demand 9000 --duration 300 --record 0";
+    let summary = folder.summary(&line["run ".len()..]);
+    let queues = summary["queues"].as_array().unwrap();
+    let waiting: Vec<f64> = queues.iter().map(|it| number(it, "waiting")).collect();
+    assert_eq!(waiting.iter().sum::<f64>(), number(&summary, "waiting"));
+    assert!(waiting.len() > 3 && waiting.is_sorted_by(|a, b| a >= b), "{waiting:?}");
+    assert!(queues.iter().any(|it| number(&it["held_s"], "red_light") > 10.0));
+    assert!(number(&summary, "mean_delay_s") > 0.0 && number(&summary, "mean_stops") > 0.0);
+    let text = folder.laneweave(line).text();
+    let first = format!("{} at lanelet {}", waiting[0], queues[0]["lanelet"]);
+    assert!(text.contains(&first) && text.contains("a red light"), "{first}: {text}");
+}
+
+#[test]
 fn the_number_of_threads_and_a_second_run_change_nothing() {
     let folder = Folder::new();
     let hash = |threads: u32| {

@@ -3,9 +3,11 @@
 mod kinship;
 mod light;
 mod precedence;
+mod signals;
 mod zone;
 
 pub use light::{Light, LightIndex, LightState, Phase, Program};
+pub use signals::{LightConflict, SignalPlan, Turn};
 pub use zone::{Precedence, Reach, Zone, ZoneIndex, ZoneKind};
 
 use crate::build::Network;
@@ -141,8 +143,12 @@ impl Junctions {
         junctions.place_stops(network, regulations);
         junctions.note_places();
         junctions.look_beyond(network);
-        junctions.lights = light::with_made_programs(network, &junctions);
+        junctions.lights = signals::with_made_programs(network, &junctions);
         junctions
+    }
+
+    pub(crate) fn light_conflicts(&self, network: &Network) -> Vec<LightConflict> {
+        signals::conflicts(network, self)
     }
 
     /// What drivers meet on `chain`.

@@ -3,7 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use laneweave_network::{
-    Junctions, LaneletIndex, LightState, Phase, Point, Polyline, Program, Regulations, StopKind, StopRule,
+    Junctions, LaneletIndex, LightIndex, LightState, Phase, Point, Polyline, Program, Regulations,
+    SignalPlan, StopKind, StopRule, Turn,
 };
 
 use crate::drawn::{Lanes, arc, straight};
@@ -69,7 +70,7 @@ fn moments() -> impl Iterator<Item = f64> {
 }
 
 fn program(phases: &[(f64, f64)]) -> Program {
-    let phases = phases.iter().map(|(from, to)| Phase { from: *from, to: *to }).collect();
+    let phases = phases.iter().map(|(from, to)| Phase { from: *from, to: *to, yellow: 3.0 }).collect();
     Program { cycle: 60.0, phases }
 }
 
@@ -162,6 +163,25 @@ fn the_yellow_of_a_green_at_the_end_of_a_cycle_reaches_into_the_next() {
     // Green comes before the yellow of another phase.
     let states = [39.0, 57.999, 58.0, 60.0, 60.499, 60.5, 80.0, 83.0].map(|at| last.state(at));
     assert_eq!(states, [Red, Green, Yellow, Yellow, Yellow, Green, Yellow, Red]);
+}
+
+#[test]
+fn a_light_stays_green_through_turns_that_follow_on_each_other_also_over_the_end_of_the_cycle() {
+    let turn = |lights: &[u32]| Turn {
+        lights: lights.iter().map(|it| LightIndex(*it)).collect(),
+        green: 10.0,
+        yellow: 4.0,
+        all_red: 1.0,
+    };
+    let plan =
+        SignalPlan { offset: 7.0, turns: vec![turn(&[0, 1]), turn(&[1, 3]), turn(&[2, 3]), turn(&[0, 3])] };
+    assert_eq!(plan.cycle(), 60.0);
+    let phase = |from: f64, to: f64| Program { cycle: 60.0, phases: vec![Phase { from, to, yellow: 4.0 }] };
+    let expected = [phase(52.0, 77.0), phase(7.0, 32.0), phase(37.0, 47.0), phase(22.0, 62.0)];
+    assert_eq!([0, 1, 2, 3].map(|it| plan.program(LightIndex(it))), expected);
+    let always = SignalPlan { offset: 0.0, turns: vec![turn(&[0]), turn(&[0, 1])] };
+    assert_eq!(always.program(LightIndex(0)), Program::ALWAYS_GREEN);
+    assert_eq!(always.program(LightIndex(1)).green_share(), 1.0 / 3.0);
 }
 
 #[test]

@@ -1,0 +1,136 @@
+//! Who waits at the entrances, and what holds them: a part of the summary.
+
+use laneweave_sim::{EntryQueue, Held, World};
+use serde::Serialize;
+
+/// Time between two looks at the queues [s].
+const SAMPLING: f64 = 1.0;
+
+/// Watches the queues at all lanes of all entrances.
+#[derive(Clone, Debug)]
+pub struct Queues {
+    /// In the order of the demand.
+    lanes: Vec<Queue>,
+}
+
+/// The queue for one lane of an entrance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Queue {
+    /// The entrance's name: the smallest id of its lanelets.
+    pub entrance: i64,
+    /// The lanelet onto which they come.
+    pub lanelet: i64,
+    /// Vehicles that wait at the end.
+    pub waiting: usize,
+    /// The most that ever waited.
+    pub most_waiting: usize,
+    /// How long the first in the queue was held, and by what.
+    pub held_s: HeldFor,
+}
+
+/// Times for which the first in a queue was held [s].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct HeldFor {
+    /// The traffic on the lane moved, but left no gap.
+    pub traffic: f64,
+    /// The vehicles ahead stood, for none of the following reasons.
+    pub queue: f64,
+    /// They stood because of a red light.
+    pub red_light: f64,
+    /// They stood because others went first at a junction, or a sign stopped them.
+    pub priority: f64,
+    /// They stood because there was no room beyond a junction; or the room at a kerb was kept for others.
+    pub room: f64,
+    /// The whole map was full: no trip began within it.
+    pub full_map: f64,
+}
+
+impl HeldFor {
+    fn of(&mut self, held: Held) -> &mut f64 {
+        match held {
+            Held::Traffic => &mut self.traffic,
+            Held::Queue => &mut self.queue,
+            Held::RedLight => &mut self.red_light,
+            Held::Priority => &mut self.priority,
+            Held::Room => &mut self.room,
+            Held::FullMap => &mut self.full_map,
+        }
+    }
+
+    /// The reasons in words with their times, the longest first.
+    fn reasons(&self) -> Vec<(&'static str, f64)> {
+        let HeldFor { traffic, queue, red_light, priority, room, full_map } = *self;
+        let mut reasons = vec![
+            ("no gap in the traffic", traffic),
+            ("a queue ahead", queue),
+            ("a red light", red_light),
+            ("others go first", priority),
+            ("no room beyond a junction", room),
+            ("a full map", full_map),
+        ];
+        reasons.retain(|(_, time)| *time > 0.0);
+        reasons.sort_by(|a, b| b.1.total_cmp(&a.1));
+        reasons
+    }
+}
+
+impl Queues {
+    /// Of `world`, before anybody was held.
+    pub fn of(world: &World) -> Queues {
+        Queues { lanes: world.queues().map(|it| Queue::at(world, &it)).collect() }
+    }
+
+    /// Looks at them after a step.
+    pub fn observe(&mut self, world: &World) {
+        let clock = world.clock();
+        if !clock.step.is_multiple_of(clock.steps(SAMPLING)) {
+            return;
+        }
+        for (lane, now) in self.lanes.iter_mut().zip(world.queues()) {
+            lane.most_waiting = lane.most_waiting.max(now.waiting);
+            if let Some(held) = now.held {
+                *lane.held_s.of(held) += f64::from(clock.steps(SAMPLING)) * clock.dt;
+            }
+        }
+    }
+
+    /// Those in which vehicles wait now, the longest first.
+    pub fn left(self, world: &World) -> Vec<Queue> {
+        let now = self.lanes.into_iter().zip(world.queues());
+        let with_numbers = now.map(|(lane, now)| Queue {
+            waiting: now.waiting,
+            most_waiting: lane.most_waiting.max(now.waiting),
+            ..lane
+        });
+        let mut left: Vec<Queue> = with_numbers.filter(|it| it.waiting > 0).collect();
+        left.sort_by_key(|it| std::cmp::Reverse(it.waiting));
+        left
+    }
+}
+
+impl Queue {
+    fn at(world: &World, queue: &EntryQueue) -> Queue {
+        Queue {
+            entrance: world.demand().origins[queue.origin].place.id(),
+            lanelet: world.network().lanelet_at(queue.chain, queue.station).0.id,
+            waiting: 0,
+            most_waiting: 0,
+            held_s: HeldFor::default(),
+        }
+    }
+
+    /// The queue in a line of text.
+    pub fn to_text(&self) -> String {
+        let Queue { entrance, lanelet, waiting, held_s, .. } = self;
+        let place = if entrance == lanelet {
+            format!("lanelet {lanelet}")
+        } else {
+            format!("lanelet {lanelet} of entrance {entrance}")
+        };
+        let reasons = held_s.reasons();
+        let total: f64 = reasons.iter().map(|(_, time)| time).sum();
+        let shares: Vec<String> =
+            reasons.iter().map(|(what, time)| format!("{what} {:.0} %", 100.0 * time / total)).collect();
+        format!("{waiting} at {place}; held by: {}", shares.join(", "))
+    }
+}

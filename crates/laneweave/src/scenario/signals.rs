@@ -1,0 +1,203 @@
+//! Programs of lights as a scenario has them.
+
+use laneweave_network::{LightConflict, LightIndex, Network, SignalPlan, Turn};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Origin, Scenario};
+use crate::fault::Fault;
+
+/// A program for lights that get in each other's way: its phases, one after the other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Signal {
+    /// When the first phase begins [s].
+    #[serde(default)]
+    pub offset_s: f64,
+    /// Length of a cycle [s], if it is to be checked: all its phases together.
+    pub cycle_s: Option<f64>,
+    /// The phases in order.
+    pub phases: Vec<SignalPhase>,
+}
+
+/// Some lights are green, then yellow, and then all are red.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SignalPhase {
+    /// Ids of the lights that are green; one that is green in the next phase, too, stays green in between.
+    pub green: Vec<i64>,
+    /// Length of green [s].
+    pub green_s: f64,
+    /// Length of the yellow after it [s].
+    #[serde(default = "usual_yellow")]
+    pub yellow_s: f64,
+    /// Length of red for all after that [s].
+    #[serde(default = "usual_all_red")]
+    pub all_red_s: f64,
+}
+
+/// That of made programs [s].
+fn usual_yellow() -> f64 {
+    3.0
+}
+
+/// The least of made programs [s].
+fn usual_all_red() -> f64 {
+    2.0
+}
+
+/// Lights that are named where one is not known.
+const LISTED: usize = 8;
+/// Longest part of a phase [s].
+const LONGEST: f64 = 3600.0;
+
+/// The plans of the lights of `network`.
+///
+/// # Errors
+/// If a light is not there, a number makes no sense, or lights that get in each other's way are green together.
+pub(super) fn plans(
+    scenario: &Scenario,
+    origin: &Origin,
+    network: &Network,
+) -> Result<Vec<SignalPlan>, Fault> {
+    let conflicts = if scenario.signals.is_empty() { Vec::new() } else { network.light_conflicts() };
+    let mut plans: Vec<SignalPlan> = Vec::new();
+    for (signal, number) in scenario.signals.iter().zip(0..) {
+        let place = Place { origin, number };
+        let plan = plan(signal, &place, network)?;
+        let lights = |plan: &SignalPlan| -> Vec<LightIndex> {
+            plan.turns.iter().flat_map(|it| it.lights.iter().copied()).collect()
+        };
+        let taken: Vec<LightIndex> = plans.iter().flat_map(lights).collect();
+        if let Some(twice) = lights(&plan).iter().find(|it| taken.contains(it)) {
+            let what = format!("the light {} has a program already", name(network, *twice));
+            return Err(Fault::new(place.of(&["phases"]), what, "name it in one of them only"));
+        }
+        check_conflicts(&plan, &place, network, &conflicts)?;
+        plans.push(plan);
+    }
+    Ok(plans)
+}
+
+/// Where a program stands in its scenario.
+struct Place<'a> {
+    origin: &'a Origin,
+    number: usize,
+}
+
+impl Place<'_> {
+    fn of(&self, path: &[&str]) -> String {
+        let number = self.number.to_string();
+        self.origin.place(&[&["signals", &number], path].concat())
+    }
+
+    fn in_phase(&self, phase: usize, key: &str) -> String {
+        self.of(&["phases", &phase.to_string(), key])
+    }
+}
+
+fn plan(signal: &Signal, place: &Place, network: &Network) -> Result<SignalPlan, Fault> {
+    if signal.phases.is_empty() {
+        return Err(Fault::new(place.of(&["phases"]), "a program without phases", "give it one or more"));
+    }
+    if !signal.offset_s.is_finite() {
+        let what = format!("an offset of {} s", signal.offset_s);
+        return Err(Fault::new(place.of(&["offset_s"]), what, "choose a finite one"));
+    }
+    let mut turns = Vec::new();
+    for (phase, number) in signal.phases.iter().zip(0..) {
+        let SignalPhase { green_s: green, yellow_s: yellow, all_red_s: all_red, .. } = *phase;
+        let check = |key: &str, what: &str, value: f64, is_positive: bool| {
+            if value <= LONGEST && (value > 0.0 || (value == 0.0 && !is_positive)) {
+                return Ok(());
+            }
+            let least = if is_positive { "more than 0" } else { "0" };
+            let remedy = format!("choose {least} to {LONGEST} s");
+            Err(Fault::new(place.in_phase(number, key), format!("{what} of {value} s"), remedy))
+        };
+        check("green_s", "a green", green, true)?;
+        check("yellow_s", "a yellow", yellow, true)?;
+        check("all_red_s", "a red for all", all_red, false)?;
+        let lights = phase.green.iter().map(|id| light(network, *id, place.in_phase(number, "green")));
+        turns.push(Turn { lights: lights.collect::<Result<_, _>>()?, green, yellow, all_red });
+    }
+    let plan = SignalPlan { offset: signal.offset_s, turns };
+    match signal.cycle_s {
+        // A millisecond is no mistake.
+        Some(cycle) if cycle.is_nan() || (cycle - plan.cycle()).abs() > 1e-3 => {
+            let what = format!("a cycle of {cycle} s, but its phases last {} s", plan.cycle());
+            Err(Fault::new(place.of(&["cycle_s"]), what, "leave it out, or change a phase"))
+        }
+        _ => Ok(plan),
+    }
+}
+
+/// The light with this id.
+fn light(network: &Network, id: i64, place: String) -> Result<LightIndex, Fault> {
+    let lights = &network.junctions.lights;
+    let index = lights.iter().position(|it| it.id == id);
+    index.map(|it| LightIndex(it as u32)).ok_or_else(|| {
+        let mut known: Vec<i64> = lights.iter().map(|it| it.id).collect();
+        known.sort_by_key(|it| it.abs_diff(id));
+        let nearest: Vec<String> = known.iter().take(LISTED).map(i64::to_string).collect();
+        let remedy = match known.len() {
+            0 => "leave it out".into(),
+            1..=LISTED => format!("its lights are {}", nearest.join(", ")),
+            count => format!("the nearest of its {count} lights are {}", nearest.join(", ")),
+        };
+        Fault::new(place, format!("the map has no light {id}"), remedy)
+    })
+}
+
+/// Whether no lights are green together that would send their drivers into each other, and none is left out that would.
+fn check_conflicts(
+    plan: &SignalPlan,
+    place: &Place,
+    network: &Network,
+    conflicts: &[LightConflict],
+) -> Result<(), Fault> {
+    for conflict in conflicts {
+        let [one, other] = conflict.lights;
+        let phase_of = |light| plan.turns.iter().position(|it| it.lights.contains(&light));
+        let left_out = match (phase_of(one), phase_of(other)) {
+            (Some(phase), None) => Some((phase, one, other)),
+            (None, Some(phase)) => Some((phase, other, one)),
+            _ => None,
+        };
+        if let Some((phase, named, left_out)) = left_out {
+            let [named, left_out] = [named, left_out].map(|it| name(network, it));
+            let ways = ways(network, conflict);
+            let what = format!("the light {left_out} has no phase, but gets in the way of {named}: {ways}");
+            return Err(Fault::new(
+                place.in_phase(phase, "green"),
+                what,
+                "name it in a phase of this program",
+            ));
+        }
+        let together =
+            plan.turns.iter().position(|it| it.lights.contains(&one) && it.lights.contains(&other));
+        if let Some(phase) = together.filter(|_| !conflict.is_ordered) {
+            let [one, other] = [one, other].map(|it| name(network, it));
+            let ways = ways(network, conflict);
+            let what = format!(
+                "the lights {one} and {other} are green together, but {ways}, and neither goes first"
+            );
+            return Err(Fault::new(place.in_phase(phase, "green"), what, "give them different phases"));
+        }
+    }
+    Ok(())
+}
+
+fn name(network: &Network, light: LightIndex) -> i64 {
+    network.junctions.lights[light.at()].id
+}
+
+/// The ways that meet, in words.
+fn ways(network: &Network, conflict: &LightConflict) -> String {
+    let zone = &network.junctions.zones[conflict.zone.at()];
+    let lanelets = [conflict.side, 1 - conflict.side].map(|side| {
+        let reach = &zone.sides[usize::from(side)];
+        network.lanelet_at(reach.chain, 0.5 * (reach.start + reach.end)).0.id
+    });
+    format!("lanelets {} and {} meet", lanelets[0], lanelets[1])
+}

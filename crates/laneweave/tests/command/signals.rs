@@ -1,0 +1,94 @@
+//! Programs of lights from the scenario.
+
+use crate::program::Folder;
+
+/// A folder with one junction whose four arms of two lanes have the lights 65 to 72, two an arm, and a scenario with `signals`.
+fn folder(signals: &str) -> Folder {
+    let scenario = format!(
+        "map = \"one.osm\"\n[demand]\nvehicles_per_hour = 2000\n[run]\nduration_s = 600\n[output]\nrecord_s = 0\n{signals}\n"
+    );
+    let folder = Folder::new().with("own.toml", &scenario);
+    assert_eq!(folder.laneweave("generate grid --rows 1 --columns 1 one.osm").code(), 0);
+    folder
+}
+
+const EAST_AND_WEST: &str = "[65, 66, 69, 70]";
+const NORTH_AND_SOUTH: &str = "[67, 68, 71, 72]";
+
+#[test]
+fn lights_follow_the_program_of_the_scenario() {
+    let delay = |signals: &str| {
+        let summary = folder(signals).summary("own.toml");
+        assert_eq!((&summary["collisions"], &summary["stuck"]), (&0.into(), &0.into()));
+        summary["mean_delay_s"].as_f64().unwrap()
+    };
+    let two_phases = format!(
+        "[[signals]]\noffset_s = 5\ncycle_s = 60\nphases = [\n  {{ green = {EAST_AND_WEST}, green_s = 25 }},\n  \
+         {{ green = {NORTH_AND_SOUTH}, green_s = 24, yellow_s = 4 }},\n]"
+    );
+    // The made program has a turn for each arm.
+    let [made, own] = [delay(""), delay(&two_phases)];
+    assert!(own < 0.5 * made, "{own} s against {made} s");
+}
+
+#[test]
+fn an_entrance_before_a_light_takes_in_what_passes_at_green() {
+    let signals = format!(
+        "[[signals]]\nphases = [{{ green = {EAST_AND_WEST}, green_s = 25 }}, \
+         {{ green = {NORTH_AND_SOUTH}, green_s = 15 }}]"
+    );
+    let capacity =
+        |folder: &Folder| folder.summary("own.toml --duration 1")["entrance_capacity"].as_f64().unwrap();
+    let with_lights = folder(&signals);
+    let at_green = capacity(&with_lights);
+    let line = "generate grid --rows 1 --columns 1 --control priority one.osm";
+    let without = Folder::new().with("own.toml", "map = \"one.osm\"\n[output]\nrecord_s = 0\n");
+    assert_eq!(without.laneweave(line).code(), 0);
+    // Half of the lanes are green for 25 s of 50 s, the others for 15 s.
+    let expected = 0.5 * (25.0 + 15.0) / 50.0 * capacity(&without);
+    assert!((at_green / expected - 1.0).abs() < 1e-9, "{at_green} is not {expected}");
+}
+
+#[test]
+fn a_program_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
+    let green = |lights: &str| format!("{{ green = {lights}, green_s = 25 }}");
+    let two = format!("{}, {}", green(EAST_AND_WEST), green(NORTH_AND_SOUTH));
+    for (signals, message) in [
+        (
+            format!("[[signals]]\nphases = [{}]", green("[1]")),
+            "own.toml:9:13: the map has no light 1; its lights are 65, 66, 67, 68, 69, 70, 71, 72",
+        ),
+        (
+            format!("[[signals]]\nphases = [{}]", green("[65, 67]")),
+            "own.toml:9:13: the lights 65 and 67 are green together, but lanelets 50 and 53 meet, and neither goes \
+             first; give them different phases",
+        ),
+        (
+            format!("[[signals]]\nphases = [{}]", green(EAST_AND_WEST)),
+            "own.toml:9:13: the light 67 has no phase, but gets in the way of 65: lanelets 50 and 53 meet; name it in a \
+             phase of this program",
+        ),
+        (
+            "[[signals]]\nphases = [{ green = [65], green_s = 0 }]".into(),
+            "own.toml:9:27: a green of 0 s; choose more than 0 to 3600 s",
+        ),
+        (
+            "[[signals]]\nphases = [{ green = [65], green_s = 9, yellow_s = -1 }]".into(),
+            "own.toml:9:40: a yellow of -1 s; choose more than 0 to 3600 s",
+        ),
+        (
+            format!("[[signals]]\ncycle_s = 61\nphases = [{two}]"),
+            "own.toml:9:1: a cycle of 61 s, but its phases last 60 s; leave it out, or change a phase",
+        ),
+        ("[[signals]]\nphases = []".into(), "own.toml:9:1: a program without phases; give it one or more"),
+        (
+            format!("[[signals]]\nphases = [{two}]\n[[signals]]\nphases = [{}]", green("[65]")),
+            "own.toml:11:1: the light 65 has a program already; name it in one of them only",
+        ),
+    ] {
+        let folder = folder(&signals);
+        let run = folder.laneweave("run own.toml");
+        assert_eq!((run.code(), run.errors().trim()), (2, format!("error: {message}").as_str()), "{signals}");
+        assert!(!folder.holds("out"));
+    }
+}

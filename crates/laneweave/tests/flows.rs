@@ -1,0 +1,63 @@
+//! The table `flows` holds what vehicles drove, and nothing else.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use laneweave::output::{Flows, Observer};
+use laneweave::scenario::{Origin, Scenario, prepare};
+use laneweave::simulation::simulate;
+use laneweave::study::Format;
+
+/// Seconds that all vehicles spent on the lanelets, and metres that they drove there, from the rows of the table; and the same
+/// as the world counted them, with the number of those who left.
+fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
+    let mut scenario = Scenario::of_map(path);
+    scenario.demand.vehicles_per_hour = Some(demand);
+    (scenario.run.warmup_s, scenario.run.duration_s) = (60.0, 200.0);
+    let dir = std::env::temp_dir().join(format!("laneweave-flows-{}-{map}", std::process::id()));
+    std::fs::create_dir_all(&dir).expect("it can be done");
+    let mut prepared = prepare(&scenario, &Origin::default()).expect("it can be done");
+    let flows =
+        Flows::create(&dir, Format::Csv, &prepared.world, every, [600, 2600]).expect("it can be done");
+    let mut observers: Vec<Box<dyn Observer>> = vec![Box::new(flows)];
+    simulate(&mut prepared, &mut observers, |_| true, || ()).expect("it can be done");
+    let world = &prepared.world;
+    let file = observers.remove(0).finish(world).expect("it can be done");
+    let table = std::fs::read_to_string(file).expect("it can be done");
+    std::fs::remove_dir_all(&dir).expect("it can be done");
+    let lengths: HashMap<String, f64> =
+        world.network().lanelets.iter().map(|it| (it.id.to_string(), it.length())).collect();
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("from_s,to_s,lanelet,flow_veh_h,density_veh_km,speed_mps"));
+    let (mut sums, mut rows, mut until) = ([0.0; 2], 0, 60.0);
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |place: usize| cells[place].parse::<f64>().expect("it can be done");
+        let size = lengths[cells[2]] * (number(1) - number(0));
+        let [time, distance] = [size * number(4) / 1000.0, size * number(3) / 3600.0];
+        match cells[5] {
+            "" => assert_eq!([time, distance], [0.0, 0.0]),
+            speed => assert!((speed.parse::<f64>().expect("it can be done") * time - distance).abs() < 1e-6),
+        }
+        sums = [sums[0] + time, sums[1] + distance];
+        until = number(1);
+        rows += 1;
+    }
+    assert_eq!(until, 260.0);
+    assert_eq!(rows, lengths.len() * 2000_usize.div_ceil(every as usize));
+    let tally = world.tally();
+    (sums, [tally.updates as f64 * 0.1, tally.distance], world.counts().left as f64)
+}
+
+#[test]
+fn times_and_ways_add_up_to_what_was_driven() {
+    // Of intervals of 30 s the last is shorter.
+    for (map, demand, every) in [("ramps.osm", 4000.0, 300), ("grid.osm", 4000.0, 600)] {
+        let (table, counted, left) = totals(map, demand, every);
+        // Those who left ended their last step beyond the road; a stop within a step is a few centimetres off.
+        let missing = [counted[0] - table[0], counted[1] - table[1]];
+        assert!(left > 50.0 && (0.0..0.1 * left).contains(&missing[0]), "{map}: {missing:?} of {counted:?}");
+        assert!((0.0..4.0 * left).contains(&missing[1]), "{map}: {missing:?} of {counted:?}, {left} left");
+    }
+}

@@ -1,0 +1,234 @@
+//! Which lights get in each other's way, and the programs of those that do: turns, one after the other.
+
+use super::light::{Light, LightIndex, Phase, Program};
+use super::{Junctions, Precedence, Sign, ZoneIndex, ZoneKind};
+use crate::build::Network;
+use crate::chain::ChainIndex;
+
+/// A program for several lights: turns that follow on each other, again and again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalPlan {
+    /// When the first turn begins, and again after every cycle [s].
+    pub offset: f64,
+    /// The turns in order.
+    pub turns: Vec<Turn>,
+}
+
+/// Some lights are green, then yellow, and then all are red.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turn {
+    /// Those that are green. One that is green in the next turn, too, stays green in between.
+    pub lights: Vec<LightIndex>,
+    /// Length of green [s].
+    pub green: f64,
+    /// Length of the yellow after it [s].
+    pub yellow: f64,
+    /// Length of red for all after that [s].
+    pub all_red: f64,
+}
+
+/// Two lights whose drivers get in each other's way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightConflict {
+    /// The lights, the one that comes first in the list first.
+    pub lights: [LightIndex; 2],
+    /// Where: a zone in which neither goes first if there is one, or else any.
+    pub zone: ZoneIndex,
+    /// The side of the zone on which the drivers of the first light come.
+    pub side: u8,
+    /// In every zone one of them gives way, as who turns across oncoming traffic: both may be green.
+    pub is_ordered: bool,
+}
+
+/// Length of yellow [s] (definitions of made signals).
+const YELLOW: f64 = 3.0;
+/// Cycle of made programs [s].
+const CYCLE: f64 = 60.0;
+/// Speed at which a junction is taken to be cleared [m/s], and least time for it [s].
+const CLEARING_SPEED: f64 = 8.0;
+const LEAST_ALL_RED: f64 = 2.0;
+/// Shortest green [s]; with more groups than fit into the cycle it is longer. Ours.
+const LEAST_GREEN: f64 = 5.0;
+
+impl Turn {
+    /// How long it takes [s].
+    pub fn duration(&self) -> f64 {
+        self.green + self.yellow + self.all_red
+    }
+}
+
+impl SignalPlan {
+    /// Length of a cycle [s].
+    pub fn cycle(&self) -> f64 {
+        self.turns.iter().map(Turn::duration).sum()
+    }
+
+    /// The program of one of its lights.
+    pub fn program(&self, light: LightIndex) -> Program {
+        let has_turn = |number: usize| self.turns[number].lights.contains(&light);
+        let count = self.turns.len();
+        if (0..count).all(has_turn) {
+            return Program::ALWAYS_GREEN;
+        }
+        let cycle = self.cycle();
+        let mut phases: Vec<Phase> = Vec::new();
+        let mut from = self.offset;
+        for (number, turn) in self.turns.iter().enumerate() {
+            let phase = Phase { from, to: from + turn.green, yellow: turn.yellow };
+            match phases.last_mut() {
+                Some(last) if has_turn(number) && has_turn(number - 1) => {
+                    *last = Phase { from: last.from, ..phase };
+                }
+                _ if has_turn(number) => phases.push(phase),
+                _ => {}
+            }
+            from += turn.duration();
+        }
+        if has_turn(0) && has_turn(count - 1) {
+            let first = phases.remove(0);
+            if let Some(last) = phases.last_mut() {
+                *last = Phase { from: last.from, to: first.to + cycle, ..first };
+            }
+        }
+        Program { cycle, phases }
+    }
+}
+
+/// Which lights get in each other's way.
+pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightConflict> {
+    between(junctions, &fields(network, junctions))
+}
+
+/// The lights with made programs: 60 s, groups that do not get in each other's way one after the other in the order of
+/// ids, yellow 3 s, all red for the clearance distance at 8 m/s, at least 2 s; what is left is green in equal shares.
+pub(super) fn with_made_programs(network: &Network, junctions: &Junctions) -> Vec<Light> {
+    let mut lights = junctions.lights.clone();
+    let fields = fields(network, junctions);
+    let conflicts = between(junctions, &fields);
+    let conflict = |a: usize, b: usize| {
+        let both = [a.min(b), a.max(b)].map(|it| LightIndex(it as u32));
+        conflicts.iter().any(|it| it.lights == both)
+    };
+    for members in junctions_of(lights.len(), conflict) {
+        let groups = groups(&members, conflict);
+        if groups.len() < 2 {
+            continue;
+        }
+        let all_red = |group: &Vec<usize>| all_red(group.iter().map(|it| &fields[*it]));
+        let pauses: f64 = groups.iter().map(|group| YELLOW + all_red(group)).sum();
+        let green = ((CYCLE - pauses) / groups.len() as f64).max(LEAST_GREEN);
+        let turn = |group: &Vec<usize>| Turn {
+            lights: group.iter().map(|it| LightIndex(*it as u32)).collect(),
+            green,
+            yellow: YELLOW,
+            all_red: all_red(group),
+        };
+        let plan = SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() };
+        for member in members {
+            lights[member].program = plan.program(LightIndex(member as u32));
+        }
+    }
+    lights
+}
+
+fn fields(network: &Network, junctions: &Junctions) -> Vec<Field> {
+    (0..junctions.lights.len()).map(|it| Field::of(network, junctions, LightIndex(it as u32))).collect()
+}
+
+fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
+    let is_ordered = |zone: u32| matches!(junctions.zones[zone as usize].precedence, Precedence::Side(_));
+    let pairs = (0..fields.len()).flat_map(|a| (a + 1..fields.len()).map(move |b| (a, b)));
+    let conflict = |(a, b): (usize, usize)| {
+        let meet = |it: &&(u32, u8)| fields[b].zones.contains(&(it.0, 1 - it.1));
+        let (zone, side) = *fields[a].zones.iter().filter(meet).min_by_key(|it| is_ordered(it.0))?;
+        Some(LightConflict {
+            lights: [a, b].map(|it| LightIndex(it as u32)),
+            zone: ZoneIndex(zone),
+            side,
+            is_ordered: is_ordered(zone),
+        })
+    };
+    pairs.filter_map(conflict).collect()
+}
+
+/// The lights of each junction: those that get in each other's way, directly or over others, in order.
+fn junctions_of(count: usize, conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut left: Vec<usize> = (0..count).collect();
+    let mut found = Vec::new();
+    while !left.is_empty() {
+        let mut members = vec![left.remove(0)];
+        let mut at = 0;
+        while at < members.len() {
+            let here = members[at];
+            let (new, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|it| conflict(here, *it));
+            members.extend(new);
+            left = others;
+            at += 1;
+        }
+        members.sort_unstable();
+        found.push(members);
+    }
+    found
+}
+
+/// Time for who passed last to clear the junction [s].
+fn all_red<'a>(fields: impl Iterator<Item = &'a Field>) -> f64 {
+    (fields.map(|it| it.clearance).fold(0.0, f64::max) / CLEARING_SPEED).max(LEAST_ALL_RED)
+}
+
+/// Maximal sets of members that do not conflict: each begins with the first that has had no turn.
+fn groups(members: &[usize], conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for first in members {
+        if groups.iter().any(|group| group.contains(first)) {
+            continue;
+        }
+        let mut group = vec![*first];
+        for other in members {
+            if !group.contains(other) && group.iter().all(|it| !conflict(*it, *other)) {
+                group.push(*other);
+            }
+        }
+        groups.push(group);
+    }
+    groups
+}
+
+/// What lies behind a light.
+struct Field {
+    /// Zones and sides that its drivers come to.
+    zones: Vec<(u32, u8)>,
+    /// Longest way from where they stop to the end of the last of them [m].
+    clearance: f64,
+}
+
+impl Field {
+    fn of(network: &Network, junctions: &Junctions, light: LightIndex) -> Field {
+        /// Zones further beyond a light, or beyond the last zone, are another junction's [m].
+        const REACH: f64 = 80.0;
+        const NEXT: f64 = 25.0;
+        let mut field = Field { zones: Vec::new(), clearance: 0.0 };
+        // Chain, station there, distance from the stop to the chain's start, and to the end of the last zone.
+        let mut open: Vec<(ChainIndex, f64, f64, f64)> = Vec::new();
+        for (index, chain) in junctions.chains.iter().enumerate() {
+            let stops = chain.stops.iter().filter(|it| it.sign == Sign::Light(light));
+            open.extend(stops.map(|it| (ChainIndex(index as u32), it.station, -it.station, NEXT)));
+        }
+        while let Some((chain, from, base, mut reached)) = open.pop() {
+            for crossing in &junctions.on(chain).crossings {
+                let reach = junctions.reach(*crossing);
+                let is_ahead = reach.end > from && base + reach.start < (reached + NEXT).min(REACH);
+                if is_ahead && junctions.zones[crossing.zone.at()].kind != ZoneKind::Tight {
+                    field.zones.push((crossing.zone.0, crossing.side));
+                    reached = reached.max(base + reach.end);
+                    field.clearance = field.clearance.max(base + reach.end);
+                }
+            }
+            let beyond = base + network.chain(chain).length;
+            if beyond < (reached + NEXT).min(REACH) {
+                open.extend(network.chain(chain).following.iter().map(|it| (*it, 0.0, beyond, reached)));
+            }
+        }
+        field
+    }
+}

@@ -1,0 +1,117 @@
+//! What is kept of each trip until it ends: the time that it would take on a free road, and how often the vehicle stopped.
+//! It lies cold, by the vehicle's id.
+
+use std::collections::VecDeque;
+
+use laneweave_network::{Chain, ChainIndex, Network, Side};
+
+use crate::navigate::{Destination, Navigator, Waypoint};
+use crate::traffic::VehicleId;
+
+/// A trip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Trip {
+    /// Time that its way takes at the speeds that the driver desires [s]; infinite if it goes nowhere.
+    free_time: f32,
+    /// Times that the vehicle came to a halt.
+    pub(crate) stops: u16,
+    is_over: bool,
+}
+
+impl Trip {
+    const AHEAD: Trip = Trip { free_time: f32::INFINITY, stops: 0, is_over: false };
+
+    /// What a trip of `duration` [s] took beyond the time on a free road [s], if it went anywhere.
+    pub(crate) fn delay(&self, duration: f64) -> Option<f64> {
+        self.free_time.is_finite().then(|| duration - f64::from(self.free_time))
+    }
+}
+
+/// The trips of all vehicles since the oldest one that is not over.
+#[derive(Debug, Default)]
+pub(crate) struct Trips {
+    oldest: VehicleId,
+    trips: VecDeque<Trip>,
+}
+
+impl Trips {
+    /// A trip begins.
+    pub(crate) fn begin(&mut self, id: VehicleId, free_time: Option<f64>) {
+        let place = (id - self.oldest) as usize;
+        if place >= self.trips.len() {
+            // Doubling would leave half of the memory unused.
+            let more = place + 1 - self.trips.len();
+            if self.trips.capacity() <= place {
+                self.trips.reserve_exact(more + self.trips.len() / 16);
+            }
+            self.trips.resize(place + 1, Trip::AHEAD);
+        }
+        self.trips[place].free_time = free_time.map_or(f32::INFINITY, |it| it as f32);
+    }
+
+    /// The vehicle came to a halt.
+    pub(crate) fn stop(&mut self, id: VehicleId) {
+        let trip = &mut self.trips[(id - self.oldest) as usize];
+        trip.stops = trip.stops.saturating_add(1);
+    }
+
+    /// A trip ends.
+    pub(crate) fn end(&mut self, id: VehicleId) -> Trip {
+        let trip = &mut self.trips[(id - self.oldest) as usize];
+        trip.is_over = true;
+        let ended = *trip;
+        while self.trips.front().is_some_and(|it| it.is_over) {
+            self.trips.pop_front();
+            self.oldest += 1;
+        }
+        ended
+    }
+}
+
+/// Time [s] that a driver takes from `x` on `chain` to its destination on a free road, who drives at `speed` [m/s] under
+/// each limit and changes lanes where it last can. None without a destination, or a way to it.
+pub(crate) fn free_time(
+    network: &Network,
+    navigator: &Navigator,
+    destination: Destination,
+    (mut chain, mut x): (ChainIndex, f64),
+    speed: impl Fn(f64) -> f64,
+) -> Option<f64> {
+    destination?;
+    let mut time = 0.0;
+    // No way passes a chain twice but for a detour at its beginning.
+    for _ in 0..=2 * network.chains.len() {
+        let here = network.chain(chain);
+        let waypoint = navigator.waypoint_from(network, destination, chain, x);
+        let Waypoint { changes, last_place, next, end, .. } = *waypoint;
+        if changes >= Waypoint::NO_WAY {
+            return None;
+        }
+        let until = end.min(last_place).min(here.length).max(x);
+        time += time_between(here, [x, until], &speed);
+        if end <= here.length {
+            return Some(time);
+        }
+        (chain, x) = if last_place < here.length {
+            let beside = Side::BOTH.into_iter().filter_map(|side| here.beside(side, until));
+            let changes_from = |it: ChainIndex| navigator.waypoint(destination, it).changes;
+            let best = beside
+                .min_by_key(|it| changes_from(it.chain))
+                .filter(|it| changes_from(it.chain) < changes)?;
+            (best.chain, best.across(until))
+        } else {
+            match next {
+                Some(next) => (next, 0.0),
+                None => return Some(time),
+            }
+        };
+    }
+    None
+}
+
+/// Time from one station of `chain` to another [s].
+fn time_between(chain: &Chain, [from, to]: [f64; 2], speed: &impl Fn(f64) -> f64) -> f64 {
+    let ends = chain.limits.iter().skip(1).map(|it| it.start).chain([chain.length]);
+    let pieces = chain.limits.iter().zip(ends);
+    pieces.map(|(limit, end)| (end.min(to) - limit.start.max(from)).max(0.0) / speed(limit.speed)).sum()
+}
