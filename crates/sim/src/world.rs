@@ -12,6 +12,7 @@ use crate::decide::{Moment, decide};
 use crate::demand::Demand;
 use crate::drive::drive;
 use crate::events::Event;
+use crate::guidance::Guidance;
 use crate::headways::HeadwayError;
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::navigate::{Destination, Navigator};
@@ -46,6 +47,8 @@ pub struct World {
     pub(crate) demand: Demand,
     pub(crate) sources: Vec<Source>,
     pub(crate) random: Random,
+    /// Where drivers are guided.
+    pub(crate) guidance: Option<Guidance>,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
     /// Vehicles on the road.
@@ -173,12 +176,28 @@ impl World {
             plans,
             demand,
             random,
+            guidance: None,
             records: Records::default(),
             events: Vec::new(),
             counts: Counts::default(),
             outboxes: (0..setup.threads.max(1)).map(|_| Outbox::default()).collect(),
             next_id: 0,
         })
+    }
+
+    /// The same world with drivers guided by travel times that are measured in it every `interval` [s]. Where nobody has
+    /// a choice of ways there is nothing to guide.
+    ///
+    /// # Errors
+    /// If there are more destinations than can be guided to.
+    pub fn guided(mut self, interval: f64) -> Result<World, WorldError> {
+        if self.navigator.offers_a_choice() {
+            let destinations = &self.demand.destinations;
+            let guided = self.navigator.guide(&self.network, destinations);
+            guided.map_err(|most| WorldError::Destinations(destinations.len(), most))?;
+            self.guidance = Some(Guidance::new(self.navigator.links(), self.clock.steps(interval)));
+        }
+        Ok(self)
     }
 
     /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
@@ -194,6 +213,7 @@ impl World {
         self.give_passages();
         self.resolve();
         self.enter();
+        self.guide();
     }
 
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
