@@ -54,10 +54,15 @@ fn goes_on_alike(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     own.goes_like(new) && own.time == new.time
 }
 
-/// Who has a passage goes the way that it was given for; others could still stop before the ways part.
+/// Who has a passage goes the way that it was given for; others could still stop before the ways part, and are in a lane
+/// that leads on over its end.
 fn can_go_over(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
+    let Scene { network, navigator, .. } = scene;
     let motion = scene.motion(spot);
     let way = motion.speed * motion.speed / (2.0 * EASY_BRAKING) + ROOM;
-    !scene.has_passage(spot, f64::NEG_INFINITY)
-        && scene.navigator.part_beyond(scene.network, ways, spot.chain, motion.x, way)
+    let [own, new] = ways.map(|it| navigator.waypoint(it, spot.chain));
+    let is_in_lane = new.last_place > network.chain(spot.chain).length || new.goes_like(own);
+    is_in_lane
+        && !scene.has_passage(spot, f64::NEG_INFINITY)
+        && navigator.part_beyond(network, ways, spot.chain, motion.x, way)
 }

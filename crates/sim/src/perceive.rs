@@ -122,6 +122,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
 
     /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would be at
     /// `there`: on the free road the same.
+    #[inline]
     fn times_on(&self, section: f64, there: Viewpoint) -> [f64; 2] {
         let Scene { network, navigator, .. } = self.scene;
         if navigator.links().are_free() {
@@ -131,6 +132,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
     }
 
     /// What a lane means for the route beyond a section that takes `on_section` [s].
+    #[inline]
     fn beyond(&self, on_section: f64, route: RouteView) -> RouteView {
         let Beliefs { own, other, .. } = self.beliefs;
         RouteView {
@@ -206,6 +208,7 @@ fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: Route
 }
 
 /// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place on.
+#[inline]
 fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beliefs) -> RouteView {
     if !waypoint.leads_on(from.x) {
         return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };

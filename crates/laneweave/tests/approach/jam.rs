@@ -15,7 +15,7 @@ use laneweave::style::Population;
 use crate::roads::{Approach, Road};
 
 const STEP_S: f64 = 0.1;
-const SEEDS: u64 = 8;
+const SEEDS: u64 = 10;
 /// Interval of guidance [s].
 const INTERVAL_S: f64 = 30.0;
 /// When drivers begin to come, after the jam has built up, and how long they come [s].
@@ -26,9 +26,9 @@ const AFTER: u32 = 60;
 /// Seconds between two of them.
 const HEADWAY: u32 = 4;
 /// Weights of the route.
-const WEIGHTS: [f64; 3] = [0.0, 0.05, 0.2];
+const WEIGHTS: [f64; 3] = [0.0, 0.05, 0.4];
 /// Desired speed of those who make the jam, as a share of the limit, and how many there are on each lane [veh/h].
-const CRAWL: f64 = 0.22;
+const CRAWL: f64 = 0.15;
 const CRAWLERS: f64 = 240.0;
 
 /// What drivers did per head.
