@@ -113,3 +113,45 @@ fn link(chain: &Chain, start: f64, end: f64) -> Link {
         time_before: before,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
+
+    use super::*;
+
+    /// A chain of lanelets of these lengths [m] at 10 m/s.
+    fn chain_of(lengths: &[f64]) -> Network {
+        let mut start = 0.0;
+        let lanelets = lengths.iter().zip(1..).map(|(length, id): (&f64, u32)| {
+            let line = Polyline::new([start, start + length].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
+            start += length;
+            let mut lanelet = Lanelet::alone(i64::from(id), [line.clone(), line.clone(), line], 10.0);
+            lanelet.following =
+                [LaneletIndex(id)].into_iter().filter(|_| (id as usize) < lengths.len()).collect();
+            lanelet
+        });
+        Network::new(lanelets.collect(), DrivingSide::Right).unwrap()
+    }
+
+    #[test]
+    fn links_are_lanelets_that_together_are_50_m_or_more() {
+        let links = Links::of(&chain_of(&[20.0, 30.0, 200.0, 60.0, 40.0]));
+        let found: Vec<(f64, f64)> = links.all().iter().map(|it| (it.start, it.length)).collect();
+        assert_eq!(found, [(0.0, 50.0), (50.0, 200.0), (250.0, 100.0)]);
+        let times: Vec<f64> = links.all().iter().map(|it| it.free_time).collect();
+        assert_eq!(times, [5.0, 20.0, 10.0]);
+        assert_eq!([0.0, 49.9, 50.0, 349.0].map(|x| links.at(ChainIndex(0), x)), [0, 0, 1, 2]);
+    }
+
+    #[test]
+    fn the_time_to_a_place_is_that_of_the_links_before_and_a_share_of_its_own() {
+        let mut links = Links::of(&chain_of(&[50.0, 200.0, 50.0]));
+        assert_eq!(links.time_to(ChainIndex(0), 150.0), 15.0);
+        links.take([10.0, 100.0, 5.0].into_iter());
+        let times = [0.0, 25.0, 50.0, 150.0, 300.0].map(|x| links.time_to(ChainIndex(0), x));
+        assert_eq!(times, [0.0, 5.0, 10.0, 60.0, 115.0]);
+        // Where another chain begins before this one, or goes on beyond it.
+        assert_eq!([-10.0, 310.0].map(|x| links.time_to(ChainIndex(0), x)), [-2.0, 116.0]);
+    }
+}

@@ -212,6 +212,12 @@ impl Navigator {
         let is_new = best.iter().zip(&self.tables[newest]).any(|(new, old)| !new.goes_like(old));
         let mut spare = ways.into_iter().zip(in_use).skip(1);
         let spare = spare.find(|(way, in_use)| is_new && !in_use && *way != newest);
+        if is_new && spare.is_none() {
+            // What cannot be recommended is nobody's alternative.
+            best.clone_from(&self.tables[newest]);
+            planner.retime(&mut best, place);
+            planner.note_alternatives(&mut best, None);
+        }
         let mut renewed = Vec::new();
         for (way, in_use) in ways.into_iter().zip(in_use) {
             let is_followed = in_use || way == usual || way == newest;

@@ -189,10 +189,14 @@ impl World {
     /// a choice of ways there is nothing to guide.
     ///
     /// # Errors
-    /// If there are more destinations than can be guided to.
+    /// If there are more destinations than can be guided to, or their ways would not fit into memory.
     pub fn guided(mut self, interval: f64) -> Result<World, WorldError> {
         if self.navigator.offers_a_choice() {
             let destinations = &self.demand.destinations;
+            let chains = self.network.chains.len();
+            if destinations.len() * chains * Navigator::WAYS > Navigator::MOST_WAYPOINTS {
+                return Err(WorldError::Ways { destinations: destinations.len(), chains });
+            }
             let guided = self.navigator.guide(&self.network, destinations);
             guided.map_err(|most| WorldError::Destinations(destinations.len(), most))?;
             self.guidance = Some(Guidance::new(self.navigator.links(), self.clock.steps(interval)));
@@ -201,7 +205,7 @@ impl World {
     }
 
     /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
-    /// lanes is resolved in order; vehicles enter.
+    /// lanes is resolved in order; vehicles enter; drivers are guided.
     pub fn step(&mut self) {
         self.events.clear();
         self.move_all();
