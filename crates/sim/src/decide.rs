@@ -122,8 +122,7 @@ fn consider(
         Concentration::Inattentive => Cow::Owned(style.change.with_comfort(alertness.comfort)),
     };
     let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
-    let Moment { random, clock, .. } = moment;
-    if let Some(way) = departure(scene, random, clock.step, spot, &outlook, &change, epochs) {
+    if let Some(way) = departure(scene, moment, spot, &outlook, &change, epochs) {
         plan.tally.route_changes += u64::from(way.is_change);
         plan.concerns.push(Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern });
         return;

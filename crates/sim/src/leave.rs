@@ -3,9 +3,10 @@
 use laneweave_models::change::LaneChangeModel;
 
 use crate::beliefs::Beliefs;
+use crate::decide::Moment;
 use crate::navigate::Destination;
 use crate::perceive::Outlook;
-use crate::random::{Purpose, Random};
+use crate::random::Purpose;
 use crate::scene::{Scene, Spot};
 
 /// Braking with which a driver could still stop before its new way parts from its old one [m/s²], and what it keeps
@@ -24,24 +25,38 @@ pub(crate) struct Departure {
 
 /// The way that a driver goes over to, if it does so within `epochs`: the better one that it finds, by the same rule by which
 /// it changes lanes; or the same way, newly planned.
+#[inline]
 pub(crate) fn departure(
     scene: &Scene,
-    random: Random,
-    step: u32,
+    moment: Moment,
     spot: Spot,
     outlook: &Outlook,
     change: &LaneChangeModel,
     epochs: f64,
 ) -> Option<Departure> {
     let own = scene.car(spot).goal.destination();
-    let new = Some(scene.navigator.recommended(own)?);
+    let new = scene.navigator.recommended(own)?;
+    towards(scene, moment, spot, [own, Some(new)], outlook, change, epochs)
+}
+
+/// The same for a driver who is recommended another way than its own.
+#[inline(never)]
+fn towards(
+    scene: &Scene,
+    moment: Moment,
+    spot: Spot,
+    [own, new]: [Destination; 2],
+    outlook: &Outlook,
+    change: &LaneChangeModel,
+    epochs: f64,
+) -> Option<Departure> {
     let departure = if !scene.navigator.is_usual(own) && goes_on_alike(scene, spot, [own, new]) {
         Departure { to: new, is_change: false }
     } else {
         let Beliefs { band, .. } = outlook.beliefs();
         let route = &outlook.here().route;
         let appraisal = change.appraise_leaving(route.onward, route.alternative?, band)?;
-        let draw = random.uniform(scene.motion(spot).id, Purpose::Route, step);
+        let draw = moment.random.uniform(scene.motion(spot).id, Purpose::Route, moment.clock.step);
         change.drawn([Some(&appraisal), None], epochs, draw)?;
         Departure { to: new, is_change: true }
     };

@@ -208,7 +208,7 @@ fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: Route
 }
 
 /// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place on.
-#[inline]
+#[inline(always)]
 fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beliefs) -> RouteView {
     if !waypoint.leads_on(from.x) {
         return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };

@@ -118,6 +118,7 @@ impl LaneChangeModel {
     }
 
     /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
+    #[inline(always)]
     pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
         if let LaneChangeModel::Mcdm(model) = self
             && model.is_out_of_reach(sides, epochs, draw)
