@@ -9,10 +9,12 @@ pub mod braking;
 pub mod change;
 mod exponential;
 pub mod follow;
+mod guidance;
 mod style;
 pub mod yielding;
 
 pub use attention::{Alertness, Attention, Concentration};
+pub use guidance::Guidance;
 pub use style::{Manner, Style};
 
 use serde::{Deserialize, Serialize};

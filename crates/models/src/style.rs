@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::attention::Attention;
 use crate::change::{LaneChangeModel, Safety};
 use crate::follow::FollowingModel;
+use crate::guidance::Guidance;
 use crate::yielding::Yielding;
 
 /// A driver's style.
@@ -35,6 +36,9 @@ pub struct Style {
     /// How it gives way at junctions.
     #[serde(default)]
     pub yielding: Yielding,
+    /// How it takes what it is told of travel times.
+    #[serde(default)]
+    pub guidance: Guidance,
 }
 
 fn as_the_limit() -> f64 {

@@ -80,8 +80,9 @@ fn any_merging() -> impl Strategy<Value = Merging<'static>> {
 
 fn any_situation() -> impl Strategy<Value = Situation<'static>> {
     let merging = [option::of(any_merging()), option::of(any_merging())];
-    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging)
-        .prop_map(|(me, here, there, section, merging)| Situation { me, here, there, section, merging })
+    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging).prop_map(
+        |(me, here, there, section, merging)| Situation { me, here, there, section, band: 0.0, merging },
+    )
 }
 
 /// The paper's incentives and urgency, all weighed.

@@ -110,6 +110,51 @@ fn the_way_back_to_the_route_is_worth_what_leaving_it_costs() {
 }
 
 #[test]
+fn who_finds_the_other_way_faster_by_more_than_its_band_does_not_come_back() {
+    let (route, mut situation) = minute_to_go(Repaired);
+    // Half a minute is to be gained by the other way, whatever the chance of coming back.
+    situation.there.route.alternative = Some(0.0);
+    situation.here.route.onward = 50.0;
+    situation.there.route.onward = 50.0;
+    let leaving = |band| Situation { band, ..leaving_route(situation, 20.0) };
+    for chance in [0.0, 0.5, 1.0] {
+        assert_near(route.earning(&leaving(0.0), chances(chance)), 50.0 / 60.0, 1e-12);
+        let with_band = route.earning(&leaving(60.0), chances(chance));
+        assert_near(with_band, (1.0 - chance) * 50.0 / 60.0, 1e-12);
+    }
+}
+
+#[test]
+fn of_two_symmetric_lanes_that_is_better_from_which_a_better_way_forks_off() {
+    let (route, mut situation) = minute_to_go(Repaired);
+    situation.here.route.onward = 50.0;
+    situation.there.route.onward = 50.0;
+    let yields = |here, there| {
+        let mut it = situation;
+        (it.here.route.alternative, it.there.route.alternative) = (here, there);
+        route.earning(&it, chances(1.0))
+    };
+    assert_near(yields(None, Some(20.0)), 30.0 / 60.0, 1e-12);
+    assert_near(yields(Some(20.0), None), -30.0 / 60.0, 1e-12);
+    assert_eq!((yields(Some(20.0), Some(20.0)), yields(None, Some(70.0))), (0.0, 0.0));
+    situation.band = 40.0;
+    let mut it = situation;
+    it.there.route.alternative = Some(20.0);
+    assert_eq!(route.earning(&it, chances(1.0)), 0.0);
+}
+
+#[test]
+fn a_route_is_left_by_its_own_yield_alone_and_in_the_repaired_reading_only() {
+    let model = mcdm(Repaired, [1.26, 0.58, 0.03, 0.61], 1.1);
+    let appraisal = model.appraise_leaving(120.0, 60.0, 30.0).expect("half a minute is gained");
+    assert_near(appraisal.gain, 0.58 * 0.5, 1e-12);
+    assert_eq!(model.appraise_leaving(120.0, 100.0, 30.0), None);
+    assert_eq!(model.appraise_leaving(1e6, 0.0, 0.0).map(|it| it.rows[1].earning), Some(10.0));
+    assert_eq!(mcdm(Repaired, [1.26, 0.0, 0.03, 0.61], 1.1).appraise_leaving(120.0, 60.0, 0.0), None);
+    assert_eq!(mcdm(Literal, [1.26, 0.58, 0.03, 0.61], 1.1).appraise_leaving(120.0, 60.0, 0.0), None);
+}
+
+#[test]
 fn the_repaired_route_yield_is_clamped() {
     let (route, situation) = minute_to_go(Repaired);
     let costly = Route { penalty: 6000.0, ..route };

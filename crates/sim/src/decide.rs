@@ -11,8 +11,10 @@ use laneweave_models::{Concentration, Style};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::attention::concentration;
+use crate::beliefs::Beliefs;
 use crate::clock::Clock;
 use crate::junction::is_place_ahead;
+use crate::leave::departure;
 use crate::perceive::{Outlook, driver};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want};
 use crate::random::{Purpose, Random};
@@ -117,11 +119,18 @@ fn consider(
         plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
     concern.last_place = Some(waypoint.last_place).filter(|it| leads_on && it - motion.x < HEEDED_WITHIN);
-    let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, hints);
+    let beliefs = Beliefs::of(&style.guidance, navigator, moment.random, motion.id, goal);
+    let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, beliefs, hints);
     let change = match state {
         Concentration::Concentrated => Cow::Borrowed(&style.change),
         Concentration::Inattentive => Cow::Owned(style.change.with_comfort(alertness.comfort)),
     };
+    let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
+    if let Some(way) = departure(scene, moment, spot, &outlook, &change, epochs) {
+        plan.tally.route_changes += u64::from(way.is_change);
+        plan.concerns.push(Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern });
+        return;
+    }
     let sides = [moment.overtaking, moment.overtaking.opposite()];
     let [first, second] = sides;
     let options =
@@ -133,7 +142,6 @@ fn consider(
         let wanted = options.iter().flatten().find(|it| it.side == mind.side);
         concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
-        let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
         let drawn = change.drawn(appraisals, epochs, draw);
         let chosen = drawn.and_then(|it| options[it].as_ref());

@@ -1,17 +1,22 @@
-//! Which lanes lead where: for every destination and chain the lane changes still to make, the last place for the
-//! next of them, and the way on.
+//! Which lanes lead where: for every destination the usual way, that of the free road, and where drivers are guided the
+//! recommended one.
+//!
+//! A driver's goal names a table of waypoints: one of its destination as its class sees the roads, in one of three *ways*.
+//! The ways of a table that somebody follows stay as they are; only their times change. A new recommendation
+//! is planned in the table that nobody follows.
 
 use std::borrow::Cow;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
-use laneweave_network::{Chain, ChainIndex, Network, Side};
+use laneweave_network::{ChainIndex, Network};
 
+use crate::links::Links;
 use crate::place::{Kerb, Place};
 use crate::vehicle::Class;
 use crate::views::Views;
+use crate::ways::{Into, Planner, Waypoint, beside_into, wander};
 
-/// Where a driver goes, as its place in the list of destinations; `None`: it drives on as the road leads.
+/// Where a driver goes and which way: at first the destination's place in the list of destinations. `None`: it drives on as
+/// the road leads.
 pub type Destination = Option<u16>;
 
 /// A destination in two bytes.
@@ -34,49 +39,6 @@ impl From<Destination> for Goal {
     }
 }
 
-/// What a chain means on the way to a destination.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Waypoint {
-    /// n: fewest lane changes from it to a lane that leads there; [`Waypoint::NO_WAY`] if none does.
-    pub changes: u32,
-    /// Last place for the next of them, from the chain's start, beyond its end if on a later one [m]; infinite for
-    /// n = 0.
-    pub last_place: f64,
-    /// The chain that it goes on with.
-    pub next: Option<ChainIndex>,
-    /// Free travel time from its start to the destination [s].
-    pub time: f64,
-    /// Way from its start to the destination [m].
-    pub distance: f64,
-    /// Where on it the trip ends [m]; infinite where it goes on to the chain's end.
-    pub end: f64,
-}
-
-impl Waypoint {
-    /// More changes than any road has lanes: there is no way.
-    pub const NO_WAY: u32 = 1000;
-
-    const NOWHERE: Waypoint = Waypoint {
-        changes: Waypoint::NO_WAY,
-        last_place: 0.0,
-        next: None,
-        time: f64::INFINITY,
-        distance: f64::INFINITY,
-        end: f64::INFINITY,
-    };
-
-    /// The destination can still be reached from `x` on the chain.
-    #[inline]
-    pub fn leads_on(&self, x: f64) -> bool {
-        self.changes < Waypoint::NO_WAY && x <= self.last_place && x <= self.end
-    }
-
-    /// What is least on the best way [s].
-    fn cost(&self) -> f64 {
-        self.time + Navigator::CHANGE_COST * f64::from(self.changes)
-    }
-}
-
 /// Where on a chain the trips to a destination end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TripEnd {
@@ -89,25 +51,27 @@ pub(crate) struct TripEnd {
 /// The waypoints of all destinations.
 #[derive(Clone, Debug)]
 pub struct Navigator {
-    /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one.
+    /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one. All
+    /// that for the usual way; then for the recommended ones, which are empty as long as nobody needs them.
     tables: Vec<Vec<Waypoint>>,
     /// Number of tables of each view.
     of_view: usize,
+    /// For each table of a usual way that with the newest recommendation; empty where nobody is guided.
+    recommended: Vec<u16>,
+    links: Links,
+    /// How often they were measured.
+    measurements: u32,
+    into: Vec<Into>,
     views: Views,
     /// For each chain where trips end before its end.
     trip_ends: Vec<Vec<TripEnd>>,
 }
 
 impl Navigator {
-    /// Waypoints that may be planned, ours: 2.4 GB.
+    /// Waypoints that may be planned, ours: 2.8 GB.
     pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
-    /// What a lane change counts for in the choice of a route [s].
-    const CHANGE_COST: f64 = 20.0;
-    /// Road that is kept for each further change before the last place [m].
-    const ROOM_FOR_A_CHANGE: f64 = 40.0;
-    /// What a chain counts for beside its time in the choice of a route, if it is avoided [s], ours: no detour in a town is
-    /// as long.
-    const AVOIDED: f64 = 600.0;
+    /// Ways to one destination: the usual one, and two of which the one is recommended while others may still follow the other.
+    pub(crate) const WAYS: usize = 3;
     /// Nobody starts for a place on the same map that is nearer [m], ours.
     const SHORTEST_TRIP: f64 = 100.0;
 
@@ -125,28 +89,218 @@ impl Navigator {
     /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with their
     /// views of the roads.
     pub(crate) fn with_views(network: &Network, destinations: &[Place], views: Views) -> Navigator {
-        let into = beside_into(network);
-        let of_view = destinations.len() + 1;
-        let mut tables = Vec::new();
-        let mut trip_ends = vec![Vec::new(); network.chains.len()];
-        for view in 0..views.count() {
-            let delay = |chain| if views.avoids(view, chain) { Navigator::AVOIDED } else { 0.0 };
+        let mut navigator = Navigator {
+            tables: Vec::new(),
+            of_view: destinations.len() + 1,
+            recommended: Vec::new(),
+            links: Links::default(),
+            measurements: 0,
+            into: beside_into(network),
+            views,
+            trip_ends: vec![Vec::new(); network.chains.len()],
+        };
+        for view in 0..navigator.views.count() {
             for place in destinations {
-                if let Place::Kerb(Kerb { chain, station, .. }) = place {
-                    let goal = Goal(tables.len() as u16);
-                    trip_ends[chain.at()].push(TripEnd { station: *station, goal });
-                }
-                tables.push(plan(network, &into, place, delay));
+                let planner = navigator.planner(network, view);
+                let mut table = planner.plan(place);
+                planner.note_alternatives(&mut table, None);
+                navigator.end_trips(place, navigator.tables.len());
+                navigator.tables.push(table);
             }
-            tables.push(wander(network));
+            navigator.tables.push(wander(network));
         }
-        Navigator { tables, of_view, views, trip_ends }
+        navigator
+    }
+
+    fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {
+        let Navigator { into, links, views, .. } = self;
+        Planner { network, into, links, views, view }
+    }
+
+    /// Trips of those who drive by `table` end at `place`.
+    fn end_trips(&mut self, place: &Place, table: usize) {
+        if let Place::Kerb(Kerb { chain, station, .. }) = place {
+            let goal = Goal(table as u16);
+            self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
+        }
+    }
+
+    /// Number of tables.
+    pub(crate) fn tables(&self) -> usize {
+        self.tables.len()
+    }
+
+    /// The tables of usual ways to a destination.
+    pub(crate) fn usual_tables(&self) -> impl DoubleEndedIterator<Item = usize> {
+        let of_view = self.of_view;
+        (0..self.usual()).filter(move |it| it % of_view < of_view - 1)
+    }
+
+    /// Number of tables of usual ways.
+    fn usual(&self) -> usize {
+        self.views.count() * self.of_view
+    }
+
+    /// Whether anywhere a driver has more than one way to go.
+    pub(crate) fn offers_a_choice(&self) -> bool {
+        self.tables.iter().flatten().any(|it| it.leads_there() && it.alternative.is_finite())
+    }
+
+    /// Lets drivers be guided to `destinations`, by the link times of the free road for the time being.
+    ///
+    /// # Errors
+    /// If there are more destinations than [`Navigator::WAYS`] ways to each could be told apart: how many can be.
+    pub(crate) fn guide(&mut self, network: &Network, destinations: &[Place]) -> Result<(), usize> {
+        let usual = self.usual();
+        if usual * Navigator::WAYS > usize::from(Goal::NONE) {
+            return Err(usize::from(Goal::NONE) / Navigator::WAYS / self.views.count() - 1);
+        }
+        self.recommended = (0..usual as u16).collect();
+        self.links = Links::of(network);
+        self.tables.resize(usual * Navigator::WAYS, Vec::new());
+        for table in usual..self.tables.len() {
+            if let Some(place) = destinations.get(table % self.of_view) {
+                self.end_trips(place, table);
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes over measured times of all links [s]. Tables have them when they are guided next.
+    pub(crate) fn take_link_times(&mut self, times: impl Iterator<Item = f64>) {
+        self.links.take(times);
+        self.measurements += 1;
+    }
+
+    /// How often link times were measured.
+    pub(crate) fn measurements(&self) -> u32 {
+        self.measurements
+    }
+
+    /// The tables of the ways to the same destination, as seen by the same class, as `table`; the usual one first.
+    pub(crate) fn ways(&self, table: usize) -> [usize; Navigator::WAYS] {
+        let usual = table % self.usual();
+        std::array::from_fn(|way| usual + way * self.usual())
+    }
+
+    /// The table of the newest recommendation for those who follow `destination`, if they are guided and follow another.
+    #[inline]
+    pub(crate) fn recommended(&self, destination: Destination) -> Destination {
+        let table = destination.filter(|_| !self.recommended.is_empty())?;
+        Some(self.recommended[usize::from(table) % self.usual()]).filter(|it| *it != table)
+    }
+
+    /// `destination` by the usual way.
+    pub(crate) fn is_usual(&self, destination: Destination) -> bool {
+        destination.is_none_or(|it| usize::from(it) < self.usual())
+    }
+
+    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present link
+    /// times; and recommends the best way anew, if there is room for it.
+    pub(crate) fn renew(
+        &mut self,
+        network: &Network,
+        place: &Place,
+        ways: [usize; Navigator::WAYS],
+        in_use: [bool; Navigator::WAYS],
+    ) {
+        let [usual, ..] = ways;
+        let planner = self.planner(network, usual / self.of_view);
+        let newest = usize::from(self.recommended[usual]);
+        let mut best = planner.plan(place);
+        planner.note_alternatives(&mut best, None);
+        let is_new = best.iter().zip(&self.tables[newest]).any(|(new, old)| !new.goes_like(old));
+        let mut spare = ways.into_iter().zip(in_use).skip(1);
+        let spare = spare.find(|(way, in_use)| is_new && !in_use && *way != newest);
+        if is_new && spare.is_none() {
+            // What cannot be recommended is nobody's alternative.
+            best.clone_from(&self.tables[newest]);
+            planner.retime(&mut best, place);
+            planner.note_alternatives(&mut best, None);
+        }
+        let mut renewed = Vec::new();
+        for (way, in_use) in ways.into_iter().zip(in_use) {
+            let is_followed = in_use || way == usual || way == newest;
+            if is_followed && spare.is_none_or(|it| it.0 != way) {
+                let mut table = self.tables[way].clone();
+                planner.retime(&mut table, place);
+                planner.note_alternatives(&mut table, Some(&best));
+                renewed.push((way, table));
+            }
+        }
+        renewed.extend(spare.map(|(way, _)| (way, best)));
+        renewed.into_iter().for_each(|(way, table)| self.tables[way] = table);
+        if let Some((way, _)) = spare {
+            self.recommended[usual] = way as u16;
+        }
+    }
+
+    /// The links.
+    #[inline]
+    pub(crate) fn links(&self) -> &Links {
+        &self.links
+    }
+
+    /// Travel time from the start of `chain` to `x` on it [s], as it counts in the waypoints.
+    #[inline]
+    pub(crate) fn time_to(&self, network: &Network, chain: ChainIndex, x: f64) -> f64 {
+        if self.links.are_free() { x / network.chain(chain).limit(x) } else { self.links.time_to(chain, x) }
+    }
+
+    /// Measured travel time on the next `distance` [m] of the way to `destination` from `x` on `chain` on [s].
+    #[inline(never)]
+    pub(crate) fn time_ahead(
+        &self,
+        network: &Network,
+        destination: Destination,
+        chain: ChainIndex,
+        x: f64,
+        distance: f64,
+    ) -> f64 {
+        let (mut at, mut from, mut left, mut time) = (chain, x, distance, 0.0);
+        loop {
+            let here = left.min(network.chain(at).length - from).max(0.0);
+            time += self.links.time_to(at, from + here) - self.links.time_to(at, from);
+            left -= here;
+            match self.waypoint(destination, at).next.filter(|_| left > 0.0) {
+                Some(next) => (at, from) = (next, 0.0),
+                None => return time,
+            }
+        }
+    }
+
+    /// Whether the ways `one` and `other` go on alike from `x` on `chain` for at least `distance` [m].
+    pub(crate) fn part_beyond(
+        &self,
+        network: &Network,
+        [one, other]: [Destination; 2],
+        chain: ChainIndex,
+        x: f64,
+        distance: f64,
+    ) -> bool {
+        let (mut at, mut gone) = (chain, -x);
+        loop {
+            gone += network.chain(at).length;
+            if gone >= distance {
+                return true;
+            }
+            let next = self.waypoint(one, at).next;
+            match next.filter(|_| next == self.waypoint(other, at).next) {
+                Some(next) => at = next,
+                None => return next.is_none() && self.waypoint(other, at).next.is_none(),
+            }
+        }
     }
 
     /// A destination as a class sees the way to it.
     pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
         let number = usize::from(destination?) % self.of_view;
         Some((self.views.of_class(class) * self.of_view + number) as u16)
+    }
+
+    /// The view of the roads of a table.
+    fn view(&self, table: u16) -> usize {
+        usize::from(table) / self.of_view % self.views.count()
     }
 
     /// The destination's place in the list of destinations, whoever sees it.
@@ -184,8 +338,10 @@ impl Navigator {
         let here = network.chain(chain);
         let onward = here.following.iter().map(|it| (*it, self.waypoint(destination, *it)));
         let best = onward.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
-        let possible = best.filter(|(_, it)| it.changes < Waypoint::NO_WAY);
-        possible.map_or(Waypoint::NOWHERE, |(next, waypoint)| before(here, next, waypoint))
+        let possible = best.filter(|(_, it)| it.leads_there());
+        let view = destination.map_or(0, |it| self.view(it));
+        let planner = self.planner(network, view);
+        possible.map_or(Waypoint::NOWHERE, |(next, waypoint)| planner.before(chain, next, waypoint))
     }
 
     /// The destinations that can be reached from `x` on `chain`, with their free travel times [s].
@@ -209,7 +365,7 @@ impl Navigator {
 
     /// The reachable destination of least time, for one who was on its way to `before`; of none, to wander.
     pub fn nearest(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
-        let view = before.map_or(0, |it| usize::from(it) / self.of_view);
+        let view = before.map_or(0, |it| self.view(it));
         let reachable = self.reachable_in(view, chain, x);
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
@@ -219,12 +375,12 @@ impl Navigator {
         match place {
             Place::Gate(gate) => {
                 let waypoint = |chain: &ChainIndex| self.waypoint(Some(destination), *chain);
-                gate.chains.iter().any(|chain| waypoint(chain).changes < Waypoint::NO_WAY)
+                gate.chains.iter().any(|chain| waypoint(chain).leads_there())
             }
             Place::Kerb(Kerb { chain, station, .. }) => {
                 let waypoint = self.waypoint_from(network, Some(destination), *chain, *station);
                 let distance = waypoint.distance - station;
-                waypoint.changes < Waypoint::NO_WAY && distance >= Navigator::SHORTEST_TRIP
+                waypoint.leads_there() && distance >= Navigator::SHORTEST_TRIP
             }
         }
     }
@@ -234,141 +390,6 @@ impl Navigator {
     pub(crate) fn trip_ends(&self, chain: ChainIndex) -> &[TripEnd] {
         &self.trip_ends[chain.at()]
     }
-}
-
-/// Free travel time along `chain` from its start to `until` [s].
-fn free_time(chain: &Chain, until: f64) -> f64 {
-    let ends = chain.limits.iter().skip(1).map(|it| it.start).chain([chain.length]);
-    let pieces = chain.limits.iter().zip(ends).filter(|(limit, _)| limit.start < until);
-    pieces.map(|(limit, end)| (end.min(until) - limit.start) / limit.speed).sum()
-}
-
-/// The waypoint of `chain` for who goes on to `next`, whose waypoint is `onward`.
-fn before(chain: &Chain, next: ChainIndex, onward: &Waypoint) -> Waypoint {
-    Waypoint {
-        changes: onward.changes,
-        last_place: chain.length + onward.last_place,
-        next: Some(next),
-        time: free_time(chain, chain.length) + onward.time,
-        distance: chain.length + onward.distance,
-        end: f64::INFINITY,
-    }
-}
-
-/// Stretches from which a change leads into a chain: chain, side and number.
-type Into = Vec<(ChainIndex, Side, usize)>;
-
-/// Best waypoints towards `place`, spread backwards from it until none improves, with a `delay` on each chain [s].
-fn plan(network: &Network, into: &[Into], place: &Place, delay: impl Fn(ChainIndex) -> f64) -> Vec<Waypoint> {
-    let chains = &network.chains;
-    let mut table = vec![Waypoint::NOWHERE; chains.len()];
-    let mut ranks = vec![rank(network, &Waypoint::NOWHERE); chains.len()];
-    let mut open = BinaryHeap::new();
-    for index in place.chains() {
-        let chain = network.chain(*index);
-        let (until, end) = match place {
-            Place::Gate(_) => (chain.length, f64::INFINITY),
-            Place::Kerb(kerb) => (kerb.station, kerb.station),
-        };
-        table[index.at()] = Waypoint {
-            changes: 0,
-            last_place: f64::INFINITY,
-            next: None,
-            time: free_time(chain, until),
-            distance: until,
-            end,
-        };
-        ranks[index.at()] = rank(network, &table[index.at()]);
-        open.push((Reverse(ranks[index.at()]), *index));
-    }
-    while let Some((Reverse(ranked), index)) = open.pop() {
-        let here = table[index.at()];
-        if ranked != ranks[index.at()] {
-            continue;
-        }
-        let mut offer = |to: ChainIndex, waypoint: Waypoint| {
-            let new = rank(network, &waypoint);
-            if new < ranks[to.at()] {
-                (table[to.at()], ranks[to.at()]) = (waypoint, new);
-                open.push((Reverse(new), to));
-            }
-        };
-        for back in &chains[index.at()].previous {
-            let waypoint = before(network.chain(*back), index, &here);
-            offer(*back, Waypoint { time: waypoint.time + delay(*back), ..waypoint });
-        }
-        for (from, side, number) in &into[index.at()] {
-            let chain = network.chain(*from);
-            let stretch = &chain.stretches(*side)[*number];
-            let until = here.last_place.min(here.end) - Navigator::ROOM_FOR_A_CHANGE;
-            let last_place =
-                if until.is_finite() { stretch.end.min(stretch.back(until)) } else { stretch.end };
-            if last_place > stretch.start {
-                let across = stretch.across(0.0);
-                offer(
-                    *from,
-                    Waypoint {
-                        changes: here.changes + 1,
-                        last_place,
-                        next: chain.following.first().copied(),
-                        time: here.time - across / chains[index.at()].limit(0.0),
-                        distance: here.distance - across,
-                        end: f64::INFINITY,
-                    },
-                );
-            }
-        }
-    }
-    for index in 0..chains.len() {
-        if table[index].changes > 0 || table[index].end.is_finite() {
-            let best = chains[index]
-                .following
-                .iter()
-                .min_by(|a, b| table[a.at()].cost().total_cmp(&table[b.at()].cost()));
-            table[index].next = best.copied();
-        }
-    }
-    table
-}
-
-/// Of two waypoints of a chain the one with the lower rank is better: less cost [µs, so that equal ways count as equal], then
-/// a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are stored.
-fn rank(network: &Network, waypoint: &Waypoint) -> (i64, i64, i64) {
-    let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(it, 0.0).0.id);
-    ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)
-}
-
-/// For each chain the stretches from which a change leads into it.
-fn beside_into(network: &Network) -> Vec<Into> {
-    let mut into = vec![Vec::new(); network.chains.len()];
-    for (index, chain) in network.chains.iter().enumerate() {
-        for side in Side::BOTH {
-            for (number, stretch) in chain.stretches(side).iter().enumerate() {
-                into[stretch.chain.at()].push((ChainIndex(index as u32), side, number));
-            }
-        }
-    }
-    into
-}
-
-/// For drivers without a destination: on along the first following chain; out of lanes that end.
-fn wander(network: &Network) -> Vec<Waypoint> {
-    let on = |chain: &Chain| Waypoint {
-        changes: 0,
-        last_place: f64::INFINITY,
-        next: chain.following.first().copied(),
-        time: 0.0,
-        distance: f64::INFINITY,
-        end: f64::INFINITY,
-    };
-    let mut table: Vec<Waypoint> = network.chains.iter().map(on).collect();
-    for index in &network.lane_drops {
-        let chain = network.chain(*index);
-        let ends = |side: Side| chain.stretches(side).last().map(|it| it.end);
-        let last_place = Side::BOTH.into_iter().filter_map(ends).reduce(f64::max).unwrap_or(chain.length);
-        table[index.at()] = Waypoint { changes: 1, last_place, ..table[index.at()] };
-    }
-    table
 }
 
 #[cfg(test)]

@@ -6,9 +6,10 @@ use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIG
 use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::{Beside, Side};
 
-use crate::navigate::Waypoint;
+use crate::beliefs::Beliefs;
 use crate::scene::{LaneSight, Scene, Spot, Viewpoint, nearer};
 use crate::traffic::{Car, Phase};
+use crate::ways::Waypoint;
 
 /// Who stands at the end of its lane has this much road left to drive on [m].
 const LEAST_ROOM: f64 = 0.1;
@@ -20,7 +21,7 @@ pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation
     let ahead = |it: &Beside| scene.lanes[it.chain.at()].ahead_of(it.across(x));
     let mut hints = Side::BOTH.map(|side| here.beside(side, x).map_or(0, ahead));
     let waypoint = scene.navigator.waypoint_from(scene.network, destination, chain, x);
-    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, &mut hints);
+    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, Beliefs::SETTLED, &mut hints);
     Some(outlook.situation(side, outlook.beside(side)?))
 }
 
@@ -47,6 +48,7 @@ pub(crate) struct Outlook<'s, 'a> {
     from: Viewpoint,
     /// How far ahead it sees [m].
     reach: f64,
+    beliefs: Beliefs,
     sight: LaneSight,
     here: LaneView<'a>,
     /// Its usual way is over, and it goes round.
@@ -63,12 +65,13 @@ impl<'s, 'a> Outlook<'s, 'a> {
         spot: Spot,
         waypoint: &Waypoint,
         reach: f64,
+        beliefs: Beliefs,
         hints: &mut [usize; 2],
     ) -> Outlook<'s, 'a> {
         let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length, reach);
-        let here = lane_view(scene, &me, from, &sight, waypoint);
+        let here = lane_view(scene, &me, &sight, route_view(scene, from, waypoint, beliefs));
         let chain = scene.network.chain(from.chain);
         let beside = Side::BOTH.map(|side| {
             let beside = chain.beside(side, from.x)?;
@@ -77,12 +80,17 @@ impl<'s, 'a> Outlook<'s, 'a> {
             Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })
         });
         let goes_round = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
-        Outlook { scene, car: scene.car(spot), me, from, reach, sight, here, goes_round, beside }
+        Outlook { scene, car: scene.car(spot), me, from, reach, beliefs, sight, here, goes_round, beside }
     }
 
     /// The driver's own vehicle.
     pub(crate) fn car(&self) -> &'a Car {
         self.car
+    }
+
+    /// What it believes of travel times.
+    pub(crate) fn beliefs(&self) -> Beliefs {
+        self.beliefs
     }
 
     /// The own lane.
@@ -98,17 +106,40 @@ impl<'s, 'a> Outlook<'s, 'a> {
     /// What the driver knows about the lane on `side`, where it would look `from`.
     pub(crate) fn situation(&self, side: Side, from: Viewpoint) -> Situation<'a> {
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length, self.reach);
-        let mut there = lane_view(self.scene, &self.me, from, &sight, &self.waypoint_beside(from));
+        let route = route_view(self.scene, from, &self.waypoint_beside(from), self.beliefs);
+        let mut there = lane_view(self.scene, &self.me, &sight, route);
         let mut here = self.here;
         let section = here.route.remaining.min(there.route.remaining).min(self.reach);
-        let on_section = section / self.scene.network.chain(self.from.chain).limit(self.from.x);
-        here.route.onward = (here.route.onward - on_section).max(0.0);
-        there.route.onward = if there.route.changes == Waypoint::NO_WAY {
-            here.route.onward
-        } else {
-            (there.route.onward - on_section).max(0.0)
-        };
-        Situation { me: self.me, here, there, section, merging: self.merging(side, from, &sight) }
+        let [on_section_here, on_section_there] = self.times_on(section, from);
+        here.route = self.beyond(on_section_here, here.route);
+        there.route = self.beyond(on_section_there, there.route);
+        if there.route.changes == Waypoint::NO_WAY {
+            there.route.onward = here.route.onward;
+        }
+        let (me, band, merging) = (self.me, self.beliefs.band, self.merging(side, from, &sight));
+        Situation { me, here, there, section, band, merging }
+    }
+
+    /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would be at
+    /// `there`: on the free road the same.
+    #[inline]
+    fn times_on(&self, section: f64, there: Viewpoint) -> [f64; 2] {
+        let Scene { network, navigator, .. } = self.scene;
+        if navigator.links().are_free() {
+            return [section / network.chain(self.from.chain).limit(self.from.x); 2];
+        }
+        [self.from, there].map(|it| navigator.time_ahead(network, it.destination, it.chain, it.x, section))
+    }
+
+    /// What a lane means for the route beyond a section that takes `on_section` [s].
+    #[inline]
+    fn beyond(&self, on_section: f64, route: RouteView) -> RouteView {
+        let Beliefs { own, other, .. } = self.beliefs;
+        RouteView {
+            onward: (route.onward - own * on_section).max(0.0),
+            alternative: route.alternative.map(|time| (time - other * on_section).max(0.0)),
+            ..route
+        }
     }
 
     /// The way on from beside. Only a driver who goes round already would go round from there.
@@ -170,34 +201,24 @@ impl<'s, 'a> Outlook<'s, 'a> {
     }
 }
 
-fn lane_view<'a>(
-    scene: &Scene<'a>,
-    me: &Driver,
-    from: Viewpoint,
-    sight: &LaneSight,
-    waypoint: &Waypoint,
-) -> LaneView<'a> {
+fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: RouteView) -> LaneView<'a> {
     let behind =
         sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, it.spot) });
-    LaneView {
-        ahead: sight.ahead,
-        behind,
-        flow: sight.flow,
-        prospect: sight.prospect,
-        route: route_view(scene, from, waypoint),
-    }
+    LaneView { ahead: sight.ahead, behind, flow: sight.flow, prospect: sight.prospect, route }
 }
 
-/// What a lane means for the driver's route, whose waypoint there is `waypoint`; `onward` counts from the driver's place on.
-fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint) -> RouteView {
-    let onward = (waypoint.time - from.x / scene.network.chain(from.chain).limit(from.x)).max(0.0);
+/// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place on.
+#[inline(always)]
+fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beliefs) -> RouteView {
     if !waypoint.leads_on(from.x) {
         return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };
     }
+    let behind = scene.navigator.time_to(scene.network, from.chain, from.x);
+    let alternative = Some(waypoint.alternative).filter(|it| it.is_finite());
     RouteView {
         changes: waypoint.changes,
         remaining: waypoint.last_place - from.x,
-        onward,
-        alternative: None,
+        onward: beliefs.own * (waypoint.time - behind).max(0.0),
+        alternative: alternative.map(|it| beliefs.other * (it - behind).max(0.0)),
     }
 }

@@ -178,7 +178,7 @@ pub(crate) struct Concern {
     pub(crate) urgency: f32,
     /// It no longer wants to change.
     pub(crate) gives_up: bool,
-    /// It goes somewhere else from now on.
+    /// It goes somewhere else, or another way, from now on.
     pub(crate) rerouted: Option<Destination>,
 }
 

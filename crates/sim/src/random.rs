@@ -22,6 +22,14 @@ pub enum Purpose {
     Parameter,
     /// Whether a driver is concentrated.
     Attention,
+    /// What a driver believes of travel times.
+    Belief,
+    /// Whether a driver keeps its route out of habit.
+    Habit,
+    /// Whether a driver minds new travel times.
+    Compliance,
+    /// Whether a driver leaves its route.
+    Route,
 }
 
 /// Source of all draws of a run.

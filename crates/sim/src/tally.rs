@@ -25,6 +25,8 @@ pub struct Tally {
     pub stuck: u64,
     /// Drivers who passed the last place for a change without reaching a lane of their route.
     pub missed_turns: u64,
+    /// Times that a driver left its route for a better one.
+    pub route_changes: u64,
 }
 
 impl Tally {
@@ -42,6 +44,7 @@ impl Tally {
             collisions,
             stuck,
             missed_turns,
+            route_changes,
         } = other;
         self.considerations += considerations;
         self.free_considerations += free_considerations;
@@ -54,5 +57,6 @@ impl Tally {
         self.collisions += collisions;
         self.stuck += stuck;
         self.missed_turns += missed_turns;
+        self.route_changes += route_changes;
     }
 }

@@ -5,8 +5,9 @@ use std::collections::VecDeque;
 
 use laneweave_network::{Chain, ChainIndex, Network, Side};
 
-use crate::navigate::{Destination, Navigator, Waypoint};
+use crate::navigate::{Destination, Navigator};
 use crate::traffic::VehicleId;
+use crate::ways::Waypoint;
 
 /// A trip.
 #[derive(Clone, Copy, Debug, PartialEq)]

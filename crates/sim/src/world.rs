@@ -12,6 +12,7 @@ use crate::decide::{Moment, decide};
 use crate::demand::Demand;
 use crate::drive::drive;
 use crate::events::Event;
+use crate::guidance::Guidance;
 use crate::headways::HeadwayError;
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::metering::Metering;
@@ -53,6 +54,8 @@ pub struct World {
     /// Where trips begin within the map.
     pub(crate) metering: Option<Metering>,
     pub(crate) random: Random,
+    /// Where drivers are guided.
+    pub(crate) guidance: Option<Guidance>,
     /// All threads, and one alone for steps too short to share.
     pools: [Pool; 2],
     /// Vehicles on the road.
@@ -189,6 +192,7 @@ impl World {
             plans,
             demand,
             random,
+            guidance: None,
             records: Records::default(),
             trips: Trips::default(),
             events: Vec::new(),
@@ -198,8 +202,27 @@ impl World {
         })
     }
 
+    /// The same world with drivers guided by travel times that are measured in it every `interval` [s]. Where nobody has
+    /// a choice of ways there is nothing to guide.
+    ///
+    /// # Errors
+    /// If there are more destinations than can be guided to, or their ways would not fit into memory.
+    pub fn guided(mut self, interval: f64) -> Result<World, WorldError> {
+        if self.navigator.offers_a_choice() {
+            let destinations = &self.demand.destinations;
+            let chains = self.network.chains.len();
+            if destinations.len() * chains * Navigator::WAYS > Navigator::MOST_WAYPOINTS {
+                return Err(WorldError::Ways { destinations: destinations.len(), chains });
+            }
+            let guided = self.navigator.guide(&self.network, destinations);
+            guided.map_err(|most| WorldError::Destinations(destinations.len(), most))?;
+            self.guidance = Some(Guidance::new(self.navigator.links(), self.clock.steps(interval)));
+        }
+        Ok(self)
+    }
+
     /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
-    /// lanes is resolved in order; vehicles enter.
+    /// lanes is resolved in order; vehicles enter; drivers are guided.
     pub fn step(&mut self) {
         self.events.clear();
         self.move_all();
@@ -211,6 +234,7 @@ impl World {
         self.give_passages();
         self.resolve();
         self.enter();
+        self.guide();
     }
 
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.

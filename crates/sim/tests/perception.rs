@@ -80,7 +80,9 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     truck(&mut world, 1, 700.0, 22.0);
     car(&mut world, 1, 495.0, 25.0);
     let scene = world.scene();
-    let Situation { me, here, there, section, merging } = look(&scene, &world, me, Side::Left);
+    let Situation { me, here, there, section, band, merging } = look(&scene, &world, me, Side::Left);
+    // Who is recommended no other way keeps its own.
+    assert_eq!(band, f64::INFINITY);
     assert_eq!((me.pace.speed, me.pace.desired, me.pace.tightness, me.length), (20.0, 30.0, 1.0, CAR));
     assert_eq!(here.ahead, Some(Ahead { gap: 60.0 - CAR, speed: 18.0 }));
     assert_eq!(there.ahead, Some(Ahead { gap: 200.0 - TRUCK, speed: 22.0 }));

@@ -49,6 +49,8 @@ pub struct Summary {
     pub missed_turns: u64,
     /// Drivers who took another route: all who missed a turn do.
     pub rerouted: u64,
+    /// Times that a driver left its route for a better one.
+    pub route_changes: u64,
     /// Times that a driver considered lanes.
     pub considerations: u64,
     /// Vehicles on the road summed over steps.
@@ -129,6 +131,7 @@ impl Summary {
             stuck: tally.stuck,
             missed_turns: tally.missed_turns,
             rerouted: tally.missed_turns,
+            route_changes: tally.route_changes,
             considerations: tally.considerations,
             updates: tally.updates,
             wall_s,
@@ -209,6 +212,7 @@ impl Summary {
                 per_km(self.lane_changes_route)
             ),
         );
+        line("route changes", self.route_changes.to_string());
         line(
             "safety",
             format!(

@@ -37,6 +37,9 @@ pub struct Scenario {
     /// Programs of lights; the others are given one.
     #[serde(default)]
     pub signals: Vec<Signal>,
+    /// What drivers are told of travel times.
+    #[serde(default)]
+    pub guidance: Guidance,
     /// How long and how finely to simulate.
     #[serde(default)]
     pub run: Run,
@@ -154,6 +157,21 @@ pub struct OdRow {
     pub vehicles_per_hour: f64,
 }
 
+/// What drivers are told of travel times.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Guidance {
+    /// Time between two measurements of all travel times, after which drivers may find another way better [s], 1 or more; 0: they
+    /// know the times of the free road only.
+    pub interval_s: f64,
+}
+
+impl Default for Guidance {
+    fn default() -> Guidance {
+        Guidance { interval_s: 60.0 }
+    }
+}
+
 /// How long and how finely to simulate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -218,6 +236,7 @@ impl Scenario {
             map_options: MapOptions::default(),
             demand: Demand::default(),
             signals: Vec::new(),
+            guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),
             output: Output::default(),

@@ -22,6 +22,8 @@ const MOST_THREADS: usize = 256;
 const USUAL_THREADS: usize = 2;
 /// Shortest and longest step [s].
 const STEPS: (f64, f64) = (0.01, 1.0);
+/// Shortest interval of guidance [s].
+const SHORTEST_GUIDANCE: f64 = 1.0;
 /// Longest time that can be simulated [s].
 const LONGEST: f64 = 1e7;
 /// What the intervals of the output are called.
@@ -86,6 +88,13 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
+    let world = match scenario.guidance.interval_s {
+        0.0 => world,
+        interval => world.guided(interval).map_err(|error| {
+            let place = origin.place(&["guidance", "interval_s"]);
+            Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
+        })?,
+    };
     check_ways(scenario, origin, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
@@ -136,6 +145,11 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
     let room = room - demand.buses;
     check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
+    let guidance = scenario.guidance.interval_s;
+    if guidance != 0.0 {
+        let path = ["guidance", "interval_s"];
+        check(&path, "an interval of guidance", guidance, (SHORTEST_GUIDANCE, LONGEST), " s")?;
+    }
     check(&["output", "record_s"], RECORDING, output.record_s, (0.0, LONGEST), " s")?;
     check(&["output", "flows_s"], FLOWS, output.flows_s, (0.0, LONGEST), " s")
 }

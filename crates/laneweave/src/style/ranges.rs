@@ -49,6 +49,10 @@ const RANGES: &[(&str, Range)] = &[
     ("manner.relaxation", range(0.1, 3600.0, "s")),
     ("yielding.critical_gap", range(0.0, 60.0, "s")),
     ("yielding.patience", range(0.1, 3600.0, "s")),
+    ("guidance.route_error", range(0.0, 2.0, "")),
+    ("guidance.indifference", range(0.0, 1e5, "s")),
+    ("guidance.habit", range(0.0, 1.0, "")),
+    ("guidance.compliance", range(0.0, 1.0, "")),
 ];
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {

@@ -126,6 +126,10 @@ fn keys_of_a_scenario_that_are_unknown() {
 #[test]
 fn values_of_a_scenario_that_make_no_sense() {
     for (rest, message) in [
+        (
+            "[guidance]\ninterval_s = 0.5\n",
+            "s.toml:3:1: an interval of guidance of 0.5 s; choose 1 to 10000000 s",
+        ),
         ("[run]\nduration_s = nan\n", "s.toml:3:1: a duration of NaN s; choose 0.1 to 10000000 s"),
         (
             "[run]\nduration_s = \"long\"\n",

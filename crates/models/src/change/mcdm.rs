@@ -108,6 +108,18 @@ impl Mcdm {
         Appraisal { rows, gain: self.combine(&rows), theta: self.theta }
     }
 
+    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band`
+    /// [s], by the route incentive alone; `None` where it does not think of it.
+    pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
+        let Route { weight, .. } = self.route;
+        let earning = self.route.leaving(on_route, alternative, band).filter(|_| weight != 0.0)?;
+        let rows = Mcdm::NAMES.map(|name| match name {
+            "route" => Row { earning, weight },
+            _ => Row::default(),
+        });
+        Some(Appraisal { rows, gain: self.combine(&rows), theta: self.theta })
+    }
+
     /// G.
     pub fn combine(&self, rows: &[Row]) -> f64 {
         let utility = |earning: f64| match self.combination {

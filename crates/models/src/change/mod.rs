@@ -88,6 +88,15 @@ impl LaneChangeModel {
         }
     }
 
+    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s], if it is better by more than
+    /// `band` [s]; `None` where it does not think of it.
+    pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.appraise_leaving(on_route, alternative, band),
+            LaneChangeModel::ConstantHazard(_) => None,
+        }
+    }
+
     /// The same model where comfort weighs `factor` times as much.
     pub fn with_comfort(&self, factor: f64) -> LaneChangeModel {
         match self {
@@ -109,6 +118,7 @@ impl LaneChangeModel {
     }
 
     /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
+    #[inline(always)]
     pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
         if let LaneChangeModel::Mcdm(model) = self
             && model.is_out_of_reach(sides, epochs, draw)

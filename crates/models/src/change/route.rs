@@ -5,10 +5,14 @@
 //! * literal: Y = (E_here − E_there)/E_here: divided by the whole remaining trip; 0 between symmetric lanes.
 //! * repaired: Y = (E_here − E_there)/T_ref, T_ref = 60 s, within ±10: a minute lost counts the same wherever it
 //!   is lost. And who finds the other route faster does not come back:
-//!   E_there = P_n min(T, T_alt) + (1 − P_n) T_alt. Between symmetric lanes only the speeds count: changing brings
-//!   no route nearer.
+//!   E_there = P_n min(T, T_alt) + (1 − P_n) T_alt, the minimum where T_alt is less by more than the driver's
+//!   indifference band. Between symmetric lanes the speeds count, and whether a better way forks off from either
+//!   (ours): E = min(T, T_alt) in both.
 //!
 //! The speeds of the lanes count over the section, at most as far as a driver sees (ours).
+//!
+//! A route is left in the repaired reading as a lane is (ours): Y = (T − T_alt − band)/T_ref, alone and weighed with μ₂,
+//! is held against the driver's rule.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +66,18 @@ impl Route {
         let alternative = lane.route.alternative.map_or(on_route + self.penalty, |time| on_section + time);
         (on_route, alternative)
     }
+
+    /// Y of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band` [s]; `None` where it is
+    /// not worth it, or the reading knows of no such thing.
+    pub fn leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<f64> {
+        let gain = on_route - alternative - band;
+        (self.reading == Reading::Repaired && gain > 0.0).then(|| (gain / self.reference).min(LARGEST_YIELD))
+    }
+}
+
+/// The time that counts for a driver who leaves `on_route` for an `alternative` that is better by more than `band` [s].
+fn better(on_route: f64, alternative: f64, band: f64) -> f64 {
+    if alternative + band < on_route { alternative } else { on_route }
 }
 
 impl Incentive for Route {
@@ -70,7 +86,7 @@ impl Incentive for Route {
     }
 
     fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes {
-        let Situation { me, here, there, section, .. } = situation;
+        let Situation { me, here, there, section, band, .. } = situation;
         let speed = |lane: &LaneView| match self.reading {
             Reading::Literal => me.follow.prospect(me.pace, lane.ahead),
             Reading::Repaired => lane.prospect,
@@ -82,10 +98,12 @@ impl Incentive for Route {
             Reading::Literal if situation.is_symmetric() => Outcomes { keep, back: keep, away: keep },
             Reading::Literal => Outcomes { keep, back: -route_there, away: -alternative_there },
             Reading::Repaired if situation.is_symmetric() => {
-                Outcomes { keep, back: -route_there, away: -route_there }
+                let there = -better(route_there, alternative_there, *band);
+                Outcomes { keep: -better(route_here, alternative_here, *band), back: there, away: there }
             }
             Reading::Repaired => {
-                Outcomes { keep, back: -route_there.min(alternative_there), away: -alternative_there }
+                let back = -better(route_there, alternative_there, *band);
+                Outcomes { keep, back, away: -alternative_there }
             }
         }
     }

@@ -18,6 +18,8 @@ pub struct Situation<'a> {
     /// Length over which the lanes' speeds differ for this driver [m]: to the end of the section, at most
     /// as far as it sees.
     pub section: f64,
+    /// Gain for which the driver leaves its route [s]; infinite: it keeps it whatever it finds.
+    pub band: f64,
     /// Vehicles that signal a change into the driver's lane and that it would make room for.
     pub merging: [Option<Merging<'a>>; 2],
 }
@@ -78,7 +80,7 @@ pub struct RouteView {
     pub remaining: f64,
     /// Travel time beyond the section along the route [s].
     pub onward: f64,
-    /// Travel time beyond the section along the best alternative, if there is one [s].
+    /// T_alt: travel time beyond the section along the best other way from where the lane leads, if there is one [s].
     pub alternative: Option<f64>,
 }
 

@@ -28,7 +28,7 @@ pub(crate) const ON_ROUTE: RouteView =
 pub(crate) fn empty_road(me: Driver<'_>) -> Situation<'_> {
     let flow = Flow { spacing: 300.0, speed: me.pace.desired, length: LENGTH };
     let lane = LaneView { ahead: None, behind: None, flow, prospect: me.pace.desired, route: ON_ROUTE };
-    Situation { me, here: lane, there: lane, section: 200.0, merging: [None; 2] }
+    Situation { me, here: lane, there: lane, section: 200.0, band: 0.0, merging: [None; 2] }
 }
 
 /// The paper's model with the weights μ₁…μ₄ and β, by the threshold rule with θ = 0.

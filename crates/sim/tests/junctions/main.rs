@@ -4,6 +4,7 @@
 mod drivers;
 mod flow;
 mod giving_way;
+mod guided;
 mod lights;
 mod room;
 mod same_bits;

@@ -3,7 +3,7 @@
 use laneweave_models::change::{Comfort, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency};
 use laneweave_models::follow::{FollowingModel, Fvdm, Idm};
 use laneweave_models::yielding::Yielding;
-use laneweave_models::{Attention, Manner, Style};
+use laneweave_models::{Attention, Guidance, Manner, Style};
 use laneweave_sim::{Demand, Share};
 
 /// A conservative IDM driver with the paper's weights, repaired.
@@ -34,6 +34,7 @@ pub(crate) fn conservative() -> Style {
         attention: Attention::default(),
         manner: Manner::default(),
         yielding: Yielding::default(),
+        guidance: Guidance::default(),
     }
 }
 

@@ -1,0 +1,162 @@
+//! A jam on the straight road: who leaves its route for the left one. A first look at the paper's third claim, that changes grow
+//! sharply with the weight of the route.
+
+use std::collections::{HashMap, HashSet};
+
+use laneweave::models::Style;
+use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
+use laneweave::network::ChainIndex;
+use laneweave::sim::{
+    Class, Demand, Event, Fleet, Kerb, NewVehicle, Place, Places, Setup, Share, VehicleId, World,
+};
+use laneweave::study::{Estimate, mean};
+use laneweave::style::Population;
+
+use crate::roads::{Approach, Road};
+
+const STEP_S: f64 = 0.1;
+const SEEDS: u64 = 10;
+/// Interval of guidance [s].
+const INTERVAL_S: f64 = 30.0;
+/// When drivers begin to come, after the jam has built up, and how long they come [s].
+const BEGIN: u32 = 120;
+const COME_FOR: u32 = 180;
+/// Time in which the last of them pass the junction [s].
+const AFTER: u32 = 60;
+/// Seconds between two of them.
+const HEADWAY: u32 = 4;
+/// Weights of the route.
+const WEIGHTS: [f64; 3] = [0.0, 0.05, 0.4];
+/// Desired speed of those who make the jam, as a share of the limit, and how many there are on each lane [veh/h].
+const CRAWL: f64 = 0.15;
+const CRAWLERS: f64 = 240.0;
+
+/// What drivers did per head.
+struct Found {
+    lane_changes: f64,
+    route_changes: f64,
+    /// Share that drove to the left.
+    left: f64,
+}
+
+/// The usual drivers, each with another table of incentives.
+fn drivers(seed: u64, table: impl Fn(Mcdm) -> Mcdm) -> Vec<Style> {
+    let mut characters = Population::usual(seed).expect("built-in styles").characters;
+    for it in &mut characters {
+        let LaneChangeModel::Mcdm(usual) = &it.change else { panic!("the usual drivers weigh") };
+        it.change = LaneChangeModel::Mcdm(table(usual.clone()));
+    }
+    characters
+}
+
+/// The usual weights, but for that of the route.
+fn with_route_weight(weight: f64) -> impl Fn(Mcdm) -> Mcdm {
+    move |usual| Mcdm { route: Route { weight, ..usual.route }, ..usual }
+}
+
+/// No weights, by the threshold rule.
+fn without_weights(usual: Mcdm) -> Mcdm {
+    Mcdm { rule: Rule::Threshold, theta: usual.theta, ..Mcdm::default() }
+}
+
+/// Drivers to the common exit come in lanes B and C; their own way is straight on, where `crawlers` come on each lane [veh/h].
+fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
+    let approach = Approach::drawn();
+    let [_, b, c] = approach.lanes;
+    let [_, _, common] = approach.exits;
+    let mut characters = drivers(seed, table);
+    let count = characters.len() as u32;
+    let crawler = Style { speed_factor: CRAWL, ..drivers(seed, without_weights).swap_remove(0) };
+    characters.push(crawler);
+    let network = approach.network.clone();
+    let places = Places { origins: kerbs(&approach), destinations: Places::at_gates(&network).destinations };
+    let population = vec![Share { weight: 1.0, first: count, count: 1 }];
+    let total = crawlers * places.origins.len() as f64;
+    let mut demand = Demand::over(places, total, Fleet::default(), population);
+    for origin in &mut demand.origins {
+        origin.weights.fill(0.0);
+        origin.weights[usize::from(common)] = 1.0;
+    }
+    let setup = Setup { step: STEP_S, seed, threads: 1 };
+    let mut world = World::new(network, characters, demand, setup).expect("a world");
+    world = world.guided(INTERVAL_S).expect("few destinations");
+    let mut come: HashSet<VehicleId> = HashSet::new();
+    let mut roads: HashMap<VehicleId, Road> = HashMap::new();
+    let mut lane_changes = 0;
+    for step in 0..(BEGIN + COME_FOR + AFTER) * 10 {
+        let is_time = (BEGIN * 10..(BEGIN + COME_FOR) * 10).contains(&step) && step % (10 * HEADWAY) == 0;
+        if is_time {
+            let number = step / (10 * HEADWAY);
+            let chain = if number.is_multiple_of(2) { b } else { c };
+            if world.scene().motions(chain).first().is_none_or(|it| it.rear() > 40.0) {
+                let character = (number * 7919 + seed as u32) % count;
+                let (class, destination) = (Class::Car, Some(common));
+                let speed = 10.0;
+                come.insert(world.place(NewVehicle { chain, x: 5.0, speed, class, character, destination }));
+            }
+        }
+        world.step();
+        for it in world.vehicles().filter(|it| come.contains(&it.id())) {
+            if let Some(road) = approach.road(it.spot.chain, it.x()) {
+                roads.entry(it.id()).or_insert(road);
+            }
+        }
+        for event in world.events() {
+            let Event::LaneChange(it) = event else { continue };
+            let is_before = approach.road(it.from.0, it.from.1).is_none();
+            lane_changes += u32::from(it.is_completed && is_before && come.contains(&it.vehicle));
+        }
+    }
+    let tally = world.tally();
+    assert_eq!((tally.collisions, world.counts().overlaps), (0, 0));
+    let all = come.len() as f64;
+    Found {
+        lane_changes: f64::from(lane_changes) / all,
+        route_changes: tally.route_changes as f64 / all,
+        left: roads.values().filter(|it| **it == Road::Left).count() as f64 / all,
+    }
+}
+
+/// Kerbs at the beginning of the straight road, one in each lane.
+fn kerbs(approach: &Approach) -> Vec<Place> {
+    let across = approach.lanes.iter().flat_map(|it| approach.across(*it));
+    let kerb = |chain: ChainIndex| {
+        let station = approach.begin_of(Road::Straight, chain)?;
+        let (lanelet, _) = approach.network.lanelet_at(chain, station);
+        Some(Place::Kerb(Kerb { id: lanelet.id, chain, station }))
+    };
+    across.filter_map(kerb).collect()
+}
+
+/// Over seeds: lane changes, route changes, and the share that drove to the left.
+fn replicate(what: &str, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> [Estimate; 3] {
+    let found: Vec<Found> = (1..=SEEDS).map(|seed| drive(seed, &table, crawlers)).collect();
+    let over = |of: fn(&Found) -> f64| mean(&found.iter().map(of).collect::<Vec<_>>()).expect("replications");
+    let all = [over(|it| it.lane_changes), over(|it| it.route_changes), over(|it| it.left)];
+    let show = |it: &Estimate| format!("{:.3} ± {:.3}", it.mean, it.half_width);
+    let [lanes, routes, left] = all.each_ref().map(show);
+    eprintln!("{what}: per driver {lanes} lane changes, {routes} route changes; {left} to the left");
+    all
+}
+
+#[test]
+fn with_a_jam_on_the_own_route_lane_changes_and_route_changes_grow_with_the_weight_of_the_route() {
+    let found = WEIGHTS.map(|it| replicate(&format!("route weight {it}"), with_route_weight(it), CRAWLERS));
+    assert_eq!(found[0][1].mean, 0.0, "nobody leaves a route that it does not weigh");
+    for pair in found.windows(2) {
+        for (less, more) in pair[0].iter().zip(&pair[1]) {
+            assert!(less.interval().upper < more.interval().lower, "{less:?} {more:?}");
+        }
+    }
+}
+
+#[test]
+fn without_weights_nobody_leaves_its_lane_or_its_route() {
+    assert_eq!(replicate("no weights", without_weights, CRAWLERS).map(|it| it.mean), [0.0; 3]);
+}
+
+#[test]
+fn without_a_jam_nobody_leaves_its_route() {
+    let [_, routes, left] = replicate("no jam", with_route_weight(0.8), 0.0);
+    assert_eq!((routes.mean, left.mean), (0.0, 0.0));
+}

@@ -1,0 +1,124 @@
+//! Where a lane ends (catalogue V52): what passes is not above the capacity of the lanes that go on, a queue before it
+//! takes away at most 15 % of it, and nobody stands for good; and two lanes of equal inflow are equally full.
+
+use laneweave::entrance_capacity;
+use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::models::Style;
+use laneweave::network::{Network, Side};
+use laneweave::sim::{Demand, Rate, Setup, World};
+use laneweave::study::{Estimate, mean};
+use laneweave::style::Population;
+
+const STEP_S: f64 = 0.1;
+const SECONDS_PER_HOUR: f64 = 3600.0;
+const SEEDS: u64 = 8;
+
+fn road(lanes: usize, lane_drop_at: Option<f64>) -> Network {
+    let road = Motorway { lanes, length_m: 3000.0, lane_drop_at, ..Motorway::default() };
+    motorway(&road).expect("a road").build().expect("a network").network
+}
+
+/// The usual drivers, in cars, who come at `rate`.
+fn world(network: Network, rate: Rate, seed: u64) -> World {
+    let Population { characters, shares } = Population::usual(seed).expect("built-in styles");
+    let mut demand = Demand::even(&network, 0.0, 0.0, shares);
+    demand.origins[0].rate = rate;
+    World::new(network, characters, demand, Setup { step: STEP_S, seed, threads: 1 }).expect("a world")
+}
+
+fn drive(world: &mut World, seconds: f64, mut watch: impl FnMut(&World)) {
+    for step in 0..(seconds / STEP_S) as u32 {
+        world.step();
+        if step % 100 == 0 {
+            watch(world);
+        }
+    }
+}
+
+/// The mean over replications, said on screen.
+fn over_seeds<T>(what: &str, found: &[T], of: impl Fn(&T) -> f64) -> Estimate {
+    let estimate = mean(&found.iter().map(of).collect::<Vec<_>>()).expect("replications");
+    eprintln!("{what}: {:.4} ± {:.4} over {SEEDS} seeds", estimate.mean, estimate.half_width);
+    estimate
+}
+
+/// Capacity of two lanes full of the usual drivers in equilibrium [veh/h].
+fn capacity_of_two_lanes() -> f64 {
+    let Population { characters, shares } = Population::usual(1).expect("built-in styles");
+    let weight = |number: u32| {
+        let share = shares.iter().find(|it| (it.first..it.first + it.count).contains(&number));
+        share.map_or(0.0, |it| it.weight / f64::from(it.count))
+    };
+    let drivers: Vec<(Style, f64)> = characters.into_iter().zip((0..).map(weight)).collect();
+    let network = road(2, None);
+    entrance_capacity(&network, &Demand::even(&network, 0.0, 0.0, shares), &drivers)
+}
+
+/// Time before flows are measured, in which they are, and in which all drive out when nobody comes any more [s].
+const BEGIN: f64 = 300.0;
+const MEASURED: f64 = 900.0;
+const DISSOLVES: f64 = 900.0;
+
+/// Vehicles that passed the end of one of three lanes, every 10 s, where `demand` [veh/h] comes. Afterwards nobody stands there for
+/// good.
+fn passed_a_drop(demand: f64, seed: u64) -> Vec<f64> {
+    let rate = Rate::by_pieces(&[(0.0, demand), (BEGIN + MEASURED, 0.0)]).expect("a rate");
+    let mut world = world(road(3, Some(2000.0)), rate, seed);
+    drive(&mut world, BEGIN, |_| ());
+    let mut passed = Vec::new();
+    drive(&mut world, MEASURED, |world| passed.push(world.counts().left as f64));
+    drive(&mut world, DISSOLVES, |_| ());
+    let tally = world.tally();
+    assert_eq!((world.on_road(), world.waiting(), tally.stuck, tally.collisions), (0, 0, 0, 0));
+    passed
+}
+
+/// The largest flow over `count` samples [veh/h].
+fn largest_flow(passed: &[f64], count: usize) -> f64 {
+    let flows =
+        passed.windows(count + 1).map(|it| (it[count] - it[0]) * SECONDS_PER_HOUR / (10 * count) as f64);
+    flows.fold(0.0, f64::max)
+}
+
+#[test]
+fn v52_a_queue_at_a_lane_drop_discharges_at_most_15_percent_below_capacity_and_dissolves() {
+    /// Demands just below what makes a queue, and far above [veh/h].
+    const NEAR: f64 = 4000.0;
+    const ABOVE: f64 = 5000.0;
+    let equilibrium = capacity_of_two_lanes();
+    eprintln!("two lanes in equilibrium: {equilibrium:.0} veh/h");
+    // The largest flow of five minutes, and that of a quarter of an hour with a queue.
+    let flows: Vec<[f64; 2]> = (1..=SEEDS)
+        .map(|seed| {
+            let (near, above) = (passed_a_drop(NEAR, seed), passed_a_drop(ABOVE, seed));
+            [largest_flow(&near, 30), largest_flow(&above, above.len() - 1)]
+        })
+        .collect();
+    let capacity = over_seeds("largest flow before a queue", &flows, |it| it[0]).interval();
+    over_seeds("discharge of a queue", &flows, |it| it[1]);
+    let drop = over_seeds("capacity drop", &flows, |it| 1.0 - it[1] / it[0]).interval();
+    assert!(capacity.upper <= equilibrium, "{capacity:?} is above {equilibrium}");
+    assert!(drop.lower >= 0.0 && drop.upper <= 0.15, "{drop:?}");
+}
+
+/// Share of the vehicles on the middle kilometre of two equal lanes that are on the left one.
+fn share_on_the_left(seed: u64) -> f64 {
+    const FLOW: f64 = 2400.0;
+    let mut world = world(road(2, None), Rate::constant(FLOW), seed);
+    let (mut left, mut all) = (0.0, 0.0);
+    drive(&mut world, 200.0, |_| ());
+    drive(&mut world, 900.0, |world| {
+        for it in world.vehicles().filter(|it| (1000.0..2000.0).contains(&it.x())) {
+            let is_left = world.network().chain(it.spot.chain).stretches(Side::Left).is_empty();
+            (left, all) = (left + f64::from(u8::from(is_left)), all + 1.0);
+        }
+    });
+    left / all
+}
+
+#[test]
+fn v52_two_lanes_of_equal_inflow_are_equally_full() {
+    let shares: Vec<f64> = (1..=SEEDS).map(share_on_the_left).collect();
+    let share = over_seeds("share on the left of two lanes", &shares, |it| *it).interval();
+    assert!(share.lower >= 0.48 && share.upper <= 0.52, "{share:?}");
+}

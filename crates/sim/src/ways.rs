@@ -1,0 +1,397 @@
+//! The ways to one destination: for each chain the lane changes still to make, the last place for the next of them, the way on,
+//! and the times of this way and of the best other one.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use laneweave_network::{Beside, Chain, ChainIndex, Network, Side};
+
+use crate::links::Links;
+use crate::place::Place;
+use crate::views::Views;
+
+/// What a chain means on the way to a destination.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waypoint {
+    /// n: fewest lane changes from it to a lane that leads there; [`Waypoint::NO_WAY`] if none does.
+    pub changes: u32,
+    /// The chain from which on the way was planned: the next one, or the one to change to; itself at the destination.
+    via: ChainIndex,
+    /// Last place for the next change, from the chain's start, beyond its end if on a later one [m]; infinite for
+    /// n = 0.
+    pub last_place: f64,
+    /// The chain that it goes on with.
+    pub next: Option<ChainIndex>,
+    /// Travel time from its start to the destination [s].
+    pub time: f64,
+    /// T_alt: travel time from its start of the best way over its end that is not this one [s]; infinite if there is none.
+    pub alternative: f64,
+    /// Way from its start to the destination [m].
+    pub distance: f64,
+    /// Where on it the trip ends [m]; infinite where it goes on to the chain's end.
+    pub end: f64,
+}
+
+impl Waypoint {
+    /// More changes than any road has lanes: there is no way.
+    pub const NO_WAY: u32 = 1000;
+    /// What a lane change counts for in the choice of a route [s].
+    const CHANGE_COST: f64 = 20.0;
+
+    pub(crate) const NOWHERE: Waypoint = Waypoint {
+        changes: Waypoint::NO_WAY,
+        via: ChainIndex(0),
+        last_place: 0.0,
+        next: None,
+        time: f64::INFINITY,
+        alternative: f64::INFINITY,
+        distance: f64::INFINITY,
+        end: f64::INFINITY,
+    };
+
+    /// There is a way.
+    #[inline]
+    pub fn leads_there(&self) -> bool {
+        self.changes < Waypoint::NO_WAY
+    }
+
+    /// The destination can still be reached from `x` on the chain.
+    #[inline]
+    pub fn leads_on(&self, x: f64) -> bool {
+        self.leads_there() && x <= self.last_place && x <= self.end
+    }
+
+    /// What is least on the best way [s].
+    pub(crate) fn cost(&self) -> f64 {
+        self.time + Waypoint::CHANGE_COST * f64::from(self.changes)
+    }
+
+    /// Both lead the same way over the same chain.
+    pub(crate) fn goes_like(&self, other: &Waypoint) -> bool {
+        (self.changes, self.via, self.next) == (other.changes, other.via, other.next)
+    }
+}
+
+/// Stretches from which a change leads into a chain: chain, side and number.
+pub(crate) type Into = Vec<(ChainIndex, Side, usize)>;
+
+/// Plans ways on a network as one class sees it.
+#[derive(Clone, Copy)]
+pub(crate) struct Planner<'a> {
+    pub(crate) network: &'a Network,
+    /// See [`beside_into`].
+    pub(crate) into: &'a [Into],
+    pub(crate) links: &'a Links,
+    pub(crate) views: &'a Views,
+    pub(crate) view: usize,
+}
+
+impl Planner<'_> {
+    /// Road that is kept for each further change before the last place [m].
+    const ROOM_FOR_A_CHANGE: f64 = 40.0;
+    /// What a chain counts for beside its time in the choice of a route, if it is avoided [s], ours: no detour in a town is
+    /// as long.
+    const AVOIDED: f64 = 600.0;
+
+    /// Time along `chain` from its start to `until` [s].
+    fn time(&self, chain: ChainIndex, until: f64) -> f64 {
+        if self.links.are_free() {
+            free_time(self.network.chain(chain), until)
+        } else {
+            self.links.time_to(chain, until)
+        }
+    }
+
+    /// Time by which who changes to `chain` is ahead of its start, if the own chain begins `across` [m] along it [s].
+    fn lead(&self, chain: ChainIndex, across: f64) -> f64 {
+        if self.links.are_free() {
+            across / self.network.chain(chain).limit(0.0)
+        } else {
+            self.links.time_to(chain, across)
+        }
+    }
+
+    /// What `chain` counts for beside its time [s].
+    fn delay(&self, chain: ChainIndex) -> f64 {
+        if self.views.avoids(self.view, chain) { Planner::AVOIDED } else { 0.0 }
+    }
+
+    /// The waypoint of `chain` for who goes on to `next`, whose waypoint is `onward`.
+    pub(crate) fn before(&self, chain: ChainIndex, next: ChainIndex, onward: &Waypoint) -> Waypoint {
+        let length = self.network.chain(chain).length;
+        Waypoint {
+            changes: onward.changes,
+            via: next,
+            last_place: length + onward.last_place,
+            next: Some(next),
+            time: self.time(chain, length) + onward.time,
+            alternative: f64::INFINITY,
+            distance: length + onward.distance,
+            end: f64::INFINITY,
+        }
+    }
+
+    /// Best waypoints towards `place`, spread backwards from it until none improves.
+    pub(crate) fn plan(&self, place: &Place) -> Vec<Waypoint> {
+        let Planner { network, into, .. } = *self;
+        let chains = &network.chains;
+        let mut table = vec![Waypoint::NOWHERE; chains.len()];
+        let mut ranks = vec![rank(network, &Waypoint::NOWHERE); chains.len()];
+        let mut open = BinaryHeap::new();
+        for index in place.chains() {
+            let (until, end) = match place {
+                Place::Gate(_) => (network.chain(*index).length, f64::INFINITY),
+                Place::Kerb(kerb) => (kerb.station, kerb.station),
+            };
+            table[index.at()] = Waypoint {
+                changes: 0,
+                via: *index,
+                last_place: f64::INFINITY,
+                next: None,
+                time: self.time(*index, until),
+                alternative: f64::INFINITY,
+                distance: until,
+                end,
+            };
+            ranks[index.at()] = rank(network, &table[index.at()]);
+            open.push((Reverse(ranks[index.at()]), *index));
+        }
+        while let Some((Reverse(ranked), index)) = open.pop() {
+            let here = table[index.at()];
+            if ranked != ranks[index.at()] {
+                continue;
+            }
+            let mut offer = |to: ChainIndex, waypoint: Waypoint| {
+                let new = rank(network, &waypoint);
+                if new < ranks[to.at()] {
+                    (table[to.at()], ranks[to.at()]) = (waypoint, new);
+                    open.push((Reverse(new), to));
+                }
+            };
+            for back in &chains[index.at()].previous {
+                let waypoint = self.before(*back, index, &here);
+                offer(*back, Waypoint { time: waypoint.time + self.delay(*back), ..waypoint });
+            }
+            for (from, side, number) in &into[index.at()] {
+                let stretch = &network.chain(*from).stretches(*side)[*number];
+                let until = here.last_place.min(here.end) - Planner::ROOM_FOR_A_CHANGE;
+                let last_place =
+                    if until.is_finite() { stretch.end.min(stretch.back(until)) } else { stretch.end };
+                if last_place > stretch.start {
+                    offer(*from, self.beside(*from, index, stretch, last_place, &here));
+                }
+            }
+        }
+        for index in 0..chains.len() {
+            if table[index].changes > 0 || table[index].end.is_finite() {
+                let best = chains[index]
+                    .following
+                    .iter()
+                    .min_by(|a, b| table[a.at()].cost().total_cmp(&table[b.at()].cost()));
+                table[index].next = best.copied();
+            }
+        }
+        table
+    }
+
+    /// The waypoint of `chain` for who changes over `stretch` to the chain `to`, whose waypoint is `onward`.
+    fn beside(
+        &self,
+        chain: ChainIndex,
+        to: ChainIndex,
+        stretch: &Beside,
+        last_place: f64,
+        onward: &Waypoint,
+    ) -> Waypoint {
+        let across = stretch.across(0.0);
+        Waypoint {
+            changes: onward.changes + 1,
+            via: to,
+            last_place,
+            next: self.network.chain(chain).following.first().copied(),
+            time: onward.time - self.lead(to, across),
+            alternative: f64::INFINITY,
+            distance: onward.distance - across,
+            end: f64::INFINITY,
+        }
+    }
+
+    /// Gives the ways of `table` towards `place`, which stay as they are, the present link times.
+    pub(crate) fn retime(&self, table: &mut [Waypoint], place: &Place) {
+        for chain in from_the_destination(table) {
+            let Waypoint { changes, via, last_place, .. } = table[chain.at()];
+            let onward = table[via.at()];
+            table[chain.at()].time = if via == chain {
+                match place {
+                    Place::Gate(_) => self.time(chain, self.network.chain(chain).length),
+                    Place::Kerb(kerb) => self.time(chain, kerb.station),
+                }
+            } else if changes == onward.changes {
+                let it = self.network.chain(chain);
+                self.time(chain, it.length) + onward.time + self.delay(chain)
+            } else {
+                let across = stretch_to(self.network.chain(chain), via, last_place);
+                onward.time - across.map_or(0.0, |it| self.lead(via, it.across(0.0)))
+            };
+        }
+    }
+
+    /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, by the ways of
+    /// `best`, or else by its own.
+    pub(crate) fn note_alternatives(&self, table: &mut [Waypoint], best: Option<&[Waypoint]>) {
+        let mut alternatives = vec![f64::INFINITY; table.len()];
+        for chain in from_the_destination(table) {
+            let it = self.network.chain(chain);
+            let Waypoint { changes, via, .. } = table[chain.at()];
+            let goes_over_end = via != chain && changes == table[via.at()].changes;
+            let onward = it.following.iter().map(|next| match next {
+                next if goes_over_end && *next == via => alternatives[next.at()],
+                next => best.unwrap_or(table)[next.at()].time,
+            });
+            let onward = onward.fold(f64::INFINITY, f64::min);
+            alternatives[chain.at()] = self.time(chain, it.length) + self.delay(chain) + onward;
+        }
+        table.iter_mut().zip(alternatives).for_each(|(waypoint, time)| waypoint.alternative = time);
+    }
+}
+
+/// The chains of `table` that have a way, each after the one that it goes on with.
+fn from_the_destination(table: &[Waypoint]) -> Vec<ChainIndex> {
+    let mut order = Vec::with_capacity(table.len());
+    let mut is_known: Vec<bool> = table.iter().map(|it| !it.leads_there()).collect();
+    let mut way = Vec::new();
+    for start in 0..table.len() {
+        let mut at = start;
+        while !is_known[at] {
+            is_known[at] = true;
+            way.push(ChainIndex(at as u32));
+            at = table[at].via.at();
+        }
+        order.extend(way.drain(..).rev());
+    }
+    order
+}
+
+/// The stretch of `chain` over which who has to change by `last_place` changes to the chain `to`.
+fn stretch_to(chain: &Chain, to: ChainIndex, last_place: f64) -> Option<&Beside> {
+    let all = Side::BOTH.into_iter().flat_map(|side| chain.stretches(side));
+    let mut leading = all.filter(|it| it.chain == to);
+    leading.find(|it| it.start < last_place && last_place <= it.end)
+}
+
+/// Free travel time along `chain` from its start to `until` [s].
+pub(crate) fn free_time(chain: &Chain, until: f64) -> f64 {
+    let ends = chain.limits.iter().skip(1).map(|it| it.start).chain([chain.length]);
+    let pieces = chain.limits.iter().zip(ends).filter(|(limit, _)| limit.start < until);
+    pieces.map(|(limit, end)| (end.min(until) - limit.start) / limit.speed).sum()
+}
+
+/// Of two waypoints of a chain the one with the lower rank is better: less cost [µs, so that equal ways count as equal], then
+/// a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are stored.
+fn rank(network: &Network, waypoint: &Waypoint) -> (i64, i64, i64) {
+    let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(it, 0.0).0.id);
+    ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)
+}
+
+/// For each chain the stretches from which a change leads into it.
+pub(crate) fn beside_into(network: &Network) -> Vec<Into> {
+    let mut into = vec![Vec::new(); network.chains.len()];
+    for (index, chain) in network.chains.iter().enumerate() {
+        for side in Side::BOTH {
+            for (number, stretch) in chain.stretches(side).iter().enumerate() {
+                into[stretch.chain.at()].push((ChainIndex(index as u32), side, number));
+            }
+        }
+    }
+    into
+}
+
+/// For drivers without a destination: on along the first following chain; out of lanes that end.
+pub(crate) fn wander(network: &Network) -> Vec<Waypoint> {
+    let on = |chain: &Chain| Waypoint {
+        changes: 0,
+        last_place: f64::INFINITY,
+        next: chain.following.first().copied(),
+        time: 0.0,
+        ..Waypoint::NOWHERE
+    };
+    let mut table: Vec<Waypoint> = network.chains.iter().map(on).collect();
+    for index in &network.lane_drops {
+        let chain = network.chain(*index);
+        let ends = |side: Side| chain.stretches(side).last().map(|it| it.end);
+        let last_place = Side::BOTH.into_iter().filter_map(ends).reduce(f64::max).unwrap_or(chain.length);
+        table[index.at()] = Waypoint { changes: 1, last_place, ..table[index.at()] };
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
+
+    use super::*;
+
+    /// A lane to the east between two stations [m] at 10 m/s, followed by `following`.
+    fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
+        let line = Polyline::new([from, to].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
+        let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
+        lanelet.following = following.iter().map(|it| LaneletIndex(*it)).collect();
+        lanelet
+    }
+
+    /// A road of 100 m that forks into one of 200 m and one of 400 m, which meet before the last 100 m.
+    fn fork() -> Network {
+        let all = vec![
+            lanelet(1, [0.0, 100.0], &[1, 2]),
+            lanelet(2, [100.0, 300.0], &[3]),
+            lanelet(3, [100.0, 500.0], &[3]),
+            lanelet(4, [300.0, 400.0], &[]),
+        ];
+        Network::new(all, DrivingSide::Right).unwrap()
+    }
+
+    fn chain(network: &Network, id: i64) -> ChainIndex {
+        let chains = (0..network.chains.len() as u32).map(ChainIndex);
+        chains.into_iter().find(|it| network.lanelet_at(*it, 0.0).0.id == id).unwrap()
+    }
+
+    /// The way over the fork, its time and that of the other one, when the chain of a lanelet takes another time than the free one.
+    fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
+        let network = fork();
+        let into = beside_into(&network);
+        let views = Views::default();
+        let mut links = Links::of(&network);
+        let free = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+        let place = Place::Gate(network.exits[0].clone());
+        let mut table = free.plan(&place);
+        let times: Vec<f64> = (0..network.chains.len() as u32)
+            .map(ChainIndex)
+            .map(|it| {
+                let usual = free.time(it, network.chain(it).length);
+                slow.filter(|(id, _)| chain(&network, *id) == it).map_or(usual, |(_, time)| time)
+            })
+            .collect();
+        links.take(times.into_iter());
+        let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+        let mut best = planner.plan(&place);
+        planner.note_alternatives(&mut best, None);
+        planner.retime(&mut table, &place);
+        planner.note_alternatives(&mut table, Some(&best));
+        let Waypoint { next, time, alternative, .. } =
+            (if kept { table } else { best })[chain(&network, 1).at()];
+        (network.lanelet_at(next.unwrap(), 0.0).0.id, time, alternative)
+    }
+
+    #[test]
+    fn the_alternative_is_the_best_way_over_the_end_of_the_lane_that_is_not_the_own_one() {
+        assert_eq!(way(true, None), (2, 40.0, 60.0));
+        assert_eq!(way(false, None), (2, 40.0, 60.0));
+    }
+
+    #[test]
+    fn with_new_link_times_a_way_is_kept_with_its_new_time_and_the_best_one_is_another() {
+        assert_eq!(way(true, Some((2, 100.0))), (2, 120.0, 60.0));
+        assert_eq!(way(false, Some((2, 100.0))), (3, 60.0, 120.0));
+        assert_eq!(way(true, Some((1, 50.0))), (2, 80.0, 100.0));
+    }
+}
