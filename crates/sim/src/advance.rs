@@ -108,9 +108,9 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
             car.goal = destination.into();
             car.due = clock.step + 1;
         }
-        mind.last_place = concern.last_place.unwrap_or(f64::INFINITY);
+        mind.last_place = concern.last_place;
         mind.urgency = concern.urgency;
-        car.heeds_more |= concern.last_place.is_some();
+        car.heeds_more |= concern.last_place.is_finite();
         if concern.gives_up && car.phase == Phase::Wants {
             car.phase = Phase::Cruises;
             outbox.milestones.push(milestone(motion, mind, chain, Reached::Nothing));

@@ -16,7 +16,7 @@ use crate::clock::Clock;
 use crate::junction::is_place_ahead;
 use crate::leave::departure;
 use crate::perceive::{Outlook, driver};
-use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want};
+use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
 use crate::random::{Purpose, Random};
 use crate::scene::{Found, Scene, Spot, Viewpoint};
 use crate::traffic::{Kind, Mind, Phase};
@@ -93,9 +93,14 @@ fn consider(
     if note.standing > 0.0 && car.standing == 0.0 {
         outbox.halts.push(motion.id);
     }
-    plan.notes.push(note);
-    let mut concern =
-        Concern { index: note.index, last_place: None, urgency: 0.0, gives_up: false, rerouted: None };
+    push_tight(&mut plan.notes, note);
+    let mut concern = Concern {
+        index: note.index,
+        last_place: f64::INFINITY,
+        urgency: 0.0,
+        gives_up: false,
+        rerouted: None,
+    };
     let (navigator, goal) = (scene.navigator, car.goal.destination());
     let waypoint = navigator.waypoint_from(scene.network, goal, spot.chain, motion.x);
     // Where it stands in vain, the driver takes another way if there is one.
@@ -110,7 +115,7 @@ fn consider(
         concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
         plan.tally.missed_turns += 1;
-        plan.concerns.push(concern);
+        push_tight(&mut plan.concerns, concern);
         return;
     }
     // Who passed the last place goes round, if there is a way round; if not, it has a passage, and is re-routed beyond.
@@ -118,7 +123,9 @@ fn consider(
     if leads_on && matches!(waypoint, Cow::Owned(_)) {
         plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
-    concern.last_place = Some(waypoint.last_place).filter(|it| leads_on && it - motion.x < HEEDED_WITHIN);
+    if leads_on && waypoint.last_place - motion.x < HEEDED_WITHIN {
+        concern.last_place = waypoint.last_place;
+    }
     let beliefs = Beliefs::of(&style.guidance, navigator, moment.random, motion.id, goal);
     let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, beliefs, hints);
     let change = match state {
@@ -128,7 +135,10 @@ fn consider(
     let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
     if let Some(way) = departure(scene, moment, spot, &outlook, &change, epochs) {
         plan.tally.route_changes += u64::from(way.is_change);
-        plan.concerns.push(Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern });
+        push_tight(
+            &mut plan.concerns,
+            Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern },
+        );
         return;
     }
     let sides = [moment.overtaking, moment.overtaking.opposite()];
@@ -152,8 +162,8 @@ fn consider(
             outbox.requests.push(Request { urgency, id: motion.id, chain: spot.chain, x: motion.x, ask });
         }
     }
-    if car.phase != Phase::Cruises || car.heeds_more || concern.last_place.is_some() {
-        plan.concerns.push(concern);
+    if car.phase != Phase::Cruises || car.heeds_more || concern.last_place.is_finite() {
+        push_tight(&mut plan.concerns, concern);
     }
 }
 

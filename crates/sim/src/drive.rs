@@ -5,7 +5,7 @@ use laneweave_network::ChainIndex;
 use crate::accelerate::{Chosen, behind, lane_end, with_care};
 use crate::clock::Clock;
 use crate::junction::NO_PASSAGE;
-use crate::plan::{Plan, Upkeep, Waiting};
+use crate::plan::{Plan, Upkeep, Waiting, push_tight};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Lane, Motion};
 
@@ -77,7 +77,10 @@ fn drive_with_care(
         let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
         let slot = scene.mind(spot).passage;
         let passage_is_over = slot != NO_PASSAGE && scene.passages.of(slot, motion.id).is_none();
-        plan.upkeep.push(Upkeep { index, distance, in_emergency, in_collision: touches, passage_is_over });
+        push_tight(
+            &mut plan.upkeep,
+            Upkeep { index, distance, in_emergency, in_collision: touches, passage_is_over },
+        );
     }
     if junction.asks {
         let id = scene.motion(spot).id;

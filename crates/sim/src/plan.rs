@@ -34,6 +34,15 @@ pub(crate) struct Plan {
     pub(crate) tally: Tally,
 }
 
+/// Adds to a list that is kept from step to step: doubling would leave much of its memory unused.
+#[inline]
+pub(crate) fn push_tight<T>(list: &mut Vec<T>, item: T) {
+    if list.len() == list.capacity() {
+        list.reserve_exact(4 + list.len() / 8);
+    }
+    list.push(item);
+}
+
 impl Plan {
     /// Forgets the last step.
     pub(crate) fn clear(&mut self) {
@@ -172,8 +181,8 @@ pub(crate) struct Note {
 pub(crate) struct Concern {
     /// Its entry.
     pub(crate) index: u32,
-    /// Where it has to have left a wrong lane soon [m].
-    pub(crate) last_place: Option<f64>,
+    /// Where it has to have left a wrong lane soon [m]; infinite if it has not.
+    pub(crate) last_place: f64,
     /// How much the route presses it to the change that it wants, 0…1.
     pub(crate) urgency: f32,
     /// It no longer wants to change.

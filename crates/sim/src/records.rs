@@ -1,6 +1,7 @@
 //! Records of lane changes under way, kept in slots that are used again.
 
 use crate::events::LaneChange;
+use crate::plan::push_tight;
 
 /// The records.
 #[derive(Debug, Default)]
@@ -16,7 +17,7 @@ impl Records {
             self.kept[slot as usize] = record;
             return slot;
         }
-        self.kept.push(record);
+        push_tight(&mut self.kept, record);
         self.kept.len() as u32 - 1
     }
 

@@ -307,7 +307,7 @@ impl World {
         let duration = f64::from(self.clock.step - mind.entered) * self.clock.dt;
         self.counts.trip_time += duration;
         let trip = self.trips.end(motion.id);
-        self.counts.stops += u64::from(trip.stops);
+        self.counts.stops += u64::from(trip.stops());
         if let Some(delay) = trip.delay(duration) {
             self.counts.planned += 1;
             self.counts.delay += delay;

@@ -324,7 +324,7 @@ impl Lane {
         let index = self.ahead_of(entry.motion.x);
         if self.cars.len() == self.cars.capacity() {
             // Doubling would leave a third of the memory of much traffic unused.
-            let more = 4 + self.cars.len() / 16;
+            let more = 4 + self.cars.len() / 32;
             self.cars.reserve_exact(more);
             self.minds.reserve_exact(more);
         }

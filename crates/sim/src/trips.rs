@@ -9,22 +9,44 @@ use crate::navigate::{Destination, Navigator};
 use crate::traffic::VehicleId;
 use crate::ways::Waypoint;
 
-/// A trip.
+/// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours; above it
+/// the number of times that the vehicle came to a halt; and whether it is over.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Trip {
-    /// Time that its way takes at the speeds that the driver desires [s]; infinite if it goes nowhere.
-    free_time: f32,
-    /// Times that the vehicle came to a halt.
-    pub(crate) stops: u16,
-    is_over: bool,
-}
+pub(crate) struct Trip(u32);
 
 impl Trip {
-    const AHEAD: Trip = Trip { free_time: f32::INFINITY, stops: 0, is_over: false };
+    const TENTHS: u32 = (1 << 20) - 1;
+    const STOP: u32 = 1 << 20;
+    const STOPS: u32 = (1 << 11) - 1;
+    const OVER: u32 = 1 << 31;
+    /// Not begun, or to nowhere.
+    const AHEAD: Trip = Trip(Trip::TENTHS);
+
+    fn begin(&mut self, free_time: Option<f64>) {
+        let tenths =
+            free_time.map_or(Trip::TENTHS, |it| (10.0 * it).round().min(f64::from(Trip::TENTHS)) as u32);
+        self.0 = (self.0 & !Trip::TENTHS) | tenths;
+    }
+
+    fn stop(&mut self) {
+        if self.stops() < Trip::STOPS {
+            self.0 += Trip::STOP;
+        }
+    }
+
+    fn is_over(self) -> bool {
+        self.0 & Trip::OVER != 0
+    }
+
+    /// Times that the vehicle came to a halt, 2047 at most.
+    pub(crate) fn stops(self) -> u32 {
+        (self.0 / Trip::STOP) & Trip::STOPS
+    }
 
     /// What a trip of `duration` [s] took beyond the time on a free road [s], if it went anywhere.
-    pub(crate) fn delay(&self, duration: f64) -> Option<f64> {
-        self.free_time.is_finite().then(|| duration - f64::from(self.free_time))
+    pub(crate) fn delay(self, duration: f64) -> Option<f64> {
+        let tenths = self.0 & Trip::TENTHS;
+        (tenths < Trip::TENTHS).then(|| duration - 0.1 * f64::from(tenths))
     }
 }
 
@@ -47,21 +69,20 @@ impl Trips {
             }
             self.trips.resize(place + 1, Trip::AHEAD);
         }
-        self.trips[place].free_time = free_time.map_or(f32::INFINITY, |it| it as f32);
+        self.trips[place].begin(free_time);
     }
 
     /// The vehicle came to a halt.
     pub(crate) fn stop(&mut self, id: VehicleId) {
-        let trip = &mut self.trips[(id - self.oldest) as usize];
-        trip.stops = trip.stops.saturating_add(1);
+        self.trips[(id - self.oldest) as usize].stop();
     }
 
     /// A trip ends.
     pub(crate) fn end(&mut self, id: VehicleId) -> Trip {
         let trip = &mut self.trips[(id - self.oldest) as usize];
-        trip.is_over = true;
+        trip.0 |= Trip::OVER;
         let ended = *trip;
-        while self.trips.front().is_some_and(|it| it.is_over) {
+        while self.trips.front().is_some_and(|it| it.is_over()) {
             self.trips.pop_front();
             self.oldest += 1;
         }
