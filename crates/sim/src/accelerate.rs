@@ -5,6 +5,7 @@ use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 use laneweave_network::ChainIndex;
 
+use crate::appeal::STANDS;
 use crate::clock::Clock;
 use crate::junction::{self, Junction};
 use crate::scene::{Scene, Spot};
@@ -200,10 +201,14 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let pace = pace(motion, car);
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
-    // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
-    if car.phase == Phase::Wants && motion.speed > HARDLY_MOVES {
-        let falling_in = style.follow.acceleration(pace, leader_beside(scene, spot));
-        acceleration = falling_in.max(-style.manner.adjust_deceleration);
+    if car.phase == Phase::Wants {
+        let beside = leader_beside(scene, spot);
+        // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
+        let drives_on = motion.speed < HARDLY_MOVES && beside.is_some_and(|it| it.speed < STANDS);
+        if !drives_on {
+            let falling_in = style.follow.acceleration(pace, beside);
+            acceleration = falling_in.max(-style.manner.adjust_deceleration);
+        }
     }
     let (gap, speed) = mind.lets_in;
     if gap < f32::INFINITY {

@@ -1,10 +1,10 @@
 //! Drivers who wait at junctions ask for their passage, or give it back: on the snapshot, for what concerns them alone.
 //! Those who may pass are given passages one after the other once all have moved, on the state in which it takes effect.
 
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, ZoneKind};
 
 use crate::clock::Clock;
-use crate::junction::{Asking, Hindrance, Survey, are_led_on, may_pass, sight, survey};
+use crate::junction::{Asking, Hindrance, Hold, Survey, are_led_on, may_pass, sight, survey};
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
 use crate::world::World;
@@ -112,12 +112,23 @@ impl World {
         self.outboxes[0] = outbox;
     }
 
-    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if only there were room.
-    pub(crate) fn may_but_for_room(&self, spot: Spot, asking: Asking, outbox: &mut Outbox) -> bool {
+    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if only `freed` [m] more room were there. Who stays
+    /// within a merge for that is in nobody's way but of those who come after.
+    pub(crate) fn may_but_for_room(
+        &self,
+        spot: Spot,
+        asking: Asking,
+        freed: f64,
+        outbox: &mut Outbox,
+    ) -> bool {
         let scene = self.scene();
         let is_there = surveyed(&scene, spot, &mut outbox.survey);
+        let Survey { room, needed, holds, .. } = &outbox.survey;
+        let is_merge =
+            |it: &Hold| matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_));
+        let fits = room + freed >= *needed || holds.iter().all(is_merge);
         outbox.survey.room = f64::INFINITY;
-        is_there && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
+        is_there && fits && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
     }
 
     /// Gives the driver at `spot` the passage that it needs next.

@@ -2,7 +2,7 @@
 //! them could ever go if each waited for the other's room to be free; so they go together, each into the room of the next.
 
 use crate::appeal::STANDS;
-use crate::junction::{Asking, Hold};
+use crate::junction::{Asking, Hold, SPARE_ROOM};
 use crate::plan::Appeal;
 use crate::scene::{Scene, Spot};
 use crate::world::World;
@@ -24,14 +24,16 @@ impl World {
         }
     }
 
-    /// Gives passages to all `members` of a ring, if only room is what each of them waits for.
+    /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for.
     fn let_go_together(&mut self, members: &[(Spot, Appeal)]) {
         let mut outbox = std::mem::take(&mut self.outboxes[0]);
         let mut holds: Vec<Hold> = Vec::new();
         let scene = self.scene();
-        let may_go = members.iter().all(|(spot, appeal)| {
+        let next = members.iter().cycle().skip(1);
+        let may_go = members.iter().zip(next).all(|((spot, appeal), (next, _))| {
+            let freed = f64::from(scene.motion(*next).length) + SPARE_ROOM;
             let asking = Asking::of(&scene, *spot, appeal.since, self.clock);
-            let may = self.may_but_for_room(*spot, asking, &mut outbox);
+            let may = self.may_but_for_room(*spot, asking, freed, &mut outbox);
             let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
             let is_apart = !outbox.survey.holds.iter().any(crosses);
             holds.extend(outbox.survey.holds.iter().copied());

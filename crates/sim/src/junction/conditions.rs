@@ -80,7 +80,9 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     let gives_way = |hold: &Hold| {
         scene.network.junctions.zones[hold.zone.at()].precedence == Precedence::Side(1 - hold.side)
     };
-    let spare = if survey.holds.iter().any(gives_way) { ROOM_FOR_ANOTHER } else { 0.0 };
+    // Not for ever: those who go first may all wait for who would take the room.
+    let leaves_room = asking.claim.is_patient && survey.holds.iter().any(gives_way);
+    let spare = if leaves_room { ROOM_FOR_ANOTHER } else { 0.0 };
     if survey.room < (survey.needed + spare).min(survey.most) {
         return Err(Hindrance::Room);
     }

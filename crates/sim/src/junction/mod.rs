@@ -21,4 +21,4 @@ pub(crate) use heed::{Junction, look, sight};
 pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
-pub(crate) use survey::{Survey, is_place_ahead, stop_ahead, survey};
+pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, stop_ahead, survey};

@@ -13,7 +13,7 @@ pub(super) const BEFORE_A_ZONE: f64 = 1.0;
 /// How far before a line it stops [m] (ours).
 const BEFORE_A_LINE: f64 = 0.3;
 /// Room that a vehicle needs beyond the zones beside its length [m] (ours).
-const SPARE_ROOM: f64 = 2.0;
+pub(crate) const SPARE_ROOM: f64 = 2.0;
 /// A line belongs to the zones that follow within this [m] (ours).
 const LINE_TO_ZONE: f64 = 30.0;
 /// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).
@@ -251,22 +251,36 @@ pub(crate) fn survey(
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = clear + length;
     out.needed = length + SPARE_ROOM;
-    out.refuge = chain_at(scene, from, clear);
+    out.refuge = chain_at(scene, from, clear).0;
     let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
+    // Whose trip ends before the next place is behind others who stop there.
+    let place = next_place(scene, from, clear) - ROOM_AT_A_STOP;
+    let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
     out.room = room(scene, from, clear, limit);
     true
 }
 
-/// The chain on the way on which the place `distance` ahead lies.
-fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> ChainIndex {
-    let (mut chain, mut end) = (from.chain, scene.network.chain(from.chain).length - from.x);
-    while end <= distance {
-        let Some(next) = scene.next(from.destination, chain) else { break };
-        chain = next;
-        end += scene.network.chain(chain).length;
+/// The chain on the way on which the place `distance` ahead lies, and how far ahead its start is [m].
+fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) {
+    let (mut chain, mut start) = (from.chain, -from.x);
+    loop {
+        let end = start + scene.network.chain(chain).length;
+        let Some(next) = scene.next(from.destination, chain).filter(|_| end <= distance) else {
+            return (chain, start);
+        };
+        (chain, start) = (next, end);
     }
-    chain
+}
+
+/// How far ahead the next place is, beyond `distance` but on the same chain, where drivers may have to stop [m].
+fn next_place(scene: &Scene, from: Viewpoint, distance: f64) -> f64 {
+    let (chain, start) = chain_at(scene, from, distance);
+    let junctions = &scene.network.junctions;
+    let on = junctions.on(chain);
+    let zones = on.crossings.iter().map(|it| junctions.reach(*it).start - BEFORE_A_ZONE);
+    let stops = on.stops.iter().map(|it| it.station - BEFORE_A_LINE);
+    zones.chain(stops).map(|it| start + it).filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
 
 /// Distances are not told apart closer than this [m].
@@ -293,7 +307,7 @@ fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
         return NONE;
     }
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
-    let mut taken = scene.passages.kept_on(chain_at(scene, from, clear));
+    let mut taken = scene.passages.kept_on(chain_at(scene, from, clear).0);
     let mut end = f64::INFINITY;
     loop {
         let lane = &scene.lanes[chain.at()];
