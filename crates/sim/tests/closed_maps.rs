@@ -267,18 +267,6 @@ fn a_town_in_which_far_more_start_than_it_can_bear_lets_them_wait_and_keeps_movi
 }
 
 #[test]
-fn at_crossroads_where_all_leave_room_for_others_somebody_takes_it_in_the_end() {
-    let Some((network, places)) = real("crossroads_with_stoplines.osm") else { return };
-    let mut world = world(network, places, 1500.0, 1);
-    for _ in 0..6 {
-        let before = world.counts().left;
-        (0..3000).for_each(|_| world.step());
-        let left = world.counts().left - before;
-        assert!(left > 10, "{left} in five minutes, at {} s", world.clock().time());
-    }
-}
-
-#[test]
 fn a_kerb_keeps_clear_of_the_lanelets_before_and_behind() {
     let longest = FLEET.shares().map(|(class, _)| class.body().length).into_iter().fold(0.0, f64::max);
     let shortest = Kerb::SHORTEST_LANELET;

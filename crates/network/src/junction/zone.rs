@@ -84,6 +84,8 @@ struct Sample {
     station: f64,
     path: Point,
     inside: Point,
+    /// Half of the vehicle would be beyond the chain's ends.
+    is_beyond: bool,
 }
 
 /// Two places at which vehicles would touch.
@@ -92,6 +94,8 @@ struct Contact {
     stations: [f64; 2],
     /// Cars would, too.
     of_cars: bool,
+    /// Only long vehicles would, which are half beyond the ends of a chain.
+    is_beyond: bool,
 }
 
 /// All zones of a network, ordered by their chains.
@@ -148,7 +152,9 @@ fn samples(network: &Network) -> Vec<Sample> {
             if insides.is_empty() {
                 insides.push(path);
             }
-            samples.extend(insides.into_iter().map(|inside| Sample { chain: index, station, path, inside }));
+            let is_beyond = station < half || station + half > chain.length;
+            let sample = |inside| Sample { chain: index, station, path, inside, is_beyond };
+            samples.extend(insides.into_iter().map(sample));
         }
     }
     samples
@@ -187,15 +193,20 @@ fn contact(here: &Sample, there: &Sample) -> Option<Contact> {
     }
     let of_paths = here.path.distance(&there.path);
     let nearest = of_paths.min(here.inside.distance(&there.path)).min(here.path.distance(&there.inside));
-    (nearest < LARGEST_VEHICLE[1] + SPACE)
-        .then_some(Contact { stations: [here.station, there.station], of_cars: of_paths < CAR_WIDTH + SPACE })
+    let touching = LARGEST_VEHICLE[1] + SPACE;
+    (nearest < touching).then_some(Contact {
+        stations: [here.station, there.station],
+        of_cars: of_paths < CAR_WIDTH + SPACE,
+        is_beyond: of_paths >= touching && (here.is_beyond || there.is_beyond),
+    })
 }
 
 /// The zones of two chains with these contacts, which are in the order of the first one's stations.
 fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], mut contacts: Vec<Contact>) -> Vec<Zone> {
     contacts.retain(|it| !kinship.is_one_behind_the_other(pair, it.stations));
     let mut groups: Vec<Vec<Contact>> = Vec::new();
-    for contact in contacts {
+    let (beyond, usual): (Vec<Contact>, Vec<Contact>) = contacts.into_iter().partition(|it| it.is_beyond);
+    for contact in usual.into_iter().chain(beyond) {
         let fits = |group: &&mut Vec<Contact>| {
             group
                 .iter()
@@ -204,6 +215,8 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], mut contacts: Vec<Contact>
                 .any(|it| (0..2).all(|side| (it.stations[side] - contact.stations[side]).abs() <= APART))
         };
         match groups.iter_mut().find(fits) {
+            // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it.
+            Some(group) if contact.is_beyond && group.iter().any(|it| it.of_cars) => {}
             Some(group) => group.push(contact),
             None => groups.push(vec![contact]),
         }
