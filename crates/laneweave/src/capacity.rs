@@ -9,11 +9,9 @@ const SECONDS_PER_HOUR: f64 = 3600.0;
 
 /// Capacity of the lanes of all origins of `demand` together [veh/h], for the mixture of `drivers`, each with its weight.
 ///
-/// Each driver takes up a lane for at least some time; the lane's capacity is one over the mean of these times. At a gate
-/// it is the time that it takes up in its own densest stream, one over the capacity of its car-following model at
-/// the lane's speed limit; at a kerb the time in which it makes room for the next on an empty road.
-/// Where all lanes of a place lead to a light before they fork, each takes in no more than passes at green. Who is held up by
-/// slower vehicles takes longer, so this is an upper estimate.
+/// At a gate a lane takes in its densest stream in which all drive at one speed, as they do where nobody can overtake; at a
+/// kerb as many as make room for each other on an empty road. Where all lanes of a place lead to a light before they fork, each
+/// takes in no more than passes at green. What happens further down the road is not looked at, so this is an upper estimate.
 pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, f64)]) -> f64 {
     let mut known: Vec<((bool, f64), f64)> = Vec::new();
     let mut capacity = 0.0;
@@ -31,14 +29,14 @@ pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, 
             let lane = match known.iter().find(|(it, _)| *it == key) {
                 Some((_, lane)) => *lane,
                 None => {
-                    let time = if is_gate { time_in_stream } else { time_to_make_room };
-                    let lane = lane_capacity(limit, drivers, &demand.fleet, time);
+                    let capacity = if is_gate { of_a_stream } else { from_rest };
+                    let lane = capacity(&kinds(limit, drivers, &demand.fleet));
                     known.push((key, lane));
                     lane
                 }
             };
             let at_green = if are_all_lit {
-                share * lane_capacity(limit, drivers, &demand.fleet, time_in_stream)
+                share * of_a_stream(&kinds(limit, drivers, &demand.fleet))
             } else {
                 f64::INFINITY
             };
@@ -65,34 +63,51 @@ fn green_share(network: &Network, mut chain: ChainIndex, mut station: f64) -> f6
     least
 }
 
-/// Time [s] that a driver takes up in its own densest stream under `limit` [m/s].
-fn time_in_stream(style: &Style, class: Class, limit: f64) -> f64 {
-    let desired = class.desired_speed(style, limit);
-    1.0 / style.follow.capacity(desired, class.body().length)
+/// Vehicles of one class with drivers of one style.
+struct Kind<'a> {
+    /// Their share of all.
+    share: f64,
+    style: &'a Style,
+    class: Class,
+    /// Desired speed [m/s].
+    desired: f64,
 }
 
-/// Time [s] in which a driver who starts from rest under `limit` [m/s] has left room for another of its kind.
-fn time_to_make_room(style: &Style, class: Class, limit: f64) -> f64 {
-    let free = Pace::new(0.0, class.desired_speed(style, limit));
-    let acceleration = style.follow.acceleration(free, None).min(class.strength());
-    (2.0 * (class.body().length + style.safety.min_gap) / acceleration).sqrt()
-}
-
-/// Capacity of one lane under `limit` [m/s], in veh/s, of drivers who take it up for `time` each.
-fn lane_capacity(
-    limit: f64,
-    drivers: &[(Style, f64)],
-    fleet: &Fleet,
-    time: fn(&Style, Class, f64) -> f64,
-) -> f64 {
+/// The kinds of vehicles on a lane under `limit` [m/s].
+fn kinds<'a>(limit: f64, drivers: &'a [(Style, f64)], fleet: &Fleet) -> Vec<Kind<'a>> {
     let total: f64 = drivers.iter().map(|(_, weight)| weight).sum();
-    let mean_time: f64 = drivers
-        .iter()
-        .filter(|(_, weight)| *weight > 0.0)
-        .map(|(style, weight)| {
-            let of_class = |(class, share): (Class, f64)| share * time(style, class, limit);
-            weight / total * fleet.shares().into_iter().map(of_class).sum::<f64>()
-        })
-        .sum();
-    1.0 / mean_time
+    let classes = fleet.shares();
+    let pairs = drivers.iter().flat_map(|driver| classes.iter().map(move |class| (driver, *class)));
+    let all = pairs.map(|((style, weight), (class, share))| Kind {
+        share: share * weight / total,
+        style,
+        class,
+        desired: class.desired_speed(style, limit),
+    });
+    all.filter(|it| it.share > 0.0).collect()
+}
+
+/// The largest flow of one lane in which all drive at one speed [veh/s].
+fn of_a_stream(kinds: &[Kind]) -> f64 {
+    /// Speeds that are tried, below that of the slowest.
+    const TRIED: u32 = 200;
+    let slowest = kinds.iter().map(|it| it.desired).fold(f64::INFINITY, f64::min);
+    let flow = |speed: f64| {
+        let spacing = |it: &Kind| {
+            let pace = Pace::new(speed, it.desired);
+            it.share * (it.style.follow.equilibrium_gap(pace) + it.class.body().length)
+        };
+        speed / kinds.iter().map(spacing).sum::<f64>()
+    };
+    (1..TRIED).map(|it| flow(slowest * f64::from(it) / f64::from(TRIED))).fold(0.0, f64::max)
+}
+
+/// Flow of those who start from rest, each as soon as the one before has left room for it on an empty road [veh/s].
+fn from_rest(kinds: &[Kind]) -> f64 {
+    let time = |it: &Kind| {
+        let free = Pace::new(0.0, it.desired);
+        let acceleration = it.style.follow.acceleration(free, None).min(it.class.strength());
+        it.share * (2.0 * (it.class.body().length + it.style.safety.min_gap) / acceleration).sqrt()
+    };
+    1.0 / kinds.iter().map(time).sum::<f64>()
 }

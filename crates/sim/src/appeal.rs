@@ -4,7 +4,7 @@
 use laneweave_network::{ChainIndex, ZoneKind};
 
 use crate::clock::Clock;
-use crate::junction::{Asking, Hindrance, Hold, Survey, are_led_on, may_pass, sight, survey};
+use crate::junction::{Asking, Claim, Hindrance, Hold, Survey, are_led_on, may_pass, refuges, sight, survey};
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
 use crate::world::World;
@@ -35,12 +35,36 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 let claims = outbox.survey.holds.iter().map(|it| (it.zone, it.side, asking.claim));
                 outbox.claims.extend(claims);
             }
-            Err(Hindrance::Room) if motion.speed < STANDS => {
-                let Waiting { since, id, .. } = *waiting;
-                outbox.blocked.push(Appeal { since, id, chain, x: motion.x, what: Plea::Pass });
+            Err(hindrance @ (Hindrance::Room | Hindrance::Ring)) => {
+                if !asking.claim.is_patient {
+                    claim_room(scene, spot, asking.claim, outbox);
+                }
+                if hindrance == Hindrance::Room && motion.speed < STANDS {
+                    let Waiting { since, id, .. } = *waiting;
+                    outbox.blocked.push(Appeal { since, id, chain, x: motion.x, what: Plea::Pass });
+                }
             }
-            Err(Hindrance::Light | Hindrance::Sign | Hindrance::Room) => {}
+            Err(Hindrance::Light) if asking.waited > STARVES => {
+                claim_room(scene, spot, asking.claim, outbox);
+            }
+            Err(Hindrance::Light | Hindrance::Sign) => {}
         }
+    }
+}
+
+/// Who has waited at a light for so long [s] did not get the room that it needs at green: it comes first to it (ours; two
+/// cycles of made programs).
+const STARVES: f64 = 120.0;
+
+/// The driver at `spot`, who has surveyed its way, claims room there. Who comes onto a ring from outside does not stop it.
+fn claim_room(scene: &Scene, spot: Spot, claim: Claim, outbox: &mut Outbox) {
+    let Outbox { survey, wants, rings, .. } = outbox;
+    let way = [spot.chain, survey.refuge.chain];
+    if scene.passages.rings.is_entered(way) {
+        rings.push((way, claim));
+    } else {
+        let refuges = refuges(scene, scene.viewpoint(spot), survey);
+        wants.extend(refuges.map(|it| (it, claim, survey.needed)));
     }
 }
 
@@ -75,6 +99,10 @@ impl World {
         let mut claims = std::mem::take(&mut self.outboxes[0].claims);
         self.passages.clear_claims();
         claims.drain(..).for_each(|(zone, side, claim)| self.passages.note_claim(zone, side, claim));
+        let rings = self.outboxes[0].rings.drain(..);
+        rings.for_each(|(way, claim)| self.passages.rings.note_claim(way, claim));
+        let wants = self.outboxes[0].wants.drain(..);
+        wants.for_each(|(refuge, claim, needed)| self.passages.note_want(refuge, claim, needed));
         appeals.sort_unstable_by_key(|it| (matches!(it.what, Plea::Pass), it.since, it.id));
         for appeal in appeals.drain(..) {
             let Some(index) = self.lanes[appeal.chain.at()].find(appeal.id, appeal.x) else { continue };
@@ -126,7 +154,7 @@ impl World {
         let Survey { room, needed, holds, .. } = &outbox.survey;
         let is_merge =
             |it: &Hold| matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_));
-        let fits = room + freed >= *needed || holds.iter().all(is_merge);
+        let fits = room + freed >= needed - asking.squeezes_into() || holds.iter().all(is_merge);
         outbox.survey.room = f64::INFINITY;
         is_there && fits && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
     }

@@ -13,12 +13,13 @@ use laneweave_network::{ChainIndex, Side};
 use crate::attention::concentration;
 use crate::beliefs::Beliefs;
 use crate::clock::Clock;
-use crate::junction::is_place_ahead;
+use crate::junction::{Refuge, is_place_ahead};
 use crate::leave::departure;
 use crate::perceive::{Outlook, driver};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
 use crate::random::{Purpose, Random};
 use crate::scene::{Found, Scene, Spot, Viewpoint};
+use crate::stuck::{STANDSTILL, is_stuck};
 use crate::traffic::{Kind, Mind, Phase};
 use crate::turn::next_turn;
 
@@ -33,10 +34,8 @@ const STANDS_IN_VAIN: f32 = 120.0;
 const AT_THE_PLACE: f64 = 20.0;
 /// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
 const HEEDED_WITHIN: f64 = 400.0;
-/// A vehicle that stands this long is stuck [s].
+/// A vehicle that stands this long is stuck, unless it waits for what is bound to end [s].
 const STUCK_AFTER: f32 = 300.0;
-/// Standstill below this speed [m/s].
-const STANDSTILL: f64 = 0.1;
 
 /// What deciding needs beside the scene.
 #[derive(Clone, Copy)]
@@ -88,8 +87,14 @@ fn consider(
     let state = concentration(&style.attention, moment.random, motion.id, moment.clock.time());
     let alertness = style.attention.alertness(state);
     let period = moment.clock.steps(alertness.epoch);
-    let note = note(scene, moment, spot, period);
-    plan.tally.stuck += u64::from(car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER);
+    let mut note = note(scene, moment, spot, period);
+    if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
+        if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
+            plan.tally.stuck += 1;
+        } else {
+            note.standing = car.standing;
+        }
+    }
     if note.standing > 0.0 && car.standing == 0.0 {
         outbox.halts.push(motion.id);
     }
@@ -390,7 +395,8 @@ impl Gap {
         let way = way.max(LEAST);
         let has_passage = |it: &Found| scene.has_passage(it.spot, it.distance - f64::from(motion.length));
         // Room that is kept for others beyond a junction stays theirs.
-        let kept = scene.passages.kept_on(self.chain);
+        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
+        let kept = scene.passages.kept_on(refuge);
         let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
         let is_in_fork = self.x - f64::from(motion.length) < scene.network.chain(self.chain).fork_clearance;
         !takes_room

@@ -23,15 +23,17 @@ impl World {
         {
             metering.measure(&self.lanes);
         }
-        let time = self.clock.time();
+        let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
         for source in &mut sources {
             let scene = self.scene();
             let mut next_id = self.next_id;
-            source.arrive(&scene, &self.demand, &self.random, time, &mut next_id);
+            source.arrive(&scene, &self.demand, self.metering.as_ref(), &self.random, &mut next_id);
             self.next_id = next_id;
             for queue in source.queues() {
-                while let Some(vehicle) = queue.waiting.front().and_then(|it| self.admit(queue, it)) {
-                    let id = queue.waiting.pop_front().map_or(0, |it| it.id);
+                while let Some(place) = queue.first(is_full)
+                    && let Some(vehicle) = self.admit(queue, &queue.waiting[place])
+                    && let Some(Arrival { id, .. }) = queue.waiting.remove(place)
+                {
                     self.put(vehicle, id);
                     self.events.push(Event::Entered(id));
                 }
@@ -42,7 +44,7 @@ impl World {
 
     /// The vehicle as it comes onto the lane of `queue`, if there is room for it.
     fn admit(&self, queue: &Queue, arrival: &Arrival) -> Option<NewVehicle> {
-        let Arrival { id, class, character, destination } = *arrival;
+        let Arrival { id, class, character, destination, .. } = *arrival;
         let chain = queue.chain;
         let rear = queue.start.station();
         let length = class.body().length;
@@ -64,9 +66,8 @@ impl World {
                 let follower = scene.follower(from);
                 let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
                 // Room that is kept for others stays theirs.
-                let is_free = scene.passages.kept_on(chain) == 0.0;
-                let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
-                (leaves_room && is_let_in && is_free && !is_full).then_some(0.0)?
+                let is_free = scene.passages.kept_on(queue.refuge(&self.network)) == 0.0;
+                (leaves_room && is_let_in && is_free).then_some(0.0)?
             }
         };
         Some(NewVehicle { chain, x, speed, class, character, destination })

@@ -39,6 +39,7 @@ mod rotation;
 mod scene;
 mod snapshot;
 mod source;
+mod stuck;
 mod tally;
 mod traffic;
 mod trail;

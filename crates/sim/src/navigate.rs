@@ -308,6 +308,16 @@ impl Navigator {
         destination.map(|it| usize::from(it) % self.of_view)
     }
 
+    /// The chains on the way from the start of `chain` to `destination`, over changes of lane as well.
+    pub(crate) fn way(
+        &self,
+        chain: ChainIndex,
+        destination: Destination,
+    ) -> impl Iterator<Item = ChainIndex> + '_ {
+        let next = move |at: &ChainIndex| self.waypoint(destination, *at).goes_on().filter(|it| it != at);
+        std::iter::successors(Some(chain), next)
+    }
+
     /// The waypoint of `chain`, from its start, on the way to `destination`.
     #[inline]
     pub fn waypoint(&self, destination: Destination, chain: ChainIndex) -> &Waypoint {

@@ -3,7 +3,7 @@
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side, ZoneIndex};
 
-use crate::junction::{Claim, Survey};
+use crate::junction::{Claim, Refuge, Survey};
 use crate::navigate::Destination;
 use crate::tally::Tally;
 use crate::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
@@ -75,6 +75,10 @@ pub(crate) struct Outbox {
     pub(crate) blocked: Vec<Appeal>,
     /// Who waits for which side of a zone because of others.
     pub(crate) claims: Vec<(ZoneIndex, u8, Claim)>,
+    /// Drivers out of patience who wait for so much room on a refuge [m].
+    pub(crate) wants: Vec<(Refuge, Claim, f64)>,
+    /// Drivers out of patience who wait for a ring to take them in, each between two chains.
+    pub(crate) rings: Vec<([ChainIndex; 2], Claim)>,
     /// Room for the thread's work.
     pub(crate) survey: Survey,
     /// Vehicles that came to a halt.
@@ -93,6 +97,8 @@ impl Outbox {
         self.appeals.append(&mut other.appeals);
         self.claims.append(&mut other.claims);
         self.blocked.append(&mut other.blocked);
+        self.wants.append(&mut other.wants);
+        self.rings.append(&mut other.rings);
         self.halts.append(&mut other.halts);
         self.arrived.append(&mut other.arrived);
     }

@@ -70,10 +70,10 @@ impl World {
         let first = queue.waiting.front()?;
         let scene = self.scene();
         let is_kerb = matches!(queue.start, Start::FromRest(_));
-        if is_kerb && self.metering.as_ref().is_some_and(Metering::is_full) {
+        if first.is_through_town && self.metering.as_ref().is_some_and(Metering::is_full) {
             return Some(Held::FullMap);
         }
-        if is_kerb && scene.passages.kept_on(queue.chain) > 0.0 {
+        if is_kerb && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
             return Some(Held::Room);
         }
         let from = scene.viewpoint_at(queue.chain, queue.start.station(), first.id, first.destination);
@@ -95,7 +95,7 @@ impl World {
             Ok(()) => Held::Queue,
             Err(Hindrance::Light) => Held::RedLight,
             Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,
-            Err(Hindrance::Room) => Held::Room,
+            Err(Hindrance::Room | Hindrance::Ring) => Held::Room,
         }
     }
 }

@@ -8,6 +8,8 @@ use laneweave_network::{ChainIndex, Gate, Network};
 
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::headways::Headways;
+use crate::junction::Refuge;
+use crate::metering::Metering;
 use crate::navigate::{Destination, Navigator};
 use crate::place::Place;
 use crate::random::{Purpose, Random};
@@ -23,6 +25,8 @@ pub(crate) struct Arrival {
     pub(crate) class: Class,
     pub(crate) character: u32,
     pub(crate) destination: Destination,
+    /// Its way leads through a town, which may be full.
+    pub(crate) is_through_town: bool,
 }
 
 /// An origin with its queues.
@@ -64,6 +68,18 @@ pub(crate) enum Start {
     Driving,
     /// They start from rest, with the rear bumper at this station [m].
     FromRest(f64),
+}
+
+impl Queue {
+    /// The stretch of its lane on which its vehicles start.
+    pub(crate) fn refuge(&self, network: &Network) -> Refuge {
+        Refuge::at(&network.junctions, self.chain, self.start.station())
+    }
+
+    /// The place in the queue of the first who may enter, if the town `is_full` or not.
+    pub(crate) fn first(&self, is_full: bool) -> Option<usize> {
+        self.waiting.iter().position(|it| !(is_full && it.is_through_town))
+    }
 }
 
 impl Start {
@@ -115,22 +131,25 @@ impl Source {
         &mut self,
         scene: &Scene,
         demand: &Demand,
+        metering: Option<&Metering>,
         random: &Random,
-        time: f64,
         next_id: &mut VehicleId,
     ) {
         let due = |source: &Source| {
             let streams = source.streams.iter().enumerate();
             let (index, first) = streams.min_by(|(_, a), (_, b)| a.next.total_cmp(&b.next))?;
-            (first.next <= time).then_some(index)
+            (first.next <= scene.time).then_some(index)
         };
         while let Some(stream) = due(self) {
-            let arrival = self.draw(scene.navigator, demand, random, *next_id);
+            let mut arrival = self.draw(scene.navigator, demand, random, *next_id);
             *next_id += 1;
             self.streams[stream].arrived += 1;
             self.draw_next(stream, random);
             let lane = self.lane_for(scene, &arrival);
-            self.lanes[lane].waiting.push_back(arrival);
+            let lane = &mut self.lanes[lane];
+            let is_on_way = |it: &Metering| it.is_on_way(scene.navigator, lane.chain, arrival.destination);
+            arrival.is_through_town = metering.is_some_and(is_on_way);
+            lane.waiting.push_back(arrival);
         }
     }
 
@@ -154,7 +173,7 @@ impl Source {
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
         let destination = navigator.seen_by(class, destination);
-        Arrival { id, class, character, destination }
+        Arrival { id, class, character, destination, is_through_town: false }
     }
 
     /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long

@@ -61,6 +61,11 @@ impl Waypoint {
         self.leads_there() && x <= self.last_place && x <= self.end
     }
 
+    /// The chain that comes next on the way, if there is one: itself at the destination.
+    pub(crate) fn goes_on(&self) -> Option<ChainIndex> {
+        self.leads_there().then_some(self.via)
+    }
+
     /// What is least on the best way [s].
     pub(crate) fn cost(&self) -> f64 {
         self.time + Waypoint::CHANGE_COST * f64::from(self.changes)

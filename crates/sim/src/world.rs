@@ -18,7 +18,6 @@ use crate::junction::{NO_PASSAGE, Passages};
 use crate::metering::Metering;
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
-use crate::place::Place;
 use crate::plan::{Outbox, Plan};
 use crate::pool::Pool;
 use crate::pose::{lateral_offset, pose};
@@ -51,7 +50,7 @@ pub struct World {
     pub(crate) outboxes: Vec<Outbox>,
     pub(crate) demand: Demand,
     pub(crate) sources: Vec<Source>,
-    /// Where trips begin within the map.
+    /// Where roads lead in rings.
     pub(crate) metering: Option<Metering>,
     pub(crate) random: Random,
     /// Where drivers are guided.
@@ -174,7 +173,7 @@ impl World {
         }
         let views = Views::of(&network, &demand.fleet);
         let navigator = Navigator::with_views(&network, &demand.destinations, views);
-        let begins_within = demand.origins.iter().any(|it| matches!(it.place, Place::Kerb(_)));
+        let metering = Metering::new(&network);
         let random = Random::new(setup.seed);
         let lanes = vec![Lane::default(); network.chains.len()];
         let plans = lanes.iter().map(|_| Plan::default()).collect();
@@ -184,7 +183,7 @@ impl World {
             pools: [Pool::new(setup.threads), Pool::new(1)],
             crowd: 0,
             passages: Passages::new(&network),
-            metering: begins_within.then(|| Metering::new(&network)),
+            metering,
             network,
             navigator,
             characters,

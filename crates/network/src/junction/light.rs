@@ -79,6 +79,12 @@ impl Program {
         states.min_by_key(|it| *it as u8).unwrap_or(LightState::Red)
     }
 
+    /// Whether it was green at `time` [s] or less than `before` [s] earlier.
+    pub fn was_green(&self, time: f64, before: f64) -> bool {
+        let ended = self.phases.iter().map(|it| (time - it.to).rem_euclid(self.cycle));
+        self.state(time) == LightState::Green || ended.into_iter().any(|it| it <= before)
+    }
+
     /// Share of the time that it is green.
     pub fn green_share(&self) -> f64 {
         if self.phases.is_empty() {

@@ -20,17 +20,21 @@ pub(crate) enum Hindrance {
     Sign,
     /// It could not leave the zones again.
     Room,
+    /// It would fill a ring.
+    Ring,
     /// Others go first: it claims its turn.
     Others,
 }
 
+/// Of the gap that one leaves in a queue, who is out of patience does without this much [m] (ours).
+const CLOSES_UP: f64 = 0.5;
 /// Standstill at a stop sign [m/s], and how near to the line [m].
 const STOPPED: f64 = 0.3;
 const AT_THE_LINE: f64 = 4.0;
 /// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
 /// while it clears.
 const APPROACHES: f64 = 1.5;
-/// Room that who gives way leaves for one who goes first [m] (ours): so a roundabout does not fill up.
+/// Room that who gives way leaves for one who goes first [m] (ours); a ring has room for others anyway.
 const ROOM_FOR_ANOTHER: f64 = 7.0;
 /// Who comes from the side that does not go first has waited for this long before it takes its turn [s] (ours): so ends
 /// a standoff in which everybody gives way to somebody.
@@ -56,6 +60,11 @@ impl Asking {
         let claim = Claim { is_patient: waited < patience, since, id: motion.id, is_long };
         Asking { claim, waited, dt: clock.dt }
     }
+
+    /// How much less room than usual it needs [m]: out of patience one closes up.
+    pub(crate) fn squeezes_into(&self) -> f64 {
+        if self.claim.is_patient { 0.0 } else { CLOSES_UP }
+    }
 }
 
 /// Whether the driver at `spot` may pass what it has surveyed.
@@ -77,13 +86,19 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     if survey.has_stop_sign && (speed > STOPPED || survey.stop > AT_THE_LINE) {
         return Err(Hindrance::Sign);
     }
+    let (Scene { passages, lanes, .. }, way) = (*scene, [spot.chain, survey.refuge.chain]);
+    if passages.rings.is_closed(passages, lanes, way, asking.claim, survey.needed) {
+        return Err(Hindrance::Ring);
+    }
     let gives_way = |hold: &Hold| {
         scene.network.junctions.zones[hold.zone.at()].precedence == Precedence::Side(1 - hold.side)
     };
     // Not for ever: those who go first may all wait for who would take the room.
-    let leaves_room = asking.claim.is_patient && survey.holds.iter().any(gives_way);
-    let spare = if leaves_room { ROOM_FOR_ANOTHER } else { 0.0 };
-    if survey.room < (survey.needed + spare).min(survey.most) {
+    let leaves_room = asking.claim.is_patient && !passages.rings.is_entered(way);
+    let spare = if leaves_room && survey.holds.iter().any(gives_way) { ROOM_FOR_ANOTHER } else { 0.0 };
+    let wanted = passages.wanted_before(survey.refuge, asking.claim);
+    let needed = survey.needed - asking.squeezes_into();
+    if survey.room - wanted < (needed + spare).min(survey.most) {
         return Err(Hindrance::Room);
     }
     if survey.holds.iter().all(|hold| may_hold(scene, spot, hold, asking)) {

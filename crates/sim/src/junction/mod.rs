@@ -14,6 +14,8 @@ mod heed;
 mod mergers;
 mod oncoming;
 mod passages;
+mod refuge;
+mod rings;
 mod survey;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
@@ -21,4 +23,5 @@ pub(crate) use heed::{Junction, look, sight};
 pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
-pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, stop_ahead, survey};
+pub(crate) use refuge::Refuge;
+pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, refuges, stop_ahead, survey};

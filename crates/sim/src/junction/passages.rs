@@ -1,7 +1,9 @@
 //! The passages that were given, the order in each zone, and who waits for one.
 
-use laneweave_network::{ChainIndex, LightIndex, Network, ZoneIndex};
+use laneweave_network::{LightIndex, Network, ZoneIndex};
 
+use super::refuge::{Numbers, Refuge};
+use super::rings::Rings;
 use super::survey::Survey;
 use crate::traffic::VehicleId;
 
@@ -18,8 +20,13 @@ pub struct Passages {
     /// For each zone and side who has waited longest for it.
     claims: Vec<[Option<Claim>; 2]>,
     claimed: Vec<ZoneIndex>,
-    /// For each chain the room kept on it for those who are on their way there [cm].
+    numbers: Numbers,
+    /// For each refuge who out of patience has waited longest for room on it, and how much it needs [m].
+    wanted: Vec<Option<(Claim, f64)>>,
+    wanted_on: Vec<usize>,
+    /// For each refuge the room kept on it for those who are on their way there [cm].
     kept: Vec<u64>,
+    pub(crate) rings: Rings,
 }
 
 /// The right of a vehicle to pass zones. Distances are those of its front from where the first of them was given [m].
@@ -53,7 +60,8 @@ pub(crate) struct Hold {
 /// Room kept for a vehicle beyond the zones.
 #[derive(Clone, Copy, Debug)]
 struct Room {
-    chain: ChainIndex,
+    /// Number of the refuge.
+    on: usize,
     /// Distance at which the vehicle has got there [m].
     until: f64,
     /// Length [cm].
@@ -80,10 +88,14 @@ impl Passages {
     /// None given, on `network`.
     pub(crate) fn new(network: &Network) -> Passages {
         let zones = network.junctions.zones.len();
+        let numbers = Numbers::of(network);
         Passages {
             queues: vec![Vec::new(); zones],
             claims: vec![[None; 2]; zones],
-            kept: vec![0; if zones == 0 { 0 } else { network.chains.len() }],
+            wanted: vec![None; numbers.count],
+            kept: vec![0; numbers.count],
+            numbers,
+            rings: Rings::of(network),
             ..Passages::default()
         }
     }
@@ -112,15 +124,19 @@ impl Passages {
         self.claims.get(zone.at()).and_then(|it| it[usize::from(side)])
     }
 
-    /// Room kept on `chain` for those who are on their way there [m].
-    pub(crate) fn kept_on(&self, chain: ChainIndex) -> f64 {
-        self.kept.get(chain.at()).map_or(0.0, |it| *it as f64 / CENTIMETRES)
+    /// Room kept on `refuge` for those who are on their way there [m].
+    pub(crate) fn kept_on(&self, refuge: Refuge) -> f64 {
+        self.numbers.of_refuge(refuge).map_or(0.0, |it| self.kept[it] as f64 / CENTIMETRES)
     }
 
     /// Forgets who waits.
     pub(crate) fn clear_claims(&mut self) {
         for zone in self.claimed.drain(..) {
             self.claims[zone.at()] = [None; 2];
+        }
+        self.rings.clear_claims();
+        for number in self.wanted_on.drain(..) {
+            self.wanted[number] = None;
         }
     }
 
@@ -132,6 +148,22 @@ impl Passages {
         }
         let own = &mut noted[usize::from(side)];
         *own = Some(own.map_or(claim, |it| it.min(claim)));
+    }
+
+    /// Notes who waits for `needed` [m] of room on a refuge.
+    pub(crate) fn note_want(&mut self, refuge: Refuge, claim: Claim, needed: f64) {
+        let Some(number) = self.numbers.of_refuge(refuge) else { return };
+        let noted = &mut self.wanted[number];
+        if noted.is_none() {
+            self.wanted_on.push(number);
+        }
+        *noted = noted.filter(|(first, _)| *first < claim).or(Some((claim, needed)));
+    }
+
+    /// Room on `refuge` that comes first to somebody else than the one who claims [m].
+    pub(crate) fn wanted_before(&self, refuge: Refuge, claim: Claim) -> f64 {
+        let wanted = self.numbers.of_refuge(refuge).and_then(|it| self.wanted[it]);
+        wanted.filter(|(first, _)| *first < claim).map_or(0.0, |(_, needed)| needed)
     }
 
     /// Gives `vehicle`, who has the passage in `slot` if any, what was surveyed. Returns its slot.
@@ -146,13 +178,11 @@ impl Passages {
             self.queues[hold.zone.at()].push(Holder { slot, side: hold.side });
         }
         passage.lights.extend(survey.lights.iter().map(|(light, at)| (*light, base + at)));
-        let room = Room {
-            chain: survey.refuge,
-            until: base + survey.extent,
-            length: (survey.needed * CENTIMETRES).ceil() as u64,
-        };
-        self.kept[room.chain.at()] += room.length;
-        passage.rooms.push(room);
+        if let Some(on) = self.numbers.of_refuge(survey.refuge) {
+            let length = (survey.needed * CENTIMETRES).ceil() as u64;
+            self.kept[on] += length;
+            passage.rooms.push(Room { on, until: base + survey.extent, length });
+        }
         slot
     }
 
@@ -187,7 +217,7 @@ impl Passages {
         passage.rooms.retain(|room| {
             let is_over = room.until <= travelled;
             if is_over {
-                kept[room.chain.at()] -= room.length;
+                kept[room.on] -= room.length;
             }
             !is_over
         });
@@ -213,7 +243,7 @@ impl Passages {
         passage.rooms.retain(|room| {
             let stays = room.until < distance;
             if !stays {
-                kept[room.chain.at()] -= room.length;
+                kept[room.on] -= room.length;
             }
             stays
         });
@@ -255,14 +285,23 @@ impl Passage {
 
 #[cfg(test)]
 mod tests {
+    use laneweave_network::ChainIndex;
+
     use super::*;
 
     const LENGTH: f64 = 4.5;
     const ZONE: ZoneIndex = ZoneIndex(0);
+    const REFUGE: Refuge = Refuge::first_of(ChainIndex(0));
 
     /// Passages of a network with one zone, and one chain beyond it.
     fn of_one_zone() -> Passages {
-        Passages { queues: vec![Vec::new()], claims: vec![[None; 2]], kept: vec![0], ..Passages::default() }
+        Passages {
+            queues: vec![Vec::new()],
+            claims: vec![[None; 2]],
+            numbers: Numbers::of_chains(1),
+            kept: vec![0],
+            ..Passages::default()
+        }
     }
 
     /// Over the zone from 10 m to 15 m ahead, with a light at 8 m, to a place beyond it.
@@ -298,9 +337,9 @@ mod tests {
         let mut passages = of_one_zone();
         let slot = passages.give(NO_PASSAGE, 7, LENGTH, &over_the_zone(0));
         passages.give(NO_PASSAGE, 3, LENGTH, &over_the_zone(0));
-        assert_eq!(passages.kept_on(ChainIndex(0)), 13.0);
+        assert_eq!(passages.kept_on(REFUGE), 13.0);
         passages.advance(slot, 19.5, 10.0, 14.0);
-        assert_eq!(passages.kept_on(ChainIndex(0)), 6.5);
+        assert_eq!(passages.kept_on(REFUGE), 6.5);
     }
 
     #[test]
@@ -313,7 +352,7 @@ mod tests {
         passages.take_back(slot, 12.0);
         assert_eq!(order(&passages), [7]);
         assert_eq!(passages.of(slot, 7).map(Passage::left), Some(10.0));
-        assert_eq!(passages.kept_on(ChainIndex(0)), 0.0);
+        assert_eq!(passages.kept_on(REFUGE), 0.0);
         passages.take_back(slot, 8.0);
         assert!(order(&passages).is_empty() && passages.of(slot, 7).is_none());
     }
@@ -327,7 +366,7 @@ mod tests {
         assert_eq!(order(&passages), [7]);
         passages.end(slot, 7);
         assert!(order(&passages).is_empty());
-        assert_eq!(passages.kept_on(ChainIndex(0)), 0.0);
+        assert_eq!(passages.kept_on(REFUGE), 0.0);
         assert_eq!(passages.give(slot, 9, LENGTH, &over_the_zone(1)), slot);
         assert!(passages.of(slot, 7).is_none() && passages.of(slot, 9).is_some());
     }

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Sign, ZoneKind};
 
 use super::passages::Hold;
+use super::refuge::Refuge;
 use crate::accelerate::ROOM_AT_A_STOP;
 use crate::scene::{Scene, Spot, Viewpoint};
 
@@ -34,8 +35,8 @@ pub(crate) struct Survey {
     pub(crate) holds: Vec<Hold>,
     /// Where its front has to get for the rear to be out of all zones.
     pub(crate) extent: f64,
-    /// The chain on which it can stand then.
-    pub(crate) refuge: ChainIndex,
+    /// Where it can stand then.
+    pub(crate) refuge: Refuge,
     /// Room that it needs there.
     pub(crate) needed: f64,
     /// Room that there is.
@@ -52,7 +53,7 @@ impl Default for Survey {
             has_stop_sign: false,
             holds: Vec::new(),
             extent: 0.0,
-            refuge: ChainIndex(0),
+            refuge: Refuge::first_of(ChainIndex(0)),
             needed: 0.0,
             room: 0.0,
             most: 0.0,
@@ -251,7 +252,7 @@ pub(crate) fn survey(
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = clear + length;
     out.needed = length + SPARE_ROOM;
-    out.refuge = chain_at(scene, from, clear).0;
+    out.refuge = refuge_at(scene, from, clear);
     let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
     // Whose trip ends before the next place is behind others who stop there.
     let place = next_place(scene, from, clear) - ROOM_AT_A_STOP;
@@ -271,6 +272,24 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) 
         };
         (chain, start) = (next, end);
     }
+}
+
+/// Where the place `distance` ahead on the way lies [m].
+fn refuge_at(scene: &Scene, from: Viewpoint, distance: f64) -> Refuge {
+    let (chain, start) = chain_at(scene, from, distance);
+    Refuge::at(&scene.network.junctions, chain, distance - start)
+}
+
+/// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
+pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl Iterator<Item = Refuge> {
+    let (rear, front) = (survey.refuge, survey.extent);
+    let (_, start) = chain_at(scene, from, front - survey.needed + SPARE_ROOM);
+    let next = move |(at, start): &(Refuge, f64)| {
+        let end = start + scene.network.chain(at.chain).length;
+        let next = scene.next(from.destination, at.chain).filter(|_| end < front)?;
+        Some((Refuge::first_of(next), end))
+    };
+    std::iter::successors(Some((rear, start)), next).map(|(at, _)| at)
 }
 
 /// How far ahead the next place is, beyond `distance` but on the same chain, where drivers may have to stop [m].
@@ -307,7 +326,7 @@ fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
         return NONE;
     }
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
-    let mut taken = scene.passages.kept_on(chain_at(scene, from, clear).0);
+    let mut taken = scene.passages.kept_on(refuge_at(scene, from, clear));
     let mut end = f64::INFINITY;
     loop {
         let lane = &scene.lanes[chain.at()];
@@ -319,14 +338,17 @@ fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
             if rear > limit || rear > clear + ROOM_SIGHT {
                 return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear;
             }
-            if rear >= clear {
-                let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
-                end = end.min(stops_at - taken);
-                taken += f64::from(motion.length) + SPARE_ROOM;
-                continue;
-            }
             let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
             let gets_to = rear + passage.map_or(0.0, |it| it.left().max(0.0));
+            if rear >= clear {
+                // Whose passage leads beyond the room does not stop in it.
+                if gets_to < limit {
+                    let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
+                    end = end.min(stops_at.max(gets_to) - taken);
+                    taken += f64::from(motion.length) + SPARE_ROOM;
+                }
+                continue;
+            }
             if gets_to < clear.min(parts(scene, from, Spot { chain, index }, base)) - ROUNDING {
                 return NONE;
             }

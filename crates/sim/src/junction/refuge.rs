@@ -1,0 +1,64 @@
+//! Where vehicles stand beyond zones.
+
+use laneweave_network::{ChainIndex, Junctions, Network};
+
+/// A stretch of a chain between two places where drivers may have to stop: who stands on one of them is in nobody's way on
+/// another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Refuge {
+    pub(crate) chain: ChainIndex,
+    /// Number of places on the chain before it.
+    places: u32,
+}
+
+impl Refuge {
+    /// The stretch from the start of a chain on.
+    pub(crate) const fn first_of(chain: ChainIndex) -> Refuge {
+        Refuge { chain, places: 0 }
+    }
+
+    /// The stretch on which `station` [m] of a chain lies.
+    pub(crate) fn at(junctions: &Junctions, chain: ChainIndex, station: f64) -> Refuge {
+        let on = junctions.on(chain);
+        let zones = on.crossings.iter().filter(|it| junctions.reach(**it).start < station);
+        let stops = on.stops.iter().filter(|it| it.station < station);
+        Refuge { chain, places: (zones.count() + stops.count()) as u32 }
+    }
+}
+
+/// Numbers of all refuges of a network, from 0 on; none where there are no zones.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Numbers {
+    /// Those of the first of each chain.
+    first: Vec<u32>,
+    pub(super) count: usize,
+}
+
+impl Numbers {
+    pub(super) fn of(network: &Network) -> Numbers {
+        let junctions = &network.junctions;
+        if junctions.zones.is_empty() {
+            return Numbers::default();
+        }
+        let mut count = 0;
+        let mut number = |chain: u32| {
+            let (first, on) = (count, junctions.on(ChainIndex(chain)));
+            count += on.crossings.len() + on.stops.len() + 1;
+            first as u32
+        };
+        let first = (0..network.chains.len() as u32).map(&mut number).collect();
+        Numbers { first, count }
+    }
+
+    /// Those of so many chains on which there is no place to stop.
+    #[cfg(test)]
+    pub(super) fn of_chains(count: usize) -> Numbers {
+        Numbers { first: (0..count as u32).collect(), count }
+    }
+
+    /// The number of a refuge, if it has one.
+    #[inline]
+    pub(super) fn of_refuge(&self, refuge: Refuge) -> Option<usize> {
+        self.first.get(refuge.chain.at()).map(|first| (first + refuge.places) as usize)
+    }
+}

@@ -1,0 +1,60 @@
+//! Who is stuck: it has stood for long, and nothing that is bound to end holds it.
+
+use crate::appeal::surveyed;
+use crate::clock::Clock;
+use crate::junction::{Asking, Hindrance, Survey, may_pass};
+use crate::scene::{Scene, Spot};
+
+/// Standstill below this speed [m/s].
+pub(crate) const STANDSTILL: f64 = 0.1;
+/// A light that was green within this time will be so again [s].
+const RECENTLY: f64 = 180.0;
+/// A longer chain of blocked vehicles leads back to itself.
+const LONGEST: usize = 1000;
+
+/// What holds a standing vehicle.
+enum Blocker {
+    /// The vehicle at a spot.
+    Vehicle(Spot),
+    /// A light that was green not long ago.
+    Light,
+    /// Something else.
+    Other,
+}
+
+/// Whether the vehicle at `at`, which has stood for long, is stuck: it is not if the head of those who block it moves, or waits
+/// at a red light that was green not long ago. Those who wait for each other are stuck, all of them.
+#[inline(never)]
+pub(crate) fn is_stuck(scene: &Scene, mut at: Spot, clock: Clock, survey: &mut Survey) -> bool {
+    for _ in 0..LONGEST {
+        match blocker(scene, at, clock, survey) {
+            Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
+            Blocker::Vehicle(next) => at = next,
+            Blocker::Light => return false,
+            Blocker::Other => {
+                return true;
+            }
+        }
+    }
+    true
+}
+
+fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocker {
+    let from = scene.viewpoint(at);
+    let on_way = || scene.leader_spot(from).map_or(Blocker::Other, Blocker::Vehicle);
+    // It waits behind another, or for one who goes before it into a merge, or it is itself the head.
+    let is_head = surveyed(scene, at, survey) && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
+    if !is_head {
+        return on_way();
+    }
+    match may_pass(scene, at, survey, Asking::of(scene, at, clock.step, clock)) {
+        Err(Hindrance::Room | Hindrance::Ring) => on_way(),
+        Err(Hindrance::Light) => {
+            let mut programs =
+                survey.lights.iter().map(|(it, _)| &scene.network.junctions.lights[it.at()].program);
+            let will_be_green = programs.all(|it| it.was_green(scene.time, RECENTLY));
+            if will_be_green { Blocker::Light } else { Blocker::Other }
+        }
+        Ok(()) | Err(Hindrance::Sign | Hindrance::Others) => Blocker::Other,
+    }
+}
