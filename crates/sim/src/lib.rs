@@ -12,6 +12,7 @@ mod clock;
 mod decide;
 mod demand;
 mod drive;
+mod effort;
 mod enter;
 mod events;
 mod gamma;
@@ -51,6 +52,7 @@ mod world;
 
 pub use clock::Clock;
 pub use demand::{Demand, Origin, Share};
+pub use effort::Effort;
 pub use events::{Event, LaneChange};
 pub use headways::{HeadwayError, Headways};
 pub use junction::Passages;

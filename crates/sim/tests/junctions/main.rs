@@ -2,6 +2,7 @@
 
 #[path = "../roads/drivers.rs"]
 mod drivers;
+mod effort;
 mod flow;
 mod giving_way;
 mod guided;
