@@ -11,6 +11,7 @@ mod geometry;
 mod junction;
 mod lanelet;
 mod polygon;
+mod section;
 mod symmetry;
 
 pub use alongside::Alongside;
@@ -24,4 +25,5 @@ pub use junction::{
 };
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;
+pub use section::{Branch, Section, Sections};
 pub use symmetry::{Symmetry, symmetry};

@@ -6,6 +6,7 @@ mod mixture;
 mod origin;
 mod prepare;
 mod signals;
+mod turns;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -21,6 +22,7 @@ pub use origin::Origin;
 pub(crate) use prepare::driven;
 pub use prepare::{Prepared, open_map, prepare};
 pub use signals::{Signal, SignalPhase};
+pub use turns::Turns;
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,6 +36,9 @@ pub struct Scenario {
     /// Who comes, how many, and where they go.
     #[serde(default)]
     pub demand: Demand,
+    /// How drivers go on from roads to junctions, in place of the weights of the exits.
+    #[serde(default)]
+    pub turns: Vec<Turns>,
     /// Programs of lights; the others are given one.
     #[serde(default)]
     pub signals: Vec<Signal>,
@@ -235,6 +240,7 @@ impl Scenario {
             map,
             map_options: MapOptions::default(),
             demand: Demand::default(),
+            turns: Vec::new(),
             signals: Vec::new(),
             guidance: Guidance::default(),
             run: Run::default(),
