@@ -163,3 +163,20 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
     assert_eq!(fault.place, "turns.0.left");
     assert_eq!(fault.what, format!("no way leads left from {from}"));
 }
+
+#[test]
+fn an_entrance_whose_lane_leads_elsewhere_is_refused_unless_nobody_comes_there() {
+    // Two lanes of one road, each an entrance; from -101122 nobody gets to the left.
+    let map = "../../shared/data/lanelet2/tianjin.osm";
+    let turns = Turns { from: -101_122, left: 1.0, straight: 0.0, right: 0.0 };
+    let mut scenario = scenario(map, &[turns]);
+    if !scenario.map.exists() {
+        eprintln!("skipped: {map} is not there");
+        return;
+    }
+    let fault = prepare(&scenario, &Origin::default()).err().expect("refused");
+    let what = "no lane leads from the entrance -101122 to where these shares send its drivers";
+    assert_eq!((fault.place.as_str(), fault.what.as_str()), ("turns", what));
+    scenario.demand.vehicles_per_hour = Some(0.0);
+    assert_eq!(prepared(&scenario).demand_veh_h, 0.0);
+}

@@ -21,7 +21,7 @@ pub use headways::Headways;
 pub use origin::Origin;
 pub(crate) use prepare::driven;
 pub use prepare::{Prepared, open_map, prepare};
-pub use signals::{Signal, SignalPhase};
+pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
@@ -42,6 +42,9 @@ pub struct Scenario {
     /// Programs of lights; the others are given one.
     #[serde(default)]
     pub signals: Vec<Signal>,
+    /// What programs the others are given.
+    #[serde(default)]
+    pub made_signals: MadeSignals,
     /// What drivers are told of travel times.
     #[serde(default)]
     pub guidance: Guidance,
@@ -242,6 +245,7 @@ impl Scenario {
             demand: Demand::default(),
             turns: Vec::new(),
             signals: Vec::new(),
+            made_signals: MadeSignals::default(),
             guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),

@@ -94,7 +94,7 @@ pub(super) fn set_turns(
     Ok(())
 }
 
-/// Whether from each entrance a destination can be reached that turning shares send drivers to.
+/// Whether from each entrance where somebody comes a destination can be reached that turning shares send drivers to.
 ///
 /// # Errors
 /// The first entrance from which none can.
@@ -102,12 +102,13 @@ pub(super) fn check_arrivals(scenario: &Scenario, origin: &Origin, world: &World
     if scenario.turns.is_empty() {
         return Ok(());
     }
-    for (number, it) in world.demand().origins.iter().enumerate() {
+    let busy = world.demand().origins.iter().enumerate().filter(|it| it.1.rate.highest() > 0.0);
+    for (number, it) in busy {
         let mut wanted = it.weights.iter().enumerate().filter(|it| *it.1 > 0.0);
         if !wanted.any(|(to, _)| world.leads(number, to)) {
             let id = it.place.id();
             let what = format!("no lane leads from the entrance {id} to where these shares send its drivers");
-            let remedy = "give ways that its lanes lead a share above 0";
+            let remedy = "give a way that its lanes lead a share above 0, or the entrance no demand";
             return Err(Fault::new(origin.place(&["turns"]), what, remedy));
         }
     }

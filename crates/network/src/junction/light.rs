@@ -18,7 +18,7 @@ impl LightIndex {
 pub struct Light {
     /// The smallest id of its regulatory elements: its name.
     pub id: i64,
-    /// When it shows what.
+    /// When it shows what; of an actuated one with the longest greens.
     pub program: Program,
 }
 

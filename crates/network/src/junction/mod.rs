@@ -8,7 +8,7 @@ mod turning;
 mod zone;
 
 pub use light::{Light, LightIndex, LightState, Phase, Program};
-pub use signals::{LightConflict, SignalPlan, Turn};
+pub use signals::{Extension, LightConflict, SignalPlan, Turn};
 pub use zone::{Precedence, Reach, Zone, ZoneIndex, ZoneKind};
 
 use crate::build::Network;
@@ -68,6 +68,10 @@ pub struct Junctions {
     pub zones: Vec<Zone>,
     /// All traffic lights.
     pub lights: Vec<Light>,
+    /// The plans that were made for lights without a program.
+    pub made: Vec<SignalPlan>,
+    /// The plans in which traffic extends greens.
+    pub actuated: Vec<SignalPlan>,
     chains: Vec<OnChain>,
     /// Where turns begin, by chain [m].
     turns: Vec<Vec<f64>>,
@@ -147,8 +151,20 @@ impl Junctions {
         junctions.note_places();
         junctions.look_beyond(network);
         junctions.turns = turning::turns(network);
-        junctions.lights = signals::with_made_programs(network, &junctions);
+        junctions.made = signals::made_plans(network, &junctions);
+        let made = junctions.made.clone();
+        junctions.follow(&made);
         junctions
+    }
+
+    /// Gives the lights of `plans` their programs.
+    pub(crate) fn follow(&mut self, plans: &[SignalPlan]) {
+        for plan in plans {
+            for light in plan.lights() {
+                self.lights[light.at()].program = plan.program(light);
+            }
+        }
+        self.actuated.extend(plans.iter().filter(|it| it.is_actuated()).cloned());
     }
 
     pub(crate) fn light_conflicts(&self, network: &Network) -> Vec<LightConflict> {

@@ -1,5 +1,6 @@
 //! Drivers at junctions: who waits, who goes, and that nobody waits for ever.
 
+mod actuated;
 #[path = "../roads/drivers.rs"]
 mod drivers;
 mod effort;
