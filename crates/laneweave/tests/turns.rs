@@ -165,8 +165,8 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
 }
 
 #[test]
-fn an_entrance_whose_lane_leads_elsewhere_is_refused_unless_nobody_comes_there() {
-    // Two lanes of one road, each an entrance; from -101122 nobody gets to the left.
+fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where_it_leads() {
+    // Nobody gets from -101122 to the left: it is refused unless there is somewhere else to go, or nobody comes.
     let map = "../../shared/data/lanelet2/tianjin.osm";
     let turns = Turns { from: -101_122, left: 1.0, straight: 0.0, right: 0.0 };
     let mut scenario = scenario(map, &[turns]);
@@ -177,6 +177,13 @@ fn an_entrance_whose_lane_leads_elsewhere_is_refused_unless_nobody_comes_there()
     let fault = prepare(&scenario, &Origin::default()).err().expect("refused");
     let what = "no lane leads from the entrance -101122 to where these shares send its drivers";
     assert_eq!((fault.place.as_str(), fault.what.as_str()), ("turns", what));
+    scenario.turns[0] = Turns { straight: 2.0, right: 1.0, ..turns };
+    let weights = prepared(&scenario).world.demand().origins[0].weights.clone();
+    let [first, second] = weights.into_iter().filter(|it| *it > 0.0).collect::<Vec<_>>()[..] else {
+        panic!("straight on and to the right")
+    };
+    assert!((first - 0.25).abs() < 1e-9 && (second - 0.5).abs() < 1e-9, "{first} {second}");
+    scenario.turns[0] = turns;
     scenario.demand.vehicles_per_hour = Some(0.0);
     assert_eq!(prepared(&scenario).demand_veh_h, 0.0);
 }

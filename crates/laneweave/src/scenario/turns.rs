@@ -4,8 +4,8 @@
 //! the drivers that arrives at an exit is its weight as a destination. Drivers then go their best way there. So the counts come
 //! out again wherever one way leads from an entrance to an exit; of several ways all take the best.
 
-use laneweave_network::{Branch, Network, Sections};
-use laneweave_sim::{Demand, World};
+use laneweave_network::{Branch, ChainIndex, Network, Sections, Side};
+use laneweave_sim::{Demand, Place, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,13 +63,11 @@ pub(super) fn set_turns(
     }
     let sections = Sections::of(network);
     let ways_on = ways_on(scenario, origin, network, &sections)?;
-    let mut destination = vec![None; sections.all().len()];
-    for (number, place) in demand.destinations.iter().enumerate() {
-        for chain in place.chains() {
-            let last = network.chain(*chain).lanelets.last();
-            last.into_iter().for_each(|it| destination[sections.holding(*it)] = Some(number));
-        }
-    }
+    let ends = |place: &Place| -> Vec<usize> {
+        let last = place.chains().iter().filter_map(|it| network.chain(*it).lanelets.last());
+        last.map(|it| sections.holding(*it)).collect()
+    };
+    let ends: Vec<Vec<usize>> = demand.destinations.iter().map(ends).collect();
     for it in &mut demand.origins {
         let mut parts = vec![0.0; sections.all().len()];
         for chain in it.place.chains() {
@@ -85,13 +83,31 @@ pub(super) fn set_turns(
             );
             Fault::new(&place, what, "let some of them leave the round")
         })?;
-        for (part, destination) in arrived.into_iter().zip(&destination) {
-            if let Some(number) = *destination {
-                it.weights[number] += part;
-            }
+        // Lanes of one road may be exits of their own, of which not all can be reached from here.
+        let is_reached = reached(network, it.place.chains());
+        let can_be_reached = |place: &Place| place.chains().iter().any(|chain| is_reached[chain.at()]);
+        let candidates: Vec<bool> = demand.destinations.iter().map(can_be_reached).collect();
+        for (section, part) in arrived.into_iter().enumerate().filter(|it| it.1 > 0.0) {
+            let is_there = |number: &usize| candidates[*number] && ends[*number].contains(&section);
+            let there: Vec<usize> = (0..ends.len()).filter(is_there).collect();
+            there.iter().for_each(|number| it.weights[*number] += part / there.len() as f64);
         }
     }
     Ok(())
+}
+
+/// For each chain whether it can be reached from those of `start`.
+fn reached(network: &Network, start: &[ChainIndex]) -> Vec<bool> {
+    let mut is_reached = vec![false; network.chains.len()];
+    let mut open = start.to_vec();
+    while let Some(index) = open.pop() {
+        if !std::mem::replace(&mut is_reached[index.at()], true) {
+            let chain = network.chain(index);
+            open.extend(&chain.following);
+            open.extend(Side::BOTH.into_iter().flat_map(|side| chain.stretches(side)).map(|it| it.chain));
+        }
+    }
+    is_reached
 }
 
 /// Whether from each entrance where somebody comes a destination can be reached that turning shares send drivers to.
