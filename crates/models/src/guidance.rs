@@ -14,12 +14,24 @@ pub struct Guidance {
     pub habit: f64,
     /// Chance that it minds new times when they come.
     pub compliance: f64,
+    /// What it adds to the time of a way for each turn on it [s].
+    pub turn_s: f64,
+    /// The same for each traffic light [s].
+    pub light_s: f64,
 }
 
 impl Default for Guidance {
-    /// A driver who knows the times, and goes by them if half a minute is to be gained; ours.
+    /// A driver who knows the times, and goes by them if half a minute is to be gained; turns and lights count as much as
+    /// they take. Ours.
     fn default() -> Guidance {
-        Guidance { route_error: 0.0, indifference: 30.0, habit: 0.0, compliance: 1.0 }
+        Guidance {
+            route_error: 0.0,
+            indifference: 30.0,
+            habit: 0.0,
+            compliance: 1.0,
+            turn_s: 0.0,
+            light_s: 0.0,
+        }
     }
 }
 
@@ -28,5 +40,17 @@ impl Guidance {
     /// `deviate`.
     pub fn belief(&self, deviate: f64) -> f64 {
         libm::exp(self.route_error * deviate)
+    }
+
+    /// Turns and lights count for nothing beside the time that they take.
+    #[inline]
+    pub fn minds_time_only(&self) -> bool {
+        self.turn_s == 0.0 && self.light_s == 0.0
+    }
+
+    /// What it adds to the time of a way with so many turns and lights [s].
+    #[inline]
+    pub fn added(&self, turns: u16, lights: u16) -> f64 {
+        self.turn_s * f64::from(turns) + self.light_s * f64::from(lights)
     }
 }

@@ -114,11 +114,7 @@ impl Network {
 
     /// The same network with lights that follow these plans.
     pub fn with_signals(mut self, plans: &[SignalPlan]) -> Network {
-        for plan in plans {
-            for light in plan.turns.iter().flat_map(|it| &it.lights) {
-                self.junctions.lights[light.at()].program = plan.program(*light);
-            }
-        }
+        self.junctions.follow(plans);
         self
     }
 

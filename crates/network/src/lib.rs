@@ -11,6 +11,7 @@ mod geometry;
 mod junction;
 mod lanelet;
 mod polygon;
+mod section;
 mod symmetry;
 
 pub use alongside::Alongside;
@@ -19,9 +20,11 @@ pub use chain::{Beside, Chain, ChainIndex, Limit};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use junction::{
-    Crossing, Junctions, Light, LightConflict, LightIndex, LightState, OnChain, Phase, Precedence, Priority,
-    Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind, StopRule, Turn, Zone, ZoneIndex, ZoneKind,
+    Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, OnChain, Phase, Precedence,
+    Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind, StopRule, Turn, Zone, ZoneIndex,
+    ZoneKind,
 };
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;
+pub use section::{Branch, Section, Sections};
 pub use symmetry::{Symmetry, symmetry};

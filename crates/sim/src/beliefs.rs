@@ -1,7 +1,9 @@
-//! What drivers believe of travel times, and for what gain they would leave their route.
+//! What drivers believe of travel times and mind of turns and lights, and for what gain they would leave their route.
 
 use laneweave_models::Guidance;
+use laneweave_network::{ChainIndex, Network};
 
+use crate::effort::Effort;
 use crate::navigate::{Destination, Navigator};
 use crate::normal::quantile;
 use crate::random::{Purpose, Random};
@@ -9,7 +11,8 @@ use crate::traffic::VehicleId;
 
 /// What a driver believes since travel times were measured last.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Beliefs {
+pub(crate) struct Beliefs<'a> {
+    guidance: &'a Guidance,
     /// What it takes the time of its own way for, as a multiple.
     pub(crate) own: f64,
     /// The same of other ways.
@@ -18,38 +21,51 @@ pub(crate) struct Beliefs {
     pub(crate) band: f64,
 }
 
-impl Beliefs {
+impl<'a> Beliefs<'a> {
     /// Who is recommended no other way knows the times, and keeps its own.
-    pub(crate) const SETTLED: Beliefs = Beliefs { own: 1.0, other: 1.0, band: f64::INFINITY };
+    #[inline]
+    pub(crate) fn settled(guidance: &'a Guidance) -> Beliefs<'a> {
+        Beliefs { guidance, own: 1.0, other: 1.0, band: f64::INFINITY }
+    }
 
     /// Those of the driver of `id`, who follows `destination`.
     #[inline]
     pub(crate) fn of(
-        guidance: &Guidance,
+        guidance: &'a Guidance,
         navigator: &Navigator,
         random: Random,
         id: VehicleId,
         destination: Destination,
-    ) -> Beliefs {
+    ) -> Beliefs<'a> {
         match navigator.recommended(destination) {
-            None => Beliefs::SETTLED,
+            None => Beliefs::settled(guidance),
             Some(_) => Beliefs::drawn(guidance, random, id, navigator.measurements()),
         }
     }
 
     #[inline(never)]
-    fn drawn(guidance: &Guidance, random: Random, id: VehicleId, measurement: u32) -> Beliefs {
+    fn drawn(guidance: &'a Guidance, random: Random, id: VehicleId, measurement: u32) -> Beliefs<'a> {
         let keeps = random.uniform(id, Purpose::Habit, 0) < guidance.habit
             || random.uniform(id, Purpose::Compliance, measurement) >= guidance.compliance;
         let band = if keeps { f64::INFINITY } else { guidance.indifference };
         if guidance.route_error == 0.0 {
-            return Beliefs { band, ..Beliefs::SETTLED };
+            return Beliefs { band, ..Beliefs::settled(guidance) };
         }
         let belief = |of: u32| {
             let count = measurement.wrapping_mul(2) + of;
             guidance.belief(quantile(random.uniform(id, Purpose::Belief, count)))
         };
-        Beliefs { own: belief(0), other: belief(1), band }
+        Beliefs { guidance, own: belief(0), other: belief(1), band }
+    }
+
+    /// What the driver adds to the times of a way and of another one for what they ask of it from `x` on `chain` on [s].
+    #[inline]
+    pub(crate) fn added(&self, network: &Network, chain: ChainIndex, x: f64, ways: [Effort; 2]) -> [f64; 2] {
+        if self.guidance.minds_time_only() {
+            return [0.0; 2];
+        }
+        let passed = Effort::until(network, chain, x);
+        ways.map(|it| it.beyond(passed)).map(|it| self.guidance.added(it.turns, it.lights))
     }
 }
 
@@ -59,13 +75,13 @@ mod tests {
 
     const DRIVERS: u32 = 20_000;
 
-    fn beliefs(guidance: Guidance, measurement: u32) -> Vec<Beliefs> {
-        (0..DRIVERS).map(|id| Beliefs::drawn(&guidance, Random::new(1), id, measurement)).collect()
+    fn beliefs(guidance: &Guidance, measurement: u32) -> Vec<Beliefs<'_>> {
+        (0..DRIVERS).map(|id| Beliefs::drawn(guidance, Random::new(1), id, measurement)).collect()
     }
 
     /// Share of the drivers who keep their route.
     fn keeping(guidance: Guidance) -> f64 {
-        let kept = beliefs(guidance, 3).iter().filter(|it| it.band.is_infinite()).count();
+        let kept = beliefs(&guidance, 3).iter().filter(|it| it.band.is_infinite()).count();
         kept as f64 / f64::from(DRIVERS)
     }
 
@@ -73,7 +89,7 @@ mod tests {
     fn errors_are_lognormal_with_median_1_anew_for_each_measurement_and_way() {
         let guidance = Guidance { route_error: 0.2, ..Guidance::default() };
         let logarithms = |measurement, of: fn(&Beliefs) -> f64| -> Vec<f64> {
-            beliefs(guidance, measurement).iter().map(|it| libm::log(of(it))).collect()
+            beliefs(&guidance, measurement).iter().map(|it| libm::log(of(it))).collect()
         };
         let sets = [logarithms(1, |it| it.own), logarithms(1, |it| it.other), logarithms(2, |it| it.own)];
         let n = f64::from(DRIVERS);
@@ -85,7 +101,8 @@ mod tests {
             let together: f64 = set.iter().zip(&sets[(number + 1) % 3]).map(|(a, b)| a * b).sum();
             assert!((together / (n * 0.04)).abs() < 3.0 / n.sqrt(), "{together}");
         }
-        let known = beliefs(Guidance::default(), 1);
+        let usual = Guidance::default();
+        let known = beliefs(&usual, 1);
         assert!(known.iter().all(|it| (it.own, it.other, it.band) == (1.0, 1.0, 30.0)));
     }
 

@@ -24,10 +24,12 @@ impl World {
             metering.measure(&self.lanes);
         }
         let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
+        let time = self.clock.time();
         for source in &mut sources {
             let scene = self.scene();
             let mut next_id = self.next_id;
-            source.arrive(&scene, &self.demand, self.metering.as_ref(), &self.random, &mut next_id);
+            let metering = self.metering.as_ref();
+            source.arrive(&scene, &self.demand, metering, &self.random, time, &mut next_id);
             self.next_id = next_id;
             for queue in source.queues() {
                 while let Some(place) = queue.first(is_full)

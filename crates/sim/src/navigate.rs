@@ -68,7 +68,7 @@ pub struct Navigator {
 }
 
 impl Navigator {
-    /// Waypoints that may be planned, ours: 2.8 GB.
+    /// Waypoints that may be planned, ours: 3.2 GB.
     pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
     /// Ways to one destination: the usual one, and two of which the one is recommended while others may still follow the other.
     pub(crate) const WAYS: usize = 3;

@@ -21,7 +21,9 @@ pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation
     let ahead = |it: &Beside| scene.lanes[it.chain.at()].ahead_of(it.across(x));
     let mut hints = Side::BOTH.map(|side| here.beside(side, x).map_or(0, ahead));
     let waypoint = scene.navigator.waypoint_from(scene.network, destination, chain, x);
-    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, Beliefs::SETTLED, &mut hints);
+    let style = &scene.characters[scene.car(me).character as usize];
+    let beliefs = Beliefs::settled(&style.guidance);
+    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, beliefs, &mut hints);
     Some(outlook.situation(side, outlook.beside(side)?))
 }
 
@@ -48,7 +50,7 @@ pub(crate) struct Outlook<'s, 'a> {
     from: Viewpoint,
     /// How far ahead it sees [m].
     reach: f64,
-    beliefs: Beliefs,
+    beliefs: Beliefs<'a>,
     sight: LaneSight,
     here: LaneView<'a>,
     /// Its usual way is over, and it goes round.
@@ -65,7 +67,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
         spot: Spot,
         waypoint: &Waypoint,
         reach: f64,
-        beliefs: Beliefs,
+        beliefs: Beliefs<'a>,
         hints: &mut [usize; 2],
     ) -> Outlook<'s, 'a> {
         let me = driver(scene, spot);
@@ -89,7 +91,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
     }
 
     /// What it believes of travel times.
-    pub(crate) fn beliefs(&self) -> Beliefs {
+    pub(crate) fn beliefs(&self) -> Beliefs<'a> {
         self.beliefs
     }
 
@@ -215,10 +217,12 @@ fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beli
     }
     let behind = scene.navigator.time_to(scene.network, from.chain, from.x);
     let alternative = Some(waypoint.alternative).filter(|it| it.is_finite());
+    let ways = [waypoint.effort, waypoint.alternative_effort];
+    let [added, added_beside] = beliefs.added(scene.network, from.chain, from.x, ways);
     RouteView {
         changes: waypoint.changes,
         remaining: waypoint.last_place - from.x,
-        onward: beliefs.own * (waypoint.time - behind).max(0.0),
-        alternative: alternative.map(|it| beliefs.other * (it - behind).max(0.0)),
+        onward: beliefs.own * (waypoint.time - behind).max(0.0) + added,
+        alternative: alternative.map(|it| beliefs.other * (it - behind).max(0.0) + added_beside),
     }
 }

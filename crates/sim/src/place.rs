@@ -61,7 +61,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// Most waypoints that are planned on a map without gates; of more destinations an even choice remains. Ours: 200 MB.
+    /// Most waypoints that are planned on a map without gates; of more destinations an even choice remains. Ours: 260 MB.
     const MOST_WAYPOINTS: usize = 4_000_000;
 
     /// The entrances and exits of `network`.

@@ -7,6 +7,7 @@ use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach, Sign
 
 use crate::junction::{Passage, Passages};
 use crate::navigate::{Destination, Navigator};
+use crate::signals::Signals;
 use crate::traffic::{Car, Lane, Mind, Motion, VehicleId};
 
 /// One instant of traffic on a network.
@@ -22,8 +23,8 @@ pub struct Scene<'a> {
     pub characters: &'a [Style],
     /// Who may pass the junctions.
     pub passages: &'a Passages,
-    /// The time, which the lights go by [s].
-    pub time: f64,
+    /// What the lights show.
+    pub signals: &'a Signals,
 }
 
 /// An entry in a lane.
@@ -127,7 +128,7 @@ impl<'a> Scene<'a> {
 
     /// What a light shows.
     pub fn light(&self, light: LightIndex) -> LightState {
-        self.network.junctions.lights[light.at()].program.state(self.time)
+        self.signals.shown(light)
     }
 
     /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it there.

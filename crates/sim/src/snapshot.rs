@@ -3,9 +3,11 @@
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
 
+use crate::clock::Clock;
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::navigate::{Destination, Navigator};
 use crate::scene::{Scene, Spot};
+use crate::signals::Signals;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
 use crate::trail::Trail;
 use crate::vehicle::Class;
@@ -53,6 +55,7 @@ pub struct Across {
 pub struct Snapshot {
     lanes: Vec<Lane>,
     passages: Passages,
+    signals: Signals,
     /// The main entries in order of ids.
     spots: Vec<(VehicleId, Spot)>,
 }
@@ -78,7 +81,8 @@ impl Snapshot {
             spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
         }
         spots.sort_by_key(|(id, _)| *id);
-        Snapshot { lanes, passages: Passages::new(network), spots }
+        let (passages, signals) = (Passages::new(network), Signals::new(network, Clock { step: 0, dt: 1.0 }));
+        Snapshot { lanes, passages, signals, spots }
     }
 
     /// The instant as drivers with `characters`, who find their ways by `navigator`, see it.
@@ -88,8 +92,8 @@ impl Snapshot {
         navigator: &'a Navigator,
         characters: &'a [Style],
     ) -> Scene<'a> {
-        let Snapshot { lanes, passages, .. } = self;
-        Scene { network, navigator, lanes, characters, passages, time: 0.0 }
+        let Snapshot { lanes, passages, signals, .. } = self;
+        Scene { network, navigator, lanes, characters, passages, signals }
     }
 
     /// The main entry of a vehicle.

@@ -133,12 +133,13 @@ impl Source {
         demand: &Demand,
         metering: Option<&Metering>,
         random: &Random,
+        time: f64,
         next_id: &mut VehicleId,
     ) {
         let due = |source: &Source| {
             let streams = source.streams.iter().enumerate();
             let (index, first) = streams.min_by(|(_, a), (_, b)| a.next.total_cmp(&b.next))?;
-            (first.next <= scene.time).then_some(index)
+            (first.next <= time).then_some(index)
         };
         while let Some(stream) = due(self) {
             let mut arrival = self.draw(scene.navigator, demand, random, *next_id);

@@ -50,10 +50,9 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
     match may_pass(scene, at, survey, Asking::of(scene, at, clock.step, clock)) {
         Err(Hindrance::Room | Hindrance::Ring) => on_way(),
         Err(Hindrance::Light) => {
-            let mut programs =
-                survey.lights.iter().map(|(it, _)| &scene.network.junctions.lights[it.at()].program);
-            let will_be_green = programs.all(|it| it.was_green(scene.time, RECENTLY));
-            if will_be_green { Blocker::Light } else { Blocker::Other }
+            let since = |it| f64::from(clock.step - scene.signals.green_at(it)) * clock.dt;
+            let was_green = survey.lights.iter().all(|(it, _)| since(*it) <= RECENTLY);
+            if was_green { Blocker::Light } else { Blocker::Other }
         }
         Ok(()) | Err(Hindrance::Sign | Hindrance::Others) => Blocker::Other,
     }

@@ -1,11 +1,12 @@
 //! The ways to one destination: for each chain the lane changes still to make, the last place for the next of them, the way on,
-//! and the times of this way and of the best other one.
+//! and the times of this way and of the best other one, with the turns and lights on them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use laneweave_network::{Beside, Chain, ChainIndex, Network, Side};
 
+use crate::effort::Effort;
 use crate::links::Links;
 use crate::place::Place;
 use crate::views::Views;
@@ -30,6 +31,10 @@ pub struct Waypoint {
     pub distance: f64,
     /// Where on it the trip ends [m]; infinite where it goes on to the chain's end.
     pub end: f64,
+    /// What the way from its start asks for.
+    pub effort: Effort,
+    /// What the alternative asks for.
+    pub alternative_effort: Effort,
 }
 
 impl Waypoint {
@@ -47,6 +52,8 @@ impl Waypoint {
         alternative: f64::INFINITY,
         distance: f64::INFINITY,
         end: f64::INFINITY,
+        effort: Effort { turns: 0, lights: 0 },
+        alternative_effort: Effort { turns: 0, lights: 0 },
     };
 
     /// There is a way.
@@ -116,6 +123,11 @@ impl Planner<'_> {
         }
     }
 
+    /// What `chain` asks for from its start to its end.
+    fn effort(&self, chain: ChainIndex) -> Effort {
+        Effort::until(self.network, chain, f64::INFINITY)
+    }
+
     /// What `chain` counts for beside its time [s].
     fn delay(&self, chain: ChainIndex) -> f64 {
         if self.views.avoids(self.view, chain) { Planner::AVOIDED } else { 0.0 }
@@ -130,9 +142,9 @@ impl Planner<'_> {
             last_place: length + onward.last_place,
             next: Some(next),
             time: self.time(chain, length) + onward.time,
-            alternative: f64::INFINITY,
             distance: length + onward.distance,
-            end: f64::INFINITY,
+            effort: self.effort(chain).and(onward.effort),
+            ..Waypoint::NOWHERE
         }
     }
 
@@ -154,9 +166,10 @@ impl Planner<'_> {
                 last_place: f64::INFINITY,
                 next: None,
                 time: self.time(*index, until),
-                alternative: f64::INFINITY,
                 distance: until,
                 end,
+                effort: Effort::until(network, *index, until),
+                ..Waypoint::NOWHERE
             };
             ranks[index.at()] = rank(network, &table[index.at()]);
             open.push((Reverse(ranks[index.at()]), *index));
@@ -215,9 +228,9 @@ impl Planner<'_> {
             last_place,
             next: self.network.chain(chain).following.first().copied(),
             time: onward.time - self.lead(to, across),
-            alternative: f64::INFINITY,
             distance: onward.distance - across,
-            end: f64::INFINITY,
+            effort: onward.effort.beyond(Effort::until(self.network, to, across)),
+            ..Waypoint::NOWHERE
         }
     }
 
@@ -241,22 +254,30 @@ impl Planner<'_> {
         }
     }
 
-    /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, by the ways of
-    /// `best`, or else by its own.
+    /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, and what that
+    /// asks for, by the ways of `best`, or else by its own. Of equal times that with less effort counts.
     pub(crate) fn note_alternatives(&self, table: &mut [Waypoint], best: Option<&[Waypoint]>) {
-        let mut alternatives = vec![f64::INFINITY; table.len()];
+        let mut alternatives = vec![(f64::INFINITY, Effort::default()); table.len()];
         for chain in from_the_destination(table) {
             let it = self.network.chain(chain);
             let Waypoint { changes, via, .. } = table[chain.at()];
             let goes_over_end = via != chain && changes == table[via.at()].changes;
             let onward = it.following.iter().map(|next| match next {
                 next if goes_over_end && *next == via => alternatives[next.at()],
-                next => best.unwrap_or(table)[next.at()].time,
+                next => {
+                    let Waypoint { time, effort, .. } = best.unwrap_or(table)[next.at()];
+                    (time, effort)
+                }
             });
-            let onward = onward.fold(f64::INFINITY, f64::min);
-            alternatives[chain.at()] = self.time(chain, it.length) + self.delay(chain) + onward;
+            let best_onward = onward.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            if let Some((time, effort)) = best_onward {
+                let time = self.time(chain, it.length) + self.delay(chain) + time;
+                alternatives[chain.at()] = (time, self.effort(chain).and(effort));
+            }
         }
-        table.iter_mut().zip(alternatives).for_each(|(waypoint, time)| waypoint.alternative = time);
+        for (waypoint, (time, effort)) in table.iter_mut().zip(alternatives) {
+            (waypoint.alternative, waypoint.alternative_effort) = (time, effort);
+        }
     }
 }
 

@@ -24,6 +24,7 @@ use crate::pose::{lateral_offset, pose};
 use crate::random::Random;
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
+use crate::signals::Signals;
 use crate::source::Source;
 use crate::tally::Tally;
 use crate::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
@@ -42,6 +43,7 @@ pub struct World {
     pub(crate) lanes: Vec<Lane>,
     pub(crate) plans: Vec<Plan>,
     pub(crate) passages: Passages,
+    pub(crate) signals: Signals,
     pub(crate) records: Records,
     pub(crate) trips: Trips,
     pub(crate) events: Vec<Event>,
@@ -175,14 +177,16 @@ impl World {
         let navigator = Navigator::with_views(&network, &demand.destinations, views);
         let metering = Metering::new(&network);
         let random = Random::new(setup.seed);
+        let clock = Clock { step: 0, dt: setup.step };
         let lanes = vec![Lane::default(); network.chains.len()];
         let plans = lanes.iter().map(|_| Plan::default()).collect();
         Ok(World {
             sources: Source::all(&network, &navigator, &demand, &random),
-            clock: Clock { step: 0, dt: setup.step },
+            clock,
             pools: [Pool::new(setup.threads), Pool::new(1)],
             crowd: 0,
             passages: Passages::new(&network),
+            signals: Signals::new(&network, clock),
             metering,
             network,
             navigator,
@@ -226,6 +230,7 @@ impl World {
         self.events.clear();
         self.move_all();
         self.clock.step += 1;
+        self.switch_lights();
         self.gather();
         self.account();
         self.pass_on();
@@ -239,10 +244,20 @@ impl World {
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
     fn move_all(&mut self) {
         let is_watched = self.is_watched();
-        let time = self.clock.time();
-        let World { network, navigator, characters, clock, random, lanes, plans, passages, outboxes, .. } =
-            self;
-        let passages = &*passages;
+        let World {
+            network,
+            navigator,
+            characters,
+            clock,
+            random,
+            lanes,
+            plans,
+            passages,
+            signals,
+            outboxes,
+            ..
+        } = self;
+        let (passages, signals) = (&*passages, &*signals);
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
         self.pools[pool_for(self.crowd)].look_then_act(
@@ -250,7 +265,7 @@ impl World {
             lanes,
             plans,
             |lanes, outbox, index, plan| {
-                let scene = Scene { network, navigator, lanes, characters, passages, time };
+                let scene = Scene { network, navigator, lanes, characters, passages, signals };
                 let chain = ChainIndex(index as u32);
                 plan.clear();
                 decide(&scene, moment, chain, plan, outbox);
@@ -335,7 +350,7 @@ impl World {
             lanes: &self.lanes,
             characters: &self.characters,
             passages: &self.passages,
-            time: self.clock.time(),
+            signals: &self.signals,
         }
     }
 

@@ -9,7 +9,7 @@ use std::cell::Cell;
 use laneweave_maps::generate::{Grid, grid};
 use laneweave_maps::regulations;
 use laneweave_models::{Attention, Style};
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Network, SignalPlan};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use roads::{Road, drivers};
 
@@ -94,14 +94,19 @@ fn steps_of_traffic_at_lights_allocate_only_while_a_lane_or_a_queue_is_fuller_th
     const STEPS: u64 = 3000;
     let map = grid(&Grid::default()).expect("the grid is possible").build().expect("the drawing is sound");
     let regulations = regulations(&map);
-    let mut world = world(map.network.regulated(&regulations), 1500.0);
-    (0..6000).for_each(|_| world.step());
-    let left_before = world.counts().left;
-    let mut steps_that_allocate = 0;
-    for _ in 0..STEPS {
-        steps_that_allocate += u64::from(allocations_of_a_step(&mut world) > 0);
+    let network = map.network.regulated(&regulations);
+    let actuated: Vec<SignalPlan> =
+        network.junctions.made.iter().cloned().map(SignalPlan::actuated).collect();
+    for plans in [&[][..], &actuated] {
+        let mut world = world(network.clone().with_signals(plans), 1500.0);
+        (0..6000).for_each(|_| world.step());
+        let left_before = world.counts().left;
+        let mut steps_that_allocate = 0;
+        for _ in 0..STEPS {
+            steps_that_allocate += u64::from(allocations_of_a_step(&mut world) > 0);
+        }
+        let left = world.counts().left - left_before;
+        assert!(left > 100, "{left} left");
+        assert!(steps_that_allocate <= STEPS / 100, "{steps_that_allocate} of {STEPS} steps");
     }
-    let left = world.counts().left - left_before;
-    assert!(left > 100, "{left} left");
-    assert!(steps_that_allocate <= STEPS / 100, "{steps_that_allocate} of {STEPS} steps");
 }

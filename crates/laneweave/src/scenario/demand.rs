@@ -3,6 +3,7 @@
 use laneweave_network::Network;
 use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
 
+use super::turns::set_turns;
 use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
 use crate::fault::{Fault, did_you_mean};
 use crate::units::METRES_PER_KM;
@@ -36,6 +37,7 @@ pub(super) fn demand(
     let mut demand = Demand::over(places, total, fleet, population);
     let weights = weights(scenario, origin, &demand)?;
     demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
+    set_turns(scenario, origin, network, &mut demand)?;
     set_single_rates(scenario, origin, &mut demand)?;
     set_od_rows(scenario, origin, &mut demand)?;
     if !wanted.profile.is_empty() {

@@ -6,6 +6,7 @@ mod mixture;
 mod origin;
 mod prepare;
 mod signals;
+mod turns;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -20,7 +21,8 @@ pub use headways::Headways;
 pub use origin::Origin;
 pub(crate) use prepare::driven;
 pub use prepare::{Prepared, open_map, prepare};
-pub use signals::{Signal, SignalPhase};
+pub use signals::{MadeSignals, Signal, SignalPhase};
+pub use turns::Turns;
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,9 +36,15 @@ pub struct Scenario {
     /// Who comes, how many, and where they go.
     #[serde(default)]
     pub demand: Demand,
+    /// How drivers go on from roads to junctions, in place of the weights of the exits.
+    #[serde(default)]
+    pub turns: Vec<Turns>,
     /// Programs of lights; the others are given one.
     #[serde(default)]
     pub signals: Vec<Signal>,
+    /// What programs the others are given.
+    #[serde(default)]
+    pub made_signals: MadeSignals,
     /// What drivers are told of travel times.
     #[serde(default)]
     pub guidance: Guidance,
@@ -235,7 +243,9 @@ impl Scenario {
             map,
             map_options: MapOptions::default(),
             demand: Demand::default(),
+            turns: Vec::new(),
             signals: Vec::new(),
+            made_signals: MadeSignals::default(),
             guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),

@@ -11,6 +11,7 @@ use laneweave_sim::{Place, Places, Rate, Setup, World};
 use super::demand::{check_ways, demand};
 use super::mixture::mixture;
 use super::signals::plans;
+use super::turns::check_arrivals;
 use super::{MapOptions, Origin, Scenario};
 use crate::capacity::entrance_capacity;
 use crate::fault::Fault;
@@ -96,6 +97,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         })?,
     };
     check_ways(scenario, origin, &world)?;
+    check_arrivals(scenario, origin, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
         warmup_steps: steps(scenario.run.warmup_s),

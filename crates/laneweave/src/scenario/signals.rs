@@ -1,11 +1,22 @@
 //! Programs of lights as a scenario has them.
 
-use laneweave_network::{LightConflict, LightIndex, Network, SignalPlan, Turn};
+use laneweave_network::{Extension, LightConflict, LightIndex, Network, SignalPlan, Turn};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Origin, Scenario};
 use crate::fault::Fault;
+
+/// What programs lights get that have none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MadeSignals {
+    /// Of 60 s, whoever comes.
+    #[default]
+    Fixed,
+    /// Greens of 5 to 40 s that traffic extends.
+    Actuated,
+}
 
 /// A program for lights that get in each other's way: its phases, one after the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,8 +37,14 @@ pub struct Signal {
 pub struct SignalPhase {
     /// Ids of the lights that are green; one that is green in the next phase, too, stays green in between.
     pub green: Vec<i64>,
-    /// Length of green [s].
-    pub green_s: f64,
+    /// Length of green [s], if traffic does not extend it.
+    pub green_s: Option<f64>,
+    /// Longest green [s], if traffic extends it: from when on somebody waits for another phase.
+    pub max_green_s: Option<f64>,
+    /// Shortest green that traffic extends [s]; 5 where nothing is said.
+    pub min_green_s: Option<f64>,
+    /// A green that traffic extends ends when nobody has come for so long [s]; 2 where nothing is said.
+    pub gap_s: Option<f64>,
     /// Length of the yellow after it [s].
     #[serde(default = "usual_yellow")]
     pub yellow_s: f64,
@@ -65,16 +82,19 @@ pub(super) fn plans(
     for (signal, number) in scenario.signals.iter().zip(0..) {
         let place = Place { origin, number };
         let plan = plan(signal, &place, network)?;
-        let lights = |plan: &SignalPlan| -> Vec<LightIndex> {
-            plan.turns.iter().flat_map(|it| it.lights.iter().copied()).collect()
-        };
-        let taken: Vec<LightIndex> = plans.iter().flat_map(lights).collect();
-        if let Some(twice) = lights(&plan).iter().find(|it| taken.contains(it)) {
-            let what = format!("the light {} has a program already", name(network, *twice));
+        let is_taken = |light: &LightIndex| plans.iter().any(|it| it.lights().any(|other| other == *light));
+        if let Some(twice) = plan.lights().find(is_taken) {
+            let what = format!("the light {} has a program already", name(network, twice));
             return Err(Fault::new(place.of(&["phases"]), what, "name it in one of them only"));
         }
         check_conflicts(&plan, &place, network, &conflicts)?;
         plans.push(plan);
+    }
+    if scenario.made_signals == MadeSignals::Actuated {
+        let is_named = |light: LightIndex| plans.iter().any(|it| it.lights().any(|other| other == light));
+        let made = network.junctions.made.iter().filter(|it| !it.lights().any(is_named));
+        let made: Vec<SignalPlan> = made.cloned().map(SignalPlan::actuated).collect();
+        plans.extend(made);
     }
     Ok(plans)
 }
@@ -106,22 +126,19 @@ fn plan(signal: &Signal, place: &Place, network: &Network) -> Result<SignalPlan,
     }
     let mut turns = Vec::new();
     for (phase, number) in signal.phases.iter().zip(0..) {
-        let SignalPhase { green_s: green, yellow_s: yellow, all_red_s: all_red, .. } = *phase;
-        let check = |key: &str, what: &str, value: f64, is_positive: bool| {
-            if value <= LONGEST && (value > 0.0 || (value == 0.0 && !is_positive)) {
-                return Ok(());
-            }
-            let least = if is_positive { "more than 0" } else { "0" };
-            let remedy = format!("choose {least} to {LONGEST} s");
-            Err(Fault::new(place.in_phase(number, key), format!("{what} of {value} s"), remedy))
-        };
-        check("green_s", "a green", green, true)?;
-        check("yellow_s", "a yellow", yellow, true)?;
-        check("all_red_s", "a red for all", all_red, false)?;
-        let lights = phase.green.iter().map(|id| light(network, *id, place.in_phase(number, "green")));
-        turns.push(Turn { lights: lights.collect::<Result<_, _>>()?, green, yellow, all_red });
+        let SignalPhase { yellow_s: yellow, all_red_s: all_red, .. } = *phase;
+        let place_of = |key: &str| place.in_phase(number, key);
+        let (green, extension) = green(phase, place_of)?;
+        check(place_of("yellow_s"), "a yellow", yellow, Least::Above(0.0), LONGEST)?;
+        check(place_of("all_red_s"), "a red for all", all_red, Least::From(0.0), LONGEST)?;
+        let lights = phase.green.iter().map(|id| light(network, *id, place_of("green")));
+        turns.push(Turn { lights: lights.collect::<Result<_, _>>()?, green, extension, yellow, all_red });
     }
     let plan = SignalPlan { offset: signal.offset_s, turns };
+    if plan.is_actuated() && signal.offset_s != 0.0 {
+        let what = "an offset of a program that goes by the traffic";
+        return Err(Fault::new(place.of(&["offset_s"]), what, "leave it out"));
+    }
     match signal.cycle_s {
         // A millisecond is no mistake.
         Some(cycle) if cycle.is_nan() || (cycle - plan.cycle()).abs() > 1e-3 => {
@@ -129,6 +146,56 @@ fn plan(signal: &Signal, place: &Place, network: &Network) -> Result<SignalPlan,
             Err(Fault::new(place.of(&["cycle_s"]), what, "leave it out, or change a phase"))
         }
         _ => Ok(plan),
+    }
+}
+
+/// The least value that a number may have.
+#[derive(Clone, Copy)]
+enum Least {
+    From(f64),
+    Above(f64),
+}
+
+fn check(place: String, what: &str, value: f64, least: Least, most: f64) -> Result<(), Fault> {
+    let (is_enough, least) = match least {
+        Least::From(least) => (value >= least, least.to_string()),
+        Least::Above(least) => (value > least, format!("more than {least}")),
+    };
+    if is_enough && value <= most {
+        return Ok(());
+    }
+    Err(Fault::new(place, format!("{what} of {value} s"), format!("choose {least} to {most} s")))
+}
+
+/// The green of a phase, the longest if traffic extends it, and how it does.
+fn green(phase: &SignalPhase, place: impl Fn(&str) -> String) -> Result<(f64, Option<Extension>), Fault> {
+    let SignalPhase { green_s, max_green_s, min_green_s, gap_s, .. } = *phase;
+    match (green_s, max_green_s) {
+        (Some(green), None) if min_green_s.is_none() && gap_s.is_none() => {
+            check(place("green_s"), "a green", green, Least::Above(0.0), LONGEST)?;
+            Ok((green, None))
+        }
+        (None, Some(most)) => {
+            check(place("max_green_s"), "a longest green", most, Least::Above(0.0), LONGEST)?;
+            let usual = Extension::default();
+            let least = min_green_s.unwrap_or(usual.least.min(most));
+            check(place("min_green_s"), "a shortest green", least, Least::Above(0.0), most)?;
+            let gap = gap_s.unwrap_or(usual.gap);
+            check(place("gap_s"), "a gap", gap, Least::From(0.0), LONGEST)?;
+            Ok((most, Some(Extension { least, gap })))
+        }
+        (Some(_), _) => {
+            let what = "a green of one length that traffic extends as well";
+            Err(Fault::new(
+                place("green_s"),
+                what,
+                "leave out green_s, or min_green_s, max_green_s and gap_s",
+            ))
+        }
+        (None, None) => {
+            let remedy = "give green_s, or max_green_s if traffic extends it";
+            Err(Fault::new(place("green"), "a phase without a length of green", remedy))
+        }
     }
 }
 

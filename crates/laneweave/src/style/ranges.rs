@@ -53,6 +53,8 @@ const RANGES: &[(&str, Range)] = &[
     ("guidance.indifference", range(0.0, 1e5, "s")),
     ("guidance.habit", range(0.0, 1.0, "")),
     ("guidance.compliance", range(0.0, 1.0, "")),
+    ("guidance.turn_s", range(0.0, 3600.0, "s")),
+    ("guidance.light_s", range(0.0, 3600.0, "s")),
 ];
 
 const fn range(from: f64, to: f64, unit: &'static str) -> Range {

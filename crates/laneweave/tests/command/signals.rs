@@ -32,6 +32,30 @@ fn lights_follow_the_program_of_the_scenario() {
 }
 
 #[test]
+fn greens_that_traffic_extends_shorten_delays_where_one_road_is_quiet() {
+    let quiet = "map = \"one.osm\"\n[demand.entrances]\n1 = 400\n23 = 400\n25 = 40\n47 = 40\n\
+                 [run]\nduration_s = 900\n[output]\nrecord_s = 0\n";
+    let delay = |signals: &str| {
+        let folder = Folder::new().with("own.toml", &format!("{signals}\n{quiet}"));
+        assert_eq!(folder.laneweave("generate grid --rows 1 --columns 1 one.osm").code(), 0);
+        let summary = folder.summary("own.toml");
+        assert_eq!((&summary["collisions"], &summary["stuck"]), (&0.into(), &0.into()));
+        summary["mean_delay_s"].as_f64().unwrap()
+    };
+    let program = |length: &str| {
+        format!(
+            "signals = [{{ phases = [{{ green = {EAST_AND_WEST}, {length} }}, \
+             {{ green = {NORTH_AND_SOUTH}, {length} }}] }}]"
+        )
+    };
+    let fixed = delay(&program("green_s = 25"));
+    let extended = delay(&program("max_green_s = 25, min_green_s = 4, gap_s = 1.5"));
+    let [made, made_actuated] = ["fixed", "actuated"].map(|it| delay(&format!("made_signals = \"{it}\"")));
+    assert!(extended < 0.7 * fixed, "{extended} s against {fixed} s");
+    assert!(made_actuated < 0.7 * made, "{made_actuated} s against {made} s");
+}
+
+#[test]
 fn an_entrance_before_a_light_takes_in_what_passes_at_green() {
     let signals = format!(
         "[[signals]]\nphases = [{{ green = {EAST_AND_WEST}, green_s = 25 }}, \
@@ -71,6 +95,27 @@ fn a_program_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
         (
             "[[signals]]\nphases = [{ green = [65], green_s = 0 }]".into(),
             "own.toml:9:27: a green of 0 s; choose more than 0 to 3600 s",
+        ),
+        (
+            "[[signals]]\nphases = [{ green = [65] }]".into(),
+            "own.toml:9:13: a phase without a length of green; give green_s, or max_green_s if traffic extends it",
+        ),
+        (
+            "[[signals]]\nphases = [{ green = [65], green_s = 9, gap_s = 2 }]".into(),
+            "own.toml:9:27: a green of one length that traffic extends as well; leave out green_s, or min_green_s, \
+             max_green_s and gap_s",
+        ),
+        (
+            "[[signals]]\nphases = [{ green = [65], max_green_s = 9, min_green_s = 10 }]".into(),
+            "own.toml:9:44: a shortest green of 10 s; choose more than 0 to 9 s",
+        ),
+        (
+            "[[signals]]\nphases = [{ green = [65], max_green_s = 9, gap_s = -1 }]".into(),
+            "own.toml:9:44: a gap of -1 s; choose 0 to 3600 s",
+        ),
+        (
+            "[[signals]]\noffset_s = 5\nphases = [{ green = [65], max_green_s = 9 }]".into(),
+            "own.toml:9:1: an offset of a program that goes by the traffic; leave it out",
         ),
         (
             "[[signals]]\nphases = [{ green = [65], green_s = 9, yellow_s = -1 }]".into(),

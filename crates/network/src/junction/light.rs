@@ -18,7 +18,7 @@ impl LightIndex {
 pub struct Light {
     /// The smallest id of its regulatory elements: its name.
     pub id: i64,
-    /// When it shows what.
+    /// When it shows what; of an actuated one with the longest greens.
     pub program: Program,
 }
 
@@ -77,12 +77,6 @@ impl Program {
         };
         let states = self.phases.iter().map(shows);
         states.min_by_key(|it| *it as u8).unwrap_or(LightState::Red)
-    }
-
-    /// Whether it was green at `time` [s] or less than `before` [s] earlier.
-    pub fn was_green(&self, time: f64, before: f64) -> bool {
-        let ended = self.phases.iter().map(|it| (time - it.to).rem_euclid(self.cycle));
-        self.state(time) == LightState::Green || ended.into_iter().any(|it| it <= before)
     }
 
     /// Share of the time that it is green.

@@ -4,10 +4,11 @@ mod kinship;
 mod light;
 mod precedence;
 mod signals;
+mod turning;
 mod zone;
 
 pub use light::{Light, LightIndex, LightState, Phase, Program};
-pub use signals::{LightConflict, SignalPlan, Turn};
+pub use signals::{Extension, LightConflict, SignalPlan, Turn};
 pub use zone::{Precedence, Reach, Zone, ZoneIndex, ZoneKind};
 
 use crate::build::Network;
@@ -67,7 +68,13 @@ pub struct Junctions {
     pub zones: Vec<Zone>,
     /// All traffic lights.
     pub lights: Vec<Light>,
+    /// The plans that were made for lights without a program.
+    pub made: Vec<SignalPlan>,
+    /// The plans in which traffic extends greens.
+    pub actuated: Vec<SignalPlan>,
     chains: Vec<OnChain>,
+    /// Where turns begin, by chain [m].
+    turns: Vec<Vec<f64>>,
 }
 
 /// What drivers meet on one chain, in the order of stations.
@@ -139,12 +146,25 @@ impl Junctions {
         for chain in &mut chains {
             chain.crossings.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.zone.cmp(&b.zone)));
         }
-        let mut junctions = Junctions { zones, lights: Vec::new(), chains };
+        let mut junctions = Junctions { zones, chains, ..Junctions::default() };
         junctions.place_stops(network, regulations);
         junctions.note_places();
         junctions.look_beyond(network);
-        junctions.lights = signals::with_made_programs(network, &junctions);
+        junctions.turns = turning::turns(network);
+        junctions.made = signals::made_plans(network, &junctions);
+        let made = junctions.made.clone();
+        junctions.follow(&made);
         junctions
+    }
+
+    /// Gives the lights of `plans` their programs.
+    pub(crate) fn follow(&mut self, plans: &[SignalPlan]) {
+        for plan in plans {
+            for light in plan.lights() {
+                self.lights[light.at()].program = plan.program(light);
+            }
+        }
+        self.actuated.extend(plans.iter().filter(|it| it.is_actuated()).cloned());
     }
 
     pub(crate) fn light_conflicts(&self, network: &Network) -> Vec<LightConflict> {
@@ -155,6 +175,12 @@ impl Junctions {
     #[inline]
     pub fn on(&self, chain: ChainIndex) -> &OnChain {
         self.chains.get(chain.at()).unwrap_or(&NOTHING)
+    }
+
+    /// Stations on `chain` at which its turns begin [m], in order: where it changes its direction by more than 30° within
+    /// 30 m, but for those around a roundabout.
+    pub fn turns(&self, chain: ChainIndex) -> &[f64] {
+        self.turns.get(chain.at()).map_or(&[], Vec::as_slice)
     }
 
     /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first beyond the last if
@@ -200,6 +226,7 @@ impl Junctions {
     /// Follows a reversal of the network's chains, by which each index is turned.
     pub(crate) fn reverse_chains(&mut self, turn: impl Fn(&mut ChainIndex)) {
         self.chains.reverse();
+        self.turns.reverse();
         self.zones.iter_mut().flat_map(|it| &mut it.sides).for_each(|it| turn(&mut it.chain));
     }
 

@@ -101,7 +101,7 @@ const COMES_FROM: f64 = 15.0;
 const ONE_ROAD: f64 = PI / 6.0;
 const OPPOSITE: f64 = 0.75 * PI;
 /// Who turns by more than this gives way to oncoming traffic [rad].
-const TURNS: f64 = PI / 6.0;
+pub(super) const TURNS: f64 = PI / 6.0;
 
 fn by_shape(network: &Network, zone: &Zone) -> Precedence {
     let near_sign = network.driving_side.overtaking().sign();
@@ -125,14 +125,14 @@ fn by_shape(network: &Network, zone: &Zone) -> Precedence {
 }
 
 /// Angle from one direction to another, counter-clockwise, −π…π.
-fn turned(from: f64, to: f64) -> f64 {
+pub(super) fn turned(from: f64, to: f64) -> f64 {
     let angle = (to - from).rem_euclid(2.0 * PI);
     if angle > PI { angle - 2.0 * PI } else { angle }
 }
 
 /// Whether a chain is part of a roundabout: a way of at most 250 m leads back to it and turns once around, to the side
 /// where traffic does not drive.
-fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
+pub(super) fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
     const LONGEST: f64 = 250.0;
     const ONCE_AROUND: std::ops::Range<f64> = 1.6 * PI..2.4 * PI;
     let near_sign = network.driving_side.overtaking().sign();

@@ -1,6 +1,6 @@
 //! Which lights get in each other's way, and the programs of those that do: turns, one after the other.
 
-use super::light::{Light, LightIndex, Phase, Program};
+use super::light::{LightIndex, Phase, Program};
 use super::{Junctions, Precedence, Sign, ZoneIndex, ZoneKind};
 use crate::build::Network;
 use crate::chain::ChainIndex;
@@ -19,12 +19,30 @@ pub struct SignalPlan {
 pub struct Turn {
     /// Those that are green. One that is green in the next turn, too, stays green in between.
     pub lights: Vec<LightIndex>,
-    /// Length of green [s].
+    /// Length of green, the longest if traffic extends it [s].
     pub green: f64,
+    /// How traffic extends it; without it does not.
+    pub extension: Option<Extension>,
     /// Length of the yellow after it [s].
     pub yellow: f64,
     /// Length of red for all after that [s].
     pub all_red: f64,
+}
+
+/// How traffic extends a green.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extension {
+    /// Its shortest length [s].
+    pub least: f64,
+    /// It ends when nobody has come for so long [s].
+    pub gap: f64,
+}
+
+impl Default for Extension {
+    /// Ours.
+    fn default() -> Extension {
+        Extension { least: 5.0, gap: 2.0 }
+    }
 }
 
 /// Two lights whose drivers get in each other's way.
@@ -49,6 +67,8 @@ const CLEARING_SPEED: f64 = 8.0;
 const LEAST_ALL_RED: f64 = 2.0;
 /// Shortest green [s]; with more groups than fit into the cycle it is longer. Ours.
 const LEAST_GREEN: f64 = 5.0;
+/// Longest green of those that traffic extends [s]; ours.
+const LONGEST_GREEN: f64 = 40.0;
 
 impl Turn {
     /// How long it takes [s].
@@ -58,12 +78,30 @@ impl Turn {
 }
 
 impl SignalPlan {
+    /// Its lights; those of several turns several times.
+    pub fn lights(&self) -> impl Iterator<Item = LightIndex> {
+        self.turns.iter().flat_map(|it| it.lights.iter().copied())
+    }
+
     /// Length of a cycle [s].
     pub fn cycle(&self) -> f64 {
         self.turns.iter().map(Turn::duration).sum()
     }
 
-    /// The program of one of its lights.
+    /// The same lights with greens of 5 to 40 s that traffic extends; ours.
+    pub fn actuated(mut self) -> SignalPlan {
+        for turn in &mut self.turns {
+            (turn.green, turn.extension) = (LONGEST_GREEN, Some(Extension::default()));
+        }
+        self
+    }
+
+    /// Traffic extends some of its greens.
+    pub fn is_actuated(&self) -> bool {
+        self.turns.iter().any(|it| it.extension.is_some())
+    }
+
+    /// The program of one of its lights; of an actuated one with the longest greens.
     pub fn program(&self, light: LightIndex) -> Program {
         let has_turn = |number: usize| self.turns[number].lights.contains(&light);
         let count = self.turns.len();
@@ -99,17 +137,17 @@ pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightCo
     between(junctions, &fields(network, junctions))
 }
 
-/// The lights with made programs: 60 s, groups that do not get in each other's way one after the other in the order of
+/// The plans for lights without a program: 60 s, groups that do not get in each other's way one after the other in the order of
 /// ids, yellow 3 s, all red for the clearance distance at 8 m/s, at least 2 s; what is left is green in equal shares.
-pub(super) fn with_made_programs(network: &Network, junctions: &Junctions) -> Vec<Light> {
-    let mut lights = junctions.lights.clone();
+pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<SignalPlan> {
+    let mut plans = Vec::new();
     let fields = fields(network, junctions);
     let conflicts = between(junctions, &fields);
     let conflict = |a: usize, b: usize| {
         let both = [a.min(b), a.max(b)].map(|it| LightIndex(it as u32));
         conflicts.iter().any(|it| it.lights == both)
     };
-    for members in junctions_of(lights.len(), conflict) {
+    for members in junctions_of(junctions.lights.len(), conflict) {
         let groups = groups(&members, conflict);
         if groups.len() < 2 {
             continue;
@@ -120,15 +158,13 @@ pub(super) fn with_made_programs(network: &Network, junctions: &Junctions) -> Ve
         let turn = |group: &Vec<usize>| Turn {
             lights: group.iter().map(|it| LightIndex(*it as u32)).collect(),
             green,
+            extension: None,
             yellow: YELLOW,
             all_red: all_red(group),
         };
-        let plan = SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() };
-        for member in members {
-            lights[member].program = plan.program(LightIndex(member as u32));
-        }
+        plans.push(SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() });
     }
-    lights
+    plans
 }
 
 fn fields(network: &Network, junctions: &Junctions) -> Vec<Field> {

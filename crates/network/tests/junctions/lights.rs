@@ -170,6 +170,7 @@ fn a_light_stays_green_through_turns_that_follow_on_each_other_also_over_the_end
     let turn = |lights: &[u32]| Turn {
         lights: lights.iter().map(|it| LightIndex(*it)).collect(),
         green: 10.0,
+        extension: None,
         yellow: 4.0,
         all_red: 1.0,
     };

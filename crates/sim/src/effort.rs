@@ -1,0 +1,38 @@
+//! What a way asks of its driver beside time.
+
+use laneweave_network::{ChainIndex, Network, Sign};
+
+/// Turns and traffic lights on a way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Effort {
+    /// Turns.
+    pub turns: u16,
+    /// Traffic lights.
+    pub lights: u16,
+}
+
+impl Effort {
+    /// On `chain` from its start to `station` [m].
+    pub(crate) fn until(network: &Network, chain: ChainIndex, station: f64) -> Effort {
+        let turns = network.junctions.turns(chain).iter().filter(|it| **it <= station);
+        let stops = network.junctions.on(chain).stops.iter().filter(|it| it.station <= station);
+        let lights = stops.filter(|it| matches!(it.sign, Sign::Light(_)));
+        Effort { turns: turns.count() as u16, lights: lights.count() as u16 }
+    }
+
+    /// This and then `onward`.
+    pub(crate) fn and(self, onward: Effort) -> Effort {
+        Effort {
+            turns: self.turns.saturating_add(onward.turns),
+            lights: self.lights.saturating_add(onward.lights),
+        }
+    }
+
+    /// What is left of it after `passed`.
+    pub(crate) fn beyond(self, passed: Effort) -> Effort {
+        Effort {
+            turns: self.turns.saturating_sub(passed.turns),
+            lights: self.lights.saturating_sub(passed.lights),
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! What the traffic lights show: fixed programs by the time, others by who comes.
+
+use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Sign};
+
+use crate::clock::Clock;
+use crate::controller::Controller;
+use crate::traffic::Lane;
+use crate::world::World;
+
+/// Whose front is nearer to the line of a light comes to it [m], ours: at 50 km/h two seconds.
+const DETECTED_WITHIN: f64 = 30.0;
+
+/// What all traffic lights show.
+#[derive(Clone, Debug)]
+pub struct Signals {
+    /// By light.
+    shown: Vec<LightState>,
+    /// By light when it was green last; the beginning if it was not yet.
+    green_at: Vec<u32>,
+    controllers: Vec<Controller>,
+    /// By light where those are who come to it; empty where nobody asks.
+    detectors: Vec<Vec<Detector>>,
+}
+
+/// A stretch of a lane before the line of a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Detector {
+    chain: ChainIndex,
+    /// From where to where [m].
+    from: f64,
+    to: f64,
+}
+
+impl Detector {
+    fn is_occupied(&self, lanes: &[Lane]) -> bool {
+        let lane = &lanes[self.chain.at()];
+        lane.motions().get(lane.ahead_of(self.from)).is_some_and(|it| it.x <= self.to)
+    }
+}
+
+impl Signals {
+    /// Those of `network` at `clock`.
+    pub(crate) fn new(network: &Network, clock: Clock) -> Signals {
+        let junctions = &network.junctions;
+        let controllers: Vec<Controller> =
+            junctions.actuated.iter().map(|it| Controller::of(it, clock)).collect();
+        let mut detectors = vec![Vec::new(); junctions.lights.len()];
+        let mut asks = vec![false; junctions.lights.len()];
+        controllers.iter().flat_map(Controller::lights).for_each(|it| asks[it.at()] = true);
+        for chain in (0..network.chains.len() as u32).map(ChainIndex) {
+            for stop in &junctions.on(chain).stops {
+                let Sign::Light(light) = stop.sign else { continue };
+                if asks[light.at()] {
+                    detect(network, chain, stop.station, DETECTED_WITHIN, &mut detectors[light.at()]);
+                }
+            }
+        }
+        let shown = vec![LightState::Red; junctions.lights.len()];
+        let green_at = vec![clock.step; junctions.lights.len()];
+        let mut signals = Signals { shown, green_at, controllers, detectors };
+        signals.show(network, clock);
+        signals
+    }
+
+    /// What a light shows.
+    #[inline]
+    pub fn shown(&self, light: LightIndex) -> LightState {
+        self.shown[light.at()]
+    }
+
+    /// Step in which a light was green last.
+    pub(crate) fn green_at(&self, light: LightIndex) -> u32 {
+        self.green_at[light.at()]
+    }
+
+    fn show(&mut self, network: &Network, clock: Clock) {
+        let Signals { shown, controllers, .. } = self;
+        for (shown, light) in shown.iter_mut().zip(&network.junctions.lights) {
+            *shown = light.program.state(clock.time());
+        }
+        for controller in controllers {
+            controller.lights().for_each(|it| shown[it.at()] = controller.shows(it));
+        }
+        for (green_at, shown) in self.green_at.iter_mut().zip(&self.shown) {
+            if *shown == LightState::Green {
+                *green_at = clock.step;
+            }
+        }
+    }
+
+    fn switch(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
+        let Signals { controllers, detectors, .. } = self;
+        for controller in controllers {
+            controller
+                .advance(clock.step, |light| detectors[light.at()].iter().any(|it| it.is_occupied(lanes)));
+        }
+        self.show(network, clock);
+    }
+}
+
+/// Adds the lanes on `distance` [m] before `line` [m] on `chain`.
+fn detect(network: &Network, chain: ChainIndex, line: f64, distance: f64, detectors: &mut Vec<Detector>) {
+    let from = line - distance;
+    detectors.push(Detector { chain, from, to: line });
+    if from < 0.0 {
+        for back in &network.chain(chain).previous {
+            detect(network, *back, network.chain(*back).length, -from, detectors);
+        }
+    }
+}
+
+impl World {
+    /// The lights show what they show from now on.
+    pub(crate) fn switch_lights(&mut self) {
+        self.signals.switch(&self.network, &self.lanes, self.clock);
+    }
+}
