@@ -7,6 +7,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use crate::advance::{Ends, advance};
 use crate::appeal::appeal;
+use crate::busy::Busy;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
 use crate::demand::Demand;
@@ -42,6 +43,7 @@ pub struct World {
     pub(crate) clock: Clock,
     pub(crate) lanes: Vec<Lane>,
     pub(crate) plans: Vec<Plan>,
+    busy: Busy,
     pub(crate) passages: Passages,
     pub(crate) records: Records,
     pub(crate) trips: Trips,
@@ -182,6 +184,7 @@ impl World {
             sources: Source::all(&network, &navigator, &demand, &random),
             clock: Clock { step: 0, dt: setup.step },
             pools: [Pool::new(setup.threads), Pool::new(1)],
+            busy: Busy::none_of(lanes.len()),
             crowd: 0,
             passages: Passages::new(&network),
             metering: begins_within.then(|| Metering::new(&network)),
@@ -241,8 +244,20 @@ impl World {
     fn move_all(&mut self) {
         let is_watched = self.is_watched();
         let time = self.clock.time();
-        let World { network, navigator, characters, clock, random, lanes, plans, passages, outboxes, .. } =
-            self;
+        let World {
+            network,
+            navigator,
+            characters,
+            clock,
+            random,
+            lanes,
+            plans,
+            busy,
+            passages,
+            outboxes,
+            ..
+        } = self;
+        let chosen = busy.choose(lanes);
         let passages = &*passages;
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
@@ -250,6 +265,7 @@ impl World {
             outboxes,
             lanes,
             plans,
+            chosen,
             |lanes, outbox, index, plan| {
                 let scene = Scene { network, navigator, lanes, characters, passages, time };
                 let chain = ChainIndex(index as u32);
@@ -318,9 +334,15 @@ impl World {
             lets_in: Mind::NOBODY,
             passage: NO_PASSAGE,
         };
-        self.lanes[chain.at()].insert(Entry { motion, car, mind });
+        self.insert(chain, Entry { motion, car, mind });
         self.counts.entered += 1;
         self.crowd += 1;
+    }
+
+    /// Adds an entry to the lane of `chain`.
+    pub(crate) fn insert(&mut self, chain: ChainIndex, entry: Entry) {
+        self.busy.note(chain);
+        self.lanes[chain.at()].insert(entry);
     }
 
     /// Overlaps are looked for once a second.
