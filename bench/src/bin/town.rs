@@ -9,6 +9,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use laneweave::maps::generate::{Grid, grid};
+use laneweave::maps::regulations;
 use laneweave::sim::{Demand, Setup, World};
 use laneweave::style::Population;
 
@@ -27,8 +28,8 @@ struct Town {
     vehicles: usize,
 }
 
-const TOWN: Town = Town { streets: 20, demand: 120_000.0, vehicles: 6000 };
-const SMALL_TOWN: Town = Town { streets: 6, demand: 36_000.0, vehicles: 540 };
+const TOWN: Town = Town { streets: 20, demand: 60_000.0, vehicles: 6000 };
+const SMALL_TOWN: Town = Town { streets: 6, demand: 18_000.0, vehicles: 540 };
 const TRUCKS: f64 = 0.1;
 const STEP_S: f64 = 0.1;
 
@@ -76,7 +77,8 @@ fn measured(world: &mut World, steps: u32) -> f64 {
 
 fn empty_town(town: Town, threads: usize) -> Result<World, Box<dyn Error>> {
     let Town { streets, demand, .. } = town;
-    let network = grid(&Grid { rows: streets, columns: streets, ..Grid::default() })?.build()?.network;
+    let map = grid(&Grid { rows: streets, columns: streets, ..Grid::default() })?.build()?;
+    let network = map.network.clone().regulated(&regulations(&map));
     let Population { characters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, demand, TRUCKS, shares);
     Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)

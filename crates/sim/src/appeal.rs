@@ -16,7 +16,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
         let what = Plea::GiveBack(*from);
         outbox.appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
     }
-    for waiting in &plan.waiting {
+    for waiting in plan.waiting.iter().filter(|it| !it.is_held_by_light) {
         let spot = Spot { chain, index: waiting.index as usize };
         let motion = scene.motion(spot);
         if !surveyed(scene, spot, &mut outbox.survey) {

@@ -11,7 +11,7 @@ use crate::scene::{Scene, Spot};
 pub(super) const LONG: f64 = 7.0;
 /// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
 /// yellow times).
-pub(super) const STOPS_AT_YELLOW: f64 = 3.0;
+const STOPS_AT_YELLOW: f64 = 3.0;
 /// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s] (ours).
 const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;
@@ -27,6 +27,8 @@ pub(crate) struct Junction {
     pub(crate) leader: Option<Ahead>,
     /// It would like to pass, and waits for it.
     pub(crate) asks: bool,
+    /// The first thing that it waits for is a light.
+    pub(crate) is_held_by_light: bool,
     /// A light that it meant to pass is no longer green, and it can stop there: distance from the passage's beginning [m].
     pub(crate) gives_back: Option<f64>,
 }
@@ -58,13 +60,24 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         junction.gives_back = to_give_back(scene, passage, motion.speed);
         granted = passage.left().max(0.0);
     }
-    if let Some(stop) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
+    if let Some(point) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
+        let stop = point.stop;
+        junction.is_held_by_light = point.light().is_some_and(|it| !lets_go(scene, it, stop, motion.speed));
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // Who has to leave the lane before does not go on along it.
         let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
         junction.asks = keeps_lane && !car.is_shadow && !car.phase.is_between_lanes();
     }
     junction
+}
+
+/// Whether a driver at `speed` [m/s] drives past a light at which it would stop `at` metres ahead.
+pub(super) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> bool {
+    match scene.light(light) {
+        LightState::Green => true,
+        LightState::Yellow => speed * speed > 2.0 * STOPS_AT_YELLOW * at.max(0.0),
+        LightState::Red => false,
+    }
 }
 
 /// Those who go before it through a zone.

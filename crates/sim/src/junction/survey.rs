@@ -62,10 +62,20 @@ impl Default for Survey {
 
 /// A place on a driver's way where it may have to stop.
 #[derive(Clone, Copy)]
-struct Point {
+pub(crate) struct Point {
     /// Where the front has to stay behind [m].
-    stop: f64,
+    pub(crate) stop: f64,
     what: What,
+}
+
+impl Point {
+    /// The light there, if it is one.
+    pub(super) fn light(&self) -> Option<LightIndex> {
+        match self.what {
+            What::Sign(Sign::Light(light)) => Some(light),
+            What::Sign(_) | What::Zone(..) => None,
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -136,8 +146,8 @@ fn points(
 }
 
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
-/// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
-pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
+/// `granted` [m] it has. None if a vehicle ahead has to stop first.
+pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
     if is_far(scene, from, until) {
         return None;
     }
@@ -147,7 +157,7 @@ pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f6
         if at <= granted {
             return ControlFlow::Continue(());
         }
-        found = Some(point.stop);
+        found = Some(point);
         ControlFlow::Break(())
     });
     found
