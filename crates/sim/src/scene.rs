@@ -22,8 +22,8 @@ pub struct Scene<'a> {
     pub characters: &'a [Style],
     /// Who may pass the junctions.
     pub passages: &'a Passages,
-    /// The time, which the lights go by [s].
-    pub time: f64,
+    /// What the lights show.
+    pub lights: &'a [LightState],
 }
 
 /// An entry in a lane.
@@ -126,8 +126,9 @@ impl<'a> Scene<'a> {
     }
 
     /// What a light shows.
+    #[inline]
     pub fn light(&self, light: LightIndex) -> LightState {
-        self.network.junctions.lights[light.at()].program.state(self.time)
+        self.lights[light.at()]
     }
 
     /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it there.
@@ -246,10 +247,12 @@ impl<'a> Scene<'a> {
             let rear = base + it.rear();
             (rear < chain.fork_clearance).then_some((Spot { chain: on, index }, rear))
         };
-        let reaches_beyond = chain.length < chain.fork_clearance + LONGEST;
-        let beyond = chain.following.iter().filter(|_| reaches_beyond);
-        let hanging = beyond.filter_map(|it| last(*it, sibling, chain.length));
-        nearest(last(sibling, back, 0.0).into_iter().chain(hanging))
+        let own = last(sibling, back, 0.0);
+        if chain.length >= chain.fork_clearance + LONGEST {
+            return own;
+        }
+        let hanging = chain.following.iter().filter_map(|it| last(*it, sibling, chain.length));
+        nearest(own.into_iter().chain(hanging))
     }
 
     /// The next vehicle on one's way within sight, or beside it in a fork, wherever it comes from.
@@ -274,7 +277,11 @@ impl<'a> Scene<'a> {
     /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, and where its rear
     /// bumper is from the fork on [m].
     fn beyond_the_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<(Spot, f64)> {
-        let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
+        let following = &self.network.chain(chain).following[..];
+        if following.len() < 2 {
+            return None;
+        }
+        let siblings = following.iter().filter(|it| **it != next);
         nearest(siblings.filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY)))
     }
 

@@ -1,7 +1,7 @@
 //! A scene without a world: one instant of traffic from plain data, such as a recorded frame.
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_network::{ChainIndex, LightState, Network, Side};
 
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::navigate::{Destination, Navigator};
@@ -53,6 +53,8 @@ pub struct Across {
 pub struct Snapshot {
     lanes: Vec<Lane>,
     passages: Passages,
+    /// What the lights show at the beginning of their programs.
+    lights: Vec<LightState>,
     /// The main entries in order of ids.
     spots: Vec<(VehicleId, Spot)>,
 }
@@ -78,7 +80,8 @@ impl Snapshot {
             spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
         }
         spots.sort_by_key(|(id, _)| *id);
-        Snapshot { lanes, passages: Passages::new(network), spots }
+        let lights = network.junctions.show(0.0).collect();
+        Snapshot { lanes, passages: Passages::new(network), lights, spots }
     }
 
     /// The instant as drivers with `characters`, who find their ways by `navigator`, see it.
@@ -88,8 +91,8 @@ impl Snapshot {
         navigator: &'a Navigator,
         characters: &'a [Style],
     ) -> Scene<'a> {
-        let Snapshot { lanes, passages, .. } = self;
-        Scene { network, navigator, lanes, characters, passages, time: 0.0 }
+        let Snapshot { lanes, passages, lights, .. } = self;
+        Scene { network, navigator, lanes, characters, passages, lights }
     }
 
     /// The main entry of a vehicle.

@@ -1,7 +1,7 @@
 //! The world and its step.
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network, Pose};
+use laneweave_network::{ChainIndex, LightState, Network, Pose};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
@@ -41,6 +41,8 @@ pub struct World {
     pub(crate) navigator: Navigator,
     pub(crate) characters: Vec<Style>,
     pub(crate) clock: Clock,
+    /// What the lights show by the clock.
+    lights: Vec<LightState>,
     pub(crate) lanes: Vec<Lane>,
     pub(crate) plans: Vec<Plan>,
     busy: Busy,
@@ -183,6 +185,7 @@ impl World {
         Ok(World {
             sources: Source::all(&network, &navigator, &demand, &random),
             clock: Clock { step: 0, dt: setup.step },
+            lights: network.junctions.show(0.0).collect(),
             pools: [Pool::new(setup.threads), Pool::new(1)],
             busy: Busy::none_of(lanes.len()),
             crowd: 0,
@@ -230,6 +233,8 @@ impl World {
         self.events.clear();
         self.move_all();
         self.clock.step += 1;
+        self.lights.clear();
+        self.lights.extend(self.network.junctions.show(self.clock.time()));
         self.gather();
         self.account();
         self.pass_on();
@@ -243,12 +248,12 @@ impl World {
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
     fn move_all(&mut self) {
         let is_watched = self.is_watched();
-        let time = self.clock.time();
         let World {
             network,
             navigator,
             characters,
             clock,
+            lights,
             random,
             lanes,
             plans,
@@ -258,7 +263,7 @@ impl World {
             ..
         } = self;
         let chosen = busy.choose(lanes);
-        let passages = &*passages;
+        let (passages, lights) = (&*passages, &lights[..]);
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
         self.pools[pool_for(self.crowd)].look_then_act(
@@ -267,7 +272,7 @@ impl World {
             plans,
             chosen,
             |lanes, outbox, index, plan| {
-                let scene = Scene { network, navigator, lanes, characters, passages, time };
+                let scene = Scene { network, navigator, lanes, characters, passages, lights };
                 let chain = ChainIndex(index as u32);
                 plan.clear();
                 decide(&scene, moment, chain, plan, outbox);
@@ -358,7 +363,7 @@ impl World {
             lanes: &self.lanes,
             characters: &self.characters,
             passages: &self.passages,
-            time: self.clock.time(),
+            lights: &self.lights,
         }
     }
 

@@ -8,6 +8,7 @@ pub struct LightIndex(pub u32);
 
 impl LightIndex {
     /// The place as an index.
+    #[inline]
     pub fn at(self) -> usize {
         self.0 as usize
     }
