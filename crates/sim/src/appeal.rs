@@ -7,6 +7,7 @@ use crate::clock::Clock;
 use crate::junction::{Asking, Hindrance, Hold, Survey, are_led_on, may_pass, sight, survey};
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
+use crate::traffic::Motion;
 use crate::world::World;
 
 /// The drivers of a lane appeal.
@@ -16,7 +17,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
         let what = Plea::GiveBack(*from);
         outbox.appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
     }
-    for waiting in plan.waiting.iter().filter(|it| !it.is_held_by_light) {
+    for waiting in &plan.waiting {
         let spot = Spot { chain, index: waiting.index as usize };
         let motion = scene.motion(spot);
         if !surveyed(scene, spot, &mut outbox.survey) {
@@ -52,8 +53,9 @@ pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {
     let motion = scene.motion(spot);
     let passage = scene.passages.of(scene.mind(spot).passage, motion.id);
     let granted = passage.map_or(0.0, |it| it.left().max(0.0));
-    let (from, length) = (scene.viewpoint(spot), f64::from(motion.length));
-    survey(scene, from, length, granted, sight(motion.speed), out) && are_led_on(scene, spot, out)
+    let Motion { length, speed, .. } = *motion;
+    survey(scene, scene.viewpoint(spot), [f64::from(length), speed], granted, sight(speed), out)
+        && are_led_on(scene, spot, out)
 }
 
 impl World {

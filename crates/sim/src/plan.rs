@@ -122,8 +122,6 @@ pub(crate) struct Waiting {
     pub(crate) id: VehicleId,
     /// Step in which it first asked.
     pub(crate) since: u32,
-    /// A light holds it, whoever comes.
-    pub(crate) is_held_by_light: bool,
 }
 
 /// How far a vehicle with a passage drove.

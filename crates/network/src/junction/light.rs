@@ -60,10 +60,15 @@ impl Program {
 
     /// What a light with this program shows at `time` [s].
     pub fn state(&self, time: f64) -> LightState {
+        self.state_within(self.within_cycle(time))
+    }
+
+    /// What it shows at this place of its cycle [s].
+    #[inline]
+    pub(super) fn state_within(&self, at: f64) -> LightState {
         if self.phases.is_empty() {
             return LightState::Green;
         }
-        let at = self.within_cycle(time);
         // The yellow of a phase may reach into the next cycle.
         let shows = |phase: &Phase| {
             let since = self.within_cycle(at - phase.from);
@@ -81,7 +86,8 @@ impl Program {
     }
 
     /// The time since the last beginning of a cycle [s]: the remainder, which is dear, only where a sum is not the same.
-    fn within_cycle(&self, time: f64) -> f64 {
+    #[inline]
+    pub(super) fn within_cycle(&self, time: f64) -> f64 {
         match time {
             _ if (0.0..self.cycle).contains(&time) => time,
             _ if -self.cycle < time && time < 0.0 => time + self.cycle,

@@ -181,7 +181,14 @@ impl Junctions {
 
     /// What the lights show at `time` [s].
     pub fn show(&self, time: f64) -> impl Iterator<Item = LightState> {
-        self.lights.iter().map(move |it| it.program.state(time))
+        // Those who stand together have cycles of one length.
+        let (mut cycle, mut at) = (f64::NAN, 0.0);
+        self.lights.iter().map(move |Light { program, .. }| {
+            if program.cycle != cycle {
+                (cycle, at) = (program.cycle, program.within_cycle(time));
+            }
+            program.state_within(at)
+        })
     }
 
     /// What drivers meet on `chain`.

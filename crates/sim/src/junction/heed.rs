@@ -27,8 +27,6 @@ pub(crate) struct Junction {
     pub(crate) leader: Option<Ahead>,
     /// It would like to pass, and waits for it.
     pub(crate) asks: bool,
-    /// The first thing that it waits for is a light.
-    pub(crate) is_held_by_light: bool,
     /// A light that it meant to pass is no longer green, and it can stop there: distance from the passage's beginning [m].
     pub(crate) gives_back: Option<f64>,
 }
@@ -60,9 +58,7 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         junction.gives_back = to_give_back(scene, passage, motion.speed);
         granted = passage.left().max(0.0);
     }
-    if let Some(point) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
-        let stop = point.stop;
-        junction.is_held_by_light = point.light().is_some_and(|it| !lets_go(scene, it, stop, motion.speed));
+    if let Some(stop) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // Who has to leave the lane before does not go on along it.
         let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
 
+use super::heed::lets_go;
 use super::passages::Hold;
 use crate::accelerate::ROOM_AT_A_STOP;
 use crate::scene::{Scene, Spot, Viewpoint};
@@ -62,9 +63,9 @@ impl Default for Survey {
 
 /// A place on a driver's way where it may have to stop.
 #[derive(Clone, Copy)]
-pub(crate) struct Point {
+struct Point {
     /// Where the front has to stay behind [m].
-    pub(crate) stop: f64,
+    stop: f64,
     what: What,
 }
 
@@ -78,14 +79,6 @@ impl Point {
                 let what = What::Zone(crossing, base + end, merge.map(|it| base + it));
                 Point { stop: at - BEFORE_A_ZONE, what }
             }
-        }
-    }
-
-    /// The light there, if it is one.
-    pub(super) fn light(&self) -> Option<LightIndex> {
-        match self.what {
-            What::Sign(Sign::Light(light)) => Some(light),
-            What::Sign(_) | What::Zone(..) => None,
         }
     }
 }
@@ -140,8 +133,8 @@ fn points(
 }
 
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
-/// `granted` [m] it has. None if a vehicle ahead has to stop first.
-pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
+/// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
+pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
     let until = until.min(shield(scene, from, until));
     if is_far(scene, from, until) {
         return None;
@@ -151,7 +144,7 @@ pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f6
         if at <= granted {
             return ControlFlow::Continue(());
         }
-        found = Some(point);
+        found = Some(point.stop);
         ControlFlow::Break(())
     });
     found
@@ -204,12 +197,12 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     }
 }
 
-/// Surveys the passage that the vehicle of `length` [m] that looks `from` needs next, beyond the `granted` [m] it has.
-/// Returns whether there is one within `until` [m].
+/// Surveys the passage that the vehicle of `length` [m] that looks `from` at `speed` [m/s] needs next, beyond the `granted` [m]
+/// it has. Returns whether there is one within `until` [m]. Nothing is surveyed beyond a light that does not let it go.
 pub(crate) fn survey(
     scene: &Scene,
     from: Viewpoint,
-    length: f64,
+    [length, speed]: [f64; 2],
     granted: f64,
     until: f64,
     out: &mut Survey,
@@ -218,6 +211,7 @@ pub(crate) fn survey(
     out.holds.clear();
     out.has_stop_sign = false;
     let mut first: Option<f64> = None;
+    let mut is_held = false;
     let mut clear = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
     let far = until + ROOM_SIGHT;
@@ -238,7 +232,13 @@ pub(crate) fn survey(
             return ControlFlow::Break(());
         }
         match point.what {
-            What::Sign(Sign::Light(light)) => out.lights.push((light, point.stop)),
+            What::Sign(Sign::Light(light)) => {
+                out.lights.push((light, point.stop));
+                is_held = !lets_go(scene, light, point.stop, speed);
+                if is_held {
+                    return ControlFlow::Break(());
+                }
+            }
             What::Sign(Sign::Stop) => out.has_stop_sign |= point.stop < start + LINE_TO_ZONE,
             What::Sign(Sign::Line) => {}
             What::Zone(crossing, end, merge) => {
@@ -252,6 +252,11 @@ pub(crate) fn survey(
     });
     let Some(start) = first else { return false };
     out.stop = start;
+    if is_held {
+        out.holds.clear();
+        out.extent = f64::NEG_INFINITY;
+        return true;
+    }
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = clear + length;
     out.needed = length + SPARE_ROOM;
