@@ -135,6 +135,9 @@ fn points(
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
 /// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
+    if granted >= until {
+        return None;
+    }
     let until = until.min(shield(scene, from, until));
     if is_far(scene, from, until) {
         return None;
