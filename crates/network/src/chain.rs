@@ -9,6 +9,7 @@ pub struct ChainIndex(pub u32);
 
 impl ChainIndex {
     /// The place as an index.
+    #[inline]
     pub fn at(self) -> usize {
         self.0 as usize
     }

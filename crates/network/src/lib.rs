@@ -20,9 +20,9 @@ pub use chain::{Beside, Chain, ChainIndex, Limit};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use junction::{
-    Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, OnChain, Phase, Precedence,
-    Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind, StopRule, Turn, Zone, ZoneIndex,
-    ZoneKind,
+    Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, OnChain, Phase, Place,
+    PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind, StopRule,
+    Turn, Zone, ZoneIndex, ZoneKind,
 };
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;

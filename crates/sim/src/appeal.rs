@@ -1,12 +1,15 @@
 //! Drivers who wait at junctions ask for their passage, or give it back: on the snapshot, for what concerns them alone.
 //! Those who may pass are given passages one after the other once all have moved, on the state in which it takes effect.
 
-use laneweave_network::{ChainIndex, ZoneKind};
+use laneweave_network::{ChainIndex, LightIndex, ZoneKind};
 
 use crate::clock::Clock;
-use crate::junction::{Asking, Claim, Hindrance, Hold, Survey, are_led_on, may_pass, refuges, sight, survey};
+use crate::junction::{
+    Asking, Claim, Hindrance, Hold, Survey, are_led_on, lets_go, may_pass, refuges, sight, survey,
+};
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
+use crate::traffic::Motion;
 use crate::world::World;
 
 /// The drivers of a lane appeal.
@@ -45,6 +48,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 }
             }
             Err(Hindrance::Light) if asking.waited > STARVES => {
+                survey_at(scene, spot, |_, _| false, &mut outbox.survey);
                 claim_room(scene, spot, asking.claim, outbox);
             }
             Err(Hindrance::Light | Hindrance::Sign) => {}
@@ -73,11 +77,16 @@ pub(crate) const STANDS: f64 = 0.3;
 
 /// Surveys what the driver at `spot` needs next. Returns whether there is something, and nobody before it waits there.
 pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {
-    let motion = scene.motion(spot);
-    let passage = scene.passages.of(scene.mind(spot).passage, motion.id);
+    let speed = scene.motion(spot).speed;
+    survey_at(scene, spot, |light, at| !lets_go(scene, light, at, speed), out) && are_led_on(scene, spot, out)
+}
+
+/// Surveys what the driver at `spot` needs next, up to a light where it `is_held`. Returns whether there is something.
+fn survey_at(scene: &Scene, spot: Spot, is_held: impl Fn(LightIndex, f64) -> bool, out: &mut Survey) -> bool {
+    let Motion { length, speed, id, .. } = *scene.motion(spot);
+    let passage = scene.passages.of(scene.mind(spot).passage, id);
     let granted = passage.map_or(0.0, |it| it.left().max(0.0));
-    let (from, length) = (scene.viewpoint(spot), f64::from(motion.length));
-    survey(scene, from, length, granted, sight(motion.speed), out) && are_led_on(scene, spot, out)
+    survey(scene, scene.viewpoint(spot), f64::from(length), [granted, sight(speed)], is_held, out)
 }
 
 impl World {

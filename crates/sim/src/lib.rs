@@ -8,6 +8,7 @@ mod advance;
 mod appeal;
 mod attention;
 mod beliefs;
+mod busy;
 mod clock;
 mod controller;
 mod decide;

@@ -115,32 +115,35 @@ impl Pool {
         self.workers.len() + 1
     }
 
-    /// Calls `look` once for every plan, with all items to look at; when that is done, calls `act` once for every item
-    /// with its plan; returns when all is done. Both are given the item's index and what belongs to the thread alone,
-    /// one of `own`. Which thread takes which item is not determined, so neither may let it matter.
+    /// Calls `look` once for the plan of every `chosen` item, with all items to look at; when that is done, calls `act`
+    /// once for every chosen item with its plan; returns when all is done. Both are given the item's index and what belongs
+    /// to the thread alone, one of `own`. Which thread takes which item is not determined, so neither may let it matter.
     pub(crate) fn look_then_act<O: Send, T: Send + Sync, P: Send>(
         &self,
         own: &mut [O],
         items: &mut [T],
         plans: &mut [P],
+        chosen: &[u32],
         look: impl Fn(&[T], &mut O, usize, &mut P) + Sync,
         act: impl Fn(&mut T, &mut O, usize, &mut P) + Sync,
     ) {
         assert_eq!(items.len(), plans.len(), "items that do not pair");
         assert!(own.len() >= self.threads(), "each thread has something of its own");
-        if self.workers.is_empty() || items.len() < 2 {
-            let own = &mut own[0];
-            plans.iter_mut().enumerate().for_each(|(index, plan)| look(items, own, index, plan));
-            let pairs = items.iter_mut().zip(plans).enumerate();
-            pairs.for_each(|(index, (item, plan))| act(item, own, index, plan));
+        if self.workers.is_empty() || chosen.len() < 2 {
+            let (own, indices) = (&mut own[0], || chosen.iter().map(|it| *it as usize));
+            indices().for_each(|index| look(items, own, index, &mut plans[index]));
+            indices().for_each(|index| act(&mut items[index], own, index, &mut plans[index]));
             return;
         }
         let count = items.len();
+        let is_in_order = chosen.windows(2).all(|it| it[0] < it[1]);
+        assert!(is_in_order && chosen[chosen.len() - 1] < count as u32, "every item is chosen once");
         let (own, items, plans) =
             (Items(own.as_mut_ptr()), Items(items.as_mut_ptr()), Items(plans.as_mut_ptr()));
-        let work = |phase: Phase, thread: usize, index: usize| {
-            // SAFETY: no other thread has this number, and `index` is below the length and claimed by this thread alone in
-            // this phase; all are borrowed mutably until all threads are done.
+        let work = |phase: Phase, thread: usize, place: usize| {
+            let index = chosen[place] as usize;
+            // SAFETY: no other thread has this number, and `index` is below the length, at this place of `chosen` only, and
+            // claimed by this thread alone in this phase; all are borrowed mutably until all threads are done.
             let (own, plan) = unsafe { (&mut *own.at(thread), &mut *plans.at(index)) };
             match phase {
                 // SAFETY: nobody writes to the items before all threads are done with looking.
@@ -151,7 +154,7 @@ impl Pool {
                 Phase::Act => act(unsafe { &mut *items.at(index) }, own, index, plan),
             }
         };
-        let portion = (count / (self.threads() * PORTIONS)).max(1);
+        let portion = (chosen.len() / (self.threads() * PORTIONS)).max(1);
         let work: *const (dyn Fn(Phase, usize, usize) + Sync + '_) = &raw const work;
         // SAFETY: only the lifetime changes; what it points to outlives every use, since this function returns only when
         // all workers are done with it.
@@ -161,7 +164,7 @@ impl Pool {
                 *const (dyn Fn(Phase, usize, usize) + Sync),
             >(work)
         };
-        let task = Task { work, items: count, portion };
+        let task = Task { work, items: chosen.len(), portion };
         self.start(task);
         let finish = Finish(&self.shared.progress);
         self.shared.work_on(task, 0);
@@ -311,17 +314,21 @@ mod tests {
 
     use super::*;
 
+    const ALL: [u32; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+
     #[test]
-    fn every_item_is_worked_on_once_by_any_number_of_threads_after_all_have_looked() {
+    fn every_chosen_item_is_worked_on_once_by_any_number_of_threads_after_all_have_looked() {
         for threads in [1, 2, 4] {
             let pool = Pool::new(threads);
-            let (mut items, mut seen) = (vec![0_usize; 300], vec![0; 300]);
+            let (mut items, mut seen) = (vec![0_usize; 400], vec![0; 400]);
+            let chosen: Vec<u32> = (100..400).collect();
             for round in 0..200 {
                 let mut counts = vec![0; threads];
                 pool.look_then_act(
                     &mut counts,
                     &mut items,
                     &mut seen,
+                    &chosen,
                     |items, count, index, seen| {
                         *count += 1;
                         *seen = items.iter().sum::<usize>() + index;
@@ -331,8 +338,9 @@ mod tests {
                         *item += 1;
                     },
                 );
-                assert_eq!(counts.iter().sum::<usize>(), items.len());
-                assert!(items.iter().all(|it| *it == round + 1));
+                assert_eq!(counts.iter().sum::<usize>(), chosen.len());
+                let expected = |index: usize| if index < 100 { 0 } else { round + 1 };
+                assert!(items.iter().enumerate().all(|(index, it)| *it == expected(index)));
             }
         }
     }
@@ -344,7 +352,7 @@ mod tests {
         for _ in 0..3 {
             thread::sleep(std::time::Duration::from_millis(50));
             let act = |item: &mut i32, (): &mut (), _, (): &mut ()| *item += 1;
-            pool.look_then_act(&mut [(); 2], &mut items, &mut [(); 10], |_, (), _, ()| (), act);
+            pool.look_then_act(&mut [(); 2], &mut items, &mut [(); 10], &ALL, |_, (), _, ()| (), act);
         }
         assert_eq!(items, [3; 10]);
     }
@@ -356,7 +364,7 @@ mod tests {
             let look = |_: &[i32], (): &mut (), index, (): &mut ()| assert_ne!(index, place);
             let mut items = [0; 10];
             let call =
-                || pool.look_then_act(&mut [(); 2], &mut items, &mut [(); 10], look, |_, (), _, ()| ());
+                || pool.look_then_act(&mut [(); 2], &mut items, &mut [(); 10], &ALL, look, |_, (), _, ()| ());
             assert!(catch_unwind(AssertUnwindSafe(call)).is_err());
         }
     }

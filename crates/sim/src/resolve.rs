@@ -141,7 +141,7 @@ impl World {
                 ..mind
             },
         };
-        self.lanes[gap.chain.at()].insert(shadow);
+        self.insert(gap.chain, shadow);
     }
 
     /// Both entries of a vehicle go back.
@@ -274,7 +274,7 @@ impl World {
         let style = &self.characters[entry.car.character as usize];
         entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
         self.tell_twin(&entry, Some((next, entry.motion.x)));
-        self.lanes[next.at()].insert(entry);
+        self.insert(next, entry);
     }
 
     /// A main entry leaves the map; a shadow on a lane that ends is no longer needed.

@@ -127,6 +127,7 @@ impl<'a> Scene<'a> {
     }
 
     /// What a light shows.
+    #[inline]
     pub fn light(&self, light: LightIndex) -> LightState {
         self.signals.shown(light)
     }
@@ -230,6 +231,7 @@ impl<'a> Scene<'a> {
 
     /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet, and where its rear
     /// bumper is from the fork on [m].
+    #[inline]
     fn last_in_fork(
         &self,
         back: ChainIndex,
@@ -247,10 +249,12 @@ impl<'a> Scene<'a> {
             let rear = base + it.rear();
             (rear < chain.fork_clearance).then_some((Spot { chain: on, index }, rear))
         };
-        let reaches_beyond = chain.length < chain.fork_clearance + LONGEST;
-        let beyond = chain.following.iter().filter(|_| reaches_beyond);
-        let hanging = beyond.filter_map(|it| last(*it, sibling, chain.length));
-        nearest(last(sibling, back, 0.0).into_iter().chain(hanging))
+        let own = last(sibling, back, 0.0);
+        if chain.length >= chain.fork_clearance + LONGEST {
+            return own;
+        }
+        let hanging = chain.following.iter().filter_map(|it| last(*it, sibling, chain.length));
+        nearest(own.into_iter().chain(hanging))
     }
 
     /// The next vehicle on one's way within sight, or beside it in a fork, wherever it comes from.
@@ -275,7 +279,11 @@ impl<'a> Scene<'a> {
     /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, and where its rear
     /// bumper is from the fork on [m].
     fn beyond_the_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<(Spot, f64)> {
-        let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
+        let following = &self.network.chain(chain).following[..];
+        if following.len() < 2 {
+            return None;
+        }
+        let siblings = following.iter().filter(|it| **it != next);
         nearest(siblings.filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY)))
     }
 
@@ -285,10 +293,12 @@ impl<'a> Scene<'a> {
         let mut base = self.network.chain(chain).length - from.x;
         while base < SIGHT {
             let next = self.next(from.destination, chain)?;
-            let on_way =
-                self.motions(next).iter().zip(self.lanes[next.at()].minds()).find(|it| it.0.id != from.id);
-            let leader =
-                on_way.map(|(it, mind)| Ahead { gap: self.gap_to(chain, base, it, mind), speed: it.speed });
+            let lane = &self.lanes[next.at()];
+            let on_way = lane.motions().iter().position(|it| it.id != from.id);
+            let leader = on_way.map(|index| {
+                let (it, mind) = (&lane.motions()[index], &lane.minds()[index]);
+                Ahead { gap: self.gap_to(chain, base, it, mind), speed: it.speed }
+            });
             let beside = self.beyond_the_fork(chain, next, from.id);
             let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, base + rear));
             if let Some(nearest) = nearer(leader, beside) {
@@ -302,12 +312,14 @@ impl<'a> Scene<'a> {
 
     /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has no
     /// passage out of it, from the fork on [m].
+    #[inline]
     pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
         siblings.filter_map(|it| self.waits_on(chain, *it, id, f64::NEG_INFINITY)).reduce(f64::min)
     }
 
     /// The same for who is within the fork itself.
+    #[inline]
     pub(crate) fn waits_beside_in_fork(&self, from: Viewpoint) -> Option<f64> {
         let chain = self.network.chain(from.chain);
         if from.x >= chain.fork_clearance {
@@ -543,6 +555,7 @@ impl View {
 }
 
 /// The one whose rear bumper is nearest; of those that are as near the first.
+#[inline]
 fn nearest(rears: impl Iterator<Item = (Spot, f64)>) -> Option<(Spot, f64)> {
     rears.reduce(|nearest, it| if it.1 < nearest.1 { it } else { nearest })
 }

@@ -75,9 +75,8 @@ impl Signals {
 
     fn show(&mut self, network: &Network, clock: Clock) {
         let Signals { shown, controllers, .. } = self;
-        for (shown, light) in shown.iter_mut().zip(&network.junctions.lights) {
-            *shown = light.program.state(clock.time());
-        }
+        shown.clear();
+        shown.extend(network.junctions.show(clock.time()));
         for controller in controllers {
             controller.lights().for_each(|it| shown[it.at()] = controller.shows(it));
         }

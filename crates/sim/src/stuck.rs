@@ -31,9 +31,7 @@ pub(crate) fn is_stuck(scene: &Scene, mut at: Spot, clock: Clock, survey: &mut S
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
             Blocker::Vehicle(next) => at = next,
             Blocker::Light => return false,
-            Blocker::Other => {
-                return true;
-            }
+            Blocker::Other => return true,
         }
     }
     true

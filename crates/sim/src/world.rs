@@ -7,6 +7,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use crate::advance::{Ends, advance};
 use crate::appeal::appeal;
+use crate::busy::Busy;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
 use crate::demand::Demand;
@@ -42,6 +43,7 @@ pub struct World {
     pub(crate) clock: Clock,
     pub(crate) lanes: Vec<Lane>,
     pub(crate) plans: Vec<Plan>,
+    busy: Busy,
     pub(crate) passages: Passages,
     pub(crate) signals: Signals,
     pub(crate) records: Records,
@@ -184,6 +186,7 @@ impl World {
             sources: Source::all(&network, &navigator, &demand, &random),
             clock,
             pools: [Pool::new(setup.threads), Pool::new(1)],
+            busy: Busy::none_of(lanes.len()),
             crowd: 0,
             passages: Passages::new(&network),
             signals: Signals::new(&network, clock),
@@ -252,11 +255,13 @@ impl World {
             random,
             lanes,
             plans,
+            busy,
             passages,
             signals,
             outboxes,
             ..
         } = self;
+        let chosen = busy.choose(lanes);
         let (passages, signals) = (&*passages, &*signals);
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
@@ -264,6 +269,7 @@ impl World {
             outboxes,
             lanes,
             plans,
+            chosen,
             |lanes, outbox, index, plan| {
                 let scene = Scene { network, navigator, lanes, characters, passages, signals };
                 let chain = ChainIndex(index as u32);
@@ -332,9 +338,15 @@ impl World {
             lets_in: Mind::NOBODY,
             passage: NO_PASSAGE,
         };
-        self.lanes[chain.at()].insert(Entry { motion, car, mind });
+        self.insert(chain, Entry { motion, car, mind });
         self.counts.entered += 1;
         self.crowd += 1;
+    }
+
+    /// Adds an entry to the lane of `chain`.
+    pub(crate) fn insert(&mut self, chain: ChainIndex, entry: Entry) {
+        self.busy.note(chain);
+        self.lanes[chain.at()].insert(entry);
     }
 
     /// Overlaps are looked for once a second.

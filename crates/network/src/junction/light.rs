@@ -8,6 +8,7 @@ pub struct LightIndex(pub u32);
 
 impl LightIndex {
     /// The place as an index.
+    #[inline]
     pub fn at(self) -> usize {
         self.0 as usize
     }
@@ -59,17 +60,22 @@ impl Program {
 
     /// What a light with this program shows at `time` [s].
     pub fn state(&self, time: f64) -> LightState {
+        self.state_within(self.within_cycle(time))
+    }
+
+    /// What it shows at this place of its cycle [s].
+    #[inline]
+    pub(super) fn state_within(&self, at: f64) -> LightState {
         if self.phases.is_empty() {
             return LightState::Green;
         }
-        let at = time.rem_euclid(self.cycle);
         // The yellow of a phase may reach into the next cycle.
         let shows = |phase: &Phase| {
-            let since = |moment: f64| (at - moment).rem_euclid(self.cycle);
+            let since = self.within_cycle(at - phase.from);
             let green = phase.to - phase.from;
-            if since(phase.from) < green {
+            if since < green {
                 LightState::Green
-            } else if since(phase.from) < green + phase.yellow {
+            } else if since < green + phase.yellow {
                 LightState::Yellow
             } else {
                 LightState::Red
@@ -77,6 +83,16 @@ impl Program {
         };
         let states = self.phases.iter().map(shows);
         states.min_by_key(|it| *it as u8).unwrap_or(LightState::Red)
+    }
+
+    /// The time since the last beginning of a cycle [s]: the remainder, which is dear, only where a sum is not the same.
+    #[inline]
+    pub(super) fn within_cycle(&self, time: f64) -> f64 {
+        match time {
+            _ if (0.0..self.cycle).contains(&time) => time,
+            _ if -self.cycle < time && time < 0.0 => time + self.cycle,
+            _ => time.rem_euclid(self.cycle),
+        }
     }
 
     /// Share of the time that it is green.

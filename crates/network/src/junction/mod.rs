@@ -84,9 +84,36 @@ pub struct OnChain {
     pub crossings: Vec<Crossing>,
     /// Places to stop.
     pub stops: Vec<Stop>,
-    places: [f64; 2],
+    /// All of these; of two at the same station the place to stop comes first.
+    pub places: Vec<Place>,
+    extent: [f64; 2],
     /// From the chain's end to the next place on any way on [m].
     beyond: f64,
+}
+
+/// A place where drivers may have to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The line, or the beginning of the zone [m].
+    pub station: f64,
+    /// What is there.
+    pub what: PlaceKind,
+}
+
+/// What is at a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlaceKind {
+    /// A place to stop.
+    Sign(Sign),
+    /// A conflict zone.
+    Zone {
+        /// Its side.
+        crossing: Crossing,
+        /// Where it ends [m].
+        end: f64,
+        /// From where on the lanes are one, if they become one [m].
+        merge: Option<f64>,
+    },
 }
 
 /// A side of a zone.
@@ -122,7 +149,8 @@ impl OnChain {
     const EMPTY: OnChain = OnChain {
         crossings: Vec::new(),
         stops: Vec::new(),
-        places: [f64::INFINITY, f64::NEG_INFINITY],
+        places: Vec::new(),
+        extent: [f64::INFINITY, f64::NEG_INFINITY],
         beyond: f64::INFINITY,
     };
 }
@@ -171,6 +199,18 @@ impl Junctions {
         signals::conflicts(network, self)
     }
 
+    /// What the lights show at `time` [s].
+    pub fn show(&self, time: f64) -> impl Iterator<Item = LightState> {
+        // Those who stand together have cycles of one length.
+        let (mut cycle, mut at) = (f64::NAN, 0.0);
+        self.lights.iter().map(move |Light { program, .. }| {
+            if program.cycle != cycle {
+                (cycle, at) = (program.cycle, program.within_cycle(time));
+            }
+            program.state_within(at)
+        })
+    }
+
     /// What drivers meet on `chain`.
     #[inline]
     pub fn on(&self, chain: ChainIndex) -> &OnChain {
@@ -187,14 +227,14 @@ impl Junctions {
     /// there is none.
     #[inline]
     pub fn places(&self, chain: ChainIndex) -> [f64; 2] {
-        self.on(chain).places
+        self.on(chain).extent
     }
 
     /// How far it is from `x` on `chain`, which is `length` long, to the next place where drivers may have to stop, whichever
     /// way they go [m].
     #[inline]
     pub fn free_way(&self, chain: ChainIndex, x: f64, length: f64) -> f64 {
-        let OnChain { places: [first, last], beyond, .. } = *self.on(chain);
+        let &OnChain { extent: [first, last], beyond, .. } = self.on(chain);
         if x >= last { length - x + beyond } else { (first - x).max(0.0) }
     }
 
@@ -254,11 +294,22 @@ impl Junctions {
 
     fn note_places(&mut self) {
         let Junctions { zones, chains, .. } = self;
+        let place = |crossing: &Crossing| {
+            let (zone, side) = (&zones[crossing.zone.at()], usize::from(crossing.side));
+            let merge = match zone.kind {
+                ZoneKind::Merging(stations) => Some(stations[side]),
+                ZoneKind::Crossing | ZoneKind::Tight => None,
+            };
+            let Reach { start, end, .. } = zone.sides[side];
+            Place { station: start, what: PlaceKind::Zone { crossing: *crossing, end, merge } }
+        };
         for chain in chains {
-            let starts =
-                chain.crossings.iter().map(|it| zones[it.zone.at()].sides[usize::from(it.side)].start);
-            for station in starts.chain(chain.stops.iter().map(|it| it.station)) {
-                chain.places = [chain.places[0].min(station), chain.places[1].max(station)];
+            let stops =
+                chain.stops.iter().map(|it| Place { station: it.station, what: PlaceKind::Sign(it.sign) });
+            chain.places = stops.chain(chain.crossings.iter().map(place)).collect();
+            chain.places.sort_by(|a, b| a.station.total_cmp(&b.station));
+            if let [first, .., last] | [first @ last] = &chain.places[..] {
+                chain.extent = [first.station, last.station];
             }
         }
     }
@@ -269,7 +320,7 @@ impl Junctions {
         let mut open: Vec<usize> = (0..chains.len()).collect();
         while let Some(index) = open.pop() {
             let to_place = |it: &ChainIndex| {
-                let OnChain { places: [first, _], beyond, .. } = chains[it.at()];
+                let OnChain { extent: [first, _], beyond, .. } = chains[it.at()];
                 first.min(network.chain(*it).length + beyond)
             };
             let here = &network.chains[index];

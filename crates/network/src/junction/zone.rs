@@ -14,6 +14,7 @@ pub struct ZoneIndex(pub u32);
 
 impl ZoneIndex {
     /// The place as an index.
+    #[inline]
     pub fn at(self) -> usize {
         self.0 as usize
     }

@@ -2,9 +2,9 @@
 
 use laneweave_models::braking::is_secure;
 use laneweave_models::yielding::{MARGIN, time_to_cover};
-use laneweave_network::{LightState, Precedence, ZoneKind};
+use laneweave_network::{Precedence, ZoneKind};
 
-use super::heed::{LONG, STOPS_AT_YELLOW, leader_into};
+use super::heed::{LONG, leader_into, lets_go};
 use super::oncoming::lag;
 use super::passages::{Claim, Hold, Passage};
 use super::survey::Survey;
@@ -73,15 +73,8 @@ impl Asking {
 /// What hinders it.
 pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Asking) -> Result<(), Hindrance> {
     let speed = scene.motion(spot).speed;
-    for (light, at) in &survey.lights {
-        let goes = match scene.light(*light) {
-            LightState::Green => true,
-            LightState::Yellow => speed * speed > 2.0 * STOPS_AT_YELLOW * at.max(0.0),
-            LightState::Red => false,
-        };
-        if !goes {
-            return Err(Hindrance::Light);
-        }
+    if !survey.lights.iter().all(|(light, at)| lets_go(scene, *light, *at, speed)) {
+        return Err(Hindrance::Light);
     }
     if survey.has_stop_sign && (speed > STOPPED || survey.stop > AT_THE_LINE) {
         return Err(Hindrance::Sign);

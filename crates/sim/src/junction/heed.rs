@@ -11,7 +11,7 @@ use crate::scene::{Scene, Spot};
 pub(super) const LONG: f64 = 7.0;
 /// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
 /// yellow times).
-pub(super) const STOPS_AT_YELLOW: f64 = 3.0;
+const STOPS_AT_YELLOW: f64 = 3.0;
 /// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s] (ours).
 const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;
@@ -65,6 +65,15 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         junction.asks = keeps_lane && !car.is_shadow && !car.phase.is_between_lanes();
     }
     junction
+}
+
+/// Whether a driver at `speed` [m/s] drives past a light at which it would stop `at` metres ahead.
+pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> bool {
+    match scene.light(light) {
+        LightState::Green => true,
+        LightState::Yellow => speed * speed > 2.0 * STOPS_AT_YELLOW * at.max(0.0),
+        LightState::Red => false,
+    }
 }
 
 /// Those who go before it through a zone.

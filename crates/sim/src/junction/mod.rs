@@ -19,7 +19,7 @@ mod rings;
 mod survey;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
-pub(crate) use heed::{Junction, look, sight};
+pub(crate) use heed::{Junction, lets_go, look, sight};
 pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};

@@ -19,10 +19,8 @@ impl Refuge {
 
     /// The stretch on which `station` [m] of a chain lies.
     pub(crate) fn at(junctions: &Junctions, chain: ChainIndex, station: f64) -> Refuge {
-        let on = junctions.on(chain);
-        let zones = on.crossings.iter().filter(|it| junctions.reach(**it).start < station);
-        let stops = on.stops.iter().filter(|it| it.station < station);
-        Refuge { chain, places: (zones.count() + stops.count()) as u32 }
+        let places = &junctions.on(chain).places;
+        Refuge { chain, places: places.partition_point(|it| it.station < station) as u32 }
     }
 }
 
@@ -43,7 +41,7 @@ impl Numbers {
         let mut count = 0;
         let mut number = |chain: u32| {
             let (first, on) = (count, junctions.on(ChainIndex(chain)));
-            count += on.crossings.len() + on.stops.len() + 1;
+            count += on.places.len() + 1;
             first as u32
         };
         let first = (0..network.chains.len() as u32).map(&mut number).collect();

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use laneweave_network::{ChainIndex, Crossing, LightIndex, Sign, ZoneKind};
+use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
 
 use super::passages::Hold;
 use super::refuge::Refuge;
@@ -69,6 +69,20 @@ struct Point {
     what: What,
 }
 
+impl Point {
+    /// `place` on a chain whose start is `base` ahead [m].
+    fn of(place: &Place, base: f64) -> Point {
+        let at = base + place.station;
+        match place.what {
+            PlaceKind::Sign(sign) => Point { stop: at - BEFORE_A_LINE, what: What::Sign(sign) },
+            PlaceKind::Zone { crossing, end, merge } => {
+                let what = What::Zone(crossing, base + end, merge.map(|it| base + it));
+                Point { stop: at - BEFORE_A_ZONE, what }
+            }
+        }
+    }
+}
+
 #[derive(Clone, Copy)]
 enum What {
     Sign(Sign),
@@ -86,47 +100,29 @@ fn points(
     let junctions = &scene.network.junctions;
     let (mut chain, mut base) = (from.chain, -from.x);
     loop {
+        let places = &junctions.on(chain).places[..];
         let trip_end = base + scene.navigator.waypoint(from.destination, chain).end;
         let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
-        let on = junctions.on(chain);
-        let (mut crossings, mut stops) = (on.crossings.iter().peekable(), on.stops.iter().peekable());
-        loop {
-            let zone_at = crossings.peek().map_or(f64::INFINITY, |it| junctions.reach(**it).start);
-            let stop_at = stops.peek().map_or(f64::INFINITY, |it| it.station);
-            let at = base + zone_at.min(stop_at);
+        // Who has its front beyond a place has passed it.
+        let passed = places.partition_point(|it| base + it.station <= 0.0);
+        for place in &places[passed..] {
+            let at = base + place.station;
             if at > trip_end {
                 return f64::INFINITY;
             }
             if at > until {
-                if at < f64::INFINITY {
-                    return until;
-                }
-                break;
+                return until;
             }
-            let point = if stop_at <= zone_at {
-                let Some(stop) = stops.next() else { break };
-                Point { stop: at - BEFORE_A_LINE, what: What::Sign(stop.sign) }
-            } else {
-                let Some(crossing) = crossings.next() else { break };
-                let zone = &junctions.zones[crossing.zone.at()];
-                let merge = match zone.kind {
-                    ZoneKind::Merging(stations) => Some(base + stations[usize::from(crossing.side)]),
-                    ZoneKind::Crossing | ZoneKind::Tight => None,
-                };
-                let end = base + junctions.reach(*crossing).end;
-                Point { stop: at - BEFORE_A_ZONE, what: What::Zone(*crossing, end, merge) }
-            };
-            // Who has its front beyond a place has passed it.
-            if at > 0.0 && visit(point, at, chain).is_break() {
+            if visit(Point::of(place, base), at, chain).is_break() {
                 return at;
             }
+        }
+        if trip_end < f64::INFINITY {
+            return f64::INFINITY;
         }
         base += scene.network.chain(chain).length;
         if base > until {
             return until;
-        }
-        if base > trip_end {
-            return f64::INFINITY;
         }
         match scene.next(from.destination, chain) {
             Some(next) => chain = next,
@@ -139,12 +135,15 @@ fn points(
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
 /// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
+    if granted >= until {
+        return None;
+    }
+    let until = until.min(shield(scene, from, until));
     if is_far(scene, from, until) {
         return None;
     }
-    let shield = shield(scene, from, until);
     let mut found = None;
-    points(scene, from, until.min(shield), |point, at, _| {
+    points(scene, from, until, |point, at, _| {
         if at <= granted {
             return ControlFlow::Continue(());
         }
@@ -201,20 +200,21 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     }
 }
 
-/// Surveys the passage that the vehicle of `length` [m] that looks `from` needs next, beyond the `granted` [m] it has.
-/// Returns whether there is one within `until` [m].
+/// Surveys the passage that the vehicle of `length` [m] that looks `from` needs next, beyond the `granted` [m] it has. Returns
+/// whether there is one within `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
 pub(crate) fn survey(
     scene: &Scene,
     from: Viewpoint,
     length: f64,
-    granted: f64,
-    until: f64,
+    [granted, until]: [f64; 2],
+    is_held: impl Fn(LightIndex, f64) -> bool,
     out: &mut Survey,
 ) -> bool {
     out.lights.clear();
     out.holds.clear();
     out.has_stop_sign = false;
     let mut first: Option<f64> = None;
+    let mut ends = false;
     let mut clear = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
     let far = until + ROOM_SIGHT;
@@ -235,7 +235,13 @@ pub(crate) fn survey(
             return ControlFlow::Break(());
         }
         match point.what {
-            What::Sign(Sign::Light(light)) => out.lights.push((light, point.stop)),
+            What::Sign(Sign::Light(light)) => {
+                out.lights.push((light, point.stop));
+                ends = is_held(light, point.stop);
+                if ends {
+                    return ControlFlow::Break(());
+                }
+            }
             What::Sign(Sign::Stop) => out.has_stop_sign |= point.stop < start + LINE_TO_ZONE,
             What::Sign(Sign::Line) => {}
             What::Zone(crossing, end, merge) => {
@@ -249,16 +255,22 @@ pub(crate) fn survey(
     });
     let Some(start) = first else { return false };
     out.stop = start;
+    if ends {
+        out.holds.clear();
+        out.extent = f64::NEG_INFINITY;
+        return true;
+    }
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = clear + length;
     out.needed = length + SPARE_ROOM;
-    out.refuge = refuge_at(scene, from, clear);
+    let beyond = chain_at(scene, from, clear);
+    out.refuge = Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1);
     let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
     // Whose trip ends before the next place is behind others who stop there.
-    let place = next_place(scene, from, clear) - ROOM_AT_A_STOP;
+    let place = next_place(scene, beyond, clear) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
-    out.room = room(scene, from, clear, limit);
+    out.room = room(scene, from, out.refuge, clear, limit);
     true
 }
 
@@ -274,12 +286,6 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) 
     }
 }
 
-/// Where the place `distance` ahead on the way lies [m].
-fn refuge_at(scene: &Scene, from: Viewpoint, distance: f64) -> Refuge {
-    let (chain, start) = chain_at(scene, from, distance);
-    Refuge::at(&scene.network.junctions, chain, distance - start)
-}
-
 /// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
 pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl Iterator<Item = Refuge> {
     let (rear, front) = (survey.refuge, survey.extent);
@@ -292,14 +298,12 @@ pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl I
     std::iter::successors(Some((rear, start)), next).map(|(at, _)| at)
 }
 
-/// How far ahead the next place is, beyond `distance` but on the same chain, where drivers may have to stop [m].
-fn next_place(scene: &Scene, from: Viewpoint, distance: f64) -> f64 {
-    let (chain, start) = chain_at(scene, from, distance);
-    let junctions = &scene.network.junctions;
-    let on = junctions.on(chain);
-    let zones = on.crossings.iter().map(|it| junctions.reach(*it).start - BEFORE_A_ZONE);
-    let stops = on.stops.iter().map(|it| it.station - BEFORE_A_LINE);
-    zones.chain(stops).map(|it| start + it).filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
+/// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have to
+/// stop [m].
+fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64) -> f64 {
+    let places = scene.network.junctions.on(chain).places.iter();
+    let stops = places.map(|it| start + Point::of(it, 0.0).stop);
+    stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
 
 /// Distances are not told apart closer than this [m].
@@ -318,15 +322,15 @@ fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     }
 }
 
-/// Room from `clear` on [m], to `limit` or to where the vehicles that are out of the zones can all have stopped; none if
+/// Room from `clear` on [m], which lies on `refuge`, to `limit` or to where the vehicles that are out of the zones can all have stopped; none if
 /// somebody ahead who is not out of them, and of the way, has no passage out.
-fn room(scene: &Scene, from: Viewpoint, clear: f64, limit: f64) -> f64 {
+fn room(scene: &Scene, from: Viewpoint, refuge: Refuge, clear: f64, limit: f64) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
     if scene.waits_beside_in_fork(from).is_some() {
         return NONE;
     }
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
-    let mut taken = scene.passages.kept_on(refuge_at(scene, from, clear));
+    let mut taken = scene.passages.kept_on(refuge);
     let mut end = f64::INFINITY;
     loop {
         let lane = &scene.lanes[chain.at()];
