@@ -12,7 +12,7 @@ use crate::traffic::Lane;
 
 /// Share of its roads that vehicles and the least gaps before them may take up (ours, from trials on closed maps: at twice that
 /// fewer arrive).
-const BEARABLE: f64 = 0.15;
+const BEARABLE: f64 = 0.10;
 /// Least gap before a vehicle [m].
 const LEAST_GAP: f64 = 2.0;
 /// Roads that lead in rings of less than this in all are junctions, not towns [m] (ours).

@@ -3,7 +3,7 @@
 #[path = "roads/drivers.rs"]
 mod drivers;
 
-use laneweave_maps::generate::{Motorway, motorway, own_maps};
+use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::regulations;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Held, NewVehicle, Setup, World};
@@ -22,12 +22,9 @@ fn motorway_with_ramps() -> Network {
 }
 
 /// Streets with lights.
-fn grid() -> Network {
-    let (_, drawing) = own_maps()
-        .expect("it can be made")
-        .into_iter()
-        .find(|it| it.0 == "grid.osm")
-        .expect("it can be made");
+/// So many rows of two streets with lights: without rings if there is one.
+fn streets(rows: usize) -> Network {
+    let drawing = grid(&Grid { rows, columns: 2, ..Grid::default() }).expect("it can be made");
     let map = drawing.build().expect("it can be made");
     let regulations = regulations(&map);
     map.network.regulated(&regulations)
@@ -75,8 +72,8 @@ fn who_is_alone_on_a_motorway_is_not_delayed_wherever_it_goes() {
 #[test]
 fn who_stands_at_a_red_light_has_stopped_once_and_is_delayed_for_as_long() {
     let mut seen = 0;
-    for entrance in 0..grid().entrances.len() {
-        let mut world = world(grid(), 0.0);
+    for entrance in 0..streets(2).entrances.len() {
+        let mut world = world(streets(2), 0.0);
         let start = world.network().entrances[entrance].chains[0];
         let destination =
             (0..world.demand().destinations.len()).find(|it| world.leads(entrance, *it)).unwrap();
@@ -119,9 +116,12 @@ fn held(mut world: World) -> Vec<(Held, u32)> {
 #[test]
 fn who_cannot_enter_knows_why() {
     let on_motorway = held(world(motorway_with_ramps(), 7500.0));
-    let before_lights = held(world(grid(), 8000.0));
+    let before_lights = held(world(streets(1), 8000.0));
+    let before_a_full_town = held(world(streets(2), 8000.0));
     let of = |times: &[(Held, u32)], held| times.iter().find(|it| it.0 == held).unwrap().1;
     assert!(of(&on_motorway, Held::Traffic) > 300, "{on_motorway:?}");
     assert_eq!(of(&on_motorway, Held::RedLight) + of(&on_motorway, Held::Room), 0, "{on_motorway:?}");
     assert!(of(&before_lights, Held::RedLight) > 300, "{before_lights:?}");
+    assert_eq!(of(&before_lights, Held::FullMap), 0, "{before_lights:?}");
+    assert!(of(&before_a_full_town, Held::FullMap) > 300, "{before_a_full_town:?}");
 }

@@ -372,6 +372,19 @@ mod tests {
     }
 
     #[test]
+    fn room_comes_first_to_who_has_waited_for_it_longest() {
+        let claim = |since, id| Claim { is_patient: false, since, id, is_long: false };
+        let mut passages = Passages { wanted: vec![None], ..of_one_zone() };
+        passages.note_want(REFUGE, claim(20, 1), 6.5);
+        passages.note_want(REFUGE, claim(10, 2), 14.0);
+        passages.note_want(REFUGE, claim(30, 3), 6.5);
+        assert_eq!(passages.wanted_before(REFUGE, claim(20, 1)), 14.0);
+        assert_eq!(passages.wanted_before(REFUGE, claim(10, 2)), 0.0);
+        passages.clear_claims();
+        assert_eq!(passages.wanted_before(REFUGE, claim(20, 1)), 0.0);
+    }
+
+    #[test]
     fn a_further_passage_goes_on_from_where_the_vehicle_is() {
         let mut passages = of_one_zone();
         let slot = passages.give(NO_PASSAGE, 7, LENGTH, &over_the_zone(0));

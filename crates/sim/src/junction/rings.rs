@@ -147,3 +147,54 @@ fn comes_round(network: &Network, start: ChainIndex) -> bool {
     }
     false
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_maps::generate::own_maps;
+    use laneweave_maps::regulations;
+
+    use super::*;
+
+    fn of_map(name: &str) -> (Network, Rings) {
+        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == name).unwrap();
+        let map = drawing.build().unwrap();
+        let rules = regulations(&map);
+        let network = map.network.regulated(&rules);
+        let rings = Rings::of(&network);
+        (network, rings)
+    }
+
+    #[test]
+    fn a_roundabout_is_one_ring_with_an_entry_at_each_arm() {
+        let (network, rings) = of_map("roundabout.osm");
+        let [ring] = &rings.rings[..] else { panic!("{} rings", rings.rings.len()) };
+        assert_eq!(ring.entries.len(), network.entrances.len());
+        assert!((60.0..LONGEST).contains(&ring.length), "{} m", ring.length);
+        let entry = ring.entries[0];
+        assert!(network.chain(entry).following.iter().any(|it| rings.is_entered([entry, *it])));
+        assert!(!rings.is_entered([ring.chains[0], ring.chains[1]]));
+    }
+
+    #[test]
+    fn neither_a_junction_nor_a_block_is_a_ring() {
+        for name in ["priority.osm", "grid.osm", "motorway_3_lanes.osm"] {
+            assert!(of_map(name).1.rings.is_empty(), "{name}");
+        }
+    }
+
+    #[test]
+    fn of_those_who_wait_for_a_ring_the_longest_waiting_goes_first() {
+        let (network, mut rings) = of_map("roundabout.osm");
+        let entry = rings.rings[0].entries[0];
+        let onto = network.chain(entry).following.iter().find(|it| rings.is_entered([entry, **it])).unwrap();
+        let way = [entry, *onto];
+        let (passages, lanes) = (Passages::new(&network), vec![Lane::default(); network.chains.len()]);
+        let claim = |since, id| Claim { is_patient: false, since, id, is_long: false };
+        assert!(!rings.is_closed(&passages, &lanes, way, claim(7, 1), 6.5));
+        rings.note_claim(way, claim(5, 2));
+        assert!(rings.is_closed(&passages, &lanes, way, claim(7, 1), 6.5));
+        assert!(!rings.is_closed(&passages, &lanes, way, claim(5, 2), 6.5));
+        rings.clear_claims();
+        assert!(!rings.is_closed(&passages, &lanes, way, claim(7, 1), 6.5));
+    }
+}

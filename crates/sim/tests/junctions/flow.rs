@@ -37,5 +37,24 @@ fn a_roundabout_to_which_far_more_come_than_it_can_take_keeps_turning() {
         .expect("it makes sense");
     (0..MINUTES * 600).for_each(|_| world.step());
     assert_sound(&world);
-    assert!(world.counts().left > 200, "{} left", world.counts().left);
+    assert!(world.counts().left > 300, "{} left", world.counts().left);
+}
+
+#[test]
+fn a_full_town_keeps_moving_and_its_queue_stands_at_its_edge() {
+    const QUARTERS: u32 = 3;
+    let network = network("town.osm");
+    let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
+    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let mut world = World::new(network, characters, demand, Setup { step: STEP, seed: 1, threads: 1 })
+        .expect("it makes sense");
+    let mut left = 0;
+    for quarter in 0..QUARTERS {
+        (0..15 * 600).for_each(|_| world.step());
+        assert_sound(&world);
+        let leaves = world.counts().left - left;
+        assert!(leaves > 300, "{leaves} left in quarter {quarter}");
+        left += leaves;
+    }
+    assert!(world.waiting() > world.on_road(), "{} wait, {} drive", world.waiting(), world.on_road());
 }
