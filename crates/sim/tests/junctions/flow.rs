@@ -27,14 +27,19 @@ fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {
     }
 }
 
+/// A map to which 4000 vehicles an hour come.
+fn crowded(name: &str) -> World {
+    let network = network(name);
+    let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
+    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let setup = Setup { step: STEP, seed: 1, threads: 1 };
+    World::new(network, characters, demand, setup).expect("the set-up makes sense")
+}
+
 #[test]
 fn a_roundabout_to_which_far_more_come_than_it_can_take_keeps_turning() {
     const MINUTES: u32 = 15;
-    let network = network("roundabout.osm");
-    let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
-    let mut world = World::new(network, characters, demand, Setup { step: STEP, seed: 1, threads: 1 })
-        .expect("it makes sense");
+    let mut world = crowded("roundabout.osm");
     (0..MINUTES * 600).for_each(|_| world.step());
     assert_sound(&world);
     assert!(world.counts().left > 300, "{} left", world.counts().left);
@@ -43,11 +48,7 @@ fn a_roundabout_to_which_far_more_come_than_it_can_take_keeps_turning() {
 #[test]
 fn a_full_town_keeps_moving_and_its_queue_stands_at_its_edge() {
     const QUARTERS: u32 = 3;
-    let network = network("town.osm");
-    let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
-    let mut world = World::new(network, characters, demand, Setup { step: STEP, seed: 1, threads: 1 })
-        .expect("it makes sense");
+    let mut world = crowded("town.osm");
     let mut left = 0;
     for quarter in 0..QUARTERS {
         (0..15 * 600).for_each(|_| world.step());
