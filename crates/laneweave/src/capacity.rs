@@ -13,7 +13,7 @@ const SECONDS_PER_HOUR: f64 = 3600.0;
 /// kerb as many as make room for each other on an empty road. Where all lanes of a place lead to a light before they fork, each
 /// takes in no more than passes at green. What happens further down the road is not looked at, so this is an upper estimate.
 pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, f64)]) -> f64 {
-    let mut known: Vec<((bool, f64), f64)> = Vec::new();
+    let mut known: Vec<(f64, Flows)> = Vec::new();
     let mut capacity = 0.0;
     for place in demand.origins.iter().map(|it| &it.place) {
         let (is_gate, station) = match place {
@@ -25,21 +25,17 @@ pub fn entrance_capacity(network: &Network, demand: &Demand, drivers: &[(Style, 
         let are_all_lit = shares.iter().all(|it| *it < 1.0);
         for (chain, share) in place.chains().iter().zip(&shares) {
             let limit = network.chain(*chain).limit(station);
-            let key = (is_gate, limit);
-            let lane = match known.iter().find(|(it, _)| *it == key) {
-                Some((_, lane)) => *lane,
+            let flows = match known.iter().find(|(it, _)| *it == limit) {
+                Some((_, flows)) => *flows,
                 None => {
-                    let capacity = if is_gate { of_a_stream } else { from_rest };
-                    let lane = capacity(&kinds(limit, drivers, &demand.fleet));
-                    known.push((key, lane));
-                    lane
+                    let kinds = kinds(limit, drivers, &demand.fleet);
+                    let flows = Flows { of_a_stream: of_a_stream(&kinds), from_rest: from_rest(&kinds) };
+                    known.push((limit, flows));
+                    flows
                 }
             };
-            let at_green = if are_all_lit {
-                share * of_a_stream(&kinds(limit, drivers, &demand.fleet))
-            } else {
-                f64::INFINITY
-            };
+            let lane = if is_gate { flows.of_a_stream } else { flows.from_rest };
+            let at_green = if are_all_lit { share * flows.of_a_stream } else { f64::INFINITY };
             capacity += lane.min(at_green);
         }
     }
@@ -61,6 +57,13 @@ fn green_share(network: &Network, mut chain: ChainIndex, mut station: f64) -> f6
         (chain, station) = (next, f64::NEG_INFINITY);
     }
     least
+}
+
+/// What a lane takes in under one limit [veh/s].
+#[derive(Clone, Copy)]
+struct Flows {
+    of_a_stream: f64,
+    from_rest: f64,
 }
 
 /// Vehicles of one class with drivers of one style.

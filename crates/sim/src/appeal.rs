@@ -12,6 +12,12 @@ use crate::scene::{Scene, Spot};
 use crate::traffic::Motion;
 use crate::world::World;
 
+/// Slower than this [m/s] a vehicle stands before a junction (ours).
+pub(crate) const STANDS: f64 = 0.3;
+/// Who has waited at a light for so long [s] did not get the room that it needs at green: it comes first to it (ours; two
+/// cycles of made programs).
+const STARVES: f64 = 120.0;
+
 /// The drivers of a lane appeal.
 pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan, outbox: &mut Outbox) {
     for (index, from) in &plan.returns {
@@ -56,10 +62,6 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
     }
 }
 
-/// Who has waited at a light for so long [s] did not get the room that it needs at green: it comes first to it (ours; two
-/// cycles of made programs).
-const STARVES: f64 = 120.0;
-
 /// The driver at `spot`, who has surveyed its way, claims room there. Who comes onto a ring from outside does not stop it.
 fn claim_room(scene: &Scene, spot: Spot, claim: Claim, outbox: &mut Outbox) {
     let Outbox { survey, wants, rings, .. } = outbox;
@@ -71,9 +73,6 @@ fn claim_room(scene: &Scene, spot: Spot, claim: Claim, outbox: &mut Outbox) {
         wants.extend(refuges.map(|it| (it, claim, survey.needed)));
     }
 }
-
-/// Slower than this [m/s] a vehicle stands before a junction (ours).
-pub(crate) const STANDS: f64 = 0.3;
 
 /// Surveys what the driver at `spot` needs next. Returns whether there is something, and nobody before it waits there.
 pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {

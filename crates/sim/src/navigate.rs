@@ -404,17 +404,10 @@ impl Navigator {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
+    use laneweave_network::DrivingSide;
 
     use super::*;
-
-    /// A lane to the east between two stations [m], followed by `following`.
-    fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
-        let line = Polyline::new([from, to].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
-        let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
-        lanelet.following = following.iter().map(|it| LaneletIndex(*it)).collect();
-        lanelet
-    }
+    use crate::ways::tests::lanelet;
 
     #[test]
     fn of_two_equal_ways_drivers_go_that_of_the_smaller_lanelet_id_however_chains_are_stored() {

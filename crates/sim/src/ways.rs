@@ -352,13 +352,13 @@ pub(crate) fn wander(network: &Network) -> Vec<Waypoint> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
 
     use super::*;
 
     /// A lane to the east between two stations [m] at 10 m/s, followed by `following`.
-    fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
+    pub(crate) fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
         let line = Polyline::new([from, to].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
         let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
         lanelet.following = following.iter().map(|it| LaneletIndex(*it)).collect();

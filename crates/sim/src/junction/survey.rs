@@ -322,8 +322,8 @@ fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     }
 }
 
-/// Room from `clear` on [m], which lies on `refuge`, to `limit` or to where the vehicles that are out of the zones can all have stopped; none if
-/// somebody ahead who is not out of them, and of the way, has no passage out.
+/// Room from `clear` on [m], which lies on `refuge`, to `limit` or to where the vehicles that are out of the zones can all have
+/// stopped; none if somebody ahead who is not out of them, and of the way, has no passage out.
 fn room(scene: &Scene, from: Viewpoint, refuge: Refuge, clear: f64, limit: f64) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
     if scene.waits_beside_in_fork(from).is_some() {

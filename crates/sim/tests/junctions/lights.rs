@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::{LightState, Sign};
-use laneweave_sim::{Setup, World};
+use laneweave_network::{LightIndex, LightState, Sign, SignalPlan, Turn};
+use laneweave_sim::{Class, NewVehicle, Setup, World};
 
 use crate::drivers;
-use crate::town::{STEP, assert_sound, network};
+use crate::town::{STEP, assert_sound, empty, network};
 
 #[test]
 fn nobody_drives_over_the_line_of_a_red_light() {
@@ -43,4 +43,26 @@ fn nobody_drives_over_the_line_of_a_red_light() {
     }
     assert!(passed > 50 && stood > 1000, "{passed} passed, {stood} steps at standstill");
     assert_sound(&world);
+}
+
+/// How many are stuck of a driver at a light that is green for 5 s, then red for `red` [s], after ten minutes.
+fn stuck_before_a_red_of(red: f64) -> u64 {
+    let network = network("grid.osm");
+    let lights = (0..network.junctions.lights.len() as u32).map(LightIndex).collect();
+    let turn = |lights, green| Turn { lights, green, extension: None, yellow: 3.0, all_red: 2.0 };
+    let turns = vec![turn(lights, 5.0), turn(Vec::new(), red)];
+    let network = network.with_signals(&[SignalPlan { offset: 0.0, turns }]);
+    let chain = network.entrances[0].chains[0];
+    let mut world = empty(network, vec![drivers::conservative()]);
+    let destination =
+        (0..world.demand().destinations.len()).find(|it| world.leads(0, *it)).map(|it| it as u16);
+    world.place(NewVehicle { chain, x: 10.0, speed: 10.0, class: Class::Car, character: 0, destination });
+    (0..6000).for_each(|_| world.step());
+    world.tally().stuck
+}
+
+#[test]
+fn who_waits_at_a_light_is_stuck_only_if_it_stays_red_for_very_long() {
+    assert_eq!(stuck_before_a_red_of(280.0), 0);
+    assert_eq!(stuck_before_a_red_of(1000.0), 1);
 }
