@@ -1,4 +1,4 @@
-//! Whether towns lock: random grids, and the town of `maps/`, under random demand of up to twice what their entrances take, from
+//! Whether towns lock: random grids, and the town of `maps/`, under random demand of up to twice what they bear, from
 //! some entrances much more than from others, for two hours each.
 //!
 //! `cargo run --release -p laneweave-bench --bin gridlock -- [TRIALS] [FIRST]` runs so many trials (200), the first of which has
@@ -8,10 +8,11 @@
 use std::error::Error;
 use std::process::ExitCode;
 
+use laneweave::Capacity;
 use laneweave::maps::generate::{Control, Grid, grid, town};
 use laneweave::maps::{Drawing, regulations};
 use laneweave::network::{DrivingSide, Network};
-use laneweave::sim::{Demand, Origin, Purpose, Random, Rate, Setup, Share, World};
+use laneweave::sim::{Assignment, Demand, Navigator, Purpose, Random, Rate, Setup, Share, World};
 use laneweave::style::Population;
 
 const TRIALS: u32 = 200;
@@ -44,7 +45,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 /// What became of a trial.
 struct Outcome {
     map: String,
-    /// Demand as a multiple of what the entrances take.
+    /// Demand as a multiple of what the map bears.
     load: f64,
     entered: u64,
     left: u64,
@@ -81,8 +82,14 @@ fn trial(number: u32) -> Result<Outcome, Box<dyn Error>> {
     let typical: Vec<_> = shares.iter().map(of_a_style).collect();
     let mut demand = Demand::even(&network, 1000.0, TRUCKS, shares);
     let load = 0.5 + 1.5 * draw(10);
-    let total = load * laneweave::entrance_capacity(&network, &demand, &typical);
-    skew(&mut demand, total, &random);
+    skew(&mut demand, &random);
+    let navigator = Navigator::towards(&network, &demand.destinations);
+    let assignment = Assignment::new(&network, &navigator, &demand, [0.0, DURATION_S]);
+    let capacity = Capacity::new(&network, &assignment, &demand, &typical).veh_h;
+    let all: f64 = demand.origins.iter().map(|it| it.rate.highest()).sum();
+    for origin in &mut demand.origins {
+        origin.rate = origin.rate.times(&Rate::constant(load * capacity / all));
+    }
     let setup = Setup { step: STEP_S, seed: u64::from(number), threads: 1 };
     let mut world = World::new(network, characters, demand, setup)?.guided(GUIDED_EVERY_S)?;
     let (mut before, mut fewest) = (0, u64::MAX);
@@ -141,18 +148,14 @@ fn regulated(drawing: &Drawing) -> Result<Network, Box<dyn Error>> {
     Ok(map.network.regulated(&rules))
 }
 
-/// Makes some entrances and destinations count for much more than others; `total` [veh/h] come in all.
-fn skew(demand: &mut Demand, total: f64, random: &Random) {
+/// Makes some entrances and destinations count for much more than others.
+fn skew(demand: &mut Demand, random: &Random) {
     let weight = |subject: u32| {
         let draw = random.uniform(subject, Purpose::Destination, 0);
         0.1 + draw * draw
     };
-    let lanes = |it: &Origin| it.place.chains().len() as f64;
-    let weights: Vec<f64> =
-        demand.origins.iter().zip(0..).map(|(it, number)| lanes(it) * weight(number)).collect();
-    let sum: f64 = weights.iter().sum();
-    for (number, (origin, share)) in demand.origins.iter_mut().zip(&weights).enumerate() {
-        origin.rate = Rate::constant(total * share / sum);
+    for (number, origin) in demand.origins.iter_mut().enumerate() {
+        origin.rate = origin.rate.times(&Rate::constant(weight(number as u32)));
         for (destination, it) in origin.weights.iter_mut().enumerate() {
             *it = weight(1_000_000 + (1000 * (number % 3) + destination) as u32);
         }

@@ -13,7 +13,7 @@ mod source;
 pub mod style;
 mod units;
 
-pub use capacity::entrance_capacity;
+pub use capacity::{Bottleneck, Capacity};
 pub use fault::{Fault, did_you_mean};
 pub use source::Source;
 

@@ -1,11 +1,11 @@
 //! Where a lane ends (catalogue V52): what passes is not above the capacity of the lanes that go on, a queue before it
 //! takes away at most 15 % of it, and nobody stands for good; and two lanes of equal inflow are equally full.
 
-use laneweave::entrance_capacity;
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::models::Style;
+use laneweave::models::follow::Pace;
 use laneweave::network::{Network, Side};
-use laneweave::sim::{Demand, Rate, Setup, World};
+use laneweave::sim::{Class, Demand, Rate, Setup, Share, World};
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
 
@@ -42,16 +42,25 @@ fn over_seeds<T>(what: &str, found: &[T], of: impl Fn(&T) -> f64) -> Estimate {
     estimate
 }
 
-/// Capacity of two lanes full of the usual drivers in equilibrium [veh/h].
-fn capacity_of_two_lanes() -> f64 {
+/// Largest flow of two lanes full of the usual drivers in equilibrium, all at one speed [veh/h].
+fn equilibrium_of_two_lanes() -> f64 {
+    const CAR: Class = Class::Car;
     let Population { characters, shares } = Population::usual(1).expect("built-in styles");
-    let weight = |number: u32| {
-        let share = shares.iter().find(|it| (it.first..it.first + it.count).contains(&number));
-        share.map_or(0.0, |it| it.weight / f64::from(it.count))
+    let limit = road(2, None).chains[0].limit(0.0);
+    let spacing = |speed: f64| {
+        let of = |it: &Style| {
+            let pace = Pace::new(speed, CAR.desired_speed(it, limit));
+            it.follow.equilibrium_gap(pace) + CAR.body().length
+        };
+        let total: f64 = shares.iter().map(|it| it.weight).sum();
+        let mean = |it: &Share| {
+            let drivers = &characters[it.first as usize..(it.first + it.count) as usize];
+            it.weight / total * drivers.iter().map(of).sum::<f64>() / f64::from(it.count)
+        };
+        shares.iter().map(mean).sum::<f64>()
     };
-    let drivers: Vec<(Style, f64)> = characters.into_iter().zip((0..).map(weight)).collect();
-    let network = road(2, None);
-    entrance_capacity(&network, &Demand::even(&network, 0.0, 0.0, shares), &drivers)
+    let speeds = (1..100).map(|it| limit * f64::from(it) / 100.0);
+    2.0 * SECONDS_PER_HOUR * speeds.map(|it| it / spacing(it)).fold(0.0, f64::max)
 }
 
 /// Time before flows are measured, in which they are, and in which all drive out when nobody comes any more [s].
@@ -85,7 +94,7 @@ fn v52_a_queue_at_a_lane_drop_discharges_at_most_15_percent_below_capacity_and_d
     /// Demands just below what makes a queue, and far above [veh/h].
     const NEAR: f64 = 4000.0;
     const ABOVE: f64 = 5000.0;
-    let equilibrium = capacity_of_two_lanes();
+    let equilibrium = equilibrium_of_two_lanes();
     eprintln!("two lanes in equilibrium: {equilibrium:.0} veh/h");
     // The largest flow of five minutes, and that of a quarter of an hour with a queue.
     let flows: Vec<[f64; 2]> = (1..=SEEDS)

@@ -78,19 +78,18 @@ impl World {
 
 /// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
 fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
-    /// Braking that an entering driver puts up with [m/s²].
-    const GENTLE: f64 = 0.5;
-    /// Who would have to enter slower than this share of the leader's speed waits.
-    const SHARE_OF_LEADER: f64 = 1.0;
+    /// Who would have to enter slower than its leader, and than this share of its desired speed, waits (ours).
+    const LEAST_SHARE: f64 = 0.9;
     let Some(ahead) = ahead else { return Some(desired) };
     let fits = |speed: f64| {
         let demanded = style.follow.acceleration(Pace::new(speed, desired), Some(ahead));
-        ahead.gap >= style.safety.min_gap && demanded >= -GENTLE && is_secure(speed, ahead, dt)
+        // Who would have to brake at once holds up those behind.
+        ahead.gap >= style.safety.min_gap && demanded >= 0.0 && is_secure(speed, ahead, dt)
     };
     if fits(desired) {
         return Some(desired);
     }
-    let (mut slow, mut fast) = (SHARE_OF_LEADER * ahead.speed.min(desired), desired);
+    let (mut slow, mut fast) = (ahead.speed.min(LEAST_SHARE * desired), desired);
     if !fits(slow) {
         return None;
     }

@@ -6,6 +6,7 @@
 mod accelerate;
 mod advance;
 mod appeal;
+mod assignment;
 mod attention;
 mod beliefs;
 mod busy;
@@ -54,12 +55,14 @@ mod views;
 mod ways;
 mod world;
 
+pub use assignment::{Assignment, Part};
 pub use clock::Clock;
 pub use demand::{Demand, Origin, Share};
 pub use effort::Effort;
 pub use events::{Event, LaneChange};
 pub use headways::{HeadwayError, Headways};
-pub use junction::Passages;
+pub use junction::{Passages, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
+pub use metering::Metering;
 pub use navigate::{Destination, Goal, Navigator};
 pub use normal::quantile as normal_quantile;
 pub use perceive::{driver, perceive};

@@ -20,7 +20,7 @@ const LEAST_TOWN: f64 = 500.0;
 
 /// Whether the roads of a town are full.
 #[derive(Clone, Debug)]
-pub(crate) struct Metering {
+pub struct Metering {
     /// For each chain whether it is part of the town.
     is_town: Vec<bool>,
     /// Length of all its lanes [m].
@@ -30,19 +30,34 @@ pub(crate) struct Metering {
 
 impl Metering {
     /// Of `network`, on which there is nobody yet; `None` if its roads lead in no rings.
-    pub(crate) fn new(network: &Network) -> Option<Metering> {
+    pub fn new(network: &Network) -> Option<Metering> {
         let is_town = in_rings(network);
         let town = network.chains.iter().zip(&is_town).filter(|(_, is_town)| **is_town);
         let length = town.map(|(it, _)| it.length).sum();
         (length >= LEAST_TOWN).then_some(Metering { is_town, length, is_full: false })
     }
 
+    /// Whether a chain is part of the town.
+    pub fn is_town(&self, chain: ChainIndex) -> bool {
+        self.is_town[chain.at()]
+    }
+
+    /// What vehicles with the least gaps before them may take up of it [m].
+    pub fn bearable(&self) -> f64 {
+        BEARABLE * self.length
+    }
+
+    /// What a vehicle of `length` [m] takes up [m].
+    pub fn taken_by(length: f64) -> f64 {
+        length + LEAST_GAP
+    }
+
     /// Measures what is taken up.
     pub(crate) fn measure(&mut self, lanes: &[Lane]) {
         let town = lanes.iter().zip(&self.is_town).filter(|(_, is_town)| **is_town);
         let motions = town.flat_map(|(lane, _)| lane.motions());
-        let taken: f64 = motions.map(|it| f64::from(it.length) + LEAST_GAP).sum();
-        self.is_full = taken > BEARABLE * self.length;
+        let taken: f64 = motions.map(|it| Metering::taken_by(f64::from(it.length))).sum();
+        self.is_full = taken > self.bearable();
     }
 
     /// Whether who would begin a trip through the town has to wait.

@@ -299,7 +299,7 @@ fn from_the_destination(table: &[Waypoint]) -> Vec<ChainIndex> {
 }
 
 /// The stretch of `chain` over which who has to change by `last_place` changes to the chain `to`.
-fn stretch_to(chain: &Chain, to: ChainIndex, last_place: f64) -> Option<&Beside> {
+pub(crate) fn stretch_to(chain: &Chain, to: ChainIndex, last_place: f64) -> Option<&Beside> {
     let all = Side::BOTH.into_iter().flat_map(|side| chain.stretches(side));
     let mut leading = all.filter(|it| it.chain == to);
     leading.find(|it| it.start < last_place && last_place <= it.end)

@@ -7,6 +7,7 @@ use xxhash_rust::xxh3::Xxh3;
 
 use crate::advance::{Ends, advance};
 use crate::appeal::appeal;
+use crate::assignment::Assignment;
 use crate::busy::Busy;
 use crate::clock::Clock;
 use crate::decide::{Moment, decide};
@@ -384,6 +385,11 @@ impl World {
     /// Who comes, from where and to where.
     pub fn demand(&self) -> &Demand {
         &self.demand
+    }
+
+    /// Where its demand leads on average between two times [s].
+    pub fn assignment(&self, during: [f64; 2]) -> Assignment {
+        Assignment::new(&self.network, &self.navigator, &self.demand, during)
     }
 
     /// Whether drivers from an origin of the demand can reach one of its destinations, and would drive there.

@@ -8,8 +8,8 @@ use std::path::Path;
 use laneweave_maps::{Map, ReadOptions, load, regulations};
 use laneweave_network::{ChainIndex, LaneletIndex, Network};
 use laneweave_sim::{
-    Class, Demand, Destination, Event, Fleet, Kerb, Navigator, NewVehicle, Place, Places, Setup, VehicleId,
-    World,
+    Assignment, Class, Demand, Destination, Event, Fleet, Kerb, Navigator, NewVehicle, Place, Places, Setup,
+    VehicleId, World,
 };
 use roads::{Road, drivers};
 
@@ -273,4 +273,20 @@ fn a_kerb_keeps_clear_of_the_lanelets_before_and_behind() {
     let lanelet = Road { length: shortest, is_ring: true, ..Road::default() }.network();
     let Place::Kerb(kerb) = &kerbs(&lanelet).destinations[0] else { panic!("a kerb") };
     assert!(kerb.station + longest <= shortest);
+}
+
+#[test]
+fn a_demand_loads_the_ways_between_its_kerbs() {
+    let network = ring(1);
+    let places = kerbs(&network);
+    let demand = demand(&network, places.clone(), 600.0);
+    let assignment =
+        Assignment::new(&network, &Navigator::towards(&network, &places.destinations), &demand, [0.0, 1.0]);
+    assert!((3600.0 * assignment.total - 600.0).abs() < 1e-6);
+    // From each of the two kerbs to the other one it is half of the ring.
+    let chain = ChainIndex(0);
+    let length = network.chain(chain).length;
+    let parts = assignment.on(chain).iter();
+    let metres: f64 = parts.map(|it| it.flow * (it.to.min(length) - it.from)).sum();
+    assert!((metres / assignment.total - 0.5 * length).abs() < 1e-6, "{}", metres / assignment.total);
 }

@@ -25,8 +25,10 @@ pub struct Summary {
     pub on_road: u64,
     /// Vehicles that wait at the entrances at the end.
     pub waiting: u64,
-    /// What the entrances can take in [veh/h].
+    /// The largest demand that the map bears [veh/h].
     pub entrance_capacity: f64,
+    /// What is full first when the demand grows.
+    pub bottleneck: Option<String>,
     /// Lane changes.
     pub lane_changes: u64,
     /// Of them, between lanes of equal worth for the route.
@@ -119,7 +121,8 @@ impl Summary {
             left: counts.left,
             on_road: world.on_road() as u64,
             waiting: world.waiting() as u64,
-            entrance_capacity: prepared.entrance_capacity_veh_h,
+            entrance_capacity: prepared.capacity.veh_h,
+            bottleneck: prepared.capacity.bottleneck.map(|it| it.to_string()),
             lane_changes,
             lane_changes_discretionary: counts.discretionary_changes,
             lane_changes_route: counts.route_changes,
@@ -179,9 +182,10 @@ impl Summary {
         line("map", self.map.clone());
         line("drivers", mixture.join(", "));
         line("simulated", format!("{} s{warm}{early}, seed {}", self.duration_s, self.seed));
+        let first = self.bottleneck.as_ref().map_or(String::new(), |it| format!(", then {it} is full"));
         line(
             "demand",
-            format!("{:.0} veh/h; the entrances take about {:.0}", self.demand_veh_h, self.entrance_capacity),
+            format!("{:.0} veh/h; the map bears {:.0}{first}", self.demand_veh_h, self.entrance_capacity),
         );
         line(
             "vehicles",

@@ -13,7 +13,7 @@ use super::mixture::mixture;
 use super::signals::plans;
 use super::turns::check_arrivals;
 use super::{MapOptions, Origin, Scenario};
-use crate::capacity::entrance_capacity;
+use crate::capacity::Capacity;
 use crate::fault::Fault;
 use crate::style::Population;
 
@@ -47,8 +47,8 @@ pub struct Prepared {
     pub demand_veh_h: f64,
     /// Where trips start, each with its demand [veh/h].
     pub origins: Vec<(Place, f64)>,
-    /// See [`entrance_capacity`] [veh/h].
-    pub entrance_capacity_veh_h: f64,
+    /// The largest demand that the map bears.
+    pub capacity: Capacity,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
     /// Number of threads.
@@ -81,7 +81,6 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let demand = demand(scenario, origin, &network, places, shares)?;
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
-    let capacity = entrance_capacity(&network, &demand, &typical);
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
@@ -96,6 +95,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
             Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
         })?,
     };
+    let capacity = Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
@@ -106,7 +106,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         flows_steps,
         demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
         origins,
-        entrance_capacity_veh_h: capacity,
+        capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
         problems: map.problems,

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::program::Folder;
 
 /// The fields that everybody can rely on.
-const FIELDS: &str = "entered left on_road waiting entrance_capacity lane_changes lane_changes_discretionary \
+const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
     lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps emergency_brakings stuck missed_turns \
     rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s peak_rss_mb \
     state_hash route_changes";

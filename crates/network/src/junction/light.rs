@@ -58,6 +58,17 @@ impl Program {
     /// A light that never stops anybody.
     pub const ALWAYS_GREEN: Program = Program { cycle: 60.0, phases: Vec::new() };
 
+    /// How long who comes at any time waits for green on average if nobody is there before it [s].
+    pub fn mean_wait(&self) -> f64 {
+        let count = self.phases.len();
+        let next = |number: usize| self.phases[(number + 1) % count].from;
+        let red = |(number, it): (usize, &Phase)| {
+            let until_next = (next(number) - it.to).rem_euclid(self.cycle);
+            until_next * until_next
+        };
+        self.phases.iter().enumerate().map(red).sum::<f64>() / (2.0 * self.cycle)
+    }
+
     /// What a light with this program shows at `time` [s].
     pub fn state(&self, time: f64) -> LightState {
         self.state_within(self.within_cycle(time))

@@ -199,6 +199,11 @@ impl Junctions {
         signals::conflicts(network, self)
     }
 
+    /// For each zone and each of its sides whether its drivers come past a light on `network`, to which these belong.
+    pub fn lit_sides(&self, network: &Network) -> Vec<[bool; 2]> {
+        signals::lit_sides(network, self)
+    }
+
     /// What the lights show at `time` [s].
     pub fn show(&self, time: f64) -> impl Iterator<Item = LightState> {
         // Those who stand together have cycles of one length.

@@ -171,6 +171,15 @@ fn fields(network: &Network, junctions: &Junctions) -> Vec<Field> {
     (0..junctions.lights.len()).map(|it| Field::of(network, junctions, LightIndex(it as u32))).collect()
 }
 
+/// For each zone and each of its sides whether its drivers come past a light.
+pub(super) fn lit_sides(network: &Network, junctions: &Junctions) -> Vec<[bool; 2]> {
+    let mut is_lit = vec![[false; 2]; junctions.zones.len()];
+    for (zone, side) in fields(network, junctions).into_iter().flat_map(|it| it.zones) {
+        is_lit[zone as usize][usize::from(side)] = true;
+    }
+    is_lit
+}
+
 fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
     let is_ordered = |zone: u32| matches!(junctions.zones[zone as usize].precedence, Precedence::Side(_));
     let pairs = (0..fields.len()).flat_map(|a| (a + 1..fields.len()).map(move |b| (a, b)));

@@ -11,7 +11,7 @@ use crate::scene::{Scene, Spot};
 pub(super) const LONG: f64 = 7.0;
 /// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
 /// yellow times).
-const STOPS_AT_YELLOW: f64 = 3.0;
+pub const STOPS_AT_YELLOW: f64 = 3.0;
 /// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s] (ours).
 const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;

@@ -19,9 +19,11 @@ mod rings;
 mod survey;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
+pub use heed::STOPS_AT_YELLOW;
 pub(crate) use heed::{Junction, lets_go, look, sight};
 pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
 pub(crate) use refuge::Refuge;
+pub use survey::STANDS_BEFORE_A_LINE;
 pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, refuges, stop_ahead, survey};

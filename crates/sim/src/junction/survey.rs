@@ -13,6 +13,8 @@ use crate::scene::{Scene, Spot, Viewpoint};
 pub(super) const BEFORE_A_ZONE: f64 = 1.0;
 /// How far before a line it stops [m] (ours).
 const BEFORE_A_LINE: f64 = 0.3;
+/// How far before a line the first of a queue stands [m].
+pub const STANDS_BEFORE_A_LINE: f64 = BEFORE_A_LINE + ROOM_AT_A_STOP;
 /// Room that a vehicle needs beyond the zones beside its length [m] (ours).
 pub(crate) const SPARE_ROOM: f64 = 2.0;
 /// A line belongs to the zones that follow within this [m] (ours).

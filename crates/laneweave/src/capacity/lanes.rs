@@ -1,0 +1,99 @@
+//! How full lanes and lights are.
+
+use laneweave_network::{ChainIndex, Light, Program, Side, Sign};
+
+use super::{Bottleneck, Load, Roads, once};
+
+/// A light at a place of a lane is that of lanes beside it, too, if it is no further away [m].
+const BESIDE: f64 = 20.0;
+
+/// The loads of lanes: at the start of each part that is driven on and of each limit, and at each light. Those who may use several
+/// lanes side by side fill them together; those who are bound to one fill it alone.
+pub(super) fn loads(roads: &Roads) -> Vec<Load> {
+    let mut lanes = Lanes { roads, streams: Vec::new(), lights: Vec::new() };
+    let mut loads = Vec::new();
+    for chain in roads.chains() {
+        let here = roads.network.chain(chain);
+        let starts = roads.assignment.on(chain).iter().map(|it| it.from);
+        let limits = here.limits.iter().map(|it| it.start);
+        let stops = roads.network.junctions.on(chain).stops.iter().map(|it| it.station);
+        let mut stations: Vec<f64> = starts.chain(limits).chain(stops).collect();
+        stations.sort_by(f64::total_cmp);
+        stations.dedup();
+        loads.extend(stations.into_iter().map(|it| lanes.load(chain, it)));
+    }
+    loads
+}
+
+struct Lanes<'a> {
+    roads: &'a Roads<'a>,
+    /// Largest flows by limit [m/s, veh/s].
+    streams: Vec<(f64, f64)>,
+    /// Flows through lights [veh/s], by light and limit [m/s].
+    lights: Vec<(usize, f64, f64)>,
+}
+
+impl Lanes<'_> {
+    /// How full the lanes at a station of a chain [m] are.
+    fn load(&mut self, chain: ChainIndex, station: f64) -> Load {
+        let [bound, all] = self.roads.assignment.flow(chain, station);
+        let (capacity, light) = self.capacity(chain, station);
+        let (mut flows, mut capacities) = (all, capacity);
+        for (beside, at) in self.beside(chain, station, light.is_some()) {
+            let [_, flow] = self.roads.assignment.flow(beside, at);
+            // A lane that ends soon, or leads elsewhere, carries nobody.
+            if flow > 0.0 {
+                flows += flow;
+                capacities += self.capacity(beside, at).0;
+            }
+        }
+        let lanelet = self.roads.lanelet(chain, station);
+        let of = light.map_or(Bottleneck::Lanes(lanelet), |light| Bottleneck::Light { light, lanelet });
+        Load { share: (bound / capacity).max(flows / capacities), of }
+    }
+
+    /// What passes a station of a chain [veh/s], and the light there.
+    fn capacity(&mut self, chain: ChainIndex, station: f64) -> (f64, Option<i64>) {
+        let network = self.roads.network;
+        let limit = network.chain(chain).limit(station);
+        let stops = network.junctions.on(chain).stops.iter();
+        let mut near = stops.filter(|it| (it.station - station).abs() < BESIDE);
+        let light = near.find_map(|it| if let Sign::Light(light) = it.sign { Some(light) } else { None });
+        let Some(light) = light else {
+            return (once(&mut self.streams, limit, || self.roads.mixture(limit).stream()), None);
+        };
+        let Light { id, program } = &network.junctions.lights[light.at()];
+        (self.through(light.at(), program, limit), Some(*id))
+    }
+
+    fn through(&mut self, light: usize, program: &Program, limit: f64) -> f64 {
+        if let Some((.., flow)) = self.lights.iter().find(|it| (it.0, it.1) == (light, limit)) {
+            return *flow;
+        }
+        let flow = self.roads.mixture(limit).through(program);
+        self.lights.push((light, limit, flow));
+        flow
+    }
+
+    /// The lanes to which one may change at a station of a chain [m], or shortly before a light there, each with the station there.
+    fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<(ChainIndex, f64)> {
+        /// Before a light lanes may no longer be changed for so long [m].
+        const BEFORE_A_LIGHT: f64 = 100.0;
+        let network = self.roads.network;
+        let since = |x: f64| if is_at_light { x - BEFORE_A_LIGHT } else { x };
+        let mut found = vec![(chain, station)];
+        let mut number = 0;
+        while let Some((at, x)) = found.get(number).copied() {
+            number += 1;
+            for side in Side::BOTH {
+                let mut stretches = network.chain(at).stretches(side).iter().rev();
+                let Some(stretch) = stretches.find(|it| it.start <= x && it.end > since(x)) else { continue };
+                let beside = (stretch.chain, stretch.across(x));
+                if beside.1 < network.chain(beside.0).length && found.iter().all(|it| it.0 != beside.0) {
+                    found.push(beside);
+                }
+            }
+        }
+        found.split_off(1)
+    }
+}

@@ -1,0 +1,132 @@
+//! How many vehicles an hour a map bears.
+//!
+//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a kerb, or a town as
+//! a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to carry is the demand along the usual
+//! ways; how much it can carry follows from the models of its drivers.
+
+mod conflict;
+mod lanes;
+mod stream;
+mod town;
+
+use std::fmt;
+
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Network};
+use laneweave_sim::{Assignment, Demand, Fleet};
+
+use stream::Mixture;
+
+const SECONDS_PER_HOUR: f64 = 3600.0;
+
+/// The largest demand that a map bears.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Capacity {
+    /// Of all origins together [veh/h].
+    pub veh_h: f64,
+    /// What is full first.
+    pub bottleneck: Option<Bottleneck>,
+}
+
+/// What is full first when the demand grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bottleneck {
+    /// The lanes side by side at this lanelet.
+    Lanes(i64),
+    /// The light that drivers on this lanelet heed.
+    Light {
+        /// The light.
+        light: i64,
+        /// A lanelet before it.
+        lanelet: i64,
+    },
+    /// The junction over which this lanelet leads.
+    Junction(i64),
+    /// The kerb along this lanelet.
+    Kerb(i64),
+    /// All roads that lead in rings.
+    Town,
+}
+
+impl fmt::Display for Bottleneck {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Bottleneck::Lanes(lanelet) => write!(f, "the road at lanelet {lanelet}"),
+            Bottleneck::Light { light, lanelet } => write!(f, "light {light} at lanelet {lanelet}"),
+            Bottleneck::Junction(lanelet) => write!(f, "the junction at lanelet {lanelet}"),
+            Bottleneck::Kerb(lanelet) => write!(f, "the kerb at lanelet {lanelet}"),
+            Bottleneck::Town => write!(f, "the town as a whole"),
+        }
+    }
+}
+
+/// A part of the map with its share of what it bears that is taken up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Load {
+    share: f64,
+    of: Bottleneck,
+}
+
+/// What is asked about a map: its roads, where the demand leads on them, and who drives.
+#[derive(Clone, Copy)]
+struct Roads<'a> {
+    network: &'a Network,
+    assignment: &'a Assignment,
+    drivers: &'a [(Style, f64)],
+    fleet: &'a Fleet,
+}
+
+impl<'a> Roads<'a> {
+    /// Who drives under a limit [m/s].
+    fn mixture(&self, limit: f64) -> Mixture<'a> {
+        Mixture::new(limit, self.drivers, self.fleet)
+    }
+
+    /// The lanelet's id at a station of a chain [m].
+    fn lanelet(&self, chain: ChainIndex, station: f64) -> i64 {
+        self.network.lanelet_at(chain, station).0.id
+    }
+
+    fn chains(&self) -> impl Iterator<Item = ChainIndex> + use<> {
+        (0..self.network.chains.len() as u32).map(ChainIndex)
+    }
+}
+
+impl Capacity {
+    /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each with its
+    /// weight.
+    ///
+    /// Lanes carry their densest stream in which all drive at one speed; lights let pass what of a standing queue drives off at
+    /// green; where ways meet without a light, each vehicle takes its time; and a town bears what its gates let in. What is not
+    /// looked at can only make it less: who gives way loses time, queues stand in each other's way.
+    pub fn new(
+        network: &Network,
+        assignment: &Assignment,
+        demand: &Demand,
+        drivers: &[(Style, f64)],
+    ) -> Capacity {
+        let roads = Roads { network, assignment, drivers, fleet: &demand.fleet };
+        let all = lanes::loads(&roads)
+            .into_iter()
+            .chain(conflict::loads(&roads))
+            .chain(town::kerb_loads(&roads, demand))
+            .chain(town::load(&roads));
+        let fullest = all.reduce(|fullest, it| if it.share > fullest.share { it } else { fullest });
+        match fullest {
+            Some(Load { share, of }) if share > 0.0 => {
+                Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
+            }
+            _ => Capacity { veh_h: 0.0, bottleneck: None },
+        }
+    }
+}
+
+/// What was computed for `key`, or is now.
+fn once<T: Copy>(known: &mut Vec<(f64, T)>, key: f64, compute: impl FnOnce() -> T) -> T {
+    if let Some((_, it)) = known.iter().find(|it| it.0 == key) {
+        return *it;
+    }
+    let new = compute();
+    known.push((key, new));
+    new
+}

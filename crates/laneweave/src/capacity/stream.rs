@@ -1,0 +1,178 @@
+//! What one lane carries: in a stream, of drivers who start from rest, and through a light.
+
+use laneweave_models::Style;
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_network::{Phase, Program};
+use laneweave_sim::{Class, Fleet, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
+
+/// Vehicles of one class with drivers of one style.
+struct Kind<'a> {
+    /// Their share of all.
+    share: f64,
+    style: &'a Style,
+    class: Class,
+    /// Desired speed [m/s].
+    desired: f64,
+}
+
+/// The vehicles on a lane under one limit, kind by kind.
+pub(super) struct Mixture<'a>(Vec<Kind<'a>>);
+
+impl<'a> Mixture<'a> {
+    /// The vehicles of `fleet` with `drivers`, each style with its weight, under `limit` [m/s].
+    pub(super) fn new(limit: f64, drivers: &'a [(Style, f64)], fleet: &Fleet) -> Mixture<'a> {
+        let total: f64 = drivers.iter().map(|(_, weight)| weight).sum();
+        let classes = fleet.shares();
+        let pairs = drivers.iter().flat_map(|driver| classes.iter().map(move |class| (driver, *class)));
+        let all = pairs.map(|((style, weight), (class, share))| Kind {
+            share: share * weight / total,
+            style,
+            class,
+            desired: class.desired_speed(style, limit),
+        });
+        Mixture(all.filter(|it| it.share > 0.0).collect())
+    }
+
+    /// The mean of something over all vehicles.
+    fn mean(&self, of: impl Fn(&Kind) -> f64) -> f64 {
+        self.0.iter().map(|it| it.share * of(it)).sum()
+    }
+
+    /// Mean of what follows from a vehicle's length [m] and desired speed [m/s].
+    pub(super) fn mean_of(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
+        self.mean(|it| of(it.class.body().length, it.desired))
+    }
+
+    /// Flow of a long queue that drives off on an empty road [veh/s]: what a lane carries for good where nobody can overtake.
+    pub(super) fn stream(&self) -> f64 {
+        const STEP_S: f64 = 0.2;
+        /// The first of a queue drive off slower.
+        const LEFT_OUT: usize = 20;
+        const COUNTED: usize = 60;
+        /// However slow they are, it does not last longer [steps].
+        const LONGEST: u32 = 100_000;
+        let mut queue = Queue::default();
+        (0..LEFT_OUT + COUNTED).for_each(|_| queue.push(self.drawn(0.0, queue.vehicles.len())));
+        let mut steps = 0_u32;
+        let mut until_passed = |count: usize| {
+            while queue.beyond_the_line() < count && steps < LONGEST {
+                queue.drive(STEP_S);
+                steps += 1;
+            }
+            f64::from(steps) * STEP_S
+        };
+        let [from, to] = [LEFT_OUT, LEFT_OUT + COUNTED].map(&mut until_passed);
+        COUNTED as f64 / (to - from)
+    }
+
+    /// Flow of those who start from rest, each as soon as the one before has left room for it on an empty road [veh/s].
+    pub(super) fn starts(&self) -> f64 {
+        let time = |it: &Kind| {
+            let free = Pace::new(0.0, it.desired);
+            let acceleration = it.style.follow.acceleration(free, None).min(it.class.strength());
+            (2.0 * (it.class.body().length + it.style.safety.min_gap) / acceleration).sqrt()
+        };
+        1.0 / self.mean(time)
+    }
+
+    /// Flow through a light with a queue before it [veh/s].
+    pub(super) fn through(&self, program: &Program) -> f64 {
+        if program.phases.is_empty() {
+            return self.stream();
+        }
+        let pass = |it: &Phase| self.pass_at_green(it.to - it.from);
+        program.phases.iter().map(pass).sum::<f64>() / program.cycle
+    }
+
+    /// How many of a standing queue pass in one green [s] and the yellow after it, on average over queues.
+    fn pass_at_green(&self, green: f64) -> f64 {
+        const QUEUES: u32 = 16;
+        let queues = (0..QUEUES).map(|it| self.queue_passes(f64::from(it) / f64::from(QUEUES), green));
+        queues.sum::<f64>() / f64::from(QUEUES)
+    }
+
+    /// The same of one queue, in which kinds follow on each other evenly from a place in their order (0 to 1) on.
+    fn queue_passes(&self, from: f64, green: f64) -> f64 {
+        const STEP_S: f64 = 0.1;
+        let mut queue = Queue::default();
+        while queue.may_reach_the_line(green) {
+            queue.push(self.drawn(from, queue.vehicles.len()));
+        }
+        for _ in 0..(green / STEP_S).round() as u32 {
+            queue.drive(STEP_S);
+        }
+        queue.passed()
+    }
+
+    /// The kind of the vehicle of this `number` in a queue in which kinds follow on each other evenly, `from` a place in their
+    /// order (0 to 1) on.
+    fn drawn(&self, from: f64, number: usize) -> &Kind<'a> {
+        let mut at = (from + number as f64 * GOLDEN_RATIO).fract();
+        let chosen = self.0.iter().position(|it| {
+            at -= it.share;
+            at < 0.0
+        });
+        &self.0[chosen.unwrap_or(self.0.len() - 1)]
+    }
+}
+
+/// Its multiples spread evenly over the unit interval.
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
+
+/// A queue that starts from rest before a line.
+#[derive(Default)]
+struct Queue<'a> {
+    vehicles: Vec<Queued<'a>>,
+}
+
+struct Queued<'a> {
+    kind: &'a Kind<'a>,
+    /// Front beyond the line [m].
+    x: f64,
+    speed: f64,
+}
+
+impl<'a> Queue<'a> {
+    /// Where the front of the next one is [m].
+    fn next(&self) -> f64 {
+        self.vehicles.last().map_or(-STANDS_BEFORE_A_LINE, |Queued { kind, x, .. }| {
+            let standing = Pace::new(0.0, kind.desired);
+            x - kind.class.body().length - kind.style.follow.equilibrium_gap(standing)
+        })
+    }
+
+    fn push(&mut self, kind: &'a Kind<'a>) {
+        self.vehicles.push(Queued { kind, x: self.next(), speed: 0.0 });
+    }
+
+    /// Whether one more might reach the line at all in this time [s].
+    fn may_reach_the_line(&self, time: f64) -> bool {
+        /// Nobody is faster from rest [m/s²], and nobody follows closer [s].
+        const ACCELERATION: f64 = 5.0;
+        const HEADWAY: f64 = 0.5;
+        -self.next() < 0.5 * ACCELERATION * time * time && (self.vehicles.len() as f64) < time / HEADWAY + 2.0
+    }
+
+    fn drive(&mut self, dt: f64) {
+        let mut leader: Option<(f64, f64)> = None;
+        for Queued { kind, x, speed } in &mut self.vehicles {
+            let ahead = leader.map(|(rear, speed)| Ahead { gap: rear - *x, speed });
+            leader = Some((*x - kind.class.body().length, *speed));
+            let pace = Pace::new(*speed, kind.desired);
+            let acceleration = kind.style.follow.acceleration(pace, ahead).min(kind.class.strength());
+            let after = (*speed + acceleration * dt).max(0.0);
+            *x += 0.5 * (*speed + after) * dt;
+            *speed = after;
+        }
+    }
+
+    fn beyond_the_line(&self) -> usize {
+        self.vehicles.iter().filter(|it| it.x > 0.0).count()
+    }
+
+    /// Those who are beyond the line, or too near and too fast to stop before it.
+    fn passed(&self) -> f64 {
+        let goes = |it: &&Queued| it.x > 0.0 || it.speed * it.speed > 2.0 * STOPS_AT_YELLOW * -it.x;
+        self.vehicles.iter().filter(goes).count() as f64
+    }
+}

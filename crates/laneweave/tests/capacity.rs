@@ -1,0 +1,139 @@
+//! What maps bear, and that it is true: just below it hardly anybody waits, above it about as many enter.
+
+use laneweave::maps::generate::{Control, Grid, Motorway, grid, motorway};
+use laneweave::maps::{Drawing, regulations};
+use laneweave::models::Style;
+use laneweave::network::Network;
+use laneweave::sim::{Assignment, Demand, Navigator, Rate, Setup, Share, World};
+use laneweave::style::Population;
+use laneweave::{Bottleneck, Capacity};
+
+const TRUCKS: f64 = 0.1;
+
+fn network(drawing: &Drawing) -> Network {
+    let map = drawing.build().expect("a map");
+    let rules = regulations(&map);
+    map.network.regulated(&rules)
+}
+
+fn road(lanes: usize, plan: Motorway) -> Network {
+    network(&motorway(&Motorway { lanes, length_m: 3000.0, ..plan }).expect("a road"))
+}
+
+fn cross(control: Control) -> Network {
+    network(&grid(&Grid { rows: 1, columns: 1, control, ..Grid::default() }).expect("a junction"))
+}
+
+/// Typical drivers of each usual style, with their weights, and the usual population.
+fn usual() -> (Vec<(Style, f64)>, Vec<Style>, Vec<Share>) {
+    let Population { characters, shares } = Population::usual(1).expect("built-in styles");
+    let typical = shares.iter().map(|it| (characters[it.first as usize].clone(), it.weight)).collect();
+    (typical, characters, shares)
+}
+
+/// What `network` bears of a demand that `skew` changes.
+fn capacity(network: &Network, skew: impl Fn(&mut Demand)) -> Capacity {
+    let (typical, _, shares) = usual();
+    let mut demand = Demand::even(network, 1000.0, TRUCKS, shares);
+    skew(&mut demand);
+    let navigator = Navigator::towards(network, &demand.destinations);
+    let assignment = Assignment::new(network, &navigator, &demand, [0.0, 1.0]);
+    Capacity::new(network, &assignment, &demand, &typical)
+}
+
+/// Lets only the origins with these places in the list have drivers, and only the destinations of theirs.
+fn only(demand: &mut Demand, [origins, destinations]: [&[usize]; 2]) {
+    for (number, origin) in demand.origins.iter_mut().enumerate() {
+        let comes = origins.contains(&number);
+        origin.rate = Rate::constant(if comes { 500.0 } else { 0.0 });
+        let weights = origin.weights.iter_mut().enumerate();
+        weights.for_each(|(to, weight)| *weight = f64::from(u8::from(destinations.contains(&to))));
+    }
+}
+
+#[test]
+fn lanes_bear_as_much_as_there_are_of_them_where_fewest_are_left() {
+    let plain = |lanes| capacity(&road(lanes, Motorway::default()), |_| ()).veh_h;
+    let lane = plain(1);
+    assert!((1700.0..2000.0).contains(&lane), "{lane} veh/h");
+    assert!((plain(4) / lane - 4.0).abs() < 1e-9);
+    let drop = capacity(&road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() }), |_| ());
+    assert!((drop.veh_h / lane - 2.0).abs() < 1e-9, "{drop:?}");
+    let ramp = capacity(&road(2, Motorway { on_ramp_at: vec![1000.0], ..Motorway::default() }), |_| ());
+    assert!((ramp.veh_h / lane - 2.0).abs() < 1e-9, "{ramp:?}");
+}
+
+#[test]
+fn the_more_leave_over_a_ramp_the_sooner_it_is_full() {
+    let network = road(3, Motorway { off_ramp_at: vec![2000.0], ..Motorway::default() });
+    let leaving = |share: f64| {
+        let to_the_ramp = |demand: &mut Demand| {
+            let is_ramp = |to: usize| demand.destinations[to].chains().len() == 1;
+            let weights: Vec<f64> = (0..2).map(|to| if is_ramp(to) { share } else { 1.0 - share }).collect();
+            demand.origins[0].weights = weights;
+        };
+        capacity(&network, to_the_ramp)
+    };
+    let [some, half, all] = [0.1, 0.5, 1.0].map(leaving);
+    assert!((some.veh_h - capacity(&road(3, Motorway::default()), |_| ()).veh_h).abs() < 1e-6, "{some:?}");
+    assert!((half.veh_h / all.veh_h - 2.0).abs() < 1e-9, "{half:?} {all:?}");
+    assert_ne!(some.bottleneck, all.bottleneck);
+}
+
+#[test]
+fn a_light_bears_what_of_a_queue_drives_off_at_green() {
+    let network = cross(Control::Signals);
+    let even = capacity(&network, |_| ());
+    assert!(matches!(even.bottleneck, Some(Bottleneck::Light { .. })), "{even:?}");
+    // Each arm has its turn of some ten seconds a minute.
+    let green: f64 = network.junctions.lights.iter().map(|it| it.program.green_share()).sum::<f64>()
+        / network.junctions.lights.len() as f64;
+    let lanes: usize = network.entrances.iter().map(|it| it.chains.len()).sum();
+    let at_green = even.veh_h / (lanes as f64 * green);
+    assert!((800.0..1800.0).contains(&at_green), "{at_green} veh/h of green and lane");
+    // All from one arm have its green alone.
+    let one = capacity(&network, |it| only(it, [&[0], &[0, 1, 2, 3]]));
+    assert!(one.veh_h < 0.5 * even.veh_h, "{one:?} {even:?}");
+}
+
+#[test]
+fn who_crosses_takes_the_time_of_others_and_who_does_not_takes_none() {
+    let network = cross(Control::RightBeforeLeft);
+    let from = |origins: &[usize]| capacity(&network, |it| only(it, [origins, &[0, 1, 2, 3]]));
+    let alone: Vec<f64> = (0..4).map(|it| from(&[it]).veh_h).collect();
+    let all = from(&[0, 1, 2, 3]);
+    assert!(matches!(all.bottleneck, Some(Bottleneck::Junction(_))), "{all:?}");
+    // Four arms bear more than one, but by far not four times as much.
+    assert!(all.veh_h > alone[0] && all.veh_h < 2.0 * alone[0], "{all:?} {alone:?}");
+    assert!(alone.iter().all(|it| (it / alone[0] - 1.0).abs() < 0.02), "{alone:?}");
+}
+
+/// Vehicles per hour that enter in a quarter of an hour when `load` times what `network` bears comes, and those that wait then.
+fn driven(network: &Network, load: f64) -> (f64, usize) {
+    const STEP_S: f64 = 0.1;
+    const DURATION_S: f64 = 900.0;
+    let demanded = load * capacity(network, |_| ()).veh_h;
+    let (_, characters, shares) = usual();
+    let demand = Demand::even(network, demanded, TRUCKS, shares);
+    let setup = Setup { step: STEP_S, seed: 5, threads: 1 };
+    let mut world = World::new(network.clone(), characters, demand, setup).expect("the set-up makes sense");
+    (0..(DURATION_S / STEP_S) as u32).for_each(|_| world.step());
+    (world.counts().entered as f64 * 3600.0 / DURATION_S, world.waiting())
+}
+
+#[test]
+fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_enter() {
+    let networks = [
+        ("two lanes", road(2, Motorway::default())),
+        ("a lane drop", road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() })),
+        ("an off-ramp", road(3, Motorway { off_ramp_at: vec![2000.0], ..Motorway::default() })),
+        ("lights", cross(Control::Signals)),
+    ];
+    for (what, network) in networks {
+        let bears = capacity(&network, |_| ()).veh_h;
+        let (below, waiting) = driven(&network, 0.75);
+        assert!(waiting < 8, "{what}: {waiting} wait, {below} of {bears} veh/h entered");
+        let (above, _) = driven(&network, 1.4);
+        assert!(above > 0.9 * bears, "{what}: {above} of {bears} veh/h entered");
+    }
+}
