@@ -7,7 +7,7 @@
 //! somebody can always go on: no standoff within a junction.
 //!
 //! Who gives way to whom before that is up to drivers: lights and signs, the lag to those who go first
-//! (`laneweave_models::yielding`), then who waits longest.
+//! (`laneweave_models::yielding`), then who waits longest; nobody need wait for who could not go yet anyway.
 
 mod conditions;
 mod heed;
@@ -17,6 +17,7 @@ mod passages;
 mod refuge;
 mod rings;
 mod survey;
+mod turns;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
 pub(crate) use heed::{Junction, lets_go, look, sight};
@@ -25,3 +26,4 @@ pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
 pub(crate) use refuge::Refuge;
 pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, refuges, stop_ahead, survey};
+pub(crate) use turns::{Turn, turns};

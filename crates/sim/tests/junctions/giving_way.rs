@@ -124,6 +124,30 @@ fn at_an_all_way_stop_everybody_stops_and_they_go_in_the_order_of_arrival() {
 }
 
 #[test]
+fn at_an_all_way_stop_those_from_opposite_sides_go_together_though_another_from_aside_came_between() {
+    let mut world = empty(network("all_way_stop.osm"), vec![drivers::conservative()]);
+    let comers = [Arm::North, Arm::West, Arm::South].into_iter().zip([25.0, 26.0, 27.0]);
+    let [north, west, south] = comers
+        .map(|(from, distance)| {
+            let comer = Comer { from, to: from.turned(2), distance, speed: 8.0, character: 0 };
+            (put(&mut world, comer), lane_from(world.network(), from))
+        })
+        .collect::<Vec<_>>()[..]
+    else {
+        panic!("three came")
+    };
+    let mut gone = Vec::new();
+    run_until(&mut world, 60.0, |world| {
+        let new = [north, west, south].into_iter().filter(|it| has_gone(world, it.0, it.1));
+        let new: Vec<_> = new.filter(|it| !gone.contains(it)).collect();
+        gone.extend(new);
+        gone.len() == 3
+    });
+    assert_eq!(gone, [north, south, west]);
+    assert_sound(&world);
+}
+
+#[test]
 fn four_who_come_from_four_sides_at_once_all_get_through_within_30_s() {
     for name in ["right_before_left.osm", "all_way_stop.osm", "priority.osm", "roundabout.osm"] {
         // To the right, straight on, to the left.
