@@ -1,6 +1,6 @@
 //! When those who wait can have their turn. Who is out of a zone before another who claims it could be there takes nothing from it,
 //! and need not wait for it: so those who come from opposite sides go together, and a junction is used while who has waited longest
-//! is held up elsewhere in it.
+//! is held up elsewhere in it. Estimates err, and many small delays add up; so nobody goes before who is out of patience.
 
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
@@ -43,10 +43,11 @@ pub(crate) fn turns(
     })
 }
 
-/// Whether the driver at `spot`, if it goes now, is out of a zone before it would be in the way of who has its `turn` there.
+/// Whether the driver at `spot`, if it goes now, is out of a zone before it would be in the way of who has its `turn` there, and
+/// is patient.
 pub(super) fn is_out_before(scene: &Scene, spot: Spot, hold: &Hold, turn: &Turn) -> bool {
     let length = f64::from(scene.motion(spot).length);
-    time_to(scene, spot, departure(scene, hold, length)) <= turn.begins + COURTESY
+    turn.claim.is_patient && time_to(scene, spot, departure(scene, hold, length)) <= turn.begins + COURTESY
 }
 
 /// Whether `other` will be out of the crossing by the time that the driver at `spot` gets there.
