@@ -5,7 +5,7 @@ use laneweave_network::{ChainIndex, LightIndex, ZoneKind};
 
 use crate::clock::Clock;
 use crate::junction::{
-    Asking, Claim, Hindrance, Hold, Survey, are_led_on, lets_go, may_pass, refuges, sight, survey,
+    Asking, Claim, Hindrance, Hold, Survey, are_led_on, lets_go, may_pass, refuges, sight, survey, turns,
 };
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
@@ -41,8 +41,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 what: Plea::Pass,
             }),
             Err(Hindrance::Others) => {
-                let claims = outbox.survey.holds.iter().map(|it| (it.zone, it.side, asking.claim));
-                outbox.claims.extend(claims);
+                outbox.claims.extend(turns(scene, spot, &outbox.survey.holds, asking.claim));
             }
             Err(hindrance @ (Hindrance::Room | Hindrance::Ring)) => {
                 if !asking.claim.is_patient {
@@ -106,7 +105,7 @@ impl World {
         let mut appeals = std::mem::take(&mut self.outboxes[0].appeals);
         let mut claims = std::mem::take(&mut self.outboxes[0].claims);
         self.passages.clear_claims();
-        claims.drain(..).for_each(|(zone, side, claim)| self.passages.note_claim(zone, side, claim));
+        claims.drain(..).for_each(|(zone, side, turn)| self.passages.note_claim(zone, side, turn));
         let rings = self.outboxes[0].rings.drain(..);
         rings.for_each(|(way, claim)| self.passages.rings.note_claim(way, claim));
         let wants = self.outboxes[0].wants.drain(..);

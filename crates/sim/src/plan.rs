@@ -3,7 +3,7 @@
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side, ZoneIndex};
 
-use crate::junction::{Claim, Refuge, Survey};
+use crate::junction::{Claim, Refuge, Survey, Turn};
 use crate::navigate::Destination;
 use crate::tally::Tally;
 use crate::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
@@ -73,8 +73,8 @@ pub(crate) struct Outbox {
     pub(crate) appeals: Vec<Appeal>,
     /// Drivers who stand because there is no room for them beyond a junction.
     pub(crate) blocked: Vec<Appeal>,
-    /// Who waits for which side of a zone because of others.
-    pub(crate) claims: Vec<(ZoneIndex, u8, Claim)>,
+    /// Turns of those who wait for a side of a zone because of others.
+    pub(crate) claims: Vec<(ZoneIndex, u8, Turn)>,
     /// Drivers out of patience who wait for so much room on a refuge [m].
     pub(crate) wants: Vec<(Refuge, Claim, f64)>,
     /// Drivers out of patience who wait for a ring to take them in, each between two chains.

@@ -8,6 +8,7 @@ use super::heed::{LONG, leader_into, lets_go};
 use super::oncoming::lag;
 use super::passages::{Claim, Hold, Passage};
 use super::survey::Survey;
+use super::turns::{Turn, clears, is_out_before, shares_ground};
 use crate::clock::Clock;
 use crate::scene::{Scene, Spot};
 
@@ -31,9 +32,6 @@ const CLOSES_UP: f64 = 0.5;
 /// Standstill at a stop sign [m/s], and how near to the line [m].
 const STOPPED: f64 = 0.3;
 const AT_THE_LINE: f64 = 4.0;
-/// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
-/// while it clears.
-const APPROACHES: f64 = 1.5;
 /// Room that who gives way leaves for one who goes first [m] (ours); a ring has room for others anyway.
 const ROOM_FOR_ANOTHER: f64 = 7.0;
 /// Who comes from the side that does not go first has waited for this long before it takes its turn [s] (ours): so ends
@@ -104,9 +102,12 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
 fn may_hold(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let other_side = 1 - hold.side;
-    let matters = |is_long: bool| zone.kind != ZoneKind::Tight || asking.claim.is_long || is_long;
-    let claim = scene.passages.claim(hold.zone, other_side).filter(|it| matters(it.is_long));
-    if claim.is_some_and(|it| goes_first(zone.precedence, other_side, it, asking)) {
+    let matters = |is_long: bool| shares_ground(zone.kind, [asking.claim.is_long, is_long]);
+    let turn = scene.passages.claim(hold.zone, other_side).filter(|it| matters(it.claim.is_long));
+    let waits_for = |it: &Turn| {
+        goes_first(zone.precedence, other_side, it.claim, asking) && !is_out_before(scene, spot, hold, it)
+    };
+    if turn.is_some_and(|it| waits_for(&it)) {
         return false;
     }
     let mut others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
@@ -141,14 +142,6 @@ fn follows(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage, dt: f64) -> 
     let Some(ahead) = leader_into(hold.leave, hold, other) else { return true };
     let least = scene.characters[car.character as usize].safety.min_gap;
     ahead.gap >= least && is_secure(motion.speed, ahead, dt)
-}
-
-/// Whether `other` will be out of the crossing by the time that one gets there.
-fn clears(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage) -> bool {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let Some(theirs) = other.holds.iter().find(|it| it.zone == hold.zone) else { return true };
-    let theirs = time_to_cover(theirs.leave - other.travelled, other.speed, other.desired);
-    theirs <= time_to_cover(hold.enter, motion.speed, f64::from(car.desired)) + APPROACHES
 }
 
 /// Whether those who go first on the other side are far enough.

@@ -107,7 +107,7 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
 
 /// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it.
 pub(super) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
-    let theirs = other.holds.iter().find(|it| it.zone == hold.zone && it.side != hold.side)?;
+    let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead { gap, speed: other.speed })
 }

@@ -7,7 +7,7 @@
 //! somebody can always go on: no standoff within a junction.
 //!
 //! Who gives way to whom before that is up to drivers: lights and signs, the lag to those who go first
-//! (`laneweave_models::yielding`), then who waits longest.
+//! (`laneweave_models::yielding`), then who waits longest; nobody need wait for who could not go yet anyway.
 
 mod conditions;
 mod heed;
@@ -17,6 +17,7 @@ mod passages;
 mod refuge;
 mod rings;
 mod survey;
+mod turns;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
 pub use heed::STOPS_AT_YELLOW;
@@ -27,3 +28,4 @@ pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
 pub(crate) use refuge::Refuge;
 pub use survey::STANDS_BEFORE_A_LINE;
 pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, refuges, stop_ahead, survey};
+pub(crate) use turns::{Turn, turns};

@@ -5,6 +5,7 @@ use laneweave_network::{LightIndex, Network, ZoneIndex};
 use super::refuge::{Numbers, Refuge};
 use super::rings::Rings;
 use super::survey::Survey;
+use super::turns::Turn;
 use crate::traffic::VehicleId;
 
 /// A vehicle has no passage.
@@ -17,8 +18,8 @@ pub struct Passages {
     free: Vec<u32>,
     /// For each zone those who may pass it, in the order in which they do.
     queues: Vec<Vec<Holder>>,
-    /// For each zone and side who has waited longest for it.
-    claims: Vec<[Option<Claim>; 2]>,
+    /// For each zone and side the turn of who has waited longest for it.
+    claims: Vec<[Option<Turn>; 2]>,
     claimed: Vec<ZoneIndex>,
     numbers: Numbers,
     /// For each refuge who out of patience has waited longest for room on it, and how much it needs [m].
@@ -119,8 +120,8 @@ impl Passages {
         holders.iter().map(|it| (it, &self.given[it.slot as usize]))
     }
 
-    /// Who has waited longest on `side` of `zone`.
-    pub(crate) fn claim(&self, zone: ZoneIndex, side: u8) -> Option<Claim> {
+    /// The turn of who has waited longest on `side` of `zone`.
+    pub(crate) fn claim(&self, zone: ZoneIndex, side: u8) -> Option<Turn> {
         self.claims.get(zone.at()).and_then(|it| it[usize::from(side)])
     }
 
@@ -140,14 +141,14 @@ impl Passages {
         }
     }
 
-    /// Notes who waits for a side of a zone.
-    pub(crate) fn note_claim(&mut self, zone: ZoneIndex, side: u8, claim: Claim) {
+    /// Notes the turn of who waits for a side of a zone.
+    pub(crate) fn note_claim(&mut self, zone: ZoneIndex, side: u8, turn: Turn) {
         let noted = &mut self.claims[zone.at()];
         if noted.iter().all(Option::is_none) {
             self.claimed.push(zone);
         }
         let own = &mut noted[usize::from(side)];
-        *own = Some(own.map_or(claim, |it| it.min(claim)));
+        *own = own.filter(|first| first.claim < turn.claim).or(Some(turn));
     }
 
     /// Notes who waits for `needed` [m] of room on a refuge.
@@ -277,6 +278,11 @@ impl Passage {
         self.extent - self.travelled
     }
 
+    /// What it holds of the zone on the other side of `hold`.
+    pub(super) fn across(&self, hold: &Hold) -> Option<&Hold> {
+        self.holds.iter().find(|it| it.zone == hold.zone && it.side != hold.side)
+    }
+
     /// The lights that it passes, with the distances to where their drivers stop [m].
     pub(crate) fn lights(&self) -> impl Iterator<Item = (LightIndex, f64)> {
         self.lights.iter().map(|(light, at)| (*light, at - self.travelled))
@@ -400,14 +406,15 @@ mod tests {
     #[test]
     fn of_those_who_wait_on_one_side_the_impatient_then_the_longest_waiting_claims_the_turn() {
         let claim = |is_patient, since, id| Claim { is_patient, since, id, is_long: false };
+        let turn = |claim| Turn { claim, begins: 2.0 };
         let mut passages = of_one_zone();
         for it in [claim(true, 20, 1), claim(true, 10, 3), claim(true, 10, 2), claim(true, 30, 0)] {
-            passages.note_claim(ZONE, 0, it);
+            passages.note_claim(ZONE, 0, turn(it));
         }
-        assert_eq!(passages.claim(ZONE, 0), Some(claim(true, 10, 2)));
+        assert_eq!(passages.claim(ZONE, 0), Some(turn(claim(true, 10, 2))));
         assert_eq!(passages.claim(ZONE, 1), None);
-        passages.note_claim(ZONE, 0, claim(false, 40, 9));
-        assert_eq!(passages.claim(ZONE, 0), Some(claim(false, 40, 9)));
+        passages.note_claim(ZONE, 0, turn(claim(false, 40, 9)));
+        assert_eq!(passages.claim(ZONE, 0), Some(turn(claim(false, 40, 9))));
         passages.clear_claims();
         assert_eq!(passages.claim(ZONE, 0), None);
     }

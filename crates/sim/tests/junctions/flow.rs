@@ -46,6 +46,19 @@ fn a_roundabout_to_which_far_more_come_than_it_can_take_keeps_turning() {
 }
 
 #[test]
+fn a_junction_without_lights_to_which_far_more_come_than_it_can_take_lets_many_through() {
+    for (name, least) in [("right_before_left.osm", 1200), ("all_way_stop.osm", 1350)] {
+        let mut world = crowded(name);
+        (0..10 * 600).for_each(|_| world.step());
+        let before = world.counts().left;
+        (0..15 * 600).for_each(|_| world.step());
+        assert_sound(&world);
+        let an_hour = 4 * (world.counts().left - before);
+        assert!(an_hour > least, "{name}: {an_hour} an hour");
+    }
+}
+
+#[test]
 fn a_full_town_keeps_moving_and_its_queue_stands_at_its_edge() {
     const QUARTERS: u32 = 3;
     let mut world = crowded("town.osm");

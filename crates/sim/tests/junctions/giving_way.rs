@@ -123,6 +123,37 @@ fn at_an_all_way_stop_everybody_stops_and_they_go_in_the_order_of_arrival() {
     }
 }
 
+/// The order in which three drivers of so much patience [s] go who come one after the other, from the north, west and south.
+fn order_at_an_all_way_stop(patience: f64) -> Vec<Arm> {
+    let yielding = Yielding { patience, ..Yielding::default() };
+    let style = Style { yielding, ..drivers::conservative() };
+    let mut world = empty(network("all_way_stop.osm"), vec![style]);
+    let arms = [Arm::North, Arm::West, Arm::South].into_iter().zip([25.0, 26.0, 27.0]);
+    let comers: Vec<(Arm, VehicleId, ChainIndex)> = arms
+        .map(|(from, distance)| {
+            let comer = Comer { from, to: from.turned(2), distance, speed: 8.0, character: 0 };
+            (from, put(&mut world, comer), lane_from(world.network(), from))
+        })
+        .collect();
+    let mut gone = Vec::new();
+    run_until(&mut world, 60.0, |world| {
+        for (from, id, lane) in &comers {
+            if !gone.contains(from) && has_gone(world, *id, *lane) {
+                gone.push(*from);
+            }
+        }
+        gone.len() == 3
+    });
+    assert_sound(&world);
+    gone
+}
+
+#[test]
+fn those_from_opposite_sides_go_together_though_another_from_aside_came_between_but_for_its_patience() {
+    assert_eq!(order_at_an_all_way_stop(45.0), [Arm::North, Arm::South, Arm::West]);
+    assert_eq!(order_at_an_all_way_stop(0.1), [Arm::North, Arm::West, Arm::South]);
+}
+
 #[test]
 fn four_who_come_from_four_sides_at_once_all_get_through_within_30_s() {
     for name in ["right_before_left.osm", "all_way_stop.osm", "priority.osm", "roundabout.osm"] {

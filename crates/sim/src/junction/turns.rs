@@ -1,0 +1,97 @@
+//! When those who wait can have their turn. Who is out of a zone before another who claims it could be there takes nothing from it,
+//! and need not wait for it: so those who come from opposite sides go together, and a junction is used while who has waited longest
+//! is held up elsewhere in it. Estimates err, and many small delays add up; so nobody goes before who is out of patience.
+
+use laneweave_models::yielding::time_to_cover;
+use laneweave_network::{ZoneIndex, ZoneKind};
+
+use super::heed::LONG;
+use super::passages::{Claim, Hold, Passage};
+use super::survey::SPARE_ROOM;
+use crate::scene::{Scene, Spot};
+
+/// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
+/// while it clears.
+const APPROACHES: f64 = 1.5;
+/// Who has its turn lets another go who is out of its way so soon after it could be there itself [s] (ours).
+const COURTESY: f64 = 1.0;
+
+/// The turn that somebody who waits claims on a side of a zone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turn {
+    pub(crate) claim: Claim,
+    /// Time until it can be there: those who have passages hold it up, and it has to drive there [s].
+    pub(crate) begins: f64,
+}
+
+/// Whether two vehicles of which some `are_long` are in each other's way in a zone.
+pub(super) fn shares_ground(kind: ZoneKind, are_long: [bool; 2]) -> bool {
+    kind != ZoneKind::Tight || are_long.contains(&true)
+}
+
+/// The turns that the driver at `spot` claims on all zones that it `holds` with its passage.
+pub(crate) fn turns(
+    scene: &Scene,
+    spot: Spot,
+    holds: &[Hold],
+    claim: Claim,
+) -> impl Iterator<Item = (ZoneIndex, u8, Turn)> {
+    let held_up = holds.iter().map(|it| held_up(scene, spot, it, claim)).fold(0.0, f64::max);
+    holds.iter().map(move |it| {
+        let begins = held_up + arrival(scene, spot, it);
+        (it.zone, it.side, Turn { claim, begins })
+    })
+}
+
+/// Whether the driver at `spot`, if it goes now, is out of a zone before it would be in the way of who has its `turn` there, and
+/// is patient.
+pub(super) fn is_out_before(scene: &Scene, spot: Spot, hold: &Hold, turn: &Turn) -> bool {
+    let length = f64::from(scene.motion(spot).length);
+    turn.claim.is_patient && time_to(scene, spot, departure(scene, hold, length)) <= turn.begins + COURTESY
+}
+
+/// Whether `other` will be out of the crossing by the time that the driver at `spot` gets there.
+pub(super) fn clears(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage) -> bool {
+    clearance(scene, hold, other) <= arrival(scene, spot, hold)
+}
+
+/// How much later than now those who have passages let the driver at `spot` begin its way to a zone [s].
+fn held_up(scene: &Scene, spot: Spot, hold: &Hold, claim: Claim) -> f64 {
+    let kind = scene.network.junctions.zones[hold.zone.at()].kind;
+    let others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+    let matters = |other: &Passage| shares_ground(kind, [claim.is_long, other.length >= LONG]);
+    let clearances = others.filter(|(_, it)| matters(it)).map(|(_, it)| clearance(scene, hold, it));
+    clearances.fold(0.0, f64::max) - arrival(scene, spot, hold)
+}
+
+/// Time until the driver at `spot` can be in a zone, and others have to be out of it [s].
+fn arrival(scene: &Scene, spot: Spot, hold: &Hold) -> f64 {
+    if is_merge(scene, hold) {
+        time_to(scene, spot, hold.leave)
+    } else {
+        time_to(scene, spot, hold.enter) + APPROACHES
+    }
+}
+
+/// Time until `other` is out of the way of who would hold the other side of a zone [s].
+fn clearance(scene: &Scene, hold: &Hold, other: &Passage) -> f64 {
+    other.across(hold).map_or(0.0, |it| {
+        let distance = departure(scene, it, other.length) - other.travelled;
+        time_to_cover(distance, other.speed, other.desired)
+    })
+}
+
+/// Where the front of a vehicle is when others can go through the zone, or follow it into the merge [m].
+fn departure(scene: &Scene, hold: &Hold, length: f64) -> f64 {
+    if is_merge(scene, hold) { hold.leave + length + SPARE_ROOM } else { hold.leave }
+}
+
+fn is_merge(scene: &Scene, hold: &Hold) -> bool {
+    matches!(scene.network.junctions.zones[hold.zone.at()].kind, ZoneKind::Merging(_))
+}
+
+/// Time until the front of the vehicle at `spot` is `distance` ahead [s].
+fn time_to(scene: &Scene, spot: Spot, distance: f64) -> f64 {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    time_to_cover(distance, motion.speed, f64::from(car.desired))
+}
