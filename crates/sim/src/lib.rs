@@ -61,7 +61,7 @@ pub use demand::{Demand, Origin, Share};
 pub use effort::Effort;
 pub use events::{Event, LaneChange};
 pub use headways::{HeadwayError, Headways};
-pub use junction::{Passages, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
+pub use junction::{Passages, STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE, STOPS_AT_YELLOW};
 pub use metering::Metering;
 pub use navigate::{Destination, Goal, Navigator};
 pub use normal::quantile as normal_quantile;

@@ -2,7 +2,7 @@
 
 use crate::appeal::surveyed;
 use crate::clock::Clock;
-use crate::junction::{Asking, Hindrance, Survey, may_pass};
+use crate::junction::{Asking, Hindrance, Survey, look, may_pass};
 use crate::scene::{Scene, Spot};
 
 /// Standstill below this speed [m/s].
@@ -18,19 +18,24 @@ enum Blocker {
     Vehicle(Spot),
     /// A light that was green not long ago.
     Light,
+    /// Nothing any more: it is about to drive off.
+    Nothing,
     /// Something else.
     Other,
 }
 
-/// Whether the vehicle at `at`, which has stood for long, is stuck: it is not if the head of those who block it moves, or waits
-/// at a red light that was green not long ago. Those who wait for each other are stuck, all of them.
+/// Whether the vehicle at `spot`, which has stood for long, is stuck: it is not if the head of those who block it moves, is about
+/// to, or waits at a red light that was green not long ago. Those who wait for each other are stuck, all of them.
 #[inline(never)]
-pub(crate) fn is_stuck(scene: &Scene, mut at: Spot, clock: Clock, survey: &mut Survey) -> bool {
+pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
+    let mut at = spot;
     for _ in 0..LONGEST {
         match blocker(scene, at, clock, survey) {
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
             Blocker::Vehicle(next) => at = next,
             Blocker::Light => return false,
+            // Who is itself about to drive off has stood for no reason of another.
+            Blocker::Nothing => return at == spot,
             Blocker::Other => return true,
         }
     }
@@ -39,7 +44,12 @@ pub(crate) fn is_stuck(scene: &Scene, mut at: Spot, clock: Clock, survey: &mut S
 
 fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocker {
     let from = scene.viewpoint(at);
-    let on_way = || scene.leader_spot(from).map_or(Blocker::Other, Blocker::Vehicle);
+    let is_let_go = || scene.passage(at).is_some_and(|it| it.left() > 0.0) && look(scene, at).stop.is_none();
+    let on_way = || match scene.leader_spot(from) {
+        Some(leader) => Blocker::Vehicle(leader),
+        None if is_let_go() => Blocker::Nothing,
+        None => Blocker::Other,
+    };
     // It waits behind another, or for one who goes before it into a merge, or it is itself the head.
     let is_head = surveyed(scene, at, survey) && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
     if !is_head {
@@ -52,6 +62,7 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
             let was_green = survey.lights.iter().all(|(it, _)| since(*it) <= RECENTLY);
             if was_green { Blocker::Light } else { Blocker::Other }
         }
-        Ok(()) | Err(Hindrance::Sign | Hindrance::Others) => Blocker::Other,
+        Ok(()) => Blocker::Nothing,
+        Err(Hindrance::Sign | Hindrance::Others) => Blocker::Other,
     }
 }

@@ -6,6 +6,7 @@
 
 mod conflict;
 mod lanes;
+mod movement;
 mod stream;
 mod town;
 

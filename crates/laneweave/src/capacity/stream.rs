@@ -43,6 +43,11 @@ impl<'a> Mixture<'a> {
         self.mean(|it| of(it.class.body().length, it.desired))
     }
 
+    /// Mean critical gap of the drivers [s].
+    pub(super) fn critical_gap(&self) -> f64 {
+        self.mean(|it| it.style.yielding.critical_gap)
+    }
+
     /// Flow of a long queue that drives off on an empty road [veh/s]: what a lane carries for good where nobody can overtake.
     pub(super) fn stream(&self) -> f64 {
         const STEP_S: f64 = 0.2;

@@ -11,6 +11,8 @@ use crate::scene::{Scene, Spot, Viewpoint};
 
 /// How far before a zone a vehicle stops [m] (ours).
 pub(super) const BEFORE_A_ZONE: f64 = 1.0;
+/// How far before a zone the first of a queue stands [m].
+pub const STANDS_BEFORE_A_ZONE: f64 = BEFORE_A_ZONE + ROOM_AT_A_STOP;
 /// How far before a line it stops [m] (ours).
 const BEFORE_A_LINE: f64 = 0.3;
 /// How far before a line the first of a queue stands [m].

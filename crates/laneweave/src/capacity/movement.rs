@@ -1,0 +1,159 @@
+//! The ways through junctions without lights, and the time that they take.
+
+use std::collections::BTreeMap;
+
+use laneweave_models::yielding::{MARGIN, time_to_cover};
+use laneweave_network::{ChainIndex, Precedence, ZoneKind};
+use laneweave_sim::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
+
+use super::{Roads, once};
+
+/// A way through a junction.
+pub(super) struct Movement {
+    pub(super) chain: ChainIndex,
+    /// Where its first zone begins, and its last one ends [m].
+    pub(super) start: f64,
+    end: f64,
+    /// Its zones, each with its side of it.
+    zones: Vec<(usize, usize)>,
+    /// Those that get in its way.
+    pub(super) rivals: Vec<usize>,
+    /// Its vehicles [veh/s].
+    pub(super) flow: f64,
+    /// Those that go before it [veh/s].
+    pub(super) before: f64,
+    /// Gap in them that each takes [s].
+    pub(super) gap: f64,
+    /// Time between two that go one after the other [s].
+    pub(super) follow_up: f64,
+    /// Time for which each keeps others away [s].
+    time: f64,
+}
+
+impl Movement {
+    /// Of all the time, what its vehicles take.
+    pub(super) fn share(&self) -> f64 {
+        self.flow * self.time
+    }
+}
+
+/// What is the same for all under a limit.
+#[derive(Clone, Copy)]
+struct Pace {
+    /// Headway of a stream, and of those who start from rest [s].
+    headway: f64,
+    start: f64,
+}
+
+/// All movements through zones that no lights guard, those that take most of the time first.
+pub(super) fn movements(roads: &Roads) -> Vec<Movement> {
+    let mut all = in_order_of_chains(roads);
+    let mut paces: Vec<(f64, Pace)> = Vec::new();
+    for movement in &mut all {
+        let limit = roads.network.chain(movement.chain).limit(movement.start);
+        let pace = once(&mut paces, limit, || {
+            let mixture = roads.mixture(limit);
+            Pace { headway: 1.0 / mixture.stream(), start: 1.0 / mixture.starts() }
+        });
+        take_time(roads, pace, movement);
+    }
+    all.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    meet(roads, &mut all);
+    all
+}
+
+fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
+    /// Zones further apart are of different junctions [m].
+    const APART: f64 = 25.0;
+    let junctions = &roads.network.junctions;
+    let is_lit = junctions.lit_sides(roads.network);
+    let mut all: Vec<Movement> = Vec::new();
+    for chain in roads.chains() {
+        for crossing in &junctions.on(chain).crossings {
+            let (zone, side) = (crossing.zone.at(), usize::from(crossing.side));
+            // Lights part those who meet.
+            if junctions.zones[zone].kind == ZoneKind::Tight || is_lit[zone] == [true; 2] {
+                continue;
+            }
+            let reach = junctions.reach(*crossing);
+            let end = match junctions.zones[zone].kind {
+                ZoneKind::Merging(stations) => stations[side],
+                ZoneKind::Crossing | ZoneKind::Tight => reach.end,
+            };
+            match all.last_mut().filter(|it| it.chain == chain && reach.start < it.end + APART) {
+                Some(last) => {
+                    last.end = last.end.max(end);
+                    last.zones.push((zone, side));
+                }
+                None => all.push(Movement {
+                    chain,
+                    start: reach.start,
+                    end,
+                    zones: vec![(zone, side)],
+                    rivals: Vec::new(),
+                    flow: roads.assignment.flow(chain, reach.start.max(0.0))[1],
+                    before: 0.0,
+                    gap: 0.0,
+                    follow_up: 0.0,
+                    time: 0.0,
+                }),
+            }
+        }
+    }
+    all
+}
+
+/// Sets the times of `movement`: who goes first keeps its headway; the others come from rest, and keep others away until their rears
+/// are clear.
+fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Movement) {
+    let zones = &roads.network.junctions.zones;
+    let goes_first = |(zone, side): &(usize, usize)| zones[*zone].precedence == Precedence::Side(*side as u8);
+    if movement.zones.iter().all(goes_first) {
+        (movement.follow_up, movement.time) = (headway, headway);
+        return;
+    }
+    let distance = movement.end - movement.start + stands_before(roads, movement);
+    let limit = roads.network.chain(movement.chain).limit(movement.start);
+    let mixture = roads.mixture(limit);
+    movement.time =
+        MARGIN + mixture.mean_of(|length, desired| time_to_cover(distance + length, 0.0, desired));
+    movement.gap = mixture.critical_gap().max(movement.time);
+    movement.follow_up = start.max(headway);
+}
+
+/// How far before its first zone `movement` starts from rest: at the zone, or at a line before it [m].
+fn stands_before(roads: &Roads, movement: &Movement) -> f64 {
+    /// A line further away is not that of the junction [m].
+    const NEAR: f64 = 30.0;
+    let [before] = roads.network.chain(movement.chain).previous[..] else { return STANDS_BEFORE_A_ZONE };
+    let length = roads.network.chain(before).length;
+    let line = roads.network.junctions.on(before).stops.last();
+    let distance = line.map(|it| length - it.station + movement.start).filter(|it| *it < NEAR);
+    distance.map_or(STANDS_BEFORE_A_ZONE, |it| it + STANDS_BEFORE_A_LINE)
+}
+
+/// Sets who gets in whose way, and what goes before whom: of those with whom it takes turns every other one.
+fn meet(roads: &Roads, all: &mut [Movement]) {
+    let zones = &roads.network.junctions.zones;
+    let mut on_side = vec![[usize::MAX; 2]; zones.len()];
+    for (movement, number) in all.iter().zip(0..) {
+        movement.zones.iter().for_each(|(zone, side)| on_side[*zone][*side] = number);
+    }
+    for number in 0..all.len() {
+        let mut rivals: BTreeMap<usize, f64> = BTreeMap::new();
+        for (zone, side) in &all[number].zones {
+            let rival = on_side[*zone][1 - side];
+            let before = match zones[*zone].precedence {
+                Precedence::Side(first) if usize::from(first) == *side => 0.0,
+                Precedence::Side(_) => 1.0,
+                Precedence::Arrival | Precedence::FromTheRight(_) => 0.5,
+            };
+            if rival < all.len() && rival != number {
+                let noted = rivals.entry(rival).or_insert(before);
+                *noted = before.max(*noted);
+            }
+        }
+        all[number].before = rivals.iter().map(|(rival, share)| share * all[*rival].flow).sum();
+        all[number].rivals = rivals.into_keys().collect();
+    }
+}
