@@ -85,7 +85,7 @@ fn drive_with_care(
     if junction.asks {
         let id = scene.motion(spot).id;
         let since = plan.waited.iter().find(|it| it.id == id).map_or(clock.step, |it| it.since);
-        plan.waiting.push(Waiting { index, id, since });
+        plan.waiting.push(Waiting { index, id, since, is_held: junction.is_held });
     }
     plan.returns.extend(junction.gives_back.map(|from| (index, from)));
     (acceleration, stretch(scene, spot))
