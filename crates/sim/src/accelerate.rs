@@ -184,7 +184,7 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let moves_up = match car.phase {
         Phase::Changes => true,
         Phase::Wants => {
-            let waited = f64::from(clock.step - mind.since) * clock.dt;
+            let waited = clock.since(mind.since);
             let least = scene.characters[car.character as usize].safety.min_gap;
             waited > WAITS
                 && scene.motion(spot).speed < HARDLY_MOVES

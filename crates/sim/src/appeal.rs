@@ -25,7 +25,9 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
         let what = Plea::GiveBack(*from);
         outbox.appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
     }
-    for waiting in &plan.waiting {
+    // At a light there is nothing to ask for, but by who starves there.
+    let has_to_ask = |it: &&Waiting| !it.is_held || clock.since(it.since) > STARVES;
+    for waiting in plan.waiting.iter().filter(has_to_ask) {
         let spot = Spot { chain, index: waiting.index as usize };
         let motion = scene.motion(spot);
         if !surveyed(scene, spot, &mut outbox.survey) {

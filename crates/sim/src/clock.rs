@@ -15,6 +15,12 @@ impl Clock {
         f64::from(self.step) * self.dt
     }
 
+    /// Time since step `step` [s].
+    #[inline]
+    pub(crate) fn since(&self, step: u32) -> f64 {
+        f64::from(self.step - step) * self.dt
+    }
+
     /// A duration [s] as a whole number of steps, at least one.
     #[inline]
     pub fn steps(&self, duration: f64) -> u32 {

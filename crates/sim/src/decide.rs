@@ -20,7 +20,7 @@ use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
 use crate::random::{Purpose, Random};
 use crate::scene::{Found, Scene, Spot, Viewpoint};
 use crate::stuck::{STANDSTILL, is_stuck};
-use crate::traffic::{Kind, Mind, Phase};
+use crate::traffic::{Car, Kind, Mind, Phase};
 use crate::turn::next_turn;
 
 /// Urgency from which a driver signals so that others let it in.
@@ -48,7 +48,7 @@ pub(crate) struct Moment {
 /// All drivers of a lane decide.
 pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
-    let mut hints = [0; 2];
+    let (mut hints, mut last) = ([0; 2], 0);
     for (index, car) in lane.cars().iter().enumerate() {
         if car.phase == Phase::Cruises && car.due > moment.clock.step {
             continue;
@@ -65,6 +65,9 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
                     go_or_ask(scene, moment, spot, outbox);
                 }
                 if car.due <= moment.clock.step {
+                    // Beside there are about as many entries between two drivers.
+                    hints = hints.map(|it| it + index - last);
+                    last = index;
                     consider(scene, moment, spot, &mut hints, plan, outbox);
                 }
             }
@@ -131,6 +134,13 @@ fn consider(
     if leads_on && waypoint.last_place - motion.x < HEEDED_WITHIN {
         concern.last_place = waypoint.last_place;
     }
+    // Who may change to neither side has nothing to weigh, and nothing left to wait for.
+    let here = scene.network.chain(spot.chain);
+    let may_change = Side::BOTH.into_iter().any(|side| here.beside(side, motion.x).is_some());
+    if !may_change && navigator.recommended(goal).is_none() {
+        concern.gives_up = car.phase == Phase::Wants;
+        return keep_in_mind(concern, car, plan);
+    }
     let beliefs = Beliefs::of(&style.guidance, navigator, moment.random, motion.id, goal);
     let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, beliefs, hints);
     let change = match state {
@@ -167,6 +177,12 @@ fn consider(
             outbox.requests.push(Request { urgency, id: motion.id, chain: spot.chain, x: motion.x, ask });
         }
     }
+    keep_in_mind(concern, car, plan);
+}
+
+/// A driver keeps its way in mind if there is something about it to keep, or to forget.
+#[inline(never)]
+fn keep_in_mind(concern: Concern, car: &Car, plan: &mut Plan) {
     if car.phase != Phase::Cruises || car.heeds_more || concern.last_place.is_finite() {
         push_tight(&mut plan.concerns, concern);
     }
@@ -186,9 +202,13 @@ struct Choice {
 impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
     fn of(outlook: &Outlook, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
-        let situation = outlook.situation(side, outlook.beside(side)?);
-        let helps_the_route = situation.there.route.changes < situation.here.route.changes;
+        let from = outlook.beside(side)?;
         let is_calm = moment.clock.step < outlook.car().calm_until;
+        if is_calm && outlook.here().route.changes == 0 {
+            return None;
+        }
+        let situation = outlook.situation(side, from);
+        let helps_the_route = situation.there.route.changes < situation.here.route.changes;
         (helps_the_route || !is_calm).then(|| Choice {
             side,
             appraisal: change.appraise(&situation),
@@ -238,7 +258,7 @@ fn gives_up(
 ) -> bool {
     let (wanted, other) = if sides[0] == mind.side { (0, 1) } else { (1, 0) };
     let Some(appraisal) = appraisals[wanted] else { return true };
-    let waited = f64::from(moment.clock.step - mind.since) * moment.clock.dt;
+    let waited = moment.clock.since(mind.since);
     let is_tired = mind.kind == Kind::Discretionary && waited > style.manner.patience;
     let is_pointless = appraisal.gain < 0.0;
     let is_better_elsewhere =

@@ -10,6 +10,8 @@ use crate::scene::{Scene, Spot};
 use crate::traffic::{Lane, Motion};
 
 /// All drivers of a lane accelerate and move.
+// The busiest loop of a motorway has the registers to itself.
+#[inline(never)]
 pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan) {
     let lane = &scene.lanes[chain.at()];
     let (motions, end) = (lane.motions(), lane_end(scene, chain));
@@ -85,7 +87,7 @@ fn drive_with_care(
     if junction.asks {
         let id = scene.motion(spot).id;
         let since = plan.waited.iter().find(|it| it.id == id).map_or(clock.step, |it| it.since);
-        plan.waiting.push(Waiting { index, id, since });
+        plan.waiting.push(Waiting { index, id, since, is_held: junction.is_held });
     }
     plan.returns.extend(junction.gives_back.map(|from| (index, from)));
     (acceleration, stretch(scene, spot))

@@ -61,7 +61,7 @@ impl World {
                 let desired = class.desired_speed(style, self.network.chain(chain).limit(x));
                 let speed = entry_speed(style, desired, ahead, dt)?;
                 let stop = stop_ahead(&scene, from, 0.0, sight(desired));
-                stop.map_or(speed, |it| speed.min(speed_before_a_stop(it - length)))
+                stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
             }
             Start::FromRest(_) => {
                 let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));

@@ -128,6 +128,8 @@ pub(crate) struct Waiting {
     pub(crate) id: VehicleId,
     /// Step in which it first asked.
     pub(crate) since: u32,
+    /// The next that it has to pass is a light at which it does not go on.
+    pub(crate) is_held: bool,
 }
 
 /// How far a vehicle with a passage drove.

@@ -140,8 +140,8 @@ impl<'a> Scene<'a> {
     /// The passage of the vehicle at `spot`.
     #[inline]
     pub(crate) fn passage(&self, spot: Spot) -> Option<&'a Passage> {
-        // Where nobody has one, the mind is not worth a look into cold memory.
-        let mind = Some(spot).filter(|_| self.passages.are_given()).map(|it| self.mind(it))?;
+        // Who has one heeds it: the mind of others is not worth a look into cold memory.
+        let mind = self.car(spot).heeds_more.then(|| self.mind(spot))?;
         self.passages.of(mind.passage, self.motion(spot).id)
     }
 
@@ -346,8 +346,11 @@ impl<'a> Scene<'a> {
     /// another way into that chain is in the way from where the ways meet on.
     fn gap_to(&self, chain: ChainIndex, base: f64, it: &Motion, mind: &Mind) -> f64 {
         let gap = base + it.rear();
+        if it.rear() >= 0.0 {
+            return gap;
+        }
         match mind.trail.last() {
-            Some(other) if it.rear() < 0.0 && other != chain => {
+            Some(other) if other != chain => {
                 let junctions = &self.network.junctions;
                 let crossings = junctions.on(chain).crossings.iter();
                 let shared = crossings.filter(|it| junctions.other_side(**it).chain == other);

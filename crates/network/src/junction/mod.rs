@@ -77,18 +77,19 @@ pub struct Junctions {
     turns: Vec<Vec<f64>>,
 }
 
-/// What drivers meet on one chain, in the order of stations.
+/// What drivers meet on one chain, in the order of stations. What they look at in every step comes first in memory.
 #[derive(Clone, Debug, PartialEq)]
+#[repr(C, align(32))]
 pub struct OnChain {
-    /// Conflict zones.
-    pub crossings: Vec<Crossing>,
-    /// Places to stop.
-    pub stops: Vec<Stop>,
-    /// All of these; of two at the same station the place to stop comes first.
-    pub places: Vec<Place>,
     extent: [f64; 2],
     /// From the chain's end to the next place on any way on [m].
     beyond: f64,
+    /// All crossings and stops; of two at the same station the place to stop comes first.
+    pub places: Vec<Place>,
+    /// Places to stop.
+    pub stops: Vec<Stop>,
+    /// Conflict zones.
+    pub crossings: Vec<Crossing>,
 }
 
 /// A place where drivers may have to stop.

@@ -51,7 +51,7 @@ pub(crate) struct Asking {
 impl Asking {
     /// The driver at `spot`, who first asked in step `since`.
     pub(crate) fn of(scene: &Scene, spot: Spot, since: u32, clock: Clock) -> Asking {
-        let waited = f64::from(clock.step - since) * clock.dt;
+        let waited = clock.since(since);
         let (motion, car) = (scene.motion(spot), scene.car(spot));
         let patience = scene.characters[car.character as usize].yielding.patience;
         let is_long = f64::from(motion.length) >= LONG;

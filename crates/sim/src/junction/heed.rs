@@ -1,10 +1,10 @@
 //! What a driver heeds at a junction while it drives on.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{LightIndex, LightState, ZoneKind};
+use laneweave_network::{LightIndex, LightState, Sign, ZoneKind};
 
 use super::passages::{Hold, Passage};
-use super::survey::{BEFORE_A_ZONE, is_far, stop_ahead};
+use super::survey::{BEFORE_A_ZONE, Point, What, is_far, stop_ahead};
 use crate::scene::{Scene, Spot};
 
 /// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
@@ -27,6 +27,8 @@ pub(crate) struct Junction {
     pub(crate) leader: Option<Ahead>,
     /// It would like to pass, and waits for it.
     pub(crate) asks: bool,
+    /// It does not go on at the light there as long as this shows what it shows.
+    pub(crate) is_held: bool,
     /// A light that it meant to pass is no longer green, and it can stop there: distance from the passage's beginning [m].
     pub(crate) gives_back: Option<f64>,
 }
@@ -58,11 +60,13 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         junction.gives_back = to_give_back(scene, passage, motion.speed);
         granted = passage.left().max(0.0);
     }
-    if let Some(stop) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
+    if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // Who has to leave the lane before does not go on along it.
         let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
         junction.asks = keeps_lane && !car.is_shadow && !car.phase.is_between_lanes();
+        junction.is_held =
+            matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
     }
     junction
 }

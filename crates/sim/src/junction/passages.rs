@@ -101,12 +101,6 @@ impl Passages {
         }
     }
 
-    /// Whether anybody was ever given one.
-    #[inline]
-    pub(crate) fn are_given(&self) -> bool {
-        !self.given.is_empty()
-    }
-
     /// The passage in `slot`, if it is still that of `vehicle`.
     #[inline]
     pub(crate) fn of(&self, slot: u32, vehicle: VehicleId) -> Option<&Passage> {

@@ -67,10 +67,10 @@ impl Default for Survey {
 
 /// A place on a driver's way where it may have to stop.
 #[derive(Clone, Copy)]
-struct Point {
+pub(crate) struct Point {
     /// Where the front has to stay behind [m].
-    stop: f64,
-    what: What,
+    pub(crate) stop: f64,
+    pub(super) what: What,
 }
 
 impl Point {
@@ -88,7 +88,7 @@ impl Point {
 }
 
 #[derive(Clone, Copy)]
-enum What {
+pub(super) enum What {
     Sign(Sign),
     /// A zone, its end, and the place where the lanes become one, if they do [m].
     Zone(Crossing, f64, Option<f64>),
@@ -137,8 +137,8 @@ fn points(
 }
 
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
-/// `granted` [m] it has: distance of the front to it. None if a vehicle ahead has to stop first.
-pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<f64> {
+/// `granted` [m] it has. None if a vehicle ahead has to stop first.
+pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
     if granted >= until {
         return None;
     }
@@ -151,7 +151,7 @@ pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f6
         if at <= granted {
             return ControlFlow::Continue(());
         }
-        found = Some(point.stop);
+        found = Some(point);
         ControlFlow::Break(())
     });
     found
@@ -189,7 +189,7 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
         let lane = &scene.lanes[chain.at()];
         let ahead = lane.motions()[index..].iter().zip(index..).find(|(it, _)| it.id != from.id);
         if let Some((motion, index)) = ahead {
-            let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
+            let passage = scene.passage(Spot { chain, index });
             return base + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
         }
         base += scene.network.chain(chain).length;
