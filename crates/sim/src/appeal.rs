@@ -122,6 +122,10 @@ impl World {
                     let slot = self.lanes[spot.chain.at()].minds()[index].passage;
                     if self.passages.of(slot, appeal.id).is_some() {
                         self.passages.take_back(slot, from);
+                        // It keeps its place among those who wait.
+                        let (index, since) = (index as u32, self.passages.since(slot));
+                        let waiting = Waiting { index, id: appeal.id, since, is_held: true };
+                        self.plans[spot.chain.at()].waiting.push(waiting);
                     }
                 }
             }
@@ -144,7 +148,7 @@ impl World {
         let may = surveyed(&scene, spot, &mut outbox.survey)
             && may_pass(&scene, spot, &outbox.survey, asking).is_ok();
         if may {
-            self.give_surveyed(spot, &mut outbox);
+            self.give_surveyed(spot, since, &mut outbox);
         }
         self.outboxes[0] = outbox;
     }
@@ -168,12 +172,13 @@ impl World {
         is_there && fits && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
     }
 
-    /// Gives the driver at `spot` the passage that it needs next.
-    pub(crate) fn give_surveyed(&mut self, spot: Spot, outbox: &mut Outbox) {
+    /// Gives the driver at `spot`, who first asked in step `since`, the passage that it needs next.
+    pub(crate) fn give_surveyed(&mut self, spot: Spot, since: u32, outbox: &mut Outbox) {
         surveyed(&self.scene(), spot, &mut outbox.survey);
         let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
         let length = f64::from(motion.length);
         mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);
+        self.passages.note_since(mind.passage, since);
         car.heeds_more = true;
         let (speed, desired) = (motion.speed, f64::from(car.desired));
         self.passages.advance(mind.passage, 0.0, speed, desired);

@@ -81,10 +81,13 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
     /// Who would have to enter slower than its leader, and than this share of its desired speed, waits (ours).
     const LEAST_SHARE: f64 = 0.9;
     let Some(ahead) = ahead else { return Some(desired) };
+    /// Nobody minds a vehicle so far ahead [m].
+    const FAR: f64 = 1e4;
     let fits = |speed: f64| {
-        let demanded = style.follow.acceleration(Pace::new(speed, desired), Some(ahead));
-        // Who would have to brake at once holds up those behind.
-        ahead.gap >= style.safety.min_gap && demanded >= 0.0 && is_secure(speed, ahead, dt)
+        let behind = |gap| style.follow.acceleration(Pace::new(speed, desired), Some(Ahead { gap, ..ahead }));
+        // Who would have to brake at once holds up those behind; there are models that brake even on a free road.
+        let least = behind(FAR).min(0.0);
+        ahead.gap >= style.safety.min_gap && behind(ahead.gap) >= least && is_secure(speed, ahead, dt)
     };
     if fits(desired) {
         return Some(desired);

@@ -40,8 +40,8 @@ impl World {
             may && is_apart
         });
         if may_go {
-            for (spot, _) in members {
-                self.give_surveyed(*spot, &mut outbox);
+            for (spot, appeal) in members {
+                self.give_surveyed(*spot, appeal.since, &mut outbox);
             }
         }
         self.outboxes[0] = outbox;

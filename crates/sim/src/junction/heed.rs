@@ -4,8 +4,9 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, Sign, ZoneKind};
 
 use super::passages::{Hold, Passage};
-use super::survey::{BEFORE_A_ZONE, Point, What, is_far, stop_ahead};
+use super::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead};
 use crate::scene::{Scene, Spot};
+use crate::stuck::STANDSTILL;
 
 /// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
 pub(super) const LONG: f64 = 7.0;
@@ -29,7 +30,8 @@ pub(crate) struct Junction {
     pub(crate) asks: bool,
     /// It does not go on at the light there as long as this shows what it shows.
     pub(crate) is_held: bool,
-    /// A light that it meant to pass is no longer green, and it can stop there: distance from the passage's beginning [m].
+    /// What it cannot use of its passage now, from so far beyond its beginning on [m]: a light that it meant to pass is no longer
+    /// green, and it can stop there; or somebody without a passage came before it, and it stands.
     pub(crate) gives_back: Option<f64>,
 }
 
@@ -57,7 +59,8 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let mut granted = 0.0;
     if let Some(passage) = scene.passage(spot) {
         heed_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
-        junction.gives_back = to_give_back(scene, passage, motion.speed);
+        junction.gives_back = to_give_back(scene, passage, motion.speed)
+            .or_else(|| if motion.speed < STANDSTILL { cut_off_from(scene, spot, passage) } else { None });
         granted = passage.left().max(0.0);
     }
     if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
@@ -114,6 +117,19 @@ pub(super) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option
     let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead { gap, speed: other.speed })
+}
+
+/// From where on, along the `passage` of the driver at `spot`, somebody is in its way who has none, as who changed into its lane before
+/// it: whom it lets go first could wait for others, and they for it [m].
+fn cut_off_from(scene: &Scene, spot: Spot, passage: &Passage) -> Option<f64> {
+    let from = scene.viewpoint(spot);
+    let leader =
+        scene.leader_spot(from).filter(|it| scene.passage(*it).is_none_or(|own| own.left() <= 0.0))?;
+    let gap = scene.ahead(from)?.gap;
+    let until = parts(scene, from, leader, gap - scene.motion(leader).rear());
+    let zones = passage.holds.iter().map(|it| it.enter - passage.travelled);
+    let next = zones.filter(|it| *it > gap.max(0.0)).fold(f64::INFINITY, f64::min);
+    (next < f64::INFINITY && gap < until).then_some(passage.travelled + gap.max(0.0))
 }
 
 /// Where a driver stops, from the beginning of its passage on [m], for the first light ahead that is no longer green if it

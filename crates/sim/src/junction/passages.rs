@@ -35,6 +35,8 @@ pub struct Passages {
 pub(crate) struct Passage {
     pub(crate) vehicle: VehicleId,
     pub(crate) is_given: bool,
+    /// Step in which its driver first asked for it.
+    since: u32,
     pub(crate) length: f64,
     pub(crate) speed: f64,
     pub(crate) desired: f64,
@@ -221,6 +223,16 @@ impl Passages {
             passage.is_given = false;
             self.free.push(slot);
         }
+    }
+
+    /// Notes that the driver of the passage in `slot` first asked for it in step `since`.
+    pub(crate) fn note_since(&mut self, slot: u32, since: u32) {
+        self.given[slot as usize].since = since;
+    }
+
+    /// Step in which the driver of the passage in `slot` first asked for it.
+    pub(crate) fn since(&self, slot: u32) -> u32 {
+        self.given[slot as usize].since
     }
 
     /// Takes back all of a passage that lies beyond `distance` from its beginning [m].

@@ -315,7 +315,7 @@ pub(super) const ROUNDING: f64 = 0.5;
 
 /// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite if it
 /// goes on along it.
-fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
+pub(super) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     let own = scene.next(from.destination, spot.chain);
     let theirs = scene.next(scene.car(spot).goal.destination(), spot.chain);
     match theirs {

@@ -6,10 +6,12 @@ use std::f64::consts::FRAC_PI_2;
 use laneweave_models::Style;
 use laneweave_models::follow::{FollowingModel, Idm};
 use laneweave_network::{ChainIndex, Network, ZoneKind};
-use laneweave_sim::{Class, NewVehicle, VehicleId};
+use laneweave_sim::{Class, NewVehicle, VehicleId, World};
 
 use crate::drivers;
-use crate::town::{Arm, Comer, assert_sound, empty, exit_to, lane_to, network, put, run_until};
+use crate::town::{
+    Arm, Comer, assert_sound, empty, exit_to, has_gone, lane_from, lane_to, network, put, run_until,
+};
 
 /// Who hardly moves in an hour.
 fn immobile() -> Style {
@@ -141,5 +143,21 @@ fn a_full_ring_turns() {
     }
     let time = run_until(&mut world, 90.0, |world| world.on_road() == 0);
     assert!(time.is_some(), "{} are still there", world.on_road());
+    assert_sound(&world);
+}
+
+#[test]
+fn who_stands_behind_another_who_came_before_it_does_not_keep_a_junction_from_others() {
+    let mut world = empty(network("priority.osm"), vec![drivers::conservative(), immobile()]);
+    // Far from the junction it has its passage already, when another stops before it.
+    let comer =
+        |from: Arm, distance, speed| Comer { from, to: from.turned(2), distance, speed, character: 0 };
+    put(&mut world, comer(Arm::East, 60.0, 12.0));
+    let has_passed_on = |world: &World, id, from| has_gone(world, id, lane_from(world.network(), from));
+    run_until(&mut world, 0.5, |_| false);
+    put(&mut world, Comer { character: 1, ..comer(Arm::East, 20.0, 0.0) });
+    run_until(&mut world, 15.0, |_| false);
+    let crossing = put(&mut world, comer(Arm::North, 60.0, 10.0));
+    assert!(run_until(&mut world, 60.0, |world| has_passed_on(world, crossing, Arm::North)).is_some());
     assert_sound(&world);
 }
