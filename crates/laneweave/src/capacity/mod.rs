@@ -97,9 +97,9 @@ impl Capacity {
     /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each with its
     /// weight.
     ///
-    /// Lanes carry their densest stream in which all drive at one speed; lights let pass what of a standing queue drives off at
-    /// green; where ways meet without a light, each vehicle takes its time; and a town bears what its gates let in. What is not
-    /// looked at can only make it less: who gives way loses time, queues stand in each other's way.
+    /// Lanes carry what a long queue sends off; lights let pass what of a standing queue drives off at green; where ways meet without
+    /// a light, drivers take turns and gaps; and a town bears what it lets in. What is not looked at can only make it less: gaps that
+    /// nobody finds to change lanes, turns across oncoming traffic at green, queues that stand in each other's way.
     pub fn new(
         network: &Network,
         assignment: &Assignment,
