@@ -5,6 +5,8 @@ use laneweave_network::{LightIndex, LightState, Sign, ZoneKind};
 
 use super::passages::{Hold, Passage};
 use super::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead};
+use crate::accelerate::ROOM_AT_A_STOP;
+use crate::appeal::STANDS;
 use crate::scene::{Scene, Spot};
 use crate::stuck::STANDSTILL;
 
@@ -61,13 +63,16 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         heed_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
         junction.gives_back = to_give_back(scene, passage, motion.speed)
             .or_else(|| if motion.speed < STANDSTILL { cut_off_from(scene, spot, passage) } else { None });
-        granted = passage.left().max(0.0);
+        // What is given back is not used any more from now on.
+        let left = junction.gives_back.map_or(passage.left(), |from| from - passage.travelled);
+        granted = left.max(0.0);
     }
     if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // Who has to leave the lane before does not go on along it.
         let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
-        junction.asks = keeps_lane && !car.is_shadow && !car.phase.is_between_lanes();
+        let is_settled = !car.is_shadow && !car.phase.is_between_lanes();
+        junction.asks = keeps_lane && is_settled && junction.gives_back.is_none();
         junction.is_held =
             matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
     }
@@ -78,7 +83,7 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
 pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> bool {
     match scene.light(light) {
         LightState::Green => true,
-        LightState::Yellow => speed * speed > 2.0 * STOPS_AT_YELLOW * at.max(0.0),
+        LightState::Yellow => !stops_gently(speed, at),
         LightState::Red => false,
     }
 }
@@ -142,5 +147,11 @@ fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
     let zones = passage.holds.iter().filter(|it| it.leave > line).map(|it| it.enter);
     let from = zones.fold(line, f64::min);
     let room = from - passage.travelled;
-    (room > 0.0 && speed * speed < 2.0 * STOPS_AT_YELLOW * room).then_some(from)
+    (room > 0.0 && stops_gently(speed, room)).then_some(from)
+}
+
+/// Whether a driver at `speed` [m/s] can stop where one stops for a place `at` metres ahead without hard braking.
+fn stops_gently(speed: f64, at: f64) -> bool {
+    let way = if speed < STANDS { at } else { at - ROOM_AT_A_STOP };
+    speed * speed <= 2.0 * STOPS_AT_YELLOW * way.max(0.0)
 }

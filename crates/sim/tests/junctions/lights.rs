@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::{LightIndex, LightState, Sign, SignalPlan, Turn};
+use laneweave_network::{LightIndex, LightState, Network, Sign, SignalPlan, Turn};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 
 use crate::drivers;
@@ -45,20 +45,53 @@ fn nobody_drives_over_the_line_of_a_red_light() {
     assert_sound(&world);
 }
 
-/// How many are stuck of a driver at a light that is green for 5 s, then red for `red` [s], after ten minutes.
-fn stuck_before_a_red_of(red: f64) -> u64 {
+/// A grid whose lights are green for so long, then yellow, then red [s].
+fn grid_of_lights(green: f64, red: f64) -> Network {
     let network = network("grid.osm");
     let lights = (0..network.junctions.lights.len() as u32).map(LightIndex).collect();
     let turn = |lights, green| Turn { lights, green, extension: None, yellow: 3.0, all_red: 2.0 };
-    let turns = vec![turn(lights, 5.0), turn(Vec::new(), red)];
-    let network = network.with_signals(&[SignalPlan { offset: 0.0, turns }]);
+    let turns = vec![turn(lights, green), turn(Vec::new(), red)];
+    network.with_signals(&[SignalPlan { offset: 0.0, turns }])
+}
+
+/// A driver who comes to its first light from a place of its lane [m] at a speed [m/s].
+fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     let chain = network.entrances[0].chains[0];
-    let mut world = empty(network, vec![drivers::conservative()]);
+    let mut world = empty(network.clone(), vec![drivers::conservative()]);
     let destination =
         (0..world.demand().destinations.len()).find(|it| world.leads(0, *it)).map(|it| it as u16);
-    world.place(NewVehicle { chain, x: 10.0, speed: 10.0, class: Class::Car, character: 0, destination });
+    world.place(NewVehicle { chain, x, speed, class: Class::Car, character: 0, destination });
+    world
+}
+
+/// How many are stuck of a driver at a light that is green for 5 s, then red for `red` [s], after ten minutes.
+fn stuck_before_a_red_of(red: f64) -> u64 {
+    let mut world = comer_to_a_light(&grid_of_lights(5.0, red), [10.0, 10.0]);
     (0..6000).for_each(|_| world.step());
     world.tally().stuck
+}
+
+#[test]
+fn nobody_who_is_3_m_from_the_line_or_more_brakes_hard_for_a_light_that_turns_yellow() {
+    /// Twice comfortable braking [m/s²].
+    const HARDEST: f64 = 4.0;
+    let network = grid_of_lights(0.5, 30.0);
+    let line = network.junctions.on(network.entrances[0].chains[0]).stops[0].station;
+    for number in 0..40 {
+        let start = [line - 3.0 - 0.5 * f64::from(number), 0.4 + 0.9 * f64::from(number % 13)];
+        let mut world = comer_to_a_light(&network, start);
+        // It appears without a passage, and gets one.
+        (0..3).for_each(|_| world.step());
+        let at_first = world.tally().emergency_brakings;
+        let hardest = (0..150).fold(0.0, |hardest: f64, _| {
+            let before: f64 = world.vehicles().map(|it| it.speed()).sum();
+            world.step();
+            let after: f64 = world.vehicles().map(|it| it.speed()).sum();
+            hardest.max((before - after) / STEP)
+        });
+        let emergencies = world.tally().emergency_brakings - at_first;
+        assert!(hardest < HARDEST + 1e-6 && emergencies == 0, "{start:?}: {hardest} m/s², {emergencies}");
+    }
 }
 
 #[test]
