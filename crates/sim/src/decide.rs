@@ -286,7 +286,7 @@ fn count_signs(here: f64, desired: f64, options: &[Option<Choice>; 2], has_chose
 
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
 fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
-    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+    let (motion, mind) = (scene.motion(spot), scene.mind(spot));
     let request =
         |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
     match gap(scene, spot, mind.side) {
@@ -295,23 +295,19 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
             outbox.requests.push(request(Ask::Change));
         }
-        Some(gap) => {
-            let Some(found) = gap.follower else { return };
-            let gap_behind = found.distance - f64::from(motion.length);
-            let room = scene.characters[car.character as usize].safety.min_gap + ROOM_TO_YIELD;
-            // Who stands beside or right behind a standing vehicle cannot make room for it.
-            let can_yield = gap_behind >= room || motion.speed > STANDSTILL;
-            if f64::from(mind.urgency) >= ASKS_FROM && can_yield {
+        Some(gap) if f64::from(mind.urgency) >= ASKS_FROM => {
+            if let Some(found) = gap.who_can_let_in(scene, spot) {
                 let behind = scene.motion(found.spot);
                 outbox.requests.push(request(Ask::LetIn {
                     follower: behind.id,
                     chain: found.spot.chain,
                     x: behind.x,
-                    gap: (gap_behind - ROOM_TO_YIELD) as f32,
+                    gap: (found.distance - f64::from(motion.length) - ROOM_TO_YIELD) as f32,
                     speed: motion.speed as f32,
                 }));
             }
         }
+        Some(_) => {}
     }
 }
 
@@ -400,6 +396,24 @@ impl Gap {
             style.safety.accept(pair, dt)?;
         }
         Ok(())
+    }
+
+    /// The first behind who makes room by braking no harder than it does to let others in: those nearer drive past.
+    fn who_can_let_in(&self, scene: &Scene, spot: Spot) -> Option<Found> {
+        /// So many behind see who wants in.
+        const SEE_IT: usize = 10;
+        let motion = scene.motion(spot);
+        let room = scene.characters[scene.car(spot).character as usize].safety.min_gap + ROOM_TO_YIELD;
+        let can = |it: &Found| {
+            let (behind, car) = (scene.motion(it.spot), scene.car(it.spot));
+            let gentle = scene.characters[car.character as usize].manner.yield_deceleration;
+            let gap = it.distance - f64::from(motion.length);
+            // Who stands beside or right behind a standing vehicle cannot make room for it.
+            let is_beside = gap < room && motion.speed <= STANDSTILL;
+            let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
+            car.phase == Phase::Cruises && gentle > 0.0 && !is_beside && needed <= gentle
+        };
+        std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
     }
 
     /// Whether the change, which takes `way` [m], is over before the next place where somebody may have to stop, and

@@ -46,8 +46,8 @@ impl World {
                 let found = self.lanes[chain.at()].find(follower, x);
                 if let Some(index) = found.filter(|it| self.has_seen(Spot { chain, index: *it }, since)) {
                     let (_, car, mind) = self.lanes[chain.at()].entry_mut(index);
-                    let manner = &self.characters[car.character as usize].manner;
-                    if manner.yield_deceleration > 0.0 && car.phase == Phase::Cruises {
+                    // Of two who want in before it the nearer comes first.
+                    if car.phase == Phase::Cruises && gap < mind.lets_in.0 {
                         mind.lets_in = (gap, speed);
                         car.heeds_more = true;
                     }

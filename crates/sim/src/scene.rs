@@ -384,6 +384,13 @@ impl<'a> Scene<'a> {
         None
     }
 
+    /// Who is behind the vehicle that was found behind another, `id`, and how far it is behind that one.
+    pub(crate) fn next_behind(&self, found: Found, id: VehicleId) -> Option<Found> {
+        let from = self.viewpoint(found.spot);
+        let next = self.follower(Viewpoint { ahead: found.spot.index, id, ..from })?;
+        Some(Found { distance: found.distance + next.distance, ..next })
+    }
+
     /// The foremost vehicle that comes from a previous chain onto `chain`, and the chain to look on from.
     fn last_on_previous(
         &self,

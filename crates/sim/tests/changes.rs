@@ -2,6 +2,7 @@
 
 mod roads;
 
+use laneweave_maps::generate::{Motorway, motorway as draw_motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{
     Comfort, ConstantHazard, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency,
@@ -300,4 +301,61 @@ fn v49_a_driver_waits_while_the_gap_is_blocked_and_changes_when_it_opens() {
         assert!(waited > 0);
         assert!(changed as f64 >= 0.95 * SEEDS as f64, "{}: {changed}", style.name);
     }
+}
+
+/// Where the slow lane ends [m].
+const END: f64 = 2500.0;
+/// Limit before the end of the lane, and speed of those who pass [m/s].
+const SPEED: f64 = 18.0;
+/// How many pass.
+const PASSING: usize = 60;
+
+/// A truck stands at the end of its lane, beside a row of `passing` drivers who follow each other closely, the first of whom is
+/// beside it.
+fn truck_beside(passing: Style) -> World {
+    let plan = Motorway {
+        lanes: 2,
+        lane_drop_at: Some(END),
+        length_m: 4000.0,
+        speed_limit_kmh: SPEED * 3.6,
+        ..Motorway::default()
+    };
+    let network = draw_motorway(&plan).expect("a road").build().expect("a network").network;
+    let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
+    let setup = Setup { step: 0.1, seed: 1, threads: 1 };
+    let mut world = World::new(network, vec![drivers::conservative(), passing], nobody, setup).unwrap();
+    let mut put = |chain, x, speed, class, character| {
+        world.place(NewVehicle { chain, x, speed, class, character, destination: Some(0) })
+    };
+    put(ChainIndex(0), END - 18.0, 0.0, Class::Truck, 0);
+    for number in 0..PASSING {
+        put(ChainIndex(1), END - 18.0 - number as f64 * 30.0, SPEED, Class::Car, 1);
+    }
+    world
+}
+
+/// How long the truck waits [s], and how hard somebody braked meanwhile [m/s²]; it waits for two minutes at most.
+fn wait(mut world: World) -> (f64, f64) {
+    let mut hardest = 0.0_f64;
+    while world.counts().route_changes == 0 && world.clock().time() < 120.0 {
+        world.step();
+        let decelerations = world.vehicles().map(|it| -f64::from(it.motion.acceleration));
+        hardest = decelerations.fold(hardest, f64::max);
+    }
+    (world.clock().time(), hardest)
+}
+
+#[test]
+fn who_stands_at_the_end_of_its_lane_is_let_in_by_who_is_far_enough_behind_to_brake_gently() {
+    let (time, hardest) = wait(truck_beside(drivers::conservative()));
+    assert!(time < 30.0, "{time} s");
+    assert!(hardest < 2.5, "{hardest} m/s²");
+}
+
+#[test]
+fn where_nobody_lets_others_in_it_waits_for_the_last_to_pass() {
+    let manner = Manner { yield_deceleration: 0.0, ..Manner::default() };
+    let (time, _) = wait(truck_beside(Style { manner, ..drivers::conservative() }));
+    let last_passes = PASSING as f64 * 30.0 / SPEED;
+    assert!(time > last_passes, "{time} s");
 }
