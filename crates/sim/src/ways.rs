@@ -105,6 +105,9 @@ impl Planner<'_> {
     /// as long.
     const AVOIDED: f64 = 600.0;
 
+    /// What missing a change counts for, ours: once round the block [s].
+    const MISSED: f64 = 120.0;
+
     /// Time along `chain` from its start to `until` [s].
     fn time(&self, chain: ChainIndex, until: f64) -> f64 {
         if self.links.are_free() {
@@ -121,6 +124,13 @@ impl Planner<'_> {
         } else {
             self.links.time_to(chain, across)
         }
+    }
+
+    /// What a change by `last_place` over `stretch` counts for in the choice of a route [s]: the shorter the road for it, the more of
+    /// those who try will miss it.
+    fn hurry(stretch: &Beside, last_place: f64) -> f64 {
+        let room = (last_place - stretch.start) / Planner::ROOM_FOR_A_CHANGE;
+        Planner::MISSED * (1.0 - room).max(0.0)
     }
 
     /// What `chain` asks for from its start to its end.
@@ -227,7 +237,7 @@ impl Planner<'_> {
             via: to,
             last_place,
             next: self.network.chain(chain).following.first().copied(),
-            time: onward.time - self.lead(to, across),
+            time: onward.time - self.lead(to, across) + Planner::hurry(stretch, last_place),
             distance: onward.distance - across,
             effort: onward.effort.beyond(Effort::until(self.network, to, across)),
             ..Waypoint::NOWHERE
@@ -248,8 +258,9 @@ impl Planner<'_> {
                 let it = self.network.chain(chain);
                 self.time(chain, it.length) + onward.time + self.delay(chain)
             } else {
-                let across = stretch_to(self.network.chain(chain), via, last_place);
-                onward.time - across.map_or(0.0, |it| self.lead(via, it.across(0.0)))
+                let stretch = stretch_to(self.network.chain(chain), via, last_place);
+                let change = |it: &Beside| Planner::hurry(it, last_place) - self.lead(via, it.across(0.0));
+                onward.time + stretch.map_or(0.0, change)
             };
         }
     }
