@@ -81,13 +81,15 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     if passages.rings.is_closed(passages, lanes, way, asking.claim, survey.needed) {
         return Err(Hindrance::Ring);
     }
-    let room = survey.room - passages.wanted_before(survey.refuge, asking.claim);
-    let needed = survey.needed - asking.squeezes_into();
+    let gives_way = |hold: &Hold| {
+        scene.network.junctions.zones[hold.zone.at()].precedence == Precedence::Side(1 - hold.side)
+    };
     // Not for ever: those who go first may all wait for who would take the room.
     let leaves_room = asking.claim.is_patient && !passages.rings.is_entered(way);
-    let spare = (needed + ROOM_FOR_ANOTHER).min(survey.most);
-    let is_tight = leaves_room && room < spare;
-    if room < needed.min(survey.most) || (is_tight && survey.holds.iter().any(|it| gives_way(scene, it))) {
+    let spare = if leaves_room && survey.holds.iter().any(gives_way) { ROOM_FOR_ANOTHER } else { 0.0 };
+    let wanted = passages.wanted_before(survey.refuge, asking.claim);
+    let needed = survey.needed - asking.squeezes_into();
+    if survey.room - wanted < (needed + spare).min(survey.most) {
         return Err(Hindrance::Room);
     }
     if survey.holds.iter().all(|hold| may_hold(scene, spot, hold, asking)) {
@@ -95,15 +97,6 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     } else {
         Err(Hindrance::Others)
     }
-}
-
-/// Whether somebody who goes first comes on the other side of a zone, or waits there.
-fn gives_way(scene: &Scene, hold: &Hold) -> bool {
-    let zone = &scene.network.junctions.zones[hold.zone.at()];
-    let other_side = 1 - hold.side;
-    let is_there = || lag(scene, hold.zone, &zone.sides[usize::from(other_side)]).is_finite();
-    let waits = || scene.passages.claim(hold.zone, other_side).is_some();
-    zone.precedence == Precedence::Side(other_side) && (waits() || is_there())
 }
 
 fn may_hold(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
