@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use laneweave::scenario::{Origin, Scenario, prepare};
+use laneweave::sim::World;
 
-/// Vehicles that left in an hour at 1,500 veh/h on a map of the shared data, if it is there; nobody was stuck.
-fn left(map: &str, seed: u64) -> Option<u64> {
+/// The vehicles after an hour at 1,500 veh/h on a map of the shared data, if it is there; nobody was stuck.
+fn an_hour(map: &str, seed: u64) -> Option<World> {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/lanelet2").join(map);
     if !map.exists() {
         eprintln!("skipped: {} is not there", map.display());
@@ -16,21 +17,28 @@ fn left(map: &str, seed: u64) -> Option<u64> {
     scenario.demand.vehicles_per_hour = Some(1500.0);
     let mut world = prepare(&scenario, &Origin::default()).expect("the map is sound").world;
     (0..36_000).for_each(|_| world.step());
-    let (tally, counts) = (world.tally(), world.counts());
-    assert_eq!((tally.stuck, tally.collisions, counts.overlaps), (0, 0, 0));
-    Some(counts.left)
+    assert_eq!((world.tally().stuck, world.tally().collisions, world.counts().overlaps), (0, 0, 0));
+    Some(world)
 }
 
 #[test]
 fn a_truck_that_light_after_light_finds_others_before_it_gets_its_turn() {
-    if let Some(left) = left("intersection.osm", 2) {
-        assert!(left > 1000, "{left}");
+    if let Some(world) = an_hour("intersection.osm", 2) {
+        assert!(world.counts().left > 1000, "{:?}", world.counts());
     }
 }
 
 #[test]
 fn who_changes_lanes_before_one_who_has_its_passage_locks_nothing() {
-    if let Some(left) = left("town10.osm", 2) {
-        assert!(left > 1200, "{left}");
+    if let Some(world) = an_hour("town10.osm", 2) {
+        assert!(world.counts().left > 1200, "{:?}", world.counts());
+    }
+}
+
+#[test]
+fn few_trust_in_a_lane_change_on_the_first_metres_after_a_turn() {
+    if let Some(world) = an_hour("town10.osm", 1) {
+        let share = world.tally().missed_turns as f64 / world.counts().entered as f64;
+        assert!(share < 0.015, "{share}");
     }
 }

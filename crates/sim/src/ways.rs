@@ -426,6 +426,13 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn a_change_counts_as_a_detour_the_more_the_less_road_there_is_for_it() {
+        let stretch = Beside { start: 10.0, end: 100.0, chain: ChainIndex(1), other_start: 10.0, scale: 1.0 };
+        let counted = [10.0, 20.0, 40.0, 50.0, 100.0].map(|last_place| Planner::hurry(&stretch, last_place));
+        assert_eq!(counted, [120.0, 90.0, 30.0, 0.0, 0.0]);
+    }
+
+    #[test]
     fn with_new_link_times_a_way_is_kept_with_its_new_time_and_the_best_one_is_another() {
         assert_eq!(way(true, Some((2, 100.0))), (2, 120.0, 60.0));
         assert_eq!(way(false, Some((2, 100.0))), (3, 60.0, 120.0));
