@@ -4,7 +4,7 @@ use laneweave::maps::generate::{Control, Grid, Motorway, grid, motorway};
 use laneweave::maps::{Drawing, regulations};
 use laneweave::models::Style;
 use laneweave::network::Network;
-use laneweave::sim::{Assignment, Demand, Navigator, Rate, Setup, Share, World};
+use laneweave::sim::{Assignment, Demand, Navigator, Origin, Rate, Setup, Share, World};
 use laneweave::style::Population;
 use laneweave::{Bottleneck, Capacity};
 
@@ -59,8 +59,6 @@ fn lanes_bear_as_much_as_there_are_of_them_where_fewest_are_left() {
     assert!((plain(4) / lane - 4.0).abs() < 1e-9);
     let drop = capacity(&road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() }), |_| ());
     assert!((drop.veh_h / lane - 2.0).abs() < 1e-9, "{drop:?}");
-    let ramp = capacity(&road(2, Motorway { on_ramp_at: vec![1000.0], ..Motorway::default() }), |_| ());
-    assert!((ramp.veh_h / lane - 2.0).abs() < 1e-9, "{ramp:?}");
 }
 
 #[test]
@@ -78,6 +76,25 @@ fn the_more_leave_over_a_ramp_the_sooner_it_is_full() {
     assert!((some.veh_h - capacity(&road(3, Motorway::default()), |_| ()).veh_h).abs() < 1e-6, "{some:?}");
     assert!((half.veh_h / all.veh_h - 2.0).abs() < 1e-9, "{half:?} {all:?}");
     assert_ne!(some.bottleneck, all.bottleneck);
+}
+
+#[test]
+fn a_merge_bears_less_than_the_road_beyond_it_the_more_come_over_the_ramp() {
+    let network = road(3, Motorway { on_ramp_at: vec![1000.0], ..Motorway::default() });
+    let plain = capacity(&road(3, Motorway::default()), |_| ()).veh_h;
+    let from_ramp = |share: f64| {
+        capacity(&network, |it| {
+            let lanes = |origin: &Origin| origin.place.chains().len();
+            for origin in &mut it.origins {
+                let of_all = if lanes(origin) == 1 { share } else { 1.0 - share };
+                origin.rate = Rate::constant(1000.0 * of_all);
+            }
+        })
+        .veh_h
+    };
+    let [none, few, some] = [0.0, 0.1, 0.25].map(from_ramp);
+    assert!((none / plain - 1.0).abs() < 1e-9, "{none} of {plain}");
+    assert!(0.85 * plain < some && some < few && few < plain, "{some} {few} of {plain}");
 }
 
 #[test]
@@ -127,6 +144,8 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
         ("two lanes", road(2, Motorway::default())),
         ("a lane drop", road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() })),
         ("an off-ramp", road(3, Motorway { off_ramp_at: vec![2000.0], ..Motorway::default() })),
+        ("an on-ramp", road(3, Motorway { on_ramp_at: vec![1000.0], ..Motorway::default() })),
+        ("priority", cross(Control::Priority)),
         ("lights", cross(Control::Signals)),
     ];
     for (what, network) in networks {

@@ -2,7 +2,7 @@
 
 use std::collections::BinaryHeap;
 
-use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_network::{Beside, ChainIndex, Network, Side};
 
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::navigate::Navigator;
@@ -14,8 +14,21 @@ use crate::ways::{Waypoint, stretch_to};
 pub struct Assignment {
     /// By chain.
     parts: Vec<Vec<Part>>,
+    /// Those who have to change lanes for their ways.
+    pub changes: Vec<Change>,
     /// Of all origins together [veh/s].
     pub total: f64,
+}
+
+/// A flow that has to leave a lane for the one beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// The lane, and from where to where on it this is possible and soon enough [m].
+    pub from: (ChainIndex, [f64; 2]),
+    /// The other one, and the same places on it [m].
+    pub to: (ChainIndex, [f64; 2]),
+    /// Vehicles [veh/s].
+    pub flow: f64,
 }
 
 /// A flow on a part of a chain.
@@ -38,14 +51,15 @@ impl Assignment {
         let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
         let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
         let rate = |it: &Origin| if comes_nobody { it.place.chains().len() as f64 } else { mean(it) };
-        let mut assignment = Assignment { parts: vec![Vec::new(); network.chains.len()], total: 0.0 };
+        let parts = vec![Vec::new(); network.chains.len()];
+        let mut assignment = Assignment { parts, changes: Vec::new(), total: 0.0 };
         let shares: Vec<Vec<f64>> = demand.origins.iter().map(|it| shares(network, navigator, it)).collect();
         for destination in 0..demand.destinations.len() {
             let starts =
                 demand.origins.iter().zip(&shares).map(|(it, of)| (&it.place, rate(it) * of[destination]));
-            let mut spread = Spread::new(network, navigator, destination as u16, &mut assignment.parts);
+            let mut spread = Spread::new(network, navigator, destination as u16, &mut assignment);
             for (place, flow) in starts.filter(|it| it.1 > 0.0) {
-                assignment.total += flow;
+                spread.assignment.total += flow;
                 spread.begin(place, flow);
             }
             spread.drive();
@@ -91,7 +105,7 @@ struct Spread<'a> {
     network: &'a Network,
     navigator: &'a Navigator,
     destination: u16,
-    parts: &'a mut [Vec<Part>],
+    assignment: &'a mut Assignment,
     /// What comes to the start of each chain [veh/s].
     coming: Vec<f64>,
     /// Chains to which somebody comes, by the way that is left from there [mm].
@@ -103,10 +117,10 @@ impl<'a> Spread<'a> {
         network: &'a Network,
         navigator: &'a Navigator,
         destination: u16,
-        parts: &'a mut [Vec<Part>],
+        assignment: &'a mut Assignment,
     ) -> Spread<'a> {
         let coming = vec![0.0; network.chains.len()];
-        Spread { network, navigator, destination, parts, coming, open: BinaryHeap::new() }
+        Spread { network, navigator, destination, assignment, coming, open: BinaryHeap::new() }
     }
 
     fn waypoint(&self, chain: ChainIndex) -> &'a Waypoint {
@@ -192,6 +206,7 @@ impl<'a> Spread<'a> {
                 Some(stretch) => {
                     let place = way.last_place.max(station);
                     self.note(chain, [station, place], flow, is_bound);
+                    self.note_change(chain, stretch, [station.max(stretch.start).min(place), place], flow);
                     (chain, station) = (via, stretch.across(place).max(0.0));
                 }
                 None => {
@@ -208,10 +223,18 @@ impl<'a> Spread<'a> {
     }
 
     fn note(&mut self, chain: ChainIndex, [from, to]: [f64; 2], flow: f64, is_bound: bool) {
-        let parts = &mut self.parts[chain.at()];
+        let parts = &mut self.assignment.parts[chain.at()];
         match parts.iter_mut().find(|it| (it.from, it.to, it.is_bound) == (from, to, is_bound)) {
             Some(part) => part.flow += flow,
             None => parts.push(Part { from, to, flow, is_bound }),
+        }
+    }
+
+    fn note_change(&mut self, chain: ChainIndex, stretch: &Beside, on: [f64; 2], flow: f64) {
+        let (from, to) = ((chain, on), (stretch.chain, on.map(|it| stretch.across(it))));
+        match self.assignment.changes.iter_mut().find(|it| (it.from, it.to) == (from, to)) {
+            Some(change) => change.flow += flow,
+            None => self.assignment.changes.push(Change { from, to, flow }),
         }
     }
 }

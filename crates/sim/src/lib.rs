@@ -55,7 +55,7 @@ mod views;
 mod ways;
 mod world;
 
-pub use assignment::{Assignment, Part};
+pub use assignment::{Assignment, Change, Part};
 pub use clock::Clock;
 pub use demand::{Demand, Origin, Share};
 pub use effort::Effort;

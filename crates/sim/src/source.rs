@@ -180,8 +180,8 @@ impl Source {
     /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long
     /// vehicles on the slow side, others where fewer wait and where there is more room.
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
-        /// Road per lane change within which a driver takes its lane from the start [m].
-        const SOON: f64 = 600.0;
+        /// Road per lane change within which a driver takes its lane from the start [m] (ours).
+        const SOON: f64 = 800.0;
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
             let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);

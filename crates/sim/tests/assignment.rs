@@ -54,6 +54,18 @@ fn flows_grow_by_who_comes_and_shrink_by_who_leaves() {
 }
 
 #[test]
+fn all_who_come_over_a_ramp_have_to_leave_its_lane() {
+    let plan = Motorway { lanes: 2, length_m: 4000.0, on_ramp_at: vec![1000.0], ..Motorway::default() };
+    let network = motorway(&plan).unwrap().build().unwrap().network;
+    let assignment = assigned(&network, &Demand::even(&network, 3000.0, 0.0, Vec::new()));
+    let [change] = &assignment.changes[..] else { panic!("{:?}", assignment.changes) };
+    let ((ramp, [start, end]), (lane, [beside, until])) = (change.from, change.to);
+    assert!((3600.0 * change.flow - 1000.0).abs() < 1e-6);
+    assert!(end - start > 100.0 && (until - beside - (end - start)).abs() < 1.0, "{change:?}");
+    assert!(network.chain(ramp).is_lane_drop && !network.chain(lane).is_lane_drop);
+}
+
+#[test]
 fn who_must_leave_the_lane_is_on_the_other_one_after_the_last_place() {
     let plan = Motorway { lanes: 2, length_m: 3000.0, lane_drop_at: Some(1500.0), ..Motorway::default() };
     let network = motorway(&plan).unwrap().build().unwrap().network;

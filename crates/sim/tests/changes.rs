@@ -323,7 +323,8 @@ fn truck_beside(passing: Style) -> World {
     let network = draw_motorway(&plan).expect("a road").build().expect("a network").network;
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
     let setup = Setup { step: 0.1, seed: 1, threads: 1 };
-    let mut world = World::new(network, vec![drivers::conservative(), passing], nobody, setup).unwrap();
+    let mut world = World::new(network, vec![drivers::conservative(), passing], nobody, setup)
+        .expect("the set-up makes sense");
     let mut put = |chain, x, speed, class, character| {
         world.place(NewVehicle { chain, x, speed, class, character, destination: Some(0) })
     };

@@ -40,15 +40,8 @@ fn by_approach(network: &Network, movements: &[Movement]) -> Vec<Vec<usize>> {
 /// and on one lane they take turns (Harders, 1968).
 fn giving_way(movements: &[Movement], all: &[usize]) -> f64 {
     const HALVINGS: u32 = 50;
-    // By its growth, how full the lane is.
-    let load = |growth: f64| -> f64 {
-        let one = |it: &usize| {
-            let Movement { flow, before, gap, follow_up, .. } = movements[*it];
-            let gaps = libm::exp(-growth * before * (gap - 0.5 * follow_up));
-            growth * flow * follow_up / gaps
-        };
-        all.iter().map(one).sum()
-    };
+    // By the growth of all flows, how full the lane is.
+    let load = |growth: f64| -> f64 { all.iter().map(|it| taken_up(movements, *it, growth, RANKS)).sum() };
     if all.iter().all(|it| movements[*it].flow == 0.0) {
         return 0.0;
     }
@@ -61,6 +54,24 @@ fn giving_way(movements: &[Movement], all: &[usize]) -> f64 {
         if load(middle) < 1.0 { low = middle } else { high = middle }
     }
     1.0 / high
+}
+
+/// So many movements one after the other give way to the next.
+const RANKS: u32 = 3;
+
+/// Of all the time, what a movement needs for its vehicles when all flows are `growth` times as large. It takes a gap only if nobody
+/// waits who goes before it and gives way to others himself (the impedance of the Highway Capacity Manual, from memory), of whom up to
+/// `ranks` wait for each other.
+fn taken_up(movements: &[Movement], number: usize, growth: f64, ranks: u32) -> f64 {
+    let Movement { flow, before, gap, follow_up, ref waits_for, .. } = movements[number];
+    if flow == 0.0 {
+        return 0.0;
+    }
+    let gaps = libm::exp(-growth * before * (gap - 0.5 * follow_up));
+    let impeding = waits_for.iter().filter(|_| ranks > 0);
+    let is_free = |it: &usize| (1.0 - taken_up(movements, *it, growth, ranks - 1)).max(0.0);
+    let free: f64 = impeding.map(is_free).product();
+    growth * flow * follow_up / (gaps * free)
 }
 
 /// Movements that all get in each other's way: the `first`, and as many of the others as can be, those that take most of the time

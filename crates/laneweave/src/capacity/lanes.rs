@@ -1,8 +1,9 @@
 //! How full lanes and lights are.
 
 use laneweave_network::{ChainIndex, Light, Program, Side, Sign};
+use laneweave_sim::Change;
 
-use super::{Bottleneck, Load, Roads, once};
+use super::{Bottleneck, Load, Roads, once, weaving};
 
 /// A light at a place of a lane is that of lanes beside it, too, if it is no further away [m].
 const BESIDE: f64 = 20.0;
@@ -22,6 +23,7 @@ pub(super) fn loads(roads: &Roads) -> Vec<Load> {
         stations.dedup();
         loads.extend(stations.into_iter().map(|it| lanes.load(chain, it)));
     }
+    loads.extend(roads.assignment.changes.iter().filter_map(|it| lanes.load_by_changes(it)));
     loads
 }
 
@@ -50,6 +52,33 @@ impl Lanes<'_> {
         let lanelet = self.roads.lanelet(chain, station);
         let of = light.map_or(Bottleneck::Lanes(lanelet), |light| Bottleneck::Light { light, lanelet });
         Load { share: (bound / capacity).max(flows / capacities), of }
+    }
+
+    /// How full the lanes are at the last place at which some have to leave one of them; nothing before a light, where there is time
+    /// for it at red.
+    fn load_by_changes(&mut self, Change { from: (chain, [_, last_place]), .. }: &Change) -> Option<Load> {
+        /// Shortly before the place lanes are side by side, and shortly after it all have changed [m].
+        const SHORTLY: f64 = 0.5;
+        let before = last_place - SHORTLY;
+        let (_, light) = self.capacity(*chain, before);
+        if light.is_some() {
+            return None;
+        }
+        let beside = self.beside(*chain, before, false);
+        let lanes: Vec<(ChainIndex, f64)> = std::iter::once((*chain, before)).chain(beside).collect();
+        let (mut flows, mut capacities, mut fullest) = (0.0, 0.0, 0.0_f64);
+        for (lane, at) in &lanes {
+            let [bound, flow] = self.roads.assignment.flow(*lane, at + 2.0 * SHORTLY);
+            if flow > 0.0 {
+                let capacity = self.capacity(*lane, *at).0;
+                flows += flow;
+                capacities += capacity;
+                fullest = fullest.max(bound / capacity);
+            }
+        }
+        let left = weaving::left(self.roads.assignment, &lanes, flows);
+        let of = Bottleneck::Lanes(self.roads.lanelet(*chain, before));
+        (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
     }
 
     /// What passes a station of a chain [veh/s], and the light there.

@@ -9,6 +9,7 @@ mod lanes;
 mod movement;
 mod stream;
 mod town;
+mod weaving;
 
 use std::fmt;
 

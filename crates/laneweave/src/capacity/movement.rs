@@ -22,6 +22,8 @@ pub(super) struct Movement {
     pub(super) flow: f64,
     /// Those that go before it [veh/s].
     pub(super) before: f64,
+    /// Those among them that give way to others.
+    pub(super) waits_for: Vec<usize>,
     /// Gap in them that each takes [s].
     pub(super) gap: f64,
     /// Time between two that go one after the other [s].
@@ -93,6 +95,7 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
                     rivals: Vec::new(),
                     flow: roads.assignment.flow(chain, reach.start.max(0.0))[1],
                     before: 0.0,
+                    waits_for: Vec::new(),
                     gap: 0.0,
                     follow_up: 0.0,
                     time: 0.0,
@@ -154,6 +157,9 @@ fn meet(roads: &Roads, all: &mut [Movement]) {
             }
         }
         all[number].before = rivals.iter().map(|(rival, share)| share * all[*rival].flow).sum();
+        all[number].waits_for = rivals.iter().filter(|it| *it.1 == 1.0).map(|it| *it.0).collect();
         all[number].rivals = rivals.into_keys().collect();
     }
+    let gives_way: Vec<bool> = all.iter().map(|it| it.before > 0.0).collect();
+    all.iter_mut().for_each(|it| it.waits_for.retain(|other| gives_way[*other]));
 }

@@ -1,0 +1,61 @@
+//! What lane changes leave of a section's capacity.
+//!
+//! Who has to change lanes within a short section leaves gaps that nobody fills, the more the larger the share of those who do.
+//! The Highway Capacity Manual (2010, chapter 12, from memory) gives the capacity of a lane of a weaving section as
+//! c = c₀ − 438.2 (1 + VR)^1.6 + 0.0765 L + 119.8 N, with c₀ = 2,400 veh/h, VR the share of those who change, L the length of the section
+//! [ft], and N the number of lanes from which one change is enough, here 2; beyond L = 5728 (1 + VR)^1.6 − 1566 N it is no such
+//! section. Of what our drivers carry on a plain road we take the same share. Merges are looked at in the same way (ours).
+
+use laneweave_network::ChainIndex;
+use laneweave_sim::{Assignment, Change};
+
+/// c₀ [veh/h].
+const PLAIN: f64 = 2400.0;
+/// N.
+const LANES: f64 = 2.0;
+const METRES_PER_FOOT: f64 = 0.3048;
+
+/// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left.
+pub(super) fn left(assignment: &Assignment, lanes: &[(ChainIndex, f64)], flow: f64) -> f64 {
+    // Who comes onto a lane that nobody else is on, as onto one that leads off, finds it free.
+    let is_here = |it: &&Change| {
+        let ((chain, [start, end]), (to, [beside, _])) = (it.from, it.to);
+        let is_here = lanes.iter().any(|(lane, at)| *lane == chain && (start..=end).contains(at));
+        is_here && assignment.flow(to, beside.max(0.0))[1] > 0.0
+    };
+    let changing = assignment.changes.iter().filter(is_here).fold((0.0, 0.0), |(flow, metres), it| {
+        let (_, [start, end]) = it.from;
+        (flow + it.flow, metres + it.flow * (end - start))
+    });
+    match changing {
+        (changing, metres) if changing > 0.0 => left_by(changing / flow, metres / changing),
+        _ => 1.0,
+    }
+}
+
+/// The share that is left where a `share` of the vehicles changes within `length` [m].
+fn left_by(share: f64, length: f64) -> f64 {
+    let weaves = libm::pow(1.0 + share.min(1.0), 1.6);
+    let feet = length / METRES_PER_FOOT;
+    if feet > 5728.0 * weaves - 1566.0 * LANES {
+        return 1.0;
+    }
+    let lost = 438.2 * weaves - 0.0765 * feet - 119.8 * LANES;
+    1.0 - lost.max(0.0) / PLAIN
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_more_change_and_the_shorter_the_section_the_less_is_left() {
+        // 1.25^1.6 = 1.42903: 626.2 − 75.3 − 239.6 of 2,400.
+        assert!((left_by(0.25, 300.0) - (1.0 - 311.3 / 2400.0)).abs() < 1e-4, "{}", left_by(0.25, 300.0));
+        assert!(left_by(0.5, 300.0) < left_by(0.25, 300.0));
+        assert!(left_by(0.25, 150.0) < left_by(0.25, 300.0));
+        // 5728 · 1.42903 − 3132 ft = 1,540 m.
+        assert!(left_by(0.25, 1539.0) < 1.0);
+        assert_eq!(left_by(0.25, 1541.0), 1.0);
+    }
+}
