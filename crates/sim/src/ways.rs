@@ -117,13 +117,10 @@ impl Planner<'_> {
         }
     }
 
-    /// Time by which who changes to `chain` is ahead of its start, if the own chain begins `across` [m] along it [s].
-    fn lead(&self, chain: ChainIndex, across: f64) -> f64 {
-        if self.links.are_free() {
-            across / self.network.chain(chain).limit(0.0)
-        } else {
-            self.links.time_to(chain, across)
-        }
+    /// Time from the start of `chain` to where it can be left over `stretch`, less that from the start of the other one to there [s].
+    fn lag(&self, chain: ChainIndex, stretch: &Beside) -> f64 {
+        let place = stretch.start.max(stretch.back(0.0));
+        self.time(chain, place) - self.time(stretch.chain, stretch.across(place))
     }
 
     /// What a change by `last_place` over `stretch` counts for in the choice of a route [s]: the shorter the road for it, the more of
@@ -189,6 +186,7 @@ impl Planner<'_> {
             if ranked != ranks[index.at()] {
                 continue;
             }
+            let ahead = changed_to(&table, index);
             let mut offer = |to: ChainIndex, waypoint: Waypoint| {
                 let new = rank(network, &waypoint);
                 if new < ranks[to.at()] {
@@ -205,7 +203,7 @@ impl Planner<'_> {
                 let until = here.last_place.min(here.end) - Planner::ROOM_FOR_A_CHANGE;
                 let last_place =
                     if until.is_finite() { stretch.end.min(stretch.back(until)) } else { stretch.end };
-                if last_place > stretch.start {
+                if last_place > stretch.start && !ahead.contains(from) {
                     offer(*from, self.beside(*from, index, stretch, last_place, &here));
                 }
             }
@@ -237,7 +235,7 @@ impl Planner<'_> {
             via: to,
             last_place,
             next: self.network.chain(chain).following.first().copied(),
-            time: onward.time - self.lead(to, across) + Planner::hurry(stretch, last_place),
+            time: onward.time + self.lag(chain, stretch) + Planner::hurry(stretch, last_place),
             distance: onward.distance - across,
             effort: onward.effort.beyond(Effort::until(self.network, to, across)),
             ..Waypoint::NOWHERE
@@ -259,7 +257,7 @@ impl Planner<'_> {
                 self.time(chain, it.length) + onward.time + self.delay(chain)
             } else {
                 let stretch = stretch_to(self.network.chain(chain), via, last_place);
-                let change = |it: &Beside| Planner::hurry(it, last_place) - self.lead(via, it.across(0.0));
+                let change = |it: &Beside| self.lag(chain, it) + Planner::hurry(it, last_place);
                 onward.time + stretch.map_or(0.0, change)
             };
         }
@@ -290,6 +288,16 @@ impl Planner<'_> {
             (waypoint.alternative, waypoint.alternative_effort) = (time, effort);
         }
     }
+}
+
+/// The chains to which a driver changes from `chain`, one after the other: nobody changes back to where it comes from, to overtake a
+/// jam.
+fn changed_to(table: &[Waypoint], chain: ChainIndex) -> Vec<ChainIndex> {
+    let next = |at: &ChainIndex| {
+        let Waypoint { changes, via, .. } = table[at.at()];
+        (changes > table[via.at()].changes).then_some(via)
+    };
+    std::iter::successors(next(&chain), next).collect()
 }
 
 /// The chains of `table` that have a way, each after the one that it goes on with.
@@ -367,6 +375,7 @@ pub(crate) mod tests {
     use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
 
     use super::*;
+    use crate::place::Kerb;
 
     /// A lane to the east between two stations [m] at 10 m/s, followed by `following`.
     pub(crate) fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
@@ -423,6 +432,44 @@ pub(crate) mod tests {
     fn the_alternative_is_the_best_way_over_the_end_of_the_lane_that_is_not_the_own_one() {
         assert_eq!(way(true, None), (2, 40.0, 60.0));
         assert_eq!(way(false, None), (2, 40.0, 60.0));
+    }
+
+    /// A lane of 1,000 m, and one on its left from 300 m on.
+    fn two_lanes() -> Network {
+        let beside = |it: Lanelet, left, right| Lanelet { left, right, ..it };
+        let index = |it| Some(LaneletIndex(it));
+        let all = vec![
+            lanelet(1, [0.0, 300.0], &[1]),
+            beside(lanelet(2, [300.0, 600.0], &[2]), index(3), None),
+            beside(lanelet(3, [600.0, 1000.0], &[]), index(4), None),
+            beside(lanelet(4, [300.0, 600.0], &[4]), None, index(1)),
+            beside(lanelet(5, [600.0, 1000.0], &[]), None, index(2)),
+        ];
+        Network::new(all, DrivingSide::Right).unwrap()
+    }
+
+    #[test]
+    fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
+        let network = two_lanes();
+        let into = beside_into(&network);
+        let views = Views::default();
+        let [long, short] = [1, 4].map(|id| chain(&network, id));
+        let kerb = Kerb { id: 3, chain: long, station: 950.0 };
+        for jammed in 0..5 {
+            let mut links = Links::of(&network);
+            let times: Vec<f64> = (0..5).map(|it| if it == jammed { 900.0 } else { 30.0 }).collect();
+            links.take(times.into_iter());
+            let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+            let table = planner.plan(&Place::Kerb(kerb));
+            let [here, there] = [long, short].map(|it| table[it.at()]);
+            assert_eq!((here.changes, here.via), (0, long), "{jammed}");
+            assert_eq!((there.changes, there.via), (1, long), "{jammed}");
+            // Who comes from the start of the long lane is not there before who starts where the short one does.
+            assert!(here.time > there.time, "{jammed}: {} {}", here.time, there.time);
+            let mut timed = table.clone();
+            planner.retime(&mut timed, &Place::Kerb(kerb));
+            assert_eq!(timed[short.at()].time, there.time, "{jammed}");
+        }
     }
 
     #[test]
