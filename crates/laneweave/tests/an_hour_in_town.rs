@@ -42,3 +42,12 @@ fn few_trust_in_a_lane_change_on_the_first_metres_after_a_turn() {
         assert!(share < 0.015, "{share}");
     }
 }
+
+#[test]
+fn nobody_who_has_just_driven_off_brakes_hard_before_a_zone_at_yellow() {
+    for (map, seed) in [("crossroads_with_stoplines.osm", 2), ("tianjin.osm", 3)] {
+        if let Some(world) = an_hour(map, seed) {
+            assert_eq!(world.tally().emergency_brakings, 0, "{map}");
+        }
+    }
+}

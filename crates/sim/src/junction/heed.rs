@@ -144,10 +144,10 @@ fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
     let (_, at) = passage.lights().find(is_red)?;
     // Zones that reach beyond the line have to be stopped for, too.
     let line = passage.travelled + at;
-    let zones = passage.holds.iter().filter(|it| it.leave > line).map(|it| it.enter);
-    let from = zones.fold(line, f64::min);
-    let room = from - passage.travelled;
-    (room > 0.0 && stops_gently(speed, room)).then_some(from)
+    let zone = passage.holds.iter().filter(|it| it.leave > line).map(|it| it.enter).reduce(f64::min);
+    let from = zone.map_or(line, |it| it.min(line));
+    let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - passage.travelled;
+    (from > passage.travelled && stops_gently(speed, stop)).then_some(from)
 }
 
 /// Whether a driver at `speed` [m/s] can stop where one stops for a place `at` metres ahead without hard braking.
