@@ -27,6 +27,7 @@ mod links;
 mod metering;
 mod navigate;
 mod normal;
+mod onward;
 mod overlap;
 mod perceive;
 mod place;

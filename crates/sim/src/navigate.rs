@@ -10,6 +10,7 @@ use std::borrow::Cow;
 use laneweave_network::{ChainIndex, Network};
 
 use crate::links::Links;
+use crate::onward::Onward;
 use crate::place::{Kerb, Place};
 use crate::vehicle::Class;
 use crate::views::Views;
@@ -54,6 +55,7 @@ pub struct Navigator {
     /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one. All
     /// that for the usual way; then for the recommended ones, which are empty as long as nobody needs them.
     tables: Vec<Vec<Waypoint>>,
+    onward: Onward,
     /// Number of tables of each view.
     of_view: usize,
     /// For each table of a usual way that with the newest recommendation; empty where nobody is guided.
@@ -91,6 +93,7 @@ impl Navigator {
     pub(crate) fn with_views(network: &Network, destinations: &[Place], views: Views) -> Navigator {
         let mut navigator = Navigator {
             tables: Vec::new(),
+            onward: Onward::default(),
             of_view: destinations.len() + 1,
             recommended: Vec::new(),
             links: Links::default(),
@@ -109,7 +112,16 @@ impl Navigator {
             }
             navigator.tables.push(wander(network));
         }
+        navigator.look_onward(network);
         navigator
+    }
+
+    /// Notes anew what comes next on all ways.
+    fn look_onward(&mut self, network: &Network) {
+        self.onward = Onward::new(network, self.tables.len());
+        for (number, table) in self.tables.iter().enumerate() {
+            self.onward.take(network, number, table);
+        }
     }
 
     fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {
@@ -163,6 +175,7 @@ impl Navigator {
                 self.end_trips(place, table);
             }
         }
+        self.look_onward(network);
         Ok(())
     }
 
@@ -229,7 +242,10 @@ impl Navigator {
             }
         }
         renewed.extend(spare.map(|(way, _)| (way, best)));
-        renewed.into_iter().for_each(|(way, table)| self.tables[way] = table);
+        for (way, table) in renewed {
+            self.onward.take(network, way, &table);
+            self.tables[way] = table;
+        }
         if let Some((way, _)) = spare {
             self.recommended[usual] = way as u16;
         }
@@ -262,7 +278,7 @@ impl Navigator {
             let here = left.min(network.chain(at).length - from).max(0.0);
             time += self.links.time_to(at, from + here) - self.links.time_to(at, from);
             left -= here;
-            match self.waypoint(destination, at).next.filter(|_| left > 0.0) {
+            match self.next(network, destination, at).filter(|_| left > 0.0) {
                 Some(next) => (at, from) = (next, 0.0),
                 None => return time,
             }
@@ -284,10 +300,10 @@ impl Navigator {
             if gone >= distance {
                 return true;
             }
-            let next = self.waypoint(one, at).next;
-            match next.filter(|_| next == self.waypoint(other, at).next) {
+            let [next, other] = [one, other].map(|it| self.next(network, it, at));
+            match next.filter(|_| next == other) {
                 Some(next) => at = next,
-                None => return next.is_none() && self.waypoint(other, at).next.is_none(),
+                None => return next.is_none() && other.is_none(),
             }
         }
     }
@@ -321,8 +337,30 @@ impl Navigator {
     /// The waypoint of `chain`, from its start, on the way to `destination`.
     #[inline]
     pub fn waypoint(&self, destination: Destination, chain: ChainIndex) -> &Waypoint {
-        let table = destination.map_or(self.of_view - 1, usize::from);
-        &self.tables[table][chain.at()]
+        &self.tables[self.table(destination)][chain.at()]
+    }
+
+    /// The table by which those drive who go to `destination`.
+    #[inline]
+    fn table(&self, destination: Destination) -> usize {
+        destination.map_or(self.of_view - 1, usize::from)
+    }
+
+    /// The chain that comes after `chain` on the way to `destination`.
+    #[inline]
+    pub(crate) fn next(
+        &self,
+        network: &Network,
+        destination: Destination,
+        chain: ChainIndex,
+    ) -> Option<ChainIndex> {
+        self.onward.next(network, chain, self.table(destination))
+    }
+
+    /// Where on `chain` the trips to `destination` end [m]; infinite where they go on.
+    #[inline]
+    pub(crate) fn trip_end(&self, destination: Destination, chain: ChainIndex) -> f64 {
+        if self.trip_ends(chain).is_empty() { f64::INFINITY } else { self.waypoint(destination, chain).end }
     }
 
     /// The waypoint of `chain` from `x` on: where that is too late for the usual way, of the way round over its end.

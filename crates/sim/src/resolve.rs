@@ -254,7 +254,7 @@ impl World {
 
     /// Where an entry that passed the end of its chain stands now.
     fn place_beyond(&self, from: ChainIndex, entry: &Entry) -> Option<(ChainIndex, f64)> {
-        let next = self.navigator.waypoint(entry.car.goal.destination(), from).next?;
+        let next = self.navigator.next(&self.network, entry.car.goal.destination(), from)?;
         Some((next, entry.motion.x - self.network.chain(from).length))
     }
 

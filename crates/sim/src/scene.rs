@@ -186,7 +186,7 @@ impl<'a> Scene<'a> {
     /// The chain on which a driver goes on.
     #[inline]
     pub fn next(&self, destination: Destination, chain: ChainIndex) -> Option<ChainIndex> {
-        self.navigator.waypoint(destination, chain).next
+        self.navigator.next(self.network, destination, chain)
     }
 
     /// The leader within sight.

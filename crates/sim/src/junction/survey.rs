@@ -105,7 +105,7 @@ fn points(
     let (mut chain, mut base) = (from.chain, -from.x);
     loop {
         let places = &junctions.on(chain).places[..];
-        let trip_end = base + scene.navigator.waypoint(from.destination, chain).end;
+        let trip_end = base + scene.navigator.trip_end(from.destination, chain);
         let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
         // Who has its front beyond a place has passed it.
         let passed = places.partition_point(|it| base + it.station <= 0.0);
