@@ -59,9 +59,9 @@ fn giving_way(movements: &[Movement], all: &[usize]) -> f64 {
 /// So many movements one after the other give way to the next.
 const RANKS: u32 = 3;
 
-/// Of all the time, what a movement needs for its vehicles when all flows are `growth` times as large. It takes a gap only if nobody
-/// waits who goes before it and gives way to others himself (the impedance of the Highway Capacity Manual, from memory), of whom up to
-/// `ranks` wait for each other.
+/// Of all the time, what a movement needs for its vehicles when all flows are `growth` times as large. It takes a gap only while none of
+/// those wait who go before it and give way to others (the impedance of the Highway Capacity Manual, from memory); up to `ranks` of
+/// them wait for each other.
 fn taken_up(movements: &[Movement], number: usize, growth: f64, ranks: u32) -> f64 {
     let Movement { flow, before, gap, follow_up, ref waits_for, .. } = movements[number];
     if flow == 0.0 {
