@@ -56,7 +56,10 @@ impl Lanes<'_> {
 
     /// How full the lanes are at the last place at which some have to leave one of them; nothing before a light, where there is time
     /// for it at red.
-    fn load_by_changes(&mut self, Change { from: (chain, [_, last_place]), .. }: &Change) -> Option<Load> {
+    fn load_by_changes(
+        &mut self,
+        Change { from: (chain, [start, last_place]), .. }: &Change,
+    ) -> Option<Load> {
         /// Shortly before the place lanes are side by side, and shortly after it all have changed [m].
         const SHORTLY: f64 = 0.5;
         let before = last_place - SHORTLY;
@@ -73,12 +76,23 @@ impl Lanes<'_> {
                 let capacity = self.capacity(*lane, *at).0;
                 flows += flow;
                 capacities += capacity;
-                fullest = fullest.max(bound / capacity);
+                if self.parts_soon(*lane, *at) {
+                    fullest = fullest.max(bound / capacity);
+                }
             }
         }
-        let left = weaving::left(self.roads.assignment, &lanes, flows);
+        let left = weaving::left(self.roads.assignment, &lanes, flows, last_place - start);
         let of = Bottleneck::Lanes(self.roads.lanelet(*chain, before));
         (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
+    }
+
+    /// Whether a lane soon parts from all beside it, beyond a station [m]: who is bound to it has to be on it already.
+    fn parts_soon(&self, chain: ChainIndex, station: f64) -> bool {
+        /// Drivers take their lane so far ahead [m].
+        const SOON: f64 = 800.0;
+        let here = self.roads.network.chain(chain);
+        let ends = Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).map(|it| it.end);
+        ends.fold(station, f64::max) < station + SOON
     }
 
     /// What passes a station of a chain [veh/s], and the light there.

@@ -14,23 +14,22 @@ const PLAIN: f64 = 2400.0;
 /// N.
 const LANES: f64 = 2.0;
 const METRES_PER_FOOT: f64 = 0.3048;
+/// Stretches are not told apart closer than this [m].
+const LEAST: f64 = 1.0;
 
-/// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left.
-pub(super) fn left(assignment: &Assignment, lanes: &[(ChainIndex, f64)], flow: f64) -> f64 {
-    // Who comes onto a lane that nobody else is on, as onto one that leads off, finds it free.
-    let is_here = |it: &&Change| {
+/// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left at the end of
+/// a section of `length` [m]. Who has more road for its change makes a part of it there.
+pub(super) fn left(assignment: &Assignment, lanes: &[(ChainIndex, f64)], flow: f64, length: f64) -> f64 {
+    let changing = |it: &Change| {
         let ((chain, [start, end]), (to, [beside, _])) = (it.from, it.to);
-        let is_here = lanes.iter().any(|(lane, at)| *lane == chain && (start..=end).contains(at));
-        is_here && assignment.flow(to, beside.max(0.0))[1] > 0.0
+        let at = lanes.iter().find(|(lane, _)| *lane == chain).map(|(_, at)| *at);
+        // Who comes onto a lane that nobody else is on, as onto one that leads off, finds it free.
+        let at = at.filter(|_| assignment.flow(to, beside.max(0.0))[1] > 0.0)?;
+        let within = end.min(at) - start.max(at - length);
+        Some(it.flow * (within / (end - start).max(LEAST)).clamp(0.0, 1.0))
     };
-    let changing = assignment.changes.iter().filter(is_here).fold((0.0, 0.0), |(flow, metres), it| {
-        let (_, [start, end]) = it.from;
-        (flow + it.flow, metres + it.flow * (end - start))
-    });
-    match changing {
-        (changing, metres) if changing > 0.0 => left_by(changing / flow, metres / changing),
-        _ => 1.0,
-    }
+    let changing: f64 = assignment.changes.iter().filter_map(changing).sum();
+    if changing > 0.0 { left_by(changing / flow, length) } else { 1.0 }
 }
 
 /// The share that is left where a `share` of the vehicles changes within `length` [m].
