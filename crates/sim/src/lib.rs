@@ -74,6 +74,7 @@ pub use rate::Rate;
 pub use scene::{Found, LaneSight, Scene, Spot, Viewpoint};
 pub use signals::Signals;
 pub use snapshot::{Across, Seen, Snapshot};
+pub use source::TAKES_LANE_WITHIN;
 pub use tally::Tally;
 pub use traffic::{Car, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
 pub use trail::Trail;

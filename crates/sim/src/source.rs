@@ -18,6 +18,9 @@ use crate::scene::Scene;
 use crate::traffic::{Motion, VehicleId};
 use crate::vehicle::Class;
 
+/// Road per lane change that is still to go within which a driver comes onto the map in the lane of its route [m] (ours).
+pub const TAKES_LANE_WITHIN: f64 = 800.0;
+
 /// A vehicle at the moment of its arrival.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Arrival {
@@ -180,13 +183,11 @@ impl Source {
     /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long
     /// vehicles on the slow side, others where fewer wait and where there is more room.
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
-        /// Road per lane change within which a driver takes its lane from the start [m] (ours).
-        const SOON: f64 = 800.0;
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
             let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
             let (queued, room) = if arrival.class.is_long() { (0, 0.0) } else { (queue.waiting.len(), room) };
-            let is_pressing = waypoint.last_place < SOON * f64::from(waypoint.changes);
+            let is_pressing = waypoint.last_place < TAKES_LANE_WITHIN * f64::from(waypoint.changes);
             (if is_pressing { waypoint.changes } else { 0 }, queued, -room)
         };
         let order = |a: &(u32, usize, f64), b: &(u32, usize, f64)| {

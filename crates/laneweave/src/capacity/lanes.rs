@@ -1,7 +1,7 @@
 //! How full lanes and lights are.
 
 use laneweave_network::{ChainIndex, Light, Program, Side, Sign};
-use laneweave_sim::Change;
+use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
 use super::{Bottleneck, Load, Roads, once, weaving};
 
@@ -88,11 +88,9 @@ impl Lanes<'_> {
 
     /// Whether a lane soon parts from all beside it, beyond a station [m]: who is bound to it has to be on it already.
     fn parts_soon(&self, chain: ChainIndex, station: f64) -> bool {
-        /// Drivers take their lane so far ahead [m].
-        const SOON: f64 = 800.0;
         let here = self.roads.network.chain(chain);
         let ends = Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).map(|it| it.end);
-        ends.fold(station, f64::max) < station + SOON
+        ends.fold(station, f64::max) < station + TAKES_LANE_WITHIN
     }
 
     /// What passes a station of a chain [veh/s], and the light there.
