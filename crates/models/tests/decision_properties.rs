@@ -4,8 +4,8 @@ mod situations;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Appraisal, Behind, Driver, Flow, LaneChangeModel, LaneView, Mcdm, Merging, RouteView, Rule, Situation,
-    at_least_once_in,
+    Appraisal, Behind, Combination, Comfort, Driver, Flow, Glance, LaneChangeModel, LaneView, Mcdm, Merging,
+    RouteView, Rule, Situation, at_least_once_in,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
 use proptest::option;
@@ -148,6 +148,35 @@ proptest! {
         let before = model.appraise(&situation).gain;
         situation.merging[0] = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
         prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
+    }
+
+    #[test]
+    fn a_longer_look_never_finds_more_than_a_glance(
+        model in any_model(), mut situation in any_situation(), hidden in 0.0..20.0_f64,
+        combination in prop_oneof![Just(Combination::Linear), Just(Combination::Exponential)],
+    ) {
+        let model = Mcdm { combination, ..model };
+        situation.merging = [None; 2];
+        for lane in [&mut situation.here, &mut situation.there] {
+            lane.route = RouteView { changes: 0, remaining: f64::INFINITY, ..lane.route };
+        }
+        let Situation { me, here, there, section, band, .. } = situation;
+        let harm = there.behind.map_or(0.0, |it| model.courtesy.harm(&me, there.ahead, &it));
+        let glance = |hidden: f64| Glance {
+            desired: me.pace.desired,
+            prospects: [here.prospect, there.prospect + hidden],
+            routes: [here.route, there.route],
+            section,
+            band,
+            courtesy: model.courtesy.relief(&me, &here) + harm,
+        };
+        prop_assert!(model.gain_at_most(&glance(hidden)) >= model.appraise(&situation).gain);
+        // Nothing but the comfort is left out where the longer look finds the same prospect.
+        if model.speed.reading == Repaired {
+            let without_comfort = Mcdm { comfort: Comfort { weight: 0.0, ..model.comfort }, ..model };
+            let exact = without_comfort.appraise(&situation).gain;
+            prop_assert!((model.gain_at_most(&glance(0.0)) - exact).abs() < ROUNDING);
+        }
     }
 }
 

@@ -15,11 +15,13 @@ use crate::beliefs::Beliefs;
 use crate::clock::Clock;
 use crate::junction::{Refuge, is_place_ahead};
 use crate::leave::departure;
-use crate::perceive::{Outlook, driver};
+use crate::perceive::{Dismissed, Outlook, driver};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
 use crate::random::{Purpose, Random};
 use crate::scene::{Found, Scene, Spot, Viewpoint};
+use crate::signs::Sign;
 use crate::stuck::{STANDSTILL, is_stuck};
+use crate::tally::Tally;
 use crate::traffic::{Car, Kind, Mind, Phase};
 use crate::turn::next_turn;
 
@@ -156,28 +158,54 @@ fn consider(
         );
         return;
     }
-    let sides = [moment.overtaking, moment.overtaking.opposite()];
-    let [first, second] = sides;
-    let options =
-        [Choice::of(&outlook, moment, &change, first), Choice::of(&outlook, moment, &change, second)];
-    let appraisals = [&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal));
     if car.phase == Phase::Wants {
-        let mind = scene.mind(spot);
-        concern.gives_up = gives_up(moment, mind, style, sides, appraisals);
-        let wanted = options.iter().flatten().find(|it| it.side == mind.side);
+        let (mind, options) = (scene.mind(spot), Choice::both(&outlook, moment, &change));
+        let of = |side: Side| options.iter().flatten().find(|it| it.side == side);
+        let [wanted, other] = [mind.side, mind.side.opposite()].map(of);
+        concern.gives_up =
+            gives_up(moment, mind, style, [wanted, other].map(|it| it.map(|it| &it.appraisal)));
         concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
-        let drawn = change.drawn(appraisals, epochs, draw);
-        let chosen = drawn.and_then(|it| options[it].as_ref());
-        count_signs(outlook.here().prospect, f64::from(car.desired), &options, chosen.is_some(), plan);
-        if let Some(choice) = chosen {
+        if let Some(choice) = desire(&outlook, moment, &change, epochs, draw, &mut plan.tally) {
+            let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.urgency as f32);
             let ask = Ask::Want(choice.want(outlook.here().prospect));
-            let urgency = choice.urgency as f32;
-            outbox.requests.push(Request { urgency, id: motion.id, chain: spot.chain, x: motion.x, ask });
+            outbox.requests.push(Request { urgency, id, chain, x, ask });
         }
     }
     keep_in_mind(concern, car, plan);
+}
+
+/// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where `draw` was
+/// drawn.
+#[inline]
+fn desire(
+    outlook: &Outlook,
+    moment: Moment,
+    change: &LaneChangeModel,
+    epochs: f64,
+    draw: f64,
+    tally: &mut Tally,
+) -> Option<Choice> {
+    let (desired, here) = (f64::from(outlook.car().desired), outlook.here().prospect);
+    if let LaneChangeModel::Mcdm(model) = change
+        && moment.clock.step >= outlook.car().calm_until
+        && let Some(Dismissed { best_prospect }) = outlook.dismisses(model, change.reach(epochs, draw))
+    {
+        // Whether the lane beside is free, and not only its next leader far ahead, takes a longer look.
+        let sign = Sign::of(desired, here, best_prospect);
+        if sign != Some(Sign::HeldUp) {
+            tally.count_sign(sign, false);
+            return None;
+        }
+    }
+    let options = Choice::both(outlook, moment, change);
+    let symmetric = options.iter().flatten().filter(|it| it.is_symmetric);
+    let sign = Sign::of(desired, here, symmetric.map(|it| it.prospect).reduce(f64::max));
+    let drawn =
+        change.drawn([&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal)), epochs, draw);
+    tally.count_sign(sign, drawn.is_some());
+    drawn.and_then(|it| options.into_iter().nth(it)).flatten()
 }
 
 /// A driver keeps its way in mind if there is something about it to keep, or to forget.
@@ -200,6 +228,12 @@ struct Choice {
 }
 
 impl Choice {
+    /// What the driver makes of both sides, that for overtaking first.
+    fn both(outlook: &Outlook, moment: Moment, change: &LaneChangeModel) -> [Option<Choice>; 2] {
+        let of = |side| Choice::of(outlook, moment, change, side);
+        [of(moment.overtaking), of(moment.overtaking.opposite())]
+    }
+
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
     fn of(outlook: &Outlook, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
         let from = outlook.beside(side)?;
@@ -248,40 +282,15 @@ fn note(scene: &Scene, moment: Moment, spot: Spot, period: u32) -> Note {
     }
 }
 
-/// A waiting driver loses patience, or the reason to change.
-fn gives_up(
-    moment: Moment,
-    mind: &Mind,
-    style: &Style,
-    sides: [Side; 2],
-    appraisals: [Option<&Appraisal>; 2],
-) -> bool {
-    let (wanted, other) = if sides[0] == mind.side { (0, 1) } else { (1, 0) };
-    let Some(appraisal) = appraisals[wanted] else { return true };
+/// A waiting driver loses patience, or the reason to change to the side that it wanted, and not to the other.
+fn gives_up(moment: Moment, mind: &Mind, style: &Style, [wanted, other]: [Option<&Appraisal>; 2]) -> bool {
+    let Some(appraisal) = wanted else { return true };
     let waited = moment.clock.since(mind.since);
     let is_tired = mind.kind == Kind::Discretionary && waited > style.manner.patience;
     let is_pointless = appraisal.gain < 0.0;
     let is_better_elsewhere =
-        appraisals[other].is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());
+        other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());
     is_tired || is_pointless || is_better_elsewhere
-}
-
-/// Counts what separates drivers from coins: how often the desire comes to those held up beside a free lane, and to
-/// those on a free road.
-fn count_signs(here: f64, desired: f64, options: &[Option<Choice>; 2], has_chosen: bool, plan: &mut Plan) {
-    /// Share of the desired speed from which a lane is free, and below which a driver is held up.
-    const FREE: f64 = 0.95;
-    const HELD_UP: f64 = 0.9;
-    let symmetric = options.iter().flatten().filter(|it| it.is_symmetric);
-    let Some(best_there) = symmetric.map(|it| it.prospect).reduce(f64::max) else { return };
-    let desires = u64::from(has_chosen);
-    if here >= FREE * desired {
-        plan.tally.free_considerations += 1;
-        plan.tally.free_desires += desires;
-    } else if here <= HELD_UP * desired && best_there >= FREE * desired {
-        plan.tally.held_up_considerations += 1;
-        plan.tally.held_up_desires += desires;
-    }
 }
 
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.

@@ -43,6 +43,7 @@ mod resolve;
 mod rotation;
 mod scene;
 mod signals;
+mod signs;
 mod snapshot;
 mod source;
 mod stuck;

@@ -1,5 +1,7 @@
 //! Traffic as one driver sees it. The only bridge from traffic to models, for simulated and for recorded drivers.
 
+mod glance;
+
 use std::borrow::Cow;
 
 use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation};
@@ -10,6 +12,8 @@ use crate::beliefs::Beliefs;
 use crate::scene::{LaneSight, Scene, Spot, Viewpoint, nearer};
 use crate::traffic::{Car, Phase};
 use crate::ways::Waypoint;
+
+pub(crate) use glance::Dismissed;
 
 /// Who stands at the end of its lane has this much road left to drive on [m].
 const LEAST_ROOM: f64 = 0.1;
@@ -108,18 +112,26 @@ impl<'s, 'a> Outlook<'s, 'a> {
     /// What the driver knows about the lane on `side`, where it would look `from`.
     pub(crate) fn situation(&self, side: Side, from: Viewpoint) -> Situation<'a> {
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length, self.reach);
-        let route = route_view(self.scene, from, &self.waypoint_beside(from), self.beliefs);
-        let mut there = lane_view(self.scene, &self.me, &sight, route);
-        let mut here = self.here;
-        let section = here.route.remaining.min(there.route.remaining).min(self.reach);
-        let [on_section_here, on_section_there] = self.times_on(section, from);
-        here.route = self.beyond(on_section_here, here.route);
-        there.route = self.beyond(on_section_there, there.route);
-        if there.route.changes == Waypoint::NO_WAY {
-            there.route.onward = here.route.onward;
-        }
+        let (section, [route_here, route_there]) = self.routes(from);
+        let here = LaneView { route: route_here, ..self.here };
+        let there = lane_view(self.scene, &self.me, &sight, route_there);
         let (me, band, merging) = (self.me, self.beliefs.band, self.merging(side, from, &sight));
         Situation { me, here, there, section, band, merging }
+    }
+
+    /// The length over which the speeds of the own lane and of the one where the driver would be at `from` differ for it [m], and
+    /// what the two lanes mean for its route beyond.
+    #[inline]
+    fn routes(&self, from: Viewpoint) -> (f64, [RouteView; 2]) {
+        let there = route_view(self.scene, from, &self.waypoint_beside(from), self.beliefs);
+        let section = self.here.route.remaining.min(there.remaining).min(self.reach);
+        let [on_section_here, on_section_there] = self.times_on(section, from);
+        let here = self.beyond(on_section_here, self.here.route);
+        let mut there = self.beyond(on_section_there, there);
+        if there.changes == Waypoint::NO_WAY {
+            there.onward = here.onward;
+        }
+        (section, [here, there])
     }
 
     /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would be at

@@ -63,7 +63,7 @@ pub struct Found {
 /// No vehicle is longer than this [m].
 const LONGEST: f64 = 12.0;
 /// How far back a follower is looked for [m].
-const REAR_SIGHT: f64 = 250.0;
+pub(crate) const REAR_SIGHT: f64 = 250.0;
 /// T_h window ahead [m].
 const WINDOW_AHEAD: f64 = 200.0;
 /// T_h window back [m].

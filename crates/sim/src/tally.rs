@@ -1,5 +1,7 @@
 //! Counts of a run.
 
+use crate::signs::Sign;
+
 /// What was counted. Each lane counts for itself; the counts are added up in order.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
@@ -30,6 +32,18 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Counts a consideration of a driver with `sign`, and whether the desire came.
+    #[inline]
+    pub(crate) fn count_sign(&mut self, sign: Option<Sign>, has_come: bool) {
+        let (considerations, desires) = match sign {
+            None => return,
+            Some(Sign::Free) => (&mut self.free_considerations, &mut self.free_desires),
+            Some(Sign::HeldUp) => (&mut self.held_up_considerations, &mut self.held_up_desires),
+        };
+        *considerations += 1;
+        *desires += u64::from(has_come);
+    }
+
     /// Adds `other`.
     pub fn add(&mut self, other: &Tally) {
         let Tally {

@@ -14,7 +14,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::situation::{Behind, Driver, Situation};
+use super::situation::{Behind, Driver, LaneView, Situation};
 use super::{Chances, Incentive, Outcomes};
 use crate::Reading;
 use crate::follow::{Ahead, CarFollowing, speed_after};
@@ -54,47 +54,46 @@ impl Courtesy {
         self.share(expected(now), expected(then), driver.pace.desired)
     }
 
-    /// The old follower, who would follow the driver's leader instead of the driver.
-    fn old_follower(&self, situation: &Situation, behind: &Behind) -> f64 {
-        let me = &situation.me;
-        let now = Ahead { gap: behind.gap, speed: me.pace.speed };
-        let then = situation
-            .here
-            .ahead
-            .map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
-        self.driver_share(&behind.driver, Some(now), then)
+    /// What it means for the old follower, who would follow the driver's leader instead of the driver, if the driver leaves the
+    /// lane `here`.
+    #[inline]
+    pub fn relief(&self, me: &Driver, here: &LaneView) -> f64 {
+        let in_the_way = me.pace.speed < here.flow.speed;
+        here.behind.as_ref().filter(|_| in_the_way).map_or(0.0, |behind| {
+            let [with, without] = leaders(me, behind, here.ahead);
+            self.driver_share(&behind.driver, with, without)
+        })
     }
 
-    /// The new follower, who would follow the driver instead of the leader there.
-    fn new_follower(&self, situation: &Situation, behind: &Behind) -> f64 {
-        let me = &situation.me;
-        let now = situation
-            .there
-            .ahead
-            .map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
-        let then = Ahead { gap: behind.gap, speed: me.pace.speed };
-        self.driver_share(&behind.driver, now, Some(then))
+    /// What it means for the new follower, who would follow the driver instead of the leader `ahead` of it.
+    #[inline]
+    pub fn harm(&self, me: &Driver, ahead: Option<Ahead>, behind: &Behind) -> f64 {
+        let [with, without] = leaders(me, behind, ahead);
+        self.driver_share(&behind.driver, without, with)
     }
 
     /// A: the sum over the vehicles concerned.
     fn gain(&self, situation: &Situation) -> f64 {
         let Situation { me, here, there, merging, .. } = situation;
-        let harm = there.behind.as_ref().map_or(0.0, |behind| self.new_follower(situation, behind));
+        let harm = there.behind.as_ref().map_or(0.0, |behind| self.harm(me, there.ahead, behind));
         if situation.is_bound() {
             return harm;
         }
-        let in_the_way = me.pace.speed < here.flow.speed;
-        let relief = here
-            .behind
-            .as_ref()
-            .filter(|_| in_the_way)
-            .map_or(0.0, |behind| self.old_follower(situation, behind));
+        let relief = self.relief(me, here);
         let room = merging
             .iter()
             .flatten()
             .map(|it| (1.0 + it.urgency) * self.driver_share(&it.driver, it.blocked, it.freed));
         harm + relief + room.sum::<f64>()
     }
+}
+
+/// What the one `behind` follows with `me` in the lane, and without, where the leader there is `ahead` of me.
+#[inline]
+fn leaders(me: &Driver, behind: &Behind, ahead: Option<Ahead>) -> [Option<Ahead>; 2] {
+    let with = Ahead { gap: behind.gap, speed: me.pace.speed };
+    let without = ahead.map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
+    [Some(with), without]
 }
 
 impl Incentive for Courtesy {

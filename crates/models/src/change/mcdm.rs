@@ -7,7 +7,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::returning::Returning;
-use super::{Chances, Comfort, Courtesy, Incentive, Route, Situation, Speed, Urgency};
+use super::{Chances, Comfort, Courtesy, Glance, Incentive, Route, Situation, Speed, Urgency};
+use crate::Reading;
 use crate::exponential::exp;
 
 /// Multi-criteria decision-making.
@@ -129,19 +130,40 @@ impl Mcdm {
         rows.iter().map(|row| row.weight * utility(row.earning)).sum()
     }
 
+    /// The most that G can be on a side where the driver sees `glance`; infinite where a glance does not tell.
+    #[inline]
+    pub fn gain_at_most(&self, glance: &Glance) -> f64 {
+        let Mcdm { speed, route, comfort, courtesy, .. } = self;
+        let is_repaired = [speed.reading, route.reading] == [Reading::Repaired; 2];
+        if !is_repaired || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
+            return f64::INFINITY;
+        }
+        let Glance { desired, prospects, routes, section, band, courtesy: for_others } = glance;
+        let [here, there] = *prospects;
+        // A longer look would add the discomfort.
+        self.combine(&[
+            Row { earning: Speed::between(here, there, *desired), weight: speed.weight },
+            Row { earning: route.between(routes, *prospects, *section, *band), weight: route.weight },
+            Row { earning: *for_others, weight: courtesy.weight },
+        ])
+    }
+
     /// By how much G is above θ on either side.
     fn excess(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
         sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - self.theta))
     }
 
-    /// Whether the chances of both sides within `epochs` epochs are certainly not above `draw` in all, told without an
-    /// exponential: either is at most `epochs` (or 1) times e^(excess/σ), which for most drivers on most occasions is
-    /// far below any draw.
+    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn, told
+    /// without an exponential: the chance of either is at most `epochs` (or 1) times e^((G − θ)/σ), which for most drivers on
+    /// most occasions is far below any draw.
     #[inline]
-    pub(crate) fn is_out_of_reach(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> bool {
-        let [first, second] = self.excess(sides);
-        let share = draw / (2.0 * epochs.max(1.0));
-        self.rule == Rule::Logit && self.sigma > 0.0 && first.max(second) < self.sigma * ln_at_least(share)
+    pub(crate) fn reach(&self, epochs: f64, draw: f64) -> f64 {
+        match self.rule {
+            Rule::Logit if self.sigma > 0.0 => {
+                self.theta + self.sigma * ln_at_least(draw / (2.0 * epochs.max(1.0)))
+            }
+            Rule::Logit | Rule::Threshold => self.theta,
+        }
     }
 
     /// Chances within one epoch of the desire for either side.

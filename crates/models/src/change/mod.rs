@@ -3,6 +3,7 @@
 mod comfort;
 mod constant_hazard;
 mod courtesy;
+mod glance;
 mod headway;
 mod lateral;
 mod link_time;
@@ -17,6 +18,7 @@ mod urgency;
 pub use comfort::{Comfort, discomfort};
 pub use constant_hazard::ConstantHazard;
 pub use courtesy::Courtesy;
+pub use glance::Glance;
 pub use headway::Flow;
 pub use lateral::{moved_share, peak_lateral_acceleration, peak_lateral_speed};
 pub use link_time::{bpr, link_time};
@@ -117,12 +119,21 @@ impl LaneChangeModel {
         }
     }
 
+    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn evenly
+    /// from [0, 1).
+    #[inline]
+    pub fn reach(&self, epochs: f64, draw: f64) -> f64 {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.reach(epochs, draw),
+            LaneChangeModel::ConstantHazard(_) => f64::NEG_INFINITY,
+        }
+    }
+
     /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
     #[inline(always)]
     pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
-        if let LaneChangeModel::Mcdm(model) = self
-            && model.is_out_of_reach(sides, epochs, draw)
-        {
+        let reach = self.reach(epochs, draw);
+        if sides.into_iter().flatten().all(|it| it.gain < reach) {
             return None;
         }
         let [first, second] = self.choose(sides).map(|p| at_least_once_in(epochs, p));

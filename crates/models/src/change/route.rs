@@ -16,7 +16,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::situation::{LaneView, Situation};
+use super::situation::{LaneView, RouteView, Situation};
 use super::{Chances, Incentive, Outcomes};
 use crate::Reading;
 use crate::follow::CarFollowing;
@@ -59,12 +59,29 @@ pub fn expected_time(chance: f64, on_route: f64, alternative: f64) -> f64 {
 }
 
 impl Route {
-    /// Times [s] on the route and on the alternative in `lane`, driven at `speed` [m/s] over `section` [m].
-    fn times(&self, lane: &LaneView, section: f64, speed: f64) -> (f64, f64) {
+    /// Times [s] on the route and on the alternative in a lane, driven at `speed` [m/s] over `section` [m].
+    #[inline]
+    fn times(&self, route: &RouteView, section: f64, speed: f64) -> (f64, f64) {
         let on_section = travel_time(section, speed);
-        let on_route = on_section + lane.route.onward;
-        let alternative = lane.route.alternative.map_or(on_route + self.penalty, |time| on_section + time);
+        let on_route = on_section + route.onward;
+        let alternative = route.alternative.map_or(on_route + self.penalty, |time| on_section + time);
         (on_route, alternative)
+    }
+
+    /// Y of the repaired reading between lanes that lead to the same place, in which `prospects` [m/s] are anticipated.
+    #[inline]
+    pub(crate) fn between(
+        &self,
+        routes: &[RouteView; 2],
+        prospects: [f64; 2],
+        section: f64,
+        band: f64,
+    ) -> f64 {
+        let [here, there] = [0, 1].map(|lane| {
+            let (on_route, alternative) = self.times(&routes[lane], section, prospects[lane]);
+            better(on_route, alternative, band)
+        });
+        ((here - there) / self.reference).clamp(-LARGEST_YIELD, LARGEST_YIELD)
     }
 
     /// Y of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band` [s]; `None` where it is
@@ -91,8 +108,8 @@ impl Incentive for Route {
             Reading::Literal => me.follow.prospect(me.pace, lane.ahead),
             Reading::Repaired => lane.prospect,
         };
-        let (route_here, alternative_here) = self.times(here, *section, speed(here));
-        let (route_there, alternative_there) = self.times(there, *section, speed(there));
+        let (route_here, alternative_here) = self.times(&here.route, *section, speed(here));
+        let (route_there, alternative_there) = self.times(&there.route, *section, speed(there));
         let keep = -expected_time(chances.here, route_here, alternative_here);
         match self.reading {
             Reading::Literal if situation.is_symmetric() => Outcomes { keep, back: keep, away: keep },

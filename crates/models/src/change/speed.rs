@@ -45,6 +45,14 @@ pub fn anticipated_speed(ahead: Ahead, desired: f64) -> f64 {
     ahead.speed + share * (desired - ahead.speed)
 }
 
+impl Speed {
+    /// Y of the repaired reading between lanes in which `here` and `there` [m/s] are anticipated, for a driver who wants `desired`.
+    #[inline]
+    pub(crate) fn between(here: f64, there: f64, desired: f64) -> f64 {
+        (there - here) / desired
+    }
+}
+
 impl Incentive for Speed {
     fn weight(&self) -> f64 {
         self.weight

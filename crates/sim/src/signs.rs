@@ -1,0 +1,28 @@
+//! What separates drivers from coins: how often the desire comes to those held up beside a free lane, and to those on a free
+//! road.
+
+/// A driver whose desires are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sign {
+    /// On a free road.
+    Free,
+    /// Held up beside a free lane.
+    HeldUp,
+}
+
+/// Share of the desired speed from which a lane is free, and below which a driver is held up.
+const FREE: f64 = 0.95;
+const HELD_UP: f64 = 0.9;
+
+impl Sign {
+    /// Of a driver who wants `desired` [m/s] and anticipates `here` in its lane, and `best_there` in the better lane beside that
+    /// leads to the same place, if there is one.
+    pub(crate) fn of(desired: f64, here: f64, best_there: Option<f64>) -> Option<Sign> {
+        let best_there = best_there?;
+        if here >= FREE * desired {
+            Some(Sign::Free)
+        } else {
+            (here <= HELD_UP * desired && best_there >= FREE * desired).then_some(Sign::HeldUp)
+        }
+    }
+}
