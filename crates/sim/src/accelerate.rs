@@ -40,8 +40,37 @@ pub(crate) struct Chosen {
     pub(crate) junction: Junction,
 }
 
+/// Where along a chain who only follows a leader on it heeds nothing else: beyond a fork, and where the leader is not beyond
+/// the next place to stop.
+#[derive(Clone, Copy)]
+pub(crate) struct OpenRoad {
+    /// From here on whatever the leader does [m].
+    from: f64,
+    fork_clearance: f64,
+    first_place: f64,
+}
+
+impl OpenRoad {
+    /// That of `chain`, which ends at `lane_end` if it is a lane that ends: there it has none.
+    #[inline]
+    pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<f64>) -> OpenRoad {
+        let [first_place, last_place] = scene.network.junctions.places(chain);
+        let fork_clearance =
+            if lane_end.is_some() { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
+        OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
+    }
+
+    /// Whether it reaches from `x` to a leader at `leader` [m].
+    #[inline]
+    pub(crate) fn reaches(&self, x: f64, leader: f64) -> bool {
+        // Where it may have to stop behind its leader it looks more closely.
+        x >= self.from || (x >= self.fork_clearance && leader <= self.first_place)
+    }
+}
+
 /// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it. `None` if it is not.
-#[inline]
+// The most frequent call of a motorway.
+#[inline(always)]
 pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
     let ahead = Ahead { gap: leader.rear() - motion.x, speed: leader.speed };
     let follow = &scene.characters[car.character as usize].follow;
@@ -71,6 +100,13 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
 #[inline(never)]
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Chosen {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let heeds_more = car.phase == Phase::Wants || car.heeds_more;
+    let next = scene.motions(spot.chain).get(spot.index + 1).filter(|it| !heeds_more && it.id != motion.id);
+    let road = OpenRoad::on(scene, spot.chain, lane_end);
+    let usual = next.filter(|it| road.reaches(motion.x, it.x));
+    if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, car, it, clock.dt)) {
+        return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
+    }
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(motion, car), leader);

@@ -2,7 +2,7 @@
 
 use laneweave_network::ChainIndex;
 
-use crate::accelerate::{Chosen, behind, lane_end, with_care};
+use crate::accelerate::{Chosen, OpenRoad, behind, lane_end, with_care};
 use crate::clock::Clock;
 use crate::junction::NO_PASSAGE;
 use crate::plan::{Plan, Upkeep, Waiting, push_tight};
@@ -19,19 +19,13 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         plan.next.reserve_exact(lane.capacity());
     }
     let upcoming = upcoming(scene, chain);
-    let [first_place, last_place] = scene.network.junctions.places(chain);
-    let fork_clearance = scene.network.chain(chain).fork_clearance;
-    let plain_from = last_place.max(fork_clearance);
+    let road = OpenRoad::on(scene, chain, end);
     for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
         if let Some(upcoming) = upcoming {
             upcoming.prefetch(index);
         }
-        // Where it may have to stop behind its leader it looks more closely.
-        let is_plain = |leader: &Motion| {
-            motion.x >= plain_from || (motion.x >= fork_clearance && leader.x <= first_place)
-        };
-        let leader = motions.get(index + 1).filter(|_| end.is_none() && car.only_follows());
-        let leader = leader.filter(|it| is_plain(it));
+        let leader = motions.get(index + 1).filter(|_| car.only_follows());
+        let leader = leader.filter(|it| road.reaches(motion.x, it.x));
         let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
         let (acceleration, stretch) = match usual {
             Some(acceleration) => (acceleration, 1.0),
