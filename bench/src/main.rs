@@ -3,8 +3,8 @@
 //! `cargo run --release -p laneweave-bench` measures a motorway of 40 km and four lanes with some 2,000 vehicles at
 //! steps of 0.1 s, every driver not in a change considering lanes once a second, on one core and on two; what two cores of
 //! the machine can give at most; then the same density on longer roads, up to a million vehicles; then the memory that a
-//! vehicle needs. What is compared runs in turns, a round each, and the best rounds count: other programs, and the
-//! neighbours of a virtual machine, only ever slow a round down. The median tells how much they did.
+//! vehicle needs. What is compared runs in turns, a round each, and the best rounds count; the median tells how much they were
+//! disturbed.
 //! `… -- short` runs 300 steps of the first on one core only, to count instructions under callgrind.
 
 use std::alloc::{GlobalAlloc, Layout};
@@ -16,6 +16,7 @@ use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::network::{ChainIndex, Network};
 use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
 use laneweave::style::Population;
+use laneweave_bench::Rates;
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting(AtomicUsize::new(0));
@@ -59,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Measured::motorway(40.0, 1, 300).and_then(|it| measure([it], 1).map(|_| ()));
     }
     let [one, two] = measure([Measured::motorway(40.0, 1, 500)?, Measured::motorway(40.0, 2, 500)?], 12)?;
-    say(&format!("two threads are {:.2} times one", two.best_rate() / one.best_rate()));
+    say(&format!("two threads are {:.2} times one", two.rates.best() / one.rates.best()));
     say(&format!(
         "two motorways of 20 km on a thread each, in step, are {:.2} times one",
         limit_of_two_threads()?
@@ -74,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ],
         10,
     )?;
-    let growth = small.best_rate() / large.best_rate();
+    let growth = small.rates.best() / large.rates.best();
     say(&format!("from a thousand to a million, an update costs {growth:.2} times"));
     Ok(())
 }
@@ -96,8 +97,7 @@ struct Measured {
     threads: usize,
     /// Steps in a round.
     steps: u32,
-    /// Updates per second of each round.
-    rates: Vec<f64>,
+    rates: Rates,
     /// Bytes in use for its vehicles.
     bytes: f64,
 }
@@ -110,34 +110,21 @@ impl Measured {
         fill(&mut world);
         (0..WARM_UP).for_each(|_| world.step());
         world.reset_counts();
-        Ok(Measured { world, length_km, threads, steps, rates: Vec::new(), bytes: in_use() - empty })
+        Ok(Measured { world, length_km, threads, steps, rates: Rates::default(), bytes: in_use() - empty })
     }
 
     /// One more round.
     fn go_on(&mut self) {
         let (before, updates, start) = (in_use(), self.world.tally().updates, Instant::now());
         (0..self.steps).for_each(|_| self.world.step());
-        let wall_s = start.elapsed().as_secs_f64();
-        self.rates.push((self.world.tally().updates - updates) as f64 / wall_s);
+        self.rates.push(self.world.tally().updates - updates, start.elapsed().as_secs_f64());
         self.bytes += in_use() - before;
-    }
-
-    /// Updates per second in the round that was disturbed least.
-    fn best_rate(&self) -> f64 {
-        self.rates.iter().copied().fold(0.0, f64::max)
-    }
-
-    /// Updates per second in the middle one of all rounds.
-    fn median_rate(&self) -> f64 {
-        let mut rates = self.rates.clone();
-        rates.sort_by(f64::total_cmp);
-        rates[rates.len() / 2]
     }
 
     fn print(&self) {
         let (tally, vehicles) = (self.world.tally(), self.world.on_road());
         let considered_every = tally.updates as f64 * STEP_S / tally.considerations as f64;
-        let (best, median) = (self.best_rate(), self.median_rate());
+        let (best, median) = (self.rates.best(), self.rates.median());
         say(&format!(
             "{:6.0} km: {vehicles:7} vehicles, {} thread(s): {:5.1} million updates/s at best, {:5.1} in the median; {:5.1} ns each, {:5.1} times real time at best; considered every {considered_every:.2} s, {:4.0} B/vehicle, hash {:016x}",
             self.length_km,

@@ -1,7 +1,7 @@
 //! How fast the step is in a town: short lanes, lights, queues, and turns at every corner.
 //!
 //! `cargo run --release -p laneweave-bench --bin town` fills a grid of 20 by 20 junctions with lights and two lanes in each
-//! direction until some 6,000 vehicles are on it, then measures a minute at steps of 0.1 s, on one core and on two.
+//! direction until some 6,000 vehicles are on it, then measures a minute at steps of 0.1 s, on one core and on two in turns.
 //! `… -- short` measures half a minute of a grid of 6 by 6 junctions, as full, on one core only, to count instructions under
 //! callgrind: `--toggle-collect='*measured*'` leaves out how it was filled.
 
@@ -12,6 +12,7 @@ use laneweave::maps::generate::{Grid, grid};
 use laneweave::maps::regulations;
 use laneweave::sim::{Demand, Setup, World};
 use laneweave::style::Population;
+use laneweave_bench::Rates;
 
 /// The allocator of the command.
 #[global_allocator]
@@ -35,43 +36,70 @@ const STEP_S: f64 = 0.1;
 
 fn main() -> Result<(), Box<dyn Error>> {
     if std::env::args().nth(1).as_deref() == Some("short") {
-        return measure(SMALL_TOWN, 1, 300).map(|_| ());
+        let mut town = Measured::of(SMALL_TOWN, 1)?;
+        town.go_on(300);
+        return Ok(town.print());
     }
-    let one = measure(TOWN, 1, 600)?;
-    let two = measure(TOWN, 2, 600)?;
+    let mut towns = [Measured::of(TOWN, 1)?, Measured::of(TOWN, 2)?];
+    for _ in 0..12 {
+        towns.iter_mut().for_each(|it| it.go_on(50));
+    }
+    towns.iter().for_each(Measured::print);
+    let [one, two] = towns.map(|it| it.rates.best());
     say(&format!("two threads are {:.2} times one", two / one));
     Ok(())
 }
 
-/// Updates per second over `steps` steps of `town` when it is full.
-fn measure(town: Town, threads: usize, steps: u32) -> Result<f64, Box<dyn Error>> {
-    let mut world = empty_town(town, threads)?;
-    while world.on_road() < town.vehicles {
-        world.step();
+/// A full town under measurement.
+struct Measured {
+    world: World,
+    town: Town,
+    threads: usize,
+    /// When it was full [s].
+    filled_s: f64,
+    rates: Rates,
+}
+
+impl Measured {
+    fn of(town: Town, threads: usize) -> Result<Measured, Box<dyn Error>> {
+        let mut world = empty_town(town, threads)?;
+        while world.on_road() < town.vehicles {
+            world.step();
+        }
+        let filled_s = world.clock().time();
+        world.reset_counts();
+        Ok(Measured { world, town, threads, filled_s, rates: Rates::default() })
     }
-    let filled_s = world.clock().time();
-    world.reset_counts();
-    let wall_s = measured(&mut world, steps);
-    let updates = world.tally().updates;
-    let rate = updates as f64 / wall_s;
-    say(&format!(
-        "{0} by {0}: filled in {filled_s:.0} s, {1:5} vehicles, {threads} thread(s): {updates} updates, {2:4.2} million/s, {3:4.0} ns each, hash {4:016x}",
-        town.streets,
-        world.on_road(),
-        rate / 1e6,
-        1e9 / rate,
-        world.state_hash(),
-    ));
-    Ok(rate)
+
+    /// One more round.
+    fn go_on(&mut self, steps: u32) {
+        let updates = self.world.tally().updates;
+        let wall_s = measured(&mut self.world, steps);
+        self.rates.push(self.world.tally().updates - updates, wall_s);
+    }
+
+    fn print(&self) {
+        let (best, median) = (self.rates.best(), self.rates.median());
+        say(&format!(
+            "{0} by {0}: filled in {1:.0} s, {2:5} vehicles, {3} thread(s): {4} updates, {5:4.2} million/s at best, {6:4.2} in the median, {7:4.0} ns each, hash {8:016x}",
+            self.town.streets,
+            self.filled_s,
+            self.world.on_road(),
+            self.threads,
+            self.world.tally().updates,
+            best / 1e6,
+            median / 1e6,
+            1e9 / best,
+            self.world.state_hash(),
+        ));
+    }
 }
 
 /// Time that `steps` steps take [s].
 #[inline(never)]
 fn measured(world: &mut World, steps: u32) -> f64 {
     let start = Instant::now();
-    for _ in 0..steps {
-        world.step();
-    }
+    (0..steps).for_each(|_| world.step());
     start.elapsed().as_secs_f64()
 }
 

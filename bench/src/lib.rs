@@ -1,0 +1,26 @@
+//! What the benchmarks share: rounds of measurement in turns, so that what disturbs the machine for a while disturbs all that is
+//! compared.
+
+/// Updates per second of each round.
+#[derive(Clone, Debug, Default)]
+pub struct Rates(Vec<f64>);
+
+impl Rates {
+    /// One more round.
+    pub fn push(&mut self, updates: u64, wall_s: f64) {
+        self.0.push(updates as f64 / wall_s);
+    }
+
+    /// Of the round that was disturbed least: other programs, and the neighbours of a virtual machine, only ever slow a round
+    /// down.
+    pub fn best(&self) -> f64 {
+        self.0.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Of the middle one of all rounds.
+    pub fn median(&self) -> f64 {
+        let mut rates = self.0.clone();
+        rates.sort_by(f64::total_cmp);
+        rates.get(rates.len() / 2).copied().unwrap_or(0.0)
+    }
+}
