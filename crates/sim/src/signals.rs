@@ -15,8 +15,11 @@ const DETECTED_WITHIN: f64 = 30.0;
 pub struct Signals {
     /// By light.
     shown: Vec<LightState>,
-    /// By light when it was green last; the beginning if it was not yet.
-    green_at: Vec<u32>,
+    /// By light the last step in which it was green before the one in which it came to show what it shows; the beginning if
+    /// there was none yet.
+    was_green: Vec<u32>,
+    /// Until then no fixed program switches [s].
+    steady_until: f64,
     controllers: Vec<Controller>,
     /// By light where those are who come to it; empty where nobody asks.
     detectors: Vec<Vec<Detector>>,
@@ -56,8 +59,8 @@ impl Signals {
             }
         }
         let shown = vec![LightState::Red; junctions.lights.len()];
-        let green_at = vec![clock.step; junctions.lights.len()];
-        let mut signals = Signals { shown, green_at, controllers, detectors };
+        let was_green = vec![clock.step; junctions.lights.len()];
+        let mut signals = Signals { shown, was_green, steady_until: 0.0, controllers, detectors };
         signals.show(network, clock);
         signals
     }
@@ -68,22 +71,23 @@ impl Signals {
         self.shown[light.at()]
     }
 
-    /// Step in which a light was green last.
-    pub(crate) fn green_at(&self, light: LightIndex) -> u32 {
-        self.green_at[light.at()]
+    /// Step in which a light was green last, as seen at `clock`.
+    pub(crate) fn green_at(&self, light: LightIndex, clock: Clock) -> u32 {
+        if self.shown(light) == LightState::Green { clock.step } else { self.was_green[light.at()] }
     }
 
     fn show(&mut self, network: &Network, clock: Clock) {
-        let Signals { shown, controllers, .. } = self;
+        let Signals { shown, was_green, steady_until, controllers, .. } = self;
+        for (was_green, shown) in was_green.iter_mut().zip(&*shown) {
+            if *shown == LightState::Green {
+                *was_green = clock.step - 1;
+            }
+        }
         shown.clear();
         shown.extend(network.junctions.show(clock.time()));
+        *steady_until = clock.time() + network.junctions.steady_for(clock.time());
         for controller in controllers {
             controller.lights().for_each(|it| shown[it.at()] = controller.shows(it));
-        }
-        for (green_at, shown) in self.green_at.iter_mut().zip(&self.shown) {
-            if *shown == LightState::Green {
-                *green_at = clock.step;
-            }
         }
     }
 
@@ -93,7 +97,11 @@ impl Signals {
             controller
                 .advance(clock.step, |light| detectors[light.at()].iter().any(|it| it.is_occupied(lanes)));
         }
-        self.show(network, clock);
+        // Rounding may make a light switch a step sooner.
+        let may_switch = clock.time() + clock.dt > self.steady_until;
+        if may_switch || !self.controllers.is_empty() {
+            self.show(network, clock);
+        }
     }
 }
 

@@ -58,7 +58,7 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
     match may_pass(scene, at, survey, Asking::of(scene, at, clock.step, clock)) {
         Err(Hindrance::Room | Hindrance::Ring) => on_way(),
         Err(Hindrance::Light) => {
-            let since = |it| f64::from(clock.step - scene.signals.green_at(it)) * clock.dt;
+            let since = |it| f64::from(clock.step - scene.signals.green_at(it, clock)) * clock.dt;
             let was_green = survey.lights.iter().all(|(it, _)| since(*it) <= RECENTLY);
             if was_green { Blocker::Light } else { Blocker::Other }
         }

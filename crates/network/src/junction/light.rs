@@ -96,6 +96,13 @@ impl Program {
         states.min_by_key(|it| *it as u8).unwrap_or(LightState::Red)
     }
 
+    /// How long from `time` [s] on it shows the same, but for rounding [s]; infinite if it never changes.
+    pub fn steady_for(&self, time: f64) -> f64 {
+        let at = self.within_cycle(time);
+        let ends = self.phases.iter().flat_map(|it| [it.from, it.to, it.to + it.yellow]);
+        ends.map(|it| self.within_cycle(it - at)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The time since the last beginning of a cycle [s]: the remainder, which is dear, only where a sum is not the same.
     #[inline]
     pub(super) fn within_cycle(&self, time: f64) -> f64 {

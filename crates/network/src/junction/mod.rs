@@ -217,6 +217,11 @@ impl Junctions {
         })
     }
 
+    /// How long from `time` [s] on all lights with fixed programs show the same, but for rounding [s].
+    pub fn steady_for(&self, time: f64) -> f64 {
+        self.lights.iter().map(|it| it.program.steady_for(time)).fold(f64::INFINITY, f64::min)
+    }
+
     /// What drivers meet on `chain`.
     #[inline]
     pub fn on(&self, chain: ChainIndex) -> &OnChain {

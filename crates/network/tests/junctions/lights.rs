@@ -166,6 +166,20 @@ fn the_yellow_of_a_green_at_the_end_of_a_cycle_reaches_into_the_next() {
 }
 
 #[test]
+fn a_light_shows_the_same_until_a_phase_or_its_yellow_begins_or_ends() {
+    let last = program(&[(0.5, 20.0), (40.0, 58.0)]);
+    assert_eq!([39.0, 40.0, 58.5, 20.25, 62.0].map(|at| last.steady_for(at)), [1.0, 0.0, 2.0, 2.75, 18.0]);
+    for time in (0..1200).map(|it| 0.1 * f64::from(it)) {
+        let steady = last.steady_for(time);
+        assert!(
+            [0.001, 0.5, 0.999].iter().all(|it| last.state(time + it * steady) == last.state(time + 1e-9)),
+            "{time}"
+        );
+    }
+    assert_eq!(Program::ALWAYS_GREEN.steady_for(7.0), f64::INFINITY);
+}
+
+#[test]
 fn a_light_stays_green_through_turns_that_follow_on_each_other_also_over_the_end_of_the_cycle() {
     let turn = |lights: &[u32]| Turn {
         lights: lights.iter().map(|it| LightIndex(*it)).collect(),
