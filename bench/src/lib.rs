@@ -1,6 +1,13 @@
 //! What the benchmarks share: rounds of measurement in turns, so that what disturbs the machine for a while disturbs all that is
 //! compared.
 
+use std::io::Write;
+
+/// Prints a line; who no longer reads misses nothing.
+pub fn say(line: &str) {
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
 /// Updates per second of each round.
 #[derive(Clone, Debug, Default)]
 pub struct Rates(Vec<f64>);

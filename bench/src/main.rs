@@ -16,7 +16,7 @@ use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::network::{ChainIndex, Network};
 use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
 use laneweave::style::Population;
-use laneweave_bench::Rates;
+use laneweave_bench::{Rates, say};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting(AtomicUsize::new(0));
@@ -209,9 +209,4 @@ fn free_places(network: &Network, random: &Random) -> Vec<(ChainIndex, f64)> {
         }
     }
     places
-}
-
-#[expect(clippy::print_stdout, reason = "this is what it is for")]
-fn say(line: &str) {
-    println!("{line}");
 }

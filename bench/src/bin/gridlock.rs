@@ -14,6 +14,7 @@ use laneweave::maps::{Drawing, regulations};
 use laneweave::network::{DrivingSide, Network};
 use laneweave::sim::{Assignment, Demand, Navigator, Purpose, Random, Rate, Setup, Share, World};
 use laneweave::style::Population;
+use laneweave_bench::say;
 
 const TRIALS: u32 = 200;
 const STEP_S: f64 = 0.1;
@@ -160,9 +161,4 @@ fn skew(demand: &mut Demand, random: &Random) {
             *it = weight(1_000_000 + (1000 * (number % 3) + destination) as u32);
         }
     }
-}
-
-#[expect(clippy::print_stdout, reason = "this is what it is for")]
-fn say(line: &str) {
-    println!("{line}");
 }

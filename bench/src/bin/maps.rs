@@ -8,6 +8,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use laneweave::maps::{ReadOptions, lanelet2, load};
+use laneweave_bench::say;
 
 /// The allocator of the command.
 #[global_allocator]
@@ -127,9 +128,4 @@ fn resident_mb(key: &str) -> f64 {
     let line = status.lines().find_map(|line| line.strip_prefix(key));
     let kilobytes = line.and_then(|it| it.trim().trim_end_matches(" kB").parse::<f64>().ok());
     kilobytes.unwrap_or(0.0) / 1024.0
-}
-
-#[expect(clippy::print_stdout, reason = "this is what it is for")]
-fn say(line: &str) {
-    println!("{line}");
 }

@@ -12,7 +12,7 @@ use laneweave::maps::generate::{Grid, grid};
 use laneweave::maps::regulations;
 use laneweave::sim::{Demand, Setup, World};
 use laneweave::style::Population;
-use laneweave_bench::Rates;
+use laneweave_bench::{Rates, say};
 
 /// The allocator of the command.
 #[global_allocator]
@@ -38,7 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     if std::env::args().nth(1).as_deref() == Some("short") {
         let mut town = Measured::of(SMALL_TOWN, 1)?;
         town.go_on(300);
-        return Ok(town.print());
+        town.print();
+        return Ok(());
     }
     let mut towns = [Measured::of(TOWN, 1)?, Measured::of(TOWN, 2)?];
     for _ in 0..12 {
@@ -110,9 +111,4 @@ fn empty_town(town: Town, threads: usize) -> Result<World, Box<dyn Error>> {
     let Population { characters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, demand, TRUCKS, shares);
     Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)
-}
-
-#[expect(clippy::print_stdout, reason = "this is what it is for")]
-fn say(line: &str) {
-    println!("{line}");
 }

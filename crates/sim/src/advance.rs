@@ -78,17 +78,17 @@ pub(crate) fn advance(
 }
 
 /// Vehicles whose front bumpers passed the places that they go to in this step are gone.
-fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &mut Plan, outbox: &mut Outbox) {
-    let Plan { next: before, arrived, .. } = plan;
-    arrived.clear();
+fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &Plan, outbox: &mut Outbox) {
+    let (before, ended) = (&plan.next, &mut outbox.ended);
+    ended.clear();
     for trip in trips {
         let (from, cars) = (lane.ahead_of(trip.station), lane.cars());
         let passed = before[from..].iter().zip(from..).take_while(|(it, _)| it.x <= trip.station);
         let ends = |index: usize| cars[index].goal == trip.goal && !cars[index].is_shadow;
-        arrived.extend(passed.map(|(_, index)| index).filter(|it| ends(*it)).map(|it| it as u32));
+        ended.extend(passed.map(|(_, index)| index).filter(|it| ends(*it)).map(|it| it as u32));
     }
-    arrived.sort_unstable_by(|a, b| b.cmp(a));
-    for index in arrived.iter() {
+    ended.sort_unstable_by(|a, b| b.cmp(a));
+    for index in ended.iter() {
         outbox.arrived.push((chain, lane.remove(*index as usize)));
     }
 }

@@ -20,10 +20,11 @@ const STARVES: f64 = 120.0;
 
 /// The drivers of a lane appeal.
 pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan, outbox: &mut Outbox) {
-    for (index, from) in &plan.returns {
-        let motion = &scene.motions(chain)[*index as usize];
-        let what = Plea::GiveBack(*from);
-        outbox.appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
+    let Outbox { returns, appeals, .. } = outbox;
+    for (index, from) in returns.drain(..) {
+        let motion = &scene.motions(chain)[index as usize];
+        let what = Plea::GiveBack(from);
+        appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
     }
     // At a light there is nothing to ask for, but by who starves there.
     let has_to_ask = |it: &&Waiting| !it.is_held || clock.since(it.since) > STARVES;

@@ -88,14 +88,14 @@ fn consider(
 ) {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let style = &scene.characters[car.character as usize];
-    plan.tally.considerations += 1;
+    outbox.tally.considerations += 1;
     let state = concentration(&style.attention, moment.random, motion.id, moment.clock.time());
     let alertness = style.attention.alertness(state);
     let period = moment.clock.steps(alertness.epoch);
     let mut note = note(scene, moment, spot, period);
     if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
         if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
-            plan.tally.stuck += 1;
+            outbox.tally.stuck += 1;
         } else {
             note.standing = car.standing;
         }
@@ -124,14 +124,14 @@ fn consider(
         let from = if has_another_way { beyond } else { motion.x };
         concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
-        plan.tally.missed_turns += 1;
+        outbox.tally.missed_turns += 1;
         push_tight(&mut plan.concerns, concern);
         return;
     }
     // Who passed the last place goes round, if there is a way round; if not, it has a passage, and is re-routed beyond.
     let leads_on = waypoint.leads_on(motion.x);
     if leads_on && matches!(waypoint, Cow::Owned(_)) {
-        plan.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
+        outbox.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
     }
     if leads_on && waypoint.last_place - motion.x < HEEDED_WITHIN {
         concern.last_place = waypoint.last_place;
@@ -151,7 +151,7 @@ fn consider(
     };
     let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
     if let Some(way) = departure(scene, moment, spot, &outlook, &change, epochs) {
-        plan.tally.route_changes += u64::from(way.is_change);
+        outbox.tally.route_changes += u64::from(way.is_change);
         push_tight(
             &mut plan.concerns,
             Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern },
@@ -167,7 +167,7 @@ fn consider(
         concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
     } else {
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
-        if let Some(choice) = desire(&outlook, moment, &change, epochs, draw, &mut plan.tally) {
+        if let Some(choice) = desire(&outlook, moment, &change, epochs, draw, &mut outbox.tally) {
             let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.urgency as f32);
             let ask = Ask::Want(choice.want(outlook.here().prospect));
             outbox.requests.push(Request { urgency, id, chain, x, ask });

@@ -5,14 +5,14 @@ use laneweave_network::ChainIndex;
 use crate::accelerate::{Chosen, OpenRoad, behind, lane_end, with_care};
 use crate::clock::Clock;
 use crate::junction::NO_PASSAGE;
-use crate::plan::{Plan, Upkeep, Waiting, push_tight};
+use crate::plan::{Outbox, Plan, Upkeep, Waiting, push_tight};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Lane, Motion};
 
 /// All drivers of a lane accelerate and move.
 // The busiest loop of a motorway has the registers to itself.
 #[inline(never)]
-pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan) {
+pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
     let (motions, end) = (lane.motions(), lane_end(scene, chain));
     if plan.next.capacity() < motions.len() {
@@ -20,6 +20,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
     }
     let upcoming = upcoming(scene, chain);
     let road = OpenRoad::on(scene, chain, end);
+    let mut updates = 0;
     for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
         if let Some(upcoming) = upcoming {
             upcoming.prefetch(index);
@@ -29,7 +30,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
         let (acceleration, stretch) = match usual {
             Some(acceleration) => (acceleration, 1.0),
-            None => drive_with_care(scene, clock, Spot { chain, index }, end, plan),
+            None => drive_with_care(scene, clock, Spot { chain, index }, end, plan, outbox),
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
         if next.tightness < 1.0 {
@@ -38,10 +39,11 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         }
         plan.next.push(next);
         if !car.is_shadow {
-            plan.tally.distance += distance;
-            plan.tally.updates += 1;
+            plan.distance += distance;
+            updates += 1;
         }
     }
+    outbox.tally.updates += updates;
 }
 
 /// The lane that those beside it will look into next, if it is worth asking for: few lanes stay in the cache anyway.
@@ -59,14 +61,15 @@ fn drive_with_care(
     spot: Spot,
     lane_end: Option<f64>,
     plan: &mut Plan,
+    outbox: &mut Outbox,
 ) -> (f64, f64) {
     let car = scene.car(spot);
     let chosen = with_care(scene, clock, spot, lane_end);
     let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
     let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
     // A shadow counts as well: kinematics in either lane is kinematics.
-    plan.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
-    plan.tally.collisions += u64::from(touches && !car.in_collision);
+    outbox.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
+    outbox.tally.collisions += u64::from(touches && !car.in_collision);
     let index = spot.index as u32;
     if !car.only_follows() || in_emergency || touches {
         let motion = scene.motion(spot);
@@ -83,7 +86,7 @@ fn drive_with_care(
         let since = plan.waited.iter().find(|it| it.id == id).map_or(clock.step, |it| it.since);
         plan.waiting.push(Waiting { index, id, since, is_held: junction.is_held });
     }
-    plan.returns.extend(junction.gives_back.map(|from| (index, from)));
+    outbox.returns.extend(junction.gives_back.map(|from| (index, from)));
     (acceleration, stretch(scene, spot))
 }
 

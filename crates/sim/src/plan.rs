@@ -9,9 +9,9 @@ use crate::tally::Tally;
 use crate::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
-/// its own, so that threads do not disturb each other.
+/// its own, so that threads do not disturb each other, and on few of them: towns have thousands of lanes.
 #[derive(Debug, Default)]
-#[repr(align(128))]
+#[repr(align(64))]
 pub(crate) struct Plan {
     /// How each entry moves at the end of the step.
     pub(crate) next: Vec<Motion>,
@@ -24,15 +24,11 @@ pub(crate) struct Plan {
     /// Drivers who wait for their passage, now and in the step before.
     pub(crate) waiting: Vec<Waiting>,
     pub(crate) waited: Vec<Waiting>,
-    /// Drivers who give a passage back, and from where on.
-    pub(crate) returns: Vec<(u32, f64)>,
-    /// Entries whose trips ended.
-    pub(crate) arrived: Vec<u32>,
-    /// Overlaps, if it was time to look for them.
-    pub(crate) overlaps: u64,
-    /// Counts.
-    pub(crate) tally: Tally,
+    /// Distance that its vehicles have driven [m]: the only count that depends on the order in which it is added up.
+    pub(crate) distance: f64,
 }
+
+const _: () = assert!(size_of::<Plan>() <= 192, "three cache lines");
 
 /// Adds to a list that is kept from step to step: doubling would leave much of its memory unused.
 #[inline]
@@ -52,7 +48,6 @@ impl Plan {
         self.concerns.clear();
         std::mem::swap(&mut self.waiting, &mut self.waited);
         self.waiting.clear();
-        self.returns.clear();
     }
 }
 
@@ -79,8 +74,15 @@ pub(crate) struct Outbox {
     pub(crate) wants: Vec<(Refuge, Claim, f64)>,
     /// Drivers out of patience who wait for a ring to take them in, each between two chains.
     pub(crate) rings: Vec<([ChainIndex; 2], Claim)>,
-    /// Room for the thread's work.
+    /// Room for the thread's work on one driver, and on one lane: drivers who give a passage back, and from where on; entries
+    /// whose trips ended.
     pub(crate) survey: Survey,
+    pub(crate) returns: Vec<(u32, f64)>,
+    pub(crate) ended: Vec<u32>,
+    /// Overlaps that were seen.
+    pub(crate) overlaps: u64,
+    /// What was counted since the counts were forgotten, but for distances.
+    pub(crate) tally: Tally,
     /// Vehicles that came to a halt.
     pub(crate) halts: Vec<VehicleId>,
     /// Main entries whose trips ended on their chains.

@@ -2,7 +2,7 @@
 
 use crate::signs::Sign;
 
-/// What was counted. Each lane counts for itself; the counts are added up in order.
+/// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on who did what.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Times that a driver considered lanes.

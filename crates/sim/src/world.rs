@@ -276,9 +276,9 @@ impl World {
                 let chain = ChainIndex(index as u32);
                 plan.clear();
                 decide(&scene, moment, chain, plan, outbox);
-                drive(&scene, moment.clock, chain, plan);
+                drive(&scene, moment.clock, chain, plan, outbox);
                 appeal(&scene, moment.clock, chain, plan, outbox);
-                plan.overlaps = if is_watched { overlaps(&scene, chain) } else { 0 };
+                outbox.overlaps += if is_watched { overlaps(&scene, chain) } else { 0 };
             },
             |lane, outbox, index, plan| {
                 let chain = ChainIndex(index as u32);
@@ -286,9 +286,7 @@ impl World {
                 advance(lane, chain, ends, moment.clock, characters, plan, outbox);
             },
         );
-        if is_watched {
-            self.counts.overlaps += self.plans.iter().map(|plan| plan.overlaps).sum::<u64>();
-        }
+        self.counts.overlaps += outboxes.iter_mut().map(|it| std::mem::take(&mut it.overlaps)).sum::<u64>();
     }
 
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
@@ -398,10 +396,10 @@ impl World {
         self.navigator.leads(&self.network, place, destination as u16)
     }
 
-    /// What the drivers did so far, added up over the lanes.
+    /// What the drivers did so far, added up over threads, and distances over the lanes.
     pub fn tally(&self) -> Tally {
-        let mut sum = Tally::default();
-        self.plans.iter().for_each(|plan| sum.add(&plan.tally));
+        let mut sum = Tally { distance: self.plans.iter().map(|it| it.distance).sum(), ..Tally::default() };
+        self.outboxes.iter().for_each(|it| sum.add(&it.tally));
         sum
     }
 
@@ -412,7 +410,8 @@ impl World {
 
     /// Forgets all counts: what follows is measured, what was before is warm-up. Vehicles on the road count as entered.
     pub fn reset_counts(&mut self) {
-        self.plans.iter_mut().for_each(|plan| plan.tally = Tally::default());
+        self.plans.iter_mut().for_each(|it| it.distance = 0.0);
+        self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
         self.counts = Counts { entered: self.on_road() as u64, ..Counts::default() };
     }
 
