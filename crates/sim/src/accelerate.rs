@@ -103,7 +103,8 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Ch
     let heeds_more = car.phase == Phase::Wants || car.heeds_more;
     let next = scene.motions(spot.chain).get(spot.index + 1).filter(|it| !heeds_more && it.id != motion.id);
     let road = OpenRoad::on(scene, spot.chain, lane_end);
-    let usual = next.filter(|it| road.reaches(motion.x, it.x));
+    let is_usual = |it: &&Motion| road.reaches(motion.x, it.x) && junction::is_nothing_near(scene, spot);
+    let usual = next.filter(is_usual);
     if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, car, it, clock.dt)) {
         return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
     }

@@ -43,14 +43,20 @@ pub(crate) fn sight(speed: f64) -> f64 {
     speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
 }
 
+/// Whether the driver at `spot` is far from all junctions and has no passage: there is nothing to heed.
+#[inline]
+pub(crate) fn is_nothing_near(scene: &Scene, spot: Spot) -> bool {
+    let until = sight(scene.motion(spot).speed);
+    is_far(scene, scene.viewpoint(spot), until) && scene.passage(spot).is_none()
+}
+
 /// What the driver at `spot` heeds.
 #[inline]
 pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
-    let until = sight(scene.motion(spot).speed);
-    if is_far(scene, scene.viewpoint(spot), until) && scene.passage(spot).is_none() {
+    if is_nothing_near(scene, spot) {
         return Junction::default();
     }
-    look_closely(scene, spot, until)
+    look_closely(scene, spot, sight(scene.motion(spot).speed))
 }
 
 /// What it heeds within `until` [m].

@@ -21,7 +21,7 @@ mod turns;
 
 pub(crate) use conditions::{Asking, Hindrance, may_pass};
 pub use heed::STOPS_AT_YELLOW;
-pub(crate) use heed::{Junction, lets_go, look, sight};
+pub(crate) use heed::{Junction, is_nothing_near, lets_go, look, sight};
 pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
