@@ -133,7 +133,19 @@ impl Mcdm {
     /// The most that G can be on a side where the driver sees `glance`; infinite where a glance does not tell.
     #[inline]
     pub fn gain_at_most(&self, glance: &Glance) -> f64 {
-        let Mcdm { speed, route, comfort, courtesy, .. } = self;
+        // All fields are named, so that no incentive is forgotten here. Urgency plays no part between such lanes.
+        let Mcdm {
+            speed,
+            route,
+            comfort,
+            courtesy,
+            urgency: _,
+            rule: _,
+            theta: _,
+            sigma: _,
+            combination: _,
+            returning: _,
+        } = self;
         let is_repaired = [speed.reading, route.reading] == [Reading::Repaired; 2];
         if !is_repaired || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
             return f64::INFINITY;
