@@ -54,7 +54,7 @@ impl Courtesy {
         self.share(expected(now), expected(then), driver.pace.desired)
     }
 
-    /// What it means for the old follower, who would follow the driver's leader instead of the driver, if the driver leaves the
+    /// Its share of A for the old follower, who would follow the driver's leader instead of the driver, if the driver leaves the
     /// lane `here`.
     #[inline]
     pub fn relief(&self, me: &Driver, here: &LaneView) -> f64 {
@@ -65,7 +65,7 @@ impl Courtesy {
         })
     }
 
-    /// What it means for the new follower, who would follow the driver instead of the leader `ahead` of it.
+    /// Its share of A for the new follower, who would follow the driver instead of the leader `ahead` of it.
     #[inline]
     pub fn harm(&self, me: &Driver, ahead: Option<Ahead>, behind: &Behind) -> f64 {
         let [with, without] = leaders(me, behind, ahead);

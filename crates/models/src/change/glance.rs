@@ -1,7 +1,7 @@
 //! What a driver can make of a side at most, told from a glance at it.
 //!
 //! Between lanes that lead to the same place nothing that a longer look finds makes a side better: leaders further on only
-//! lower its prospect, and a change is never comfortable. Who finds even this gain out of reach need not look.
+//! lower its prospect, and a change is never comfortable. Who finds even this gain out of reach need not look. Ours.
 
 use super::situation::RouteView;
 
