@@ -9,9 +9,9 @@ use crate::tally::Tally;
 use crate::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
-/// its own, so that threads do not disturb each other, and on few of them: towns have thousands of lanes.
+/// its own, so that threads do not disturb each other, and on few of them: towns have thousands of lanes. Lines are fetched in pairs, so it begins with a pair.
 #[derive(Debug, Default)]
-#[repr(align(64))]
+#[repr(align(128))]
 pub(crate) struct Plan {
     /// How each entry moves at the end of the step.
     pub(crate) next: Vec<Motion>,
@@ -28,7 +28,7 @@ pub(crate) struct Plan {
     pub(crate) distance: f64,
 }
 
-const _: () = assert!(size_of::<Plan>() <= 192, "three cache lines");
+const _: () = assert!(size_of::<Plan>() <= 256, "four cache lines");
 
 /// Adds to a list that is kept from step to step: doubling would leave much of its memory unused.
 #[inline]
