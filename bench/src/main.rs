@@ -63,8 +63,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     say(&format!("two threads are {:.2} times one", two.rates.best() / one.rates.best()));
     say(&format!(
         "two motorways of 20 km on a thread each, in step, are {:.2} times one",
-        limit_of_two_threads()?
+        limit_of_two_threads(6)?
     ));
+    let [nearest, farthest] = two.round_trips;
+    say(&format!("a message from core to core and back takes {nearest:.0} to {farthest:.0} ns"));
     let [small, .., large, _] = measure(
         [
             Measured::motorway(20.0, 1, 500)?,
@@ -100,6 +102,8 @@ struct Measured {
     rates: Rates,
     /// Bytes in use for its vehicles.
     bytes: f64,
+    /// The shortest and the longest round trip between two cores before one of its rounds [ns].
+    round_trips: [f64; 2],
 }
 
 impl Measured {
@@ -110,11 +114,17 @@ impl Measured {
         fill(&mut world);
         (0..WARM_UP).for_each(|_| world.step());
         world.reset_counts();
-        Ok(Measured { world, length_km, threads, steps, rates: Rates::default(), bytes: in_use() - empty })
+        let bytes = in_use() - empty;
+        let round_trips = [f64::INFINITY, 0.0];
+        Ok(Measured { world, length_km, threads, steps, rates: Rates::default(), bytes, round_trips })
     }
 
     /// One more round.
     fn go_on(&mut self) {
+        if self.threads > 1 {
+            let (now, [shortest, longest]) = (round_trip(), self.round_trips);
+            self.round_trips = [shortest.min(now), longest.max(now)];
+        }
         let (before, updates, start) = (in_use(), self.world.tally().updates, Instant::now());
         (0..self.steps).for_each(|_| self.world.step());
         self.rates.push(self.world.tally().updates - updates, start.elapsed().as_secs_f64());
@@ -141,34 +151,64 @@ impl Measured {
 
 /// How many times faster two motorways of half the length are on two threads than on one, if the threads share nothing
 /// but wait for each other after every step: what the machine leaves of two cores.
-fn limit_of_two_threads() -> Result<f64, Box<dyn Error>> {
-    let half = || -> Result<World, Box<dyn Error>> {
-        let mut world = empty_motorway(20_000.0, 1)?;
-        fill(&mut world);
-        (0..WARM_UP).for_each(|_| world.step());
-        world.reset_counts();
-        Ok(world)
-    };
-    let alone = in_step(half()?, &AtomicU32::new(0), 1);
-    let (one, other, arrived) = (half()?, half()?, AtomicU32::new(0));
-    let together = std::thread::scope(|scope| {
-        let other = scope.spawn(|| in_step(other, &arrived, 2));
-        in_step(one, &arrived, 2) + other.join().unwrap_or_default()
-    });
+fn limit_of_two_threads(rounds: usize) -> Result<f64, Box<dyn Error>> {
+    let half = || Measured::motorway(20.0, 1, 500);
+    let (mut one, mut other, mut alone, mut together) = (half()?, half()?, 0.0_f64, 0.0_f64);
+    for _ in 0..rounds {
+        alone = alone.max(in_step(&mut one, &AtomicU32::new(0), 1));
+        let arrived = AtomicU32::new(0);
+        let both = std::thread::scope(|scope| {
+            let other = scope.spawn(|| in_step(&mut other, &arrived, 2));
+            in_step(&mut one, &arrived, 2) + other.join().unwrap_or_default()
+        });
+        together = together.max(both);
+    }
     Ok(together / alone)
 }
 
-/// Updates per second of a world that waits after every step until as many as `threads` have `arrived`.
-fn in_step(mut world: World, arrived: &AtomicU32, threads: u32) -> f64 {
-    let start = Instant::now();
-    for step in 1..=3000 {
-        world.step();
+/// Updates per second in a round of one that waits after every step until as many as `threads` have `arrived`.
+fn in_step(it: &mut Measured, arrived: &AtomicU32, threads: u32) -> f64 {
+    let (before, start) = (it.world.tally().updates, Instant::now());
+    for step in 1..=it.steps {
+        it.world.step();
         arrived.fetch_add(1, Ordering::AcqRel);
-        while arrived.load(Ordering::Acquire) < threads * step {
-            std::hint::spin_loop();
-        }
+        spin_until(|| arrived.load(Ordering::Acquire) >= threads * step);
     }
-    world.tally().updates as f64 / start.elapsed().as_secs_f64()
+    (it.world.tally().updates - before) as f64 / start.elapsed().as_secs_f64()
+}
+
+/// How long a message from one core to the other and back takes [ns]: four times as long where the two share no cache,
+/// and a virtual machine is moved now and then.
+fn round_trip() -> f64 {
+    const MESSAGES: u32 = 2_000;
+    let (there, back) = (Message::default(), Message::default());
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            for number in 1..=MESSAGES {
+                spin_until(|| there.0.load(Ordering::Acquire) == number);
+                back.0.store(number, Ordering::Release);
+            }
+        });
+        let send = |number| {
+            there.0.store(number, Ordering::Release);
+            spin_until(|| back.0.load(Ordering::Acquire) == number);
+        };
+        send(1);
+        let start = Instant::now();
+        (2..=MESSAGES).for_each(send);
+        1e9 * start.elapsed().as_secs_f64() / f64::from(MESSAGES - 1)
+    })
+}
+
+/// What one core tells the other, on a cache line of its own.
+#[derive(Default)]
+#[repr(align(128))]
+struct Message(AtomicU32);
+
+fn spin_until(is_so: impl Fn() -> bool) {
+    while !is_so() {
+        std::hint::spin_loop();
+    }
 }
 
 fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {

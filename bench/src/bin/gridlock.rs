@@ -113,7 +113,7 @@ fn trial(number: u32) -> Result<Outcome, Box<dyn Error>> {
         stuck: tally.stuck,
         fewest,
         collisions: tally.collisions,
-        overlaps: counts.overlaps,
+        overlaps: tally.overlaps,
     })
 }
 

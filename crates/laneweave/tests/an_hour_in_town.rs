@@ -17,7 +17,7 @@ fn an_hour(map: &str, seed: u64) -> Option<World> {
     scenario.demand.vehicles_per_hour = Some(1500.0);
     let mut world = prepare(&scenario, &Origin::default()).expect("the map is sound").world;
     (0..36_000).for_each(|_| world.step());
-    assert_eq!((world.tally().stuck, world.tally().collisions, world.counts().overlaps), (0, 0, 0));
+    assert_eq!((world.tally().stuck, world.tally().collisions, world.tally().overlaps), (0, 0, 0));
     Some(world)
 }
 

@@ -93,7 +93,7 @@ fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Sign
         }
     }
     let tally = world.tally();
-    assert_eq!((tally.collisions, world.counts().overlaps, tally.stuck), (0, 0, 0));
+    assert_eq!((tally.collisions, world.tally().overlaps, tally.stuck), (0, 0, 0));
     signs.vehicle_km = tally.distance / 1000.0;
     signs.hazard_held_up = tally.held_up_desires as f64 / tally.held_up_considerations as f64;
     signs.hazard_free = tally.free_desires as f64 / tally.free_considerations as f64;

@@ -34,6 +34,10 @@ pub(crate) fn advance(
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) {
+    if lane.motions().is_empty() {
+        outbox.empty.push(chain);
+        return;
+    }
     plan.notes.iter().for_each(|it| lane.prefetch_car(it.index));
     plan.upkeep.iter().for_each(|it| lane.prefetch_driver(it.index));
     take_note(lane, chain, clock, plan, outbox);

@@ -2,8 +2,6 @@
 
 use laneweave_network::ChainIndex;
 
-use crate::traffic::Lane;
-
 /// The lanes that have vehicles, or had some in the last step.
 #[derive(Debug)]
 pub(crate) struct Busy {
@@ -11,31 +9,47 @@ pub(crate) struct Busy {
     marks: Vec<u64>,
     /// Those of the present step.
     chosen: Vec<u32>,
+    /// The marks have changed since they were chosen.
+    has_changed: bool,
 }
 
 impl Busy {
     /// None of `count` lanes.
     pub(crate) fn none_of(count: usize) -> Busy {
-        Busy { marks: vec![0; count.div_ceil(64)], chosen: Vec::new() }
+        Busy { marks: vec![0; count.div_ceil(64)], chosen: Vec::new(), has_changed: false }
     }
 
     /// A vehicle comes onto `chain`.
     #[inline]
     pub(crate) fn note(&mut self, chain: ChainIndex) {
-        self.marks[chain.at() / 64] |= 1 << (chain.at() % 64);
+        let (word, bit) = self.mark(chain);
+        let has_changed = *word & bit == 0;
+        *word |= bit;
+        self.has_changed |= has_changed;
     }
 
-    /// Chooses the lanes that are to be moved in this step, in order. Who has left a lane is forgotten there in the step after.
-    pub(crate) fn choose(&mut self, lanes: &[Lane]) -> &[u32] {
-        self.chosen.clear();
-        for (word, first) in self.marks.iter_mut().zip((0..).step_by(64)) {
-            let mut left = *word;
-            while left != 0 {
-                let bit = left.trailing_zeros();
-                left &= left - 1;
-                self.chosen.push(first + bit);
-                if lanes[(first + bit) as usize].motions().is_empty() {
-                    *word &= !(1 << bit);
+    /// There was nobody to be moved on `chain`.
+    #[inline]
+    pub(crate) fn forget(&mut self, chain: ChainIndex) {
+        let (word, bit) = self.mark(chain);
+        *word &= !bit;
+        self.has_changed = true;
+    }
+
+    fn mark(&mut self, chain: ChainIndex) -> (&mut u64, u64) {
+        (&mut self.marks[chain.at() / 64], 1 << (chain.at() % 64))
+    }
+
+    /// The lanes that are to be moved in this step, in order. The lanes themselves are not looked at: other threads have
+    /// just written to them.
+    pub(crate) fn chosen(&mut self) -> &[u32] {
+        if std::mem::take(&mut self.has_changed) {
+            self.chosen.clear();
+            for (word, first) in self.marks.iter().zip((0..).step_by(64)) {
+                let mut left = *word;
+                while left != 0 {
+                    self.chosen.push(first + left.trailing_zeros());
+                    left &= left - 1;
                 }
             }
         }
@@ -48,13 +62,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lane_is_chosen_once_more_after_it_is_empty() {
-        let lanes = vec![Lane::default(); 130];
-        let mut busy = Busy::none_of(lanes.len());
+    fn lanes_are_chosen_in_order_until_they_are_forgotten() {
+        let mut busy = Busy::none_of(130);
         [129, 0, 64, 0].into_iter().for_each(|it| busy.note(ChainIndex(it)));
-        assert_eq!(busy.choose(&lanes), [0, 64, 129]);
-        busy.note(ChainIndex(64));
-        assert_eq!(busy.choose(&lanes), [64]);
-        assert_eq!(busy.choose(&lanes), [0_u32; 0]);
+        assert_eq!(busy.chosen(), [0, 64, 129]);
+        assert_eq!(busy.chosen(), [0, 64, 129]);
+        [0, 129].into_iter().for_each(|it| busy.forget(ChainIndex(it)));
+        busy.note(ChainIndex(1));
+        assert_eq!(busy.chosen(), [1, 64]);
+        [64, 1].into_iter().for_each(|it| busy.forget(ChainIndex(it)));
+        assert_eq!(busy.chosen(), [0_u32; 0]);
     }
 }

@@ -79,30 +79,38 @@ pub(crate) struct Outbox {
     pub(crate) survey: Survey,
     pub(crate) returns: Vec<(u32, f64)>,
     pub(crate) ended: Vec<u32>,
-    /// Overlaps that were seen.
-    pub(crate) overlaps: u64,
     /// What was counted since the counts were forgotten, but for distances.
     pub(crate) tally: Tally,
     /// Vehicles that came to a halt.
     pub(crate) halts: Vec<VehicleId>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
+    /// Lanes that had no vehicles when they were to be moved.
+    pub(crate) empty: Vec<ChainIndex>,
 }
 
 impl Outbox {
     /// Takes over all that is in `other`.
     pub(crate) fn gather(&mut self, other: &mut Outbox) {
-        self.requests.append(&mut other.requests);
-        self.milestones.append(&mut other.milestones);
-        self.leaving.append(&mut other.leaving);
-        self.progress.append(&mut other.progress);
-        self.appeals.append(&mut other.appeals);
-        self.claims.append(&mut other.claims);
-        self.blocked.append(&mut other.blocked);
-        self.wants.append(&mut other.wants);
-        self.rings.append(&mut other.rings);
-        self.halts.append(&mut other.halts);
-        self.arrived.append(&mut other.arrived);
+        take_over(&mut self.requests, &mut other.requests);
+        take_over(&mut self.milestones, &mut other.milestones);
+        take_over(&mut self.leaving, &mut other.leaving);
+        take_over(&mut self.progress, &mut other.progress);
+        take_over(&mut self.appeals, &mut other.appeals);
+        take_over(&mut self.claims, &mut other.claims);
+        take_over(&mut self.blocked, &mut other.blocked);
+        take_over(&mut self.wants, &mut other.wants);
+        take_over(&mut self.rings, &mut other.rings);
+        take_over(&mut self.halts, &mut other.halts);
+        take_over(&mut self.arrived, &mut other.arrived);
+        take_over(&mut self.empty, &mut other.empty);
+    }
+}
+
+/// Appends `other`, and writes to it only if there is something: its thread keeps it in its own cache.
+fn take_over<T>(list: &mut Vec<T>, other: &mut Vec<T>) {
+    if !other.is_empty() {
+        list.append(other);
     }
 }
 

@@ -20,6 +20,7 @@ impl World {
         let [first, others @ ..] = &mut self.outboxes[..] else { return };
         others.iter_mut().for_each(|it| first.gather(it));
         first.halts.drain(..).for_each(|id| self.trips.stop(id));
+        first.empty.drain(..).for_each(|chain| self.busy.forget(chain));
     }
 
     /// Grants what can be granted.

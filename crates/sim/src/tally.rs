@@ -23,6 +23,8 @@ pub struct Tally {
     pub emergency_brakings: u64,
     /// Times that a vehicle came to touch its leader.
     pub collisions: u64,
+    /// Other overlaps of two vehicles, looked for once a second.
+    pub overlaps: u64,
     /// Vehicles that stood for 300 s.
     pub stuck: u64,
     /// Drivers who passed the last place for a change without reaching a lane of their route.
@@ -56,6 +58,7 @@ impl Tally {
             distance,
             emergency_brakings,
             collisions,
+            overlaps,
             stuck,
             missed_turns,
             route_changes,
@@ -69,6 +72,7 @@ impl Tally {
         self.distance += distance;
         self.emergency_brakings += emergency_brakings;
         self.collisions += collisions;
+        self.overlaps += overlaps;
         self.stuck += stuck;
         self.missed_turns += missed_turns;
         self.route_changes += route_changes;

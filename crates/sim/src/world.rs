@@ -44,7 +44,7 @@ pub struct World {
     pub(crate) clock: Clock,
     pub(crate) lanes: Vec<Lane>,
     pub(crate) plans: Vec<Plan>,
-    busy: Busy,
+    pub(crate) busy: Busy,
     pub(crate) passages: Passages,
     pub(crate) signals: Signals,
     pub(crate) records: Records,
@@ -78,8 +78,6 @@ pub struct Counts {
     pub discretionary_changes: u64,
     /// Lane changes for the route, or off it.
     pub route_changes: u64,
-    /// Overlaps, looked for once a second.
-    pub overlaps: u64,
     /// Time on the map of those that left [s].
     pub trip_time: f64,
     /// Times that those that left came to a halt.
@@ -262,7 +260,7 @@ impl World {
             outboxes,
             ..
         } = self;
-        let chosen = busy.choose(lanes);
+        let chosen = busy.chosen();
         let (passages, signals) = (&*passages, &*signals);
         let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
@@ -278,7 +276,9 @@ impl World {
                 decide(&scene, moment, chain, plan, outbox);
                 drive(&scene, moment.clock, chain, plan, outbox);
                 appeal(&scene, moment.clock, chain, plan, outbox);
-                outbox.overlaps += if is_watched { overlaps(&scene, chain) } else { 0 };
+                if is_watched {
+                    outbox.tally.overlaps += overlaps(&scene, chain);
+                }
             },
             |lane, outbox, index, plan| {
                 let chain = ChainIndex(index as u32);
@@ -286,7 +286,6 @@ impl World {
                 advance(lane, chain, ends, moment.clock, characters, plan, outbox);
             },
         );
-        self.counts.overlaps += outboxes.iter_mut().map(|it| std::mem::take(&mut it.overlaps)).sum::<u64>();
     }
 
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.

@@ -99,7 +99,7 @@ fn trips_on_a_ring_start_and_end_at_kerbs_and_nobody_collides() {
     assert!(left > 350, "{left}");
     let tally = world.tally();
     assert_eq!(
-        (tally.collisions, world.counts().overlaps, tally.stuck, tally.emergency_brakings),
+        (tally.collisions, world.tally().overlaps, tally.stuck, tally.emergency_brakings),
         (0, 0, 0, 0)
     );
     // Half of the destinations are in the other lane.

@@ -92,7 +92,7 @@ fn hash_of_a_ring(is_reversed: bool, threads: usize) -> u64 {
         assert_eq!(world.on_road(), CARS as usize);
     }
     assert!(world.counts().discretionary_changes > 30);
-    assert_eq!((world.tally().collisions, world.counts().overlaps, world.tally().stuck), (0, 0, 0));
+    assert_eq!((world.tally().collisions, world.tally().overlaps, world.tally().stuck), (0, 0, 0));
     world.state_hash()
 }
 

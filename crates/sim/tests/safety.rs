@@ -79,7 +79,7 @@ proptest! {
             }
             places = now;
         }
-        prop_assert_eq!((world.tally().collisions, world.counts().overlaps, world.tally().stuck), (0, 0, 0));
+        prop_assert_eq!((world.tally().collisions, world.tally().overlaps, world.tally().stuck), (0, 0, 0));
         prop_assert!(world.counts().left > 0);
     }
 }
@@ -94,7 +94,7 @@ fn ten_minutes(plan: &Motorway, total: f64) {
         let (tally, counts) = (world.tally(), world.counts());
         let hundreds_of_km = tally.distance / 1e5;
         assert!(counts.left > 100 && counts.route_changes > 20);
-        assert_eq!((tally.collisions, counts.overlaps, tally.stuck), (0, 0, 0), "share of FVDM {aggressive}");
+        assert_eq!((tally.collisions, tally.overlaps, tally.stuck), (0, 0, 0), "share of FVDM {aggressive}");
         assert!(tally.missed_turns as f64 <= 0.02 * counts.entered as f64, "{} missed", tally.missed_turns);
         let emergencies = tally.emergency_brakings as f64 / hundreds_of_km;
         assert!(emergencies <= 1.0, "{emergencies} emergencies on 100 veh-km");

@@ -129,7 +129,7 @@ impl Summary {
             lane_changes_per_veh_km: ratio(lane_changes as f64, veh_km),
             veh_km,
             collisions: tally.collisions,
-            overlaps: counts.overlaps,
+            overlaps: tally.overlaps,
             emergency_brakings: tally.emergency_brakings,
             stuck: tally.stuck,
             missed_turns: tally.missed_turns,

@@ -54,7 +54,7 @@ fn missed(seed: u64) -> (u64, u64) {
         }
     }
     let tally = world.tally();
-    assert_eq!((tally.collisions, world.counts().overlaps, tally.stuck), (0, 0, 0));
+    assert_eq!((tally.collisions, world.tally().overlaps, tally.stuck), (0, 0, 0));
     (left, elsewhere)
 }
 

@@ -108,7 +108,7 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
         }
     }
     let tally = world.tally();
-    assert_eq!((tally.collisions, world.counts().overlaps), (0, 0));
+    assert_eq!((tally.collisions, world.tally().overlaps), (0, 0));
     let all = come.len() as f64;
     Found {
         lane_changes: f64::from(lane_changes) / all,

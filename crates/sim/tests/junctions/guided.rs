@@ -38,7 +38,7 @@ fn who_leaves_its_route_touches_nobody_and_arrives_where_it_wanted() {
     for name in ["grid.osm", "town.osm", "approach.osm"] {
         let world = driven(world(network(name), 1, true), 600.0);
         let (tally, counts) = (world.tally(), world.counts());
-        assert_eq!((tally.collisions, counts.overlaps), (0, 0), "{name}");
+        assert_eq!((tally.collisions, tally.overlaps), (0, 0), "{name}");
         assert!(counts.left > 100, "{name}: {} left", counts.left);
     }
 }
