@@ -56,9 +56,12 @@ fn lanes_bear_as_much_as_there_are_of_them_where_fewest_are_left() {
     let plain = |lanes| capacity(&road(lanes, Motorway::default()), |_| ()).veh_h;
     let lane = plain(1);
     assert!((1700.0..2000.0).contains(&lane), "{lane} veh/h");
-    assert!((plain(4) / lane - 4.0).abs() < 1e-9);
+    // Changes of lane take a part of it.
+    let [two, four] = [2, 4].map(plain);
+    assert!((0.85..=1.0).contains(&(two / (2.0 * lane))), "{two} of {lane} veh/h a lane");
+    assert!((0.85..1.0).contains(&(four / (4.0 * lane))), "{four} of {lane} veh/h a lane");
     let drop = capacity(&road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() }), |_| ());
-    assert!((drop.veh_h / lane - 2.0).abs() < 1e-9, "{drop:?}");
+    assert!((drop.veh_h / two - 1.0).abs() < 1e-9, "{drop:?}");
 }
 
 #[test]
@@ -142,6 +145,7 @@ fn driven(network: &Network, load: f64) -> (f64, usize) {
 fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_enter() {
     let networks = [
         ("two lanes", road(2, Motorway::default())),
+        ("three lanes at 50 km/h", road(3, Motorway { speed_limit_kmh: 50.0, ..Motorway::default() })),
         ("a lane drop", road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() })),
         ("an off-ramp", road(3, Motorway { off_ramp_at: vec![2000.0], ..Motorway::default() })),
         ("an on-ramp", road(3, Motorway { on_ramp_at: vec![1000.0], ..Motorway::default() })),
@@ -154,5 +158,14 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
         assert!(waiting < 8, "{what}: {waiting} wait, {below} of {bears} veh/h entered");
         let (above, _) = driven(&network, 1.4);
         assert!(above > 0.9 * bears, "{what}: {above} of {bears} veh/h entered");
+    }
+}
+
+#[test]
+fn a_single_lane_takes_in_what_it_carries_at_any_limit() {
+    for speed_limit_kmh in [30.0, 50.0, 80.0, 120.0] {
+        let network = road(1, Motorway { speed_limit_kmh, ..Motorway::default() });
+        let (bears, (above, _)) = (capacity(&network, |_| ()).veh_h, driven(&network, 1.4));
+        assert!(above > 0.96 * bears, "{speed_limit_kmh} km/h: {above} of {bears} veh/h entered");
     }
 }

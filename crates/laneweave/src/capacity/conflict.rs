@@ -4,27 +4,33 @@ use std::collections::BTreeMap;
 
 use laneweave_network::{ChainIndex, Network};
 
-use super::movement::{Movement, movements};
+use super::movement::Movement;
 use super::{Bottleneck, Load, Roads};
 
 /// The loads of junctions without lights: of movements that all get in each other's way, of which only one can be on the junction (the
 /// conflict technique of Wu, 2000, Brilon and Wu, 2001), and of the lanes from which drivers give way.
-pub(super) fn loads(roads: &Roads) -> Vec<Load> {
-    let movements = movements(roads);
+pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
     let at =
         |movement: &Movement| Bottleneck::Junction(roads.lanelet(movement.chain, movement.start.max(0.0)));
     let together = (0..movements.len()).map(|first| {
-        let share = clique(&movements, first).into_iter().map(|it| movements[it].share()).sum();
+        let share = clique(movements, first).into_iter().map(|it| movements[it].share()).sum();
         Load { share, of: at(&movements[first]) }
     });
-    let from_a_lane = by_approach(roads.network, &movements);
+    let approaches = approaches(roads.network, movements);
     let giving_way =
-        from_a_lane.iter().map(|all| Load { share: giving_way(&movements, all), of: at(&movements[all[0]]) });
+        approaches.iter().map(|it| Load { share: it.share(movements), of: at(&movements[it.movements[0]]) });
     together.chain(giving_way).collect()
 }
 
-/// The movements, by the lane from which they start.
-fn by_approach(network: &Network, movements: &[Movement]) -> Vec<Vec<usize>> {
+/// A lane from which movements start.
+pub(super) struct Approach {
+    pub(super) chain: ChainIndex,
+    /// Their numbers.
+    movements: Vec<usize>,
+}
+
+/// The lanes from which movements start.
+pub(super) fn approaches(network: &Network, movements: &[Movement]) -> Vec<Approach> {
     let approach = |it: &Movement| match network.chain(it.chain).previous[..] {
         [before] => before,
         _ => it.chain,
@@ -33,27 +39,40 @@ fn by_approach(network: &Network, movements: &[Movement]) -> Vec<Vec<usize>> {
     for (movement, number) in movements.iter().zip(0..) {
         groups.entry(approach(movement)).or_default().push(number);
     }
-    groups.into_values().collect()
+    groups.into_iter().map(|(chain, movements)| Approach { chain, movements }).collect()
 }
 
-/// How full the lane is from which `all` of some movements start: each takes gaps in the streams that go before it (Siegloch, 1973),
-/// and on one lane they take turns (Harders, 1968).
-fn giving_way(movements: &[Movement], all: &[usize]) -> f64 {
-    const HALVINGS: u32 = 50;
-    // By the growth of all flows, how full the lane is.
-    let load = |growth: f64| -> f64 { all.iter().map(|it| taken_up(movements, *it, growth, RANKS)).sum() };
-    if all.iter().all(|it| movements[*it].flow == 0.0) {
-        return 0.0;
+impl Approach {
+    /// What comes over it, and of that what others go before [veh/s].
+    pub(super) fn flows(&self, movements: &[Movement]) -> [f64; 2] {
+        let sum = |of: fn(&&Movement) -> bool| {
+            self.movements.iter().map(|it| &movements[*it]).filter(of).map(|it| it.flow).sum()
+        };
+        [sum(|_| true), sum(|it| it.before > 0.0)]
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    while load(high) < 1.0 {
-        (low, high) = (high, 2.0 * high);
+
+    /// How full it is when all flows are `growth` times as large: each of its movements takes gaps in the streams that go before it
+    /// (Siegloch, 1973), and on one lane they take turns (Harders, 1968).
+    pub(super) fn fullness(&self, movements: &[Movement], growth: f64) -> f64 {
+        self.movements.iter().map(|it| taken_up(movements, *it, growth, RANKS)).sum()
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if load(middle) < 1.0 { low = middle } else { high = middle }
+
+    /// Of the growth of all flows that fills it, what is there.
+    fn share(&self, movements: &[Movement]) -> f64 {
+        const HALVINGS: u32 = 50;
+        if self.movements.iter().all(|it| movements[*it].flow == 0.0) {
+            return 0.0;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        while self.fullness(movements, high) < 1.0 {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if self.fullness(movements, middle) < 1.0 { low = middle } else { high = middle }
+        }
+        1.0 / high
     }
-    1.0 / high
 }
 
 /// So many movements one after the other give way to the next.

@@ -3,7 +3,7 @@
 use laneweave_network::{ChainIndex, Light, Program, Side, Sign};
 use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
-use super::{Bottleneck, Load, Roads, once, weaving};
+use super::{Bottleneck, Load, Roads, once, side_by_side, weaving};
 
 /// A light at a place of a lane is that of lanes beside it, too, if it is no further away [m].
 const BESIDE: f64 = 20.0;
@@ -11,7 +11,7 @@ const BESIDE: f64 = 20.0;
 /// The loads of lanes: at the start of each part that is driven on and of each limit, and at each light. Those who may use several
 /// lanes side by side fill them together; those who are bound to one fill it alone.
 pub(super) fn loads(roads: &Roads) -> Vec<Load> {
-    let mut lanes = Lanes { roads, streams: Vec::new(), lights: Vec::new() };
+    let mut lanes = Lanes { roads, streams: Vec::new(), lights: Vec::new(), left: Vec::new() };
     let mut loads = Vec::new();
     for chain in roads.chains() {
         let here = roads.network.chain(chain);
@@ -32,7 +32,9 @@ struct Lanes<'a> {
     /// Largest flows by limit [m/s, veh/s].
     streams: Vec<(f64, f64)>,
     /// Flows through lights [veh/s], by light and limit [m/s].
-    lights: Vec<(usize, f64, f64)>,
+    lights: Vec<((usize, f64), f64)>,
+    /// What is left of lanes side by side, by their number and limit [m/s].
+    left: Vec<((usize, f64), f64)>,
 }
 
 impl Lanes<'_> {
@@ -40,14 +42,18 @@ impl Lanes<'_> {
     fn load(&mut self, chain: ChainIndex, station: f64) -> Load {
         let [bound, all] = self.roads.assignment.flow(chain, station);
         let (capacity, light) = self.capacity(chain, station);
-        let (mut flows, mut capacities) = (all, capacity);
+        let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
         for (beside, at) in self.beside(chain, station, light.is_some()) {
             let [_, flow] = self.roads.assignment.flow(beside, at);
             // A lane that ends soon, or leads elsewhere, carries nobody.
             if flow > 0.0 {
                 flows += flow;
                 capacities += self.capacity(beside, at).0;
+                lanes += 1;
             }
+        }
+        if light.is_none() {
+            capacities *= self.left(lanes, self.roads.network.chain(chain).limit(station));
         }
         let lanelet = self.roads.lanelet(chain, station);
         let of = light.map_or(Bottleneck::Lanes(lanelet), |light| Bottleneck::Light { light, lanelet });
@@ -69,18 +75,20 @@ impl Lanes<'_> {
         }
         let beside = self.beside(*chain, before, false);
         let lanes: Vec<(ChainIndex, f64)> = std::iter::once((*chain, before)).chain(beside).collect();
-        let (mut flows, mut capacities, mut fullest) = (0.0, 0.0, 0.0_f64);
+        let (mut flows, mut capacities, mut number, mut fullest) = (0.0, 0.0, 0, 0.0_f64);
         for (lane, at) in &lanes {
             let [bound, flow] = self.roads.assignment.flow(*lane, at + 2.0 * SHORTLY);
             if flow > 0.0 {
                 let capacity = self.capacity(*lane, *at).0;
                 flows += flow;
                 capacities += capacity;
+                number += 1;
                 if self.parts_soon(*lane, *at) {
                     fullest = fullest.max(bound / capacity);
                 }
             }
         }
+        capacities *= self.left(number, self.roads.network.chain(*chain).limit(before));
         let left = weaving::left(self.roads.assignment, &lanes, flows, last_place - start);
         let of = Bottleneck::Lanes(self.roads.lanelet(*chain, before));
         (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
@@ -101,19 +109,31 @@ impl Lanes<'_> {
         let mut near = stops.filter(|it| (it.station - station).abs() < BESIDE);
         let light = near.find_map(|it| if let Sign::Light(light) = it.sign { Some(light) } else { None });
         let Some(light) = light else {
-            return (once(&mut self.streams, limit, || self.roads.mixture(limit).stream()), None);
+            return (self.stream(limit), None);
         };
         let Light { id, program } = &network.junctions.lights[light.at()];
         (self.through(light.at(), program, limit), Some(*id))
     }
 
-    fn through(&mut self, light: usize, program: &Program, limit: f64) -> f64 {
-        if let Some((.., flow)) = self.lights.iter().find(|it| (it.0, it.1) == (light, limit)) {
-            return *flow;
+    /// What of a lane passes where no light is, under `limit` [m/s], if it is alone [veh/s].
+    fn stream(&mut self, limit: f64) -> f64 {
+        once(&mut self.streams, limit, || self.roads.mixture(limit).stream())
+    }
+
+    /// What changes of lane leave of the capacity of so many `lanes` side by side under `limit` [m/s].
+    fn left(&mut self, lanes: usize, limit: f64) -> f64 {
+        if lanes < 2 {
+            return 1.0;
         }
-        let flow = self.roads.mixture(limit).through(program);
-        self.lights.push((light, limit, flow));
-        flow
+        let alone = lanes as f64 * self.stream(limit);
+        let Roads { drivers, fleet, .. } = *self.roads;
+        let left =
+            || side_by_side::flow(lanes, limit, drivers, fleet).map_or(1.0, |it| (it / alone).min(1.0));
+        once(&mut self.left, (lanes, limit), left)
+    }
+
+    fn through(&mut self, light: usize, program: &Program, limit: f64) -> f64 {
+        once(&mut self.lights, (light, limit), || self.roads.mixture(limit).through(program))
     }
 
     /// The lanes to which one may change at a station of a chain [m], or shortly before a light there, each with the station there.

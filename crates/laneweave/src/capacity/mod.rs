@@ -5,8 +5,10 @@
 //! ways; how much it can carry follows from the models of its drivers.
 
 mod conflict;
+mod delay;
 mod lanes;
 mod movement;
+mod side_by_side;
 mod stream;
 mod town;
 mod weaving;
@@ -98,7 +100,7 @@ impl Capacity {
     /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each with its
     /// weight.
     ///
-    /// Lanes carry what a long queue sends off; lights let pass what of a standing queue drives off at green; where ways meet without
+    /// Lanes carry what a long queue sends off, and side by side what is driven on a road like that; lights let pass what of a standing queue drives off at green; where ways meet without
     /// a light, drivers take turns and gaps; and a town bears what it lets in. What is not looked at can only make it less: gaps that
     /// nobody finds to change lanes, turns across oncoming traffic at green, queues that stand in each other's way.
     pub fn new(
@@ -108,23 +110,22 @@ impl Capacity {
         drivers: &[(Style, f64)],
     ) -> Capacity {
         let roads = Roads { network, assignment, drivers, fleet: &demand.fleet };
-        let all = lanes::loads(&roads)
+        let movements = movement::movements(&roads);
+        let parts = lanes::loads(&roads)
             .into_iter()
-            .chain(conflict::loads(&roads))
-            .chain(town::kerb_loads(&roads, demand))
-            .chain(town::load(&roads));
-        let fullest = all.reduce(|fullest, it| if it.share > fullest.share { it } else { fullest });
-        match fullest {
-            Some(Load { share, of }) if share > 0.0 => {
-                Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
-            }
-            _ => Capacity { veh_h: 0.0, bottleneck: None },
-        }
+            .chain(conflict::loads(&roads, &movements))
+            .chain(town::kerb_loads(&roads, demand));
+        let fullest = parts.reduce(|fullest, it| if it.share > fullest.share { it } else { fullest });
+        let Some(part) = fullest.filter(|it| it.share > 0.0) else {
+            return Capacity { veh_h: 0.0, bottleneck: None };
+        };
+        let Load { share, of } = town::load(&roads, &movements, 1.0 / part.share).unwrap_or(part);
+        Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
     }
 }
 
 /// What was computed for `key`, or is now.
-fn once<T: Copy>(known: &mut Vec<(f64, T)>, key: f64, compute: impl FnOnce() -> T) -> T {
+fn once<K: PartialEq, T: Copy>(known: &mut Vec<(K, T)>, key: K, compute: impl FnOnce() -> T) -> T {
     if let Some((_, it)) = known.iter().find(|it| it.0 == key) {
         return *it;
     }

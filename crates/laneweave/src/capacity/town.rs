@@ -1,34 +1,98 @@
 //! How full a town is, and its kerbs.
 
-use laneweave_network::{ChainIndex, Sign};
+use laneweave_network::{ChainIndex, Light, Sign};
 use laneweave_sim::{Demand, Kerb, Metering, Place};
 
+use super::conflict::{Approach, approaches};
+use super::delay;
+use super::movement::Movement;
 use super::{Bottleneck, Load, Roads, once};
 
-/// The load of all roads that lead in rings: who drives on them takes up room as long as it is there (Little's law), at its desired
-/// speed and before red lights.
-pub(super) fn load(roads: &Roads) -> Option<Load> {
+/// The load of all roads that lead in rings, if they are full before all flows are `most` times as large: who drives on them takes
+/// up room as long as it is there (Little's law), at its desired speed and with the delays at lights and junctions, which grow with
+/// the flows.
+pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<Load> {
+    const HALVINGS: u32 = 40;
     let metering = Metering::new(roads.network)?;
-    let taken: f64 = roads.chains().filter(|it| metering.is_town(*it)).map(|it| taken(roads, it)).sum();
-    Some(Load { share: taken / metering.bearable(), of: Bottleneck::Town })
+    let town = Town::new(roads, &metering, movements);
+    let is_full = |growth: f64| town.taken(growth) > metering.bearable();
+    let (mut low, mut high) = (0.0, most);
+    if !is_full(high) {
+        return None;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_full(middle) { high = middle } else { low = middle }
+    }
+    Some(Load { share: 1.0 / high, of: Bottleneck::Town })
 }
 
-/// What all on a chain take up on average [m].
-fn taken(roads: &Roads, chain: ChainIndex) -> f64 {
+/// Who is in a town, and what keeps them there.
+struct Town<'a> {
+    movements: &'a [Movement],
+    /// What those who drive take up, without delays [m].
+    driving: f64,
+    /// What a vehicle takes up on average [m].
+    room: f64,
+    lit: Vec<Lit<'a>>,
+    approaches: Vec<Approach>,
+}
+
+/// Those who come to a light.
+struct Lit<'a> {
+    light: &'a Light,
+    /// How many come, and how many pass [veh/s].
+    flow: f64,
+    capacity: f64,
+}
+
+impl<'a> Town<'a> {
+    fn new(roads: &Roads<'a>, metering: &Metering, movements: &'a [Movement]) -> Town<'a> {
+        let (mut driving, mut lit) = (0.0, Vec::new());
+        let mut known: Vec<((usize, f64), f64)> = Vec::new();
+        for chain in roads.chains().filter(|it| metering.is_town(*it)) {
+            driving += driving_on(roads, chain);
+            for stop in &roads.network.junctions.on(chain).stops {
+                let Sign::Light(light) = stop.sign else { continue };
+                let [_, flow] = roads.assignment.flow(chain, stop.station);
+                let limit = roads.network.chain(chain).limit(stop.station);
+                let it = &roads.network.junctions.lights[light.at()];
+                let pass = || roads.mixture(limit).through(&it.program);
+                let capacity = once(&mut known, (light.at(), limit), pass);
+                lit.push(Lit { light: it, flow, capacity });
+            }
+        }
+        let mut approaches = approaches(roads.network, movements);
+        approaches.retain(|it| metering.is_town(it.chain));
+        let room = roads.mixture(1.0).mean_of(|length, _| Metering::taken_by(length));
+        Town { movements, driving, room, lit, approaches }
+    }
+
+    /// What all in it take up on average when all flows are `growth` times as large [m].
+    fn taken(&self, growth: f64) -> f64 {
+        let before_lights = self.lit.iter().map(|Lit { light, flow, capacity }| {
+            let program = &light.program;
+            let flow = growth * flow;
+            flow * delay::at_a_light(program.mean_wait(), program.green_share(), flow, *capacity)
+        });
+        let giving_way = self.approaches.iter().map(|it| {
+            let [flow, waiting] = it.flows(self.movements).map(|it| growth * it);
+            if waiting == 0.0 {
+                return 0.0;
+            }
+            waiting * delay::giving_way(flow, flow / it.fullness(self.movements, growth))
+        });
+        growth * self.driving + self.room * (before_lights.sum::<f64>() + giving_way.sum::<f64>())
+    }
+}
+
+/// What those who drive on a chain take up on average, at their desired speeds [m].
+fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     let here = roads.network.chain(chain);
-    let junctions = &roads.network.junctions;
     let parts = roads.assignment.on(chain).iter();
     let metres: f64 = parts.map(|it| it.flow * (it.to.min(here.length) - it.from)).sum();
-    let waits = junctions.on(chain).stops.iter().map(|it| match it.sign {
-        Sign::Light(light) => {
-            let [_, flow] = roads.assignment.flow(chain, it.station);
-            flow * junctions.lights[light.at()].program.mean_wait()
-        }
-        Sign::Stop | Sign::Line => 0.0,
-    });
-    let waiting: f64 = waits.sum();
     let mixture = roads.mixture(here.limit(0.0));
-    mixture.mean_of(|length, desired| Metering::taken_by(length) * (metres / desired + waiting))
+    mixture.mean_of(|length, desired| Metering::taken_by(length) * metres / desired)
 }
 
 /// The loads of kerbs: who starts from one makes room for the next.
