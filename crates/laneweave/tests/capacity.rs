@@ -160,3 +160,12 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
         assert!(above > 0.9 * bears, "{what}: {above} of {bears} veh/h entered");
     }
 }
+
+#[test]
+fn a_single_lane_takes_in_what_it_carries_at_any_limit() {
+    for speed_limit_kmh in [30.0, 50.0, 80.0, 120.0] {
+        let network = road(1, Motorway { speed_limit_kmh, ..Motorway::default() });
+        let (bears, (above, _)) = (capacity(&network, |_| ()).veh_h, driven(&network, 1.4));
+        assert!(above > 0.96 * bears, "{speed_limit_kmh} km/h: {above} of {bears} veh/h entered");
+    }
+}

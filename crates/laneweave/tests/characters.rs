@@ -161,7 +161,7 @@ fn changes_off_the_route(style: &str, seed: u64) -> f64 {
 
 #[test]
 fn tired_drivers_leave_the_lane_of_their_route_less() {
-    const SEEDS: u64 = 30;
+    const SEEDS: u64 = 40;
     let changes = ["inattentive", "conservative"]
         .map(|style| (1..=SEEDS).map(|seed| changes_off_the_route(style, seed)).collect());
     assert_below(["changes off the route per vehicle of the tired", "of others"], changes);

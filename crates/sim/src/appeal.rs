@@ -5,7 +5,8 @@ use laneweave_network::{ChainIndex, LightIndex, ZoneKind};
 
 use crate::clock::Clock;
 use crate::junction::{
-    Asking, Claim, Hindrance, Hold, Survey, are_led_on, lets_go, may_pass, refuges, sight, survey, turns,
+    Asking, Claim, Hindrance, Hold, SPARE_ROOM, Survey, are_led_on, lets_go, may_pass, refuges, sight,
+    stands_beyond, survey, turns,
 };
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
@@ -14,9 +15,12 @@ use crate::world::World;
 
 /// Slower than this [m/s] a vehicle stands before a junction (ours).
 pub(crate) const STANDS: f64 = 0.3;
-/// Who has waited at a light for so long [s] did not get the room that it needs at green: it comes first to it (ours; two
-/// cycles of made programs).
-const STARVES: f64 = 120.0;
+/// Who has waited at a light for so long [s], through a green, did not get the room that it needs: it comes first to it (ours; as
+/// long as drivers are patient elsewhere).
+const STARVES: f64 = 45.0;
+/// Of those who let each other go a vehicle may stand within zones by so much [m] until those before it have moved up: a truck
+/// comes into the place of a car (ours).
+const HANGS_OUT: f64 = 8.0;
 
 /// The drivers of a lane appeal.
 pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan, outbox: &mut Outbox) {
@@ -55,13 +59,20 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                     outbox.blocked.push(Appeal { since, id, chain, x: motion.x, what: Plea::Pass });
                 }
             }
-            Err(Hindrance::Light) if asking.waited > STARVES => {
+            Err(Hindrance::Light) if starves(scene, asking, &outbox.survey) => {
                 survey_at(scene, spot, |_, _| false, &mut outbox.survey);
                 claim_room(scene, spot, asking.claim, outbox);
             }
             Err(Hindrance::Light | Hindrance::Sign) => {}
         }
     }
+}
+
+/// Whether who waits at a light has waited for long, and was not let go by a green in the meantime.
+fn starves(scene: &Scene, asking: Asking, survey: &Survey) -> bool {
+    let Asking { claim, waited, clock } = asking;
+    let was_green = |light| scene.signals.green_at(light, clock) > claim.since;
+    waited > STARVES && survey.lights.last().is_some_and(|it| was_green(it.0))
 }
 
 /// The driver at `spot`, who has surveyed its way, claims room there. Who comes onto a ring from outside does not stop it.
@@ -84,10 +95,10 @@ pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {
 
 /// Surveys what the driver at `spot` needs next, up to a light where it `is_held`. Returns whether there is something.
 fn survey_at(scene: &Scene, spot: Spot, is_held: impl Fn(LightIndex, f64) -> bool, out: &mut Survey) -> bool {
-    let Motion { length, speed, id, .. } = *scene.motion(spot);
+    let Motion { speed, id, .. } = *scene.motion(spot);
     let passage = scene.passages.of(scene.mind(spot).passage, id);
     let granted = passage.map_or(0.0, |it| it.left().max(0.0));
-    survey(scene, scene.viewpoint(spot), f64::from(length), [granted, sight(speed)], is_held, out)
+    survey(scene, spot, [granted, sight(speed)], is_held, out)
 }
 
 impl World {
@@ -154,23 +165,20 @@ impl World {
         self.outboxes[0] = outbox;
     }
 
-    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if only `freed` [m] more room were there. Who stays
-    /// within a merge for that is in nobody's way but of those who come after.
-    pub(crate) fn may_but_for_room(
-        &self,
-        spot: Spot,
-        asking: Asking,
-        freed: f64,
-        outbox: &mut Outbox,
-    ) -> bool {
-        let scene = self.scene();
-        let is_there = surveyed(&scene, spot, &mut outbox.survey);
-        let Survey { room, needed, holds, .. } = &outbox.survey;
+    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if the vehicle at `next` drives off, and leaves it its place.
+    /// Who stays within a merge for that is in nobody's way but of those who come after.
+    pub(crate) fn may_after(&self, spot: Spot, asking: Asking, next: Spot, outbox: &mut Outbox) -> bool {
+        let (scene, survey) = (self.scene(), &mut outbox.survey);
+        if !surveyed(&scene, spot, survey) {
+            return false;
+        }
+        let is_freed = stands_beyond(&scene, scene.viewpoint(spot), survey, next);
+        let room = survey.room + f64::from(scene.motion(next).length) + SPARE_ROOM + HANGS_OUT;
         let is_merge =
             |it: &Hold| matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_));
-        let fits = room + freed >= needed - asking.squeezes_into() || holds.iter().all(is_merge);
-        outbox.survey.room = f64::INFINITY;
-        is_there && fits && may_pass(&scene, spot, &outbox.survey, asking).is_ok()
+        let fits = room >= survey.needed - asking.squeezes_into() || survey.holds.iter().all(is_merge);
+        survey.room = f64::INFINITY;
+        is_freed && fits && may_pass(&scene, spot, survey, asking).is_ok()
     }
 
     /// Gives the driver at `spot`, who first asked in step `since`, the passage that it needs next.

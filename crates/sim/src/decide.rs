@@ -13,7 +13,7 @@ use laneweave_network::{ChainIndex, Side};
 use crate::attention::concentration;
 use crate::beliefs::Beliefs;
 use crate::clock::Clock;
-use crate::junction::{Refuge, is_place_ahead};
+use crate::junction::{Asking, Refuge, is_place_ahead};
 use crate::leave::departure;
 use crate::perceive::{Dismissed, Outlook, driver};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
@@ -301,6 +301,7 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
     match gap(scene, spot, mind.side) {
         None => {}
         Some(_) if scene.has_passage(spot, f64::NEG_INFINITY) => {}
+        Some(gap) if gap.is_wanted_before(scene, spot, moment.clock) => {}
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
             outbox.requests.push(request(Ask::Change));
         }
@@ -405,6 +406,13 @@ impl Gap {
             style.safety.accept(pair, dt)?;
         }
         Ok(())
+    }
+
+    /// Whether somebody who waits before a junction for room on that stretch comes first to it.
+    fn is_wanted_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
+        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
+        let claim = Asking::of(scene, spot, scene.mind(spot).since, clock).claim;
+        scene.passages.wanted_before(refuge, claim) > 0.0
     }
 
     /// The first behind who makes room by braking no harder than it does to let others in: those nearer drive past.

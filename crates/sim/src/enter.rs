@@ -79,7 +79,7 @@ impl World {
 /// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
 fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
     /// Who would have to enter slower than its leader, and than this share of its desired speed, waits (ours).
-    const LEAST_SHARE: f64 = 0.9;
+    const LEAST_SHARE: f64 = 0.8;
     let Some(ahead) = ahead else { return Some(desired) };
     /// Nobody minds a vehicle so far ahead [m].
     const FAR: f64 = 1e4;

@@ -2,13 +2,15 @@
 //! them could ever go if each waited for the other's room to be free; so they go together, each into the room of the next.
 
 use crate::appeal::STANDS;
-use crate::junction::{Asking, Hold, SPARE_ROOM};
+use crate::junction::{Asking, Hold};
 use crate::plan::Appeal;
 use crate::scene::{Scene, Spot};
 use crate::world::World;
 
 /// No ring of standing vehicles that leads from one waiting driver to the next is longer.
 const LONGEST_QUEUE: usize = 100;
+/// Who stands with less room ahead than this [m] stands in a queue; others wait for something of their own (ours).
+const QUEUES_WITHIN: f64 = 4.0;
 
 impl World {
     /// Gives passages to those who wait for each other's room. `waiting` are those who wait for room, in the order of ids.
@@ -24,16 +26,16 @@ impl World {
         }
     }
 
-    /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for.
+    /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for. They go, whatever
+    /// lights show then.
     fn let_go_together(&mut self, members: &[(Spot, Appeal)]) {
         let mut outbox = std::mem::take(&mut self.outboxes[0]);
         let mut holds: Vec<Hold> = Vec::new();
         let scene = self.scene();
         let next = members.iter().cycle().skip(1);
         let may_go = members.iter().zip(next).all(|((spot, appeal), (next, _))| {
-            let freed = f64::from(scene.motion(*next).length) + SPARE_ROOM;
             let asking = Asking::of(&scene, *spot, appeal.since, self.clock);
-            let may = self.may_but_for_room(*spot, asking, freed, &mut outbox);
+            let may = self.may_after(*spot, asking, *next, &mut outbox);
             let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
             let is_apart = !outbox.survey.holds.iter().any(crosses);
             holds.extend(outbox.survey.holds.iter().copied());
@@ -42,6 +44,8 @@ impl World {
         if may_go {
             for (spot, appeal) in members {
                 self.give_surveyed(*spot, appeal.since, &mut outbox);
+                let slot = self.lanes[spot.chain.at()].minds()[spot.index].passage;
+                self.passages.make_certain(slot);
             }
         }
         self.outboxes[0] = outbox;
@@ -62,7 +66,8 @@ fn waits_for(scene: &Scene, from: Spot, waiting: &[Appeal]) -> Option<usize> {
         if let Ok(place) = waiting.binary_search_by_key(&motion.id, |it| it.id) {
             return Some(place);
         }
-        if motion.speed > STANDS {
+        let is_in_queue = scene.ahead(scene.viewpoint(at)).is_some_and(|it| it.gap < QUEUES_WITHIN);
+        if motion.speed > STANDS || !is_in_queue {
             return None;
         }
     }

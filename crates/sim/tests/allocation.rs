@@ -91,7 +91,7 @@ fn steps_of_traffic_that_enters_changes_lanes_and_leaves_allocate_only_while_a_l
 
 #[test]
 fn steps_of_traffic_at_lights_allocate_only_while_a_lane_or_a_queue_is_fuller_than_ever() {
-    const STEPS: u64 = 3000;
+    const STEPS: u64 = 4000;
     let map = grid(&Grid::default()).expect("the grid is possible").build().expect("the drawing is sound");
     let regulations = regulations(&map);
     let network = map.network.regulated(&regulations);

@@ -44,8 +44,8 @@ pub(crate) struct Asking {
     pub(crate) claim: Claim,
     /// Time since it first asked [s].
     pub(crate) waited: f64,
-    /// Length of a step [s].
-    pub(crate) dt: f64,
+    /// When it asks.
+    pub(crate) clock: Clock,
 }
 
 impl Asking {
@@ -56,7 +56,7 @@ impl Asking {
         let patience = scene.characters[car.character as usize].yielding.patience;
         let is_long = f64::from(motion.length) >= LONG;
         let claim = Claim { is_patient: waited < patience, since, id: motion.id, is_long };
-        Asking { claim, waited, dt: clock.dt }
+        Asking { claim, waited, clock }
     }
 
     /// How much less room than usual it needs [m]: out of patience one closes up.
@@ -81,15 +81,14 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     if passages.rings.is_closed(passages, lanes, way, asking.claim, survey.needed) {
         return Err(Hindrance::Ring);
     }
-    let gives_way = |hold: &Hold| {
-        scene.network.junctions.zones[hold.zone.at()].precedence == Precedence::Side(1 - hold.side)
-    };
     // Not for ever: those who go first may all wait for who would take the room.
     let leaves_room = asking.claim.is_patient && !passages.rings.is_entered(way);
-    let spare = if leaves_room && survey.holds.iter().any(gives_way) { ROOM_FOR_ANOTHER } else { 0.0 };
-    let wanted = passages.wanted_before(survey.refuge, asking.claim);
+    let room = survey.room - passages.wanted_before(survey.refuge, asking.claim);
     let needed = survey.needed - asking.squeezes_into();
-    if survey.room - wanted < (needed + spare).min(survey.most) {
+    let lacks = |spare: f64| room < (needed + spare).min(survey.most);
+    let yields_room =
+        || leaves_room && lacks(ROOM_FOR_ANOTHER) && survey.holds.iter().any(|it| gives_way(scene, it));
+    if lacks(0.0) || yields_room() {
         return Err(Hindrance::Room);
     }
     if survey.holds.iter().all(|hold| may_hold(scene, spot, hold, asking)) {
@@ -97,6 +96,15 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     } else {
         Err(Hindrance::Others)
     }
+}
+
+/// Whether somebody comes on the other side of a zone who goes first.
+fn gives_way(scene: &Scene, hold: &Hold) -> bool {
+    let (zone, side) = (&scene.network.junctions.zones[hold.zone.at()], 1 - hold.side);
+    let waits = || scene.passages.claim(hold.zone, side).is_some();
+    let passes = || scene.passages.order(hold.zone).any(|(it, _)| it.side == side);
+    let comes = || lag(scene, hold.zone, &zone.sides[usize::from(side)]) < f64::INFINITY;
+    zone.precedence == Precedence::Side(side) && (waits() || passes() || comes())
 }
 
 fn may_hold(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
@@ -113,7 +121,7 @@ fn may_hold(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
     let mut others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
     let fits = match zone.kind {
         ZoneKind::Merging(_) => {
-            others.next_back().is_none_or(|(_, other)| follows(scene, spot, hold, other, asking.dt))
+            others.next_back().is_none_or(|(_, other)| follows(scene, spot, hold, other, asking.clock.dt))
         }
         ZoneKind::Crossing | ZoneKind::Tight => others
             .filter(|(_, other)| matters(other.length >= LONG))

@@ -148,9 +148,8 @@ fn cut_off_from(scene: &Scene, spot: Spot, passage: &Passage) -> Option<f64> {
 fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
     let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
     let (_, at) = passage.lights().find(is_red)?;
-    // Zones that reach beyond the line have to be stopped for, too.
     let line = passage.travelled + at;
-    let zone = passage.holds.iter().filter(|it| it.leave > line).map(|it| it.enter).reduce(f64::min);
+    let zone = passage.zone_over(line);
     let from = zone.map_or(line, |it| it.min(line));
     let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - passage.travelled;
     (from > passage.travelled && stops_gently(speed, stop)).then_some(from)

@@ -16,6 +16,7 @@ mod oncoming;
 mod passages;
 mod refuge;
 mod rings;
+mod room;
 mod survey;
 mod turns;
 
@@ -26,6 +27,6 @@ pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};
 pub(crate) use refuge::Refuge;
-pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, refuges, stop_ahead, survey};
+pub(crate) use survey::{SPARE_ROOM, Survey, is_place_ahead, refuges, stands_beyond, stop_ahead, survey};
 pub use survey::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 pub(crate) use turns::{Turn, turns};

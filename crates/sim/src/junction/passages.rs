@@ -235,6 +235,11 @@ impl Passages {
         self.given[slot as usize].since
     }
 
+    /// The vehicle of the passage in `slot` goes, whatever lights show from now on: others have been let go because it does.
+    pub(crate) fn make_certain(&mut self, slot: u32) {
+        self.given[slot as usize].lights.clear();
+    }
+
     /// Takes back all of a passage that lies beyond `distance` from its beginning [m].
     pub(crate) fn take_back(&mut self, slot: u32, distance: f64) {
         let Passages { given, queues, kept, .. } = self;
@@ -282,6 +287,18 @@ impl Passage {
     /// What is left of it from the vehicle's front on [m].
     pub(crate) fn left(&self) -> f64 {
         self.extent - self.travelled
+    }
+
+    /// What of it is left from the vehicle's front on, whatever lights show [m].
+    pub(super) fn left_for_certain(&self) -> f64 {
+        let ends = self.lights.iter().map(|(_, line)| self.zone_over(*line).unwrap_or(*line).min(*line));
+        ends.filter(|it| *it > self.travelled).fold(self.extent, f64::min) - self.travelled
+    }
+
+    /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light: who stops at the line has to stop
+    /// for these, too. From the beginning of the passage on [m].
+    pub(super) fn zone_over(&self, line: f64) -> Option<f64> {
+        self.holds.iter().filter(|it| it.leave > line).map(|it| it.enter).reduce(f64::min)
     }
 
     /// What it holds of the zone on the other side of `hold`.
@@ -367,6 +384,27 @@ mod tests {
         assert_eq!(passages.kept_on(REFUGE), 0.0);
         passages.take_back(slot, 8.0);
         assert!(order(&passages).is_empty() && passages.of(slot, 7).is_none());
+    }
+
+    #[test]
+    fn what_a_light_can_take_back_is_not_certain() {
+        let mut passages = of_one_zone();
+        let left = |it: &Passages, slot| it.of(slot, 7).map(Passage::left_for_certain);
+        let slot = passages.give(NO_PASSAGE, 7, LENGTH, &over_the_zone(0));
+        assert_eq!(left(&passages, slot), Some(8.0));
+        passages.advance(slot, 8.0, 10.0, 14.0);
+        assert_eq!(left(&passages, slot), Some(11.5));
+        passages.end(slot, 7);
+        // Before a line within the zone one stops where the zone begins, and within it no more.
+        let within = Survey { lights: vec![(LightIndex(0), 12.0)], ..over_the_zone(0) };
+        let slot = passages.give(NO_PASSAGE, 7, LENGTH, &within);
+        assert_eq!(left(&passages, slot), Some(10.0));
+        passages.advance(slot, 10.0, 10.0, 14.0);
+        assert_eq!(left(&passages, slot), Some(9.5));
+        passages.end(slot, 7);
+        let slot = passages.give(NO_PASSAGE, 7, LENGTH, &within);
+        passages.make_certain(slot);
+        assert_eq!(left(&passages, slot), Some(19.5));
     }
 
     #[test]

@@ -22,6 +22,11 @@ impl Refuge {
         let places = &junctions.on(chain).places;
         Refuge { chain, places: places.partition_point(|it| it.station < station) as u32 }
     }
+
+    /// Whether it leads on to the next chain.
+    pub(super) fn is_last(&self, junctions: &Junctions) -> bool {
+        self.places as usize == junctions.on(self.chain).places.len()
+    }
 }
 
 /// Numbers of all refuges of a network, from 0 on; none where there are no zones.

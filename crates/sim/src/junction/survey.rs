@@ -2,12 +2,15 @@
 
 use std::ops::ControlFlow;
 
+use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
 
 use super::passages::Hold;
 use super::refuge::Refuge;
+use super::room::{Beyond, ROOM_SIGHT, room};
 use crate::accelerate::ROOM_AT_A_STOP;
 use crate::scene::{Scene, Spot, Viewpoint};
+use crate::traffic::Motion;
 
 /// How far before a zone a vehicle stops [m] (ours).
 pub(super) const BEFORE_A_ZONE: f64 = 1.0;
@@ -21,10 +24,6 @@ pub const STANDS_BEFORE_A_LINE: f64 = BEFORE_A_LINE + ROOM_AT_A_STOP;
 pub(crate) const SPARE_ROOM: f64 = 2.0;
 /// A line belongs to the zones that follow within this [m] (ours).
 const LINE_TO_ZONE: f64 = 30.0;
-/// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).
-const ROOM_SIGHT: f64 = 120.0;
-/// Braking that is expected of who is beyond the zones [m/s²] (ours).
-const EXPECTED_BRAKING: f64 = 4.0;
 
 /// What passage a driver needs. Distances are those from its front [m].
 #[derive(Clone, Debug)]
@@ -41,6 +40,8 @@ pub(crate) struct Survey {
     pub(crate) extent: f64,
     /// Where it can stand then.
     pub(crate) refuge: Refuge,
+    /// Where the chain of that begins.
+    pub(super) refuge_start: f64,
     /// Room that it needs there.
     pub(crate) needed: f64,
     /// Room that there is.
@@ -58,6 +59,7 @@ impl Default for Survey {
             holds: Vec::new(),
             extent: 0.0,
             refuge: Refuge::first_of(ChainIndex(0)),
+            refuge_start: 0.0,
             needed: 0.0,
             room: 0.0,
             most: 0.0,
@@ -204,16 +206,17 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     }
 }
 
-/// Surveys the passage that the vehicle of `length` [m] that looks `from` needs next, beyond the `granted` [m] it has. Returns
-/// whether there is one within `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
+/// Surveys the passage that the vehicle at `spot` needs next, beyond the `granted` [m] it has. Returns whether there is one within
+/// `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
 pub(crate) fn survey(
     scene: &Scene,
-    from: Viewpoint,
-    length: f64,
+    spot: Spot,
     [granted, until]: [f64; 2],
     is_held: impl Fn(LightIndex, f64) -> bool,
     out: &mut Survey,
 ) -> bool {
+    let (from, Motion { length, speed, .. }) = (scene.viewpoint(spot), *scene.motion(spot));
+    let length = f64::from(length);
     out.lights.clear();
     out.holds.clear();
     out.has_stop_sign = false;
@@ -268,13 +271,15 @@ pub(crate) fn survey(
     out.extent = clear + length;
     out.needed = length + SPARE_ROOM;
     let beyond = chain_at(scene, from, clear);
-    out.refuge = Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1);
+    (out.refuge, out.refuge_start) =
+        (Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1), beyond.1);
     let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
     // Whose trip ends before the next place is behind others who stop there.
     let place = next_place(scene, beyond, clear) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
-    out.room = room(scene, from, out.refuge, clear, limit);
+    let arrival = time_to_cover(out.extent, speed, f64::from(scene.car(spot).desired));
+    out.room = room(scene, from, Beyond { refuge: out.refuge, clear, limit, arrival });
     true
 }
 
@@ -292,14 +297,27 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) 
 
 /// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
 pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl Iterator<Item = Refuge> {
-    let (rear, front) = (survey.refuge, survey.extent);
-    let (_, start) = chain_at(scene, from, front - survey.needed + SPARE_ROOM);
+    let front = survey.extent;
     let next = move |(at, start): &(Refuge, f64)| {
         let end = start + scene.network.chain(at.chain).length;
         let next = scene.next(from.destination, at.chain).filter(|_| end < front)?;
         Some((Refuge::first_of(next), end))
     };
-    std::iter::successors(Some((rear, start)), next).map(|(at, _)| at)
+    std::iter::successors(Some((survey.refuge, survey.refuge_start)), next).map(|(at, _)| at)
+}
+
+/// Whether the vehicle at `spot` stands where the one that looks `from` would after the passage that it surveyed, or ahead of that
+/// before the next place: if it drives off, those between them move up.
+pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spot: Spot) -> bool {
+    /// Most chains that are looked along.
+    const MOST_CHAINS: usize = 24;
+    let junctions = &scene.network.junctions;
+    let next = |at: &Refuge| {
+        let next = scene.next(from.destination, at.chain).filter(|_| at.is_last(junctions));
+        next.map(Refuge::first_of)
+    };
+    let stands_on = Refuge::at(junctions, spot.chain, scene.motion(spot).x);
+    std::iter::successors(Some(survey.refuge), next).take(MOST_CHAINS).any(|it| it == stands_on)
 }
 
 /// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have to
@@ -326,50 +344,56 @@ pub(super) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
     }
 }
 
-/// Room from `clear` on [m], which lies on `refuge`, to `limit` or to where the vehicles that are out of the zones can all have
-/// stopped; none if somebody ahead who is not out of them, and of the way, has no passage out.
-fn room(scene: &Scene, from: Viewpoint, refuge: Refuge, clear: f64, limit: f64) -> f64 {
-    const NONE: f64 = f64::NEG_INFINITY;
-    if scene.waits_beside_in_fork(from).is_some() {
-        return NONE;
-    }
-    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
-    let mut taken = scene.passages.kept_on(refuge);
-    let mut end = f64::INFINITY;
-    loop {
-        let lane = &scene.lanes[chain.at()];
-        for (motion, index) in lane.motions()[index..].iter().zip(index..) {
-            let rear = base + motion.rear();
-            if motion.id == from.id {
+#[cfg(test)]
+mod tests {
+    use laneweave_maps::generate::own_maps;
+    use laneweave_maps::regulations;
+
+    use super::*;
+    use crate::navigate::Navigator;
+    use crate::snapshot::{Seen, Snapshot};
+    use crate::vehicle::Class;
+
+    #[test]
+    fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
+        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
+        let map = drawing.build().unwrap();
+        let rules = regulations(&map);
+        let network = map.network.regulated(&rules);
+        let navigator = Navigator::new(&network);
+        let mut surveyed = 0;
+        for number in 0..6000_u32 {
+            let destination = Some((number % 4) as u16);
+            let chain = ChainIndex(number % network.chains.len() as u32);
+            let x = network.chain(chain).length * f64::from(number) / 6000.0;
+            let truck = Seen {
+                id: 1,
+                chain,
+                x,
+                speed: 0.0,
+                acceleration: 0.0,
+                length: 12.0,
+                class: Class::Truck,
+                character: 0,
+                desired: 8.0,
+                destination,
+                change: None,
+            };
+            let snapshot = Snapshot::new(&network, [truck]);
+            let scene = snapshot.scene(&network, &navigator, &[]);
+            let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
+            if !survey(&scene, spot, [0.0, 30.0], |_, _| false, &mut out) {
                 continue;
             }
-            if rear > limit || rear > clear + ROOM_SIGHT {
-                return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear;
-            }
-            let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
-            let gets_to = rear + passage.map_or(0.0, |it| it.left().max(0.0));
-            if rear >= clear {
-                // Whose passage leads beyond the room does not stop in it.
-                if gets_to < limit {
-                    let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
-                    end = end.min(stops_at.max(gets_to) - taken);
-                    taken += f64::from(motion.length) + SPARE_ROOM;
-                }
-                continue;
-            }
-            if gets_to < clear.min(parts(scene, from, Spot { chain, index }, base)) - ROUNDING {
-                return NONE;
-            }
+            let from = scene.viewpoint(spot);
+            let last = refuges(&scene, from, &out).last().unwrap();
+            surveyed += 1;
+            assert_eq!(
+                last.chain,
+                chain_at(&scene, from, out.extent).0,
+                "{chain:?} at {x} m to {destination:?}"
+            );
         }
-        base += scene.network.chain(chain).length;
-        match scene.next(from.destination, chain) {
-            Some(next) if base < clear + ROOM_SIGHT => {
-                if base < clear && scene.waits_in_fork(chain, next, from.id).is_some() {
-                    return NONE;
-                }
-                (chain, index) = (next, 0);
-            }
-            _ => return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear,
-        }
+        assert!(surveyed > 100, "{surveyed}");
     }
 }
