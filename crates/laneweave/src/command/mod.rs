@@ -16,7 +16,7 @@ use laneweave::scenario::{Origin, Scenario};
 
 /// Microscopic traffic whose drivers change lanes for human reasons.
 ///
-/// Without a command it runs the demo scenario, ten minutes of a motorway with ramps, and writes into out/.
+/// Without a command it runs the demo scenario, ten minutes of a town with a motorway through it, and writes into out/.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 pub(crate) struct Cli {

@@ -9,7 +9,7 @@ use crate::source::Source;
 
 /// The demo scenario and its map, which come with the program.
 const DEMO: &str = include_str!("../../../../scenarios/demo.toml");
-const DEMO_MAP: &str = include_str!("../../../../maps/ramps.osm");
+const DEMO_MAP: &str = include_str!("../../../../maps/town.osm");
 
 /// Where the values of a scenario came from.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +43,7 @@ impl Origin {
     pub fn demo() -> Result<(Scenario, Origin), Fault> {
         let source = Source { path: "scenarios/demo.toml".into(), text: DEMO.into() };
         let mut scenario: Scenario = source.parse()?;
-        scenario.map = PathBuf::from("maps/ramps.osm");
+        scenario.map = PathBuf::from("maps/town.osm");
         Ok((scenario, Origin { source: Some(source), map: Some(DEMO_MAP), ..Origin::default() }))
     }
 

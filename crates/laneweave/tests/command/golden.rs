@@ -21,7 +21,7 @@ pub(crate) fn assert_golden(path: &Path, text: &str) {
 }
 
 #[test]
-fn ten_minutes_on_the_demo_motorway_are_as_they_were() {
+fn ten_minutes_on_the_motorway_with_ramps_are_as_they_were() {
     const COUNTS: [&str; 14] = [
         "entered",
         "left",

@@ -228,7 +228,7 @@ fn without_arguments_the_demo_runs() {
     let folder = Folder::new();
     let run = folder.laneweave("");
     assert_eq!(run.code(), 0, "{}", run.errors());
-    assert!(run.text().contains("maps/ramps.osm") && folder.holds("out/time_space.svg"), "{}", run.text());
+    assert!(run.text().contains("maps/town.osm") && folder.holds("out/time_space.svg"), "{}", run.text());
 }
 
 /// Stops a run as Ctrl-C does.
