@@ -1,6 +1,7 @@
 //! The decision: yields weighted and combined, the rules, and what must never sway them.
 
 mod situations;
+mod weights;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
@@ -9,7 +10,8 @@ use laneweave_models::change::{
     expected_time,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
-use situations::{LENGTH, ON_ROUTE, behind, driver, empty_road, mcdm};
+use situations::{LENGTH, ON_ROUTE, behind, driver, empty_road};
+use weights::mcdm;
 
 #[track_caller]
 fn assert_near(value: f64, expected: f64, tolerance: f64) {
@@ -28,9 +30,9 @@ static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
 const AGGRESSIVE: ([f64; 4], f64) = ([1.26, 0.58, 0.03, 0.61], 1.1);
 const CONSERVATIVE: ([f64; 4], f64) = ([0.44, 0.41, 0.09, 1.72], 2.3);
 
-/// A side with the gain `gain`.
-fn side(gain: f64) -> Appraisal {
-    Appraisal { rows: [Row::default(); INCENTIVES], gain, theta: 0.0 }
+/// A side with the gain `gain`, which has to be above `theta`.
+fn side(gain: f64, theta: f64) -> Appraisal {
+    Appraisal { rows: [Row::default(); INCENTIVES], gain, theta }
 }
 
 /// The stochastic rule.
@@ -85,8 +87,8 @@ fn v33_the_worked_case_of_both_classes_and_both_courtesies() {
             assert_near(earnings[2], discomfort, 1e-6);
             let rows = [0, 1, 2, 3].map(|i| Row { earning: earnings[i], weight: weights[i] });
             assert_near(model.combine(&rows), gain, 1e-6);
-            assert_near(model.choose([Some(&side(model.combine(&rows))), None])[0], chance, 1e-6);
-            assert_near(model.choose([None, Some(&side(model.combine(&rows)))])[1], chance, 1e-6);
+            assert_near(model.choose([Some(&side(model.combine(&rows), 0.0)), None])[0], chance, 1e-6);
+            assert_near(model.choose([None, Some(&side(model.combine(&rows), 0.0))])[1], chance, 1e-6);
         }
     }
 }
@@ -124,12 +126,12 @@ fn v36_who_weighs_nothing_wants_to_change_by_the_noise_alone() {
     assert_near(both[0], 1.0 / (2.0 + 4.5_f64.exp()), 1e-15);
     assert_eq!(both[0], both[1]);
     // 4.595120 is the threshold of one change in a hundred epochs.
-    assert_near(logit(4.595120, 1.0).choose([Some(&side(0.0)), None])[0], 0.01, 1e-8);
+    assert_near(logit(4.595120, 1.0).choose([Some(&side(0.0, 4.595120)), None])[0], 0.01, 1e-8);
 }
 
 #[test]
 fn left_and_right_compete_in_one_logit() {
-    let (left, right) = (side(0.3), side(-0.2));
+    let (left, right) = (side(0.3, 0.1), side(-0.2, 0.1));
     let (l, r) = (((0.3 - 0.1) / 0.5_f64).exp(), ((-0.2 - 0.1) / 0.5_f64).exp());
     let chances = logit(0.1, 0.5).choose([Some(&left), Some(&right)]);
     assert_near(chances[0], l / (1.0 + l + r), 1e-15);
@@ -140,7 +142,7 @@ fn left_and_right_compete_in_one_logit() {
 #[test]
 fn the_threshold_rule_is_the_limit_of_the_logit() {
     for gains in [[0.3, -0.2], [-0.2, 0.3], [0.3, 0.2], [0.2, 0.3], [0.05, 0.08], [-1.0, -2.0]] {
-        let [left, right] = gains.map(side);
+        let [left, right] = gains.map(|gain| side(gain, 0.1));
         let sides = [Some(&left), Some(&right)];
         let limit = Mcdm { rule: Rule::Threshold, ..logit(0.1, 0.0) }.choose(sides);
         assert_eq!(limit, logit(0.1, 0.0).choose(sides));
@@ -149,7 +151,7 @@ fn the_threshold_rule_is_the_limit_of_the_logit() {
         assert_eq!(limit, gains.map(|gain| f64::from(u8::from(gain == best && gain > 0.1))));
     }
     // G = θ is not enough.
-    assert_eq!(mcdm(Literal, [0.0; 4], 1.1).choose([Some(&side(0.0)), None]), [0.0, 0.0]);
+    assert_eq!(mcdm(Literal, [0.0; 4], 1.1).choose([Some(&side(0.0, 0.0)), None]), [0.0, 0.0]);
 }
 
 #[test]
@@ -257,7 +259,7 @@ fn a_constant_hazard_knows_the_route_and_nothing_else() {
     let away = worked_case();
     let mut back = away;
     std::mem::swap(&mut back.here, &mut back.there);
-    assert_eq!(model.appraise(&back), side(1.0));
+    assert_eq!(model.appraise(&back), side(1.0, 0.0));
     assert_eq!(choose(Some(&equal), None), [0.02, 0.0]);
     assert_eq!(choose(Some(&slow), Some(&equal)), [0.01, 0.01]);
     assert_eq!(choose(Some(&away), Some(&equal)), [0.0, 0.02]);

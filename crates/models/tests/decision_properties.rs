@@ -1,16 +1,18 @@
 //! What must hold of every decision, on random situations.
 
 mod situations;
+mod weights;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
     Appraisal, Behind, Combination, Comfort, Driver, Flow, Glance, LaneChangeModel, LaneView, Mcdm, Merging,
-    RouteView, Rule, Situation, at_least_once_in,
+    RouteView, Rule, Situation, Toward, at_least_once_in,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
 use proptest::option;
 use proptest::prelude::*;
-use situations::{LENGTH, behind, driver, empty_road, mcdm};
+use situations::{LENGTH, behind, driver, empty_road};
+use weights::mcdm;
 
 /// Random cases of the three signs.
 const CASES: u32 = 100_000;
@@ -81,7 +83,15 @@ fn any_merging() -> impl Strategy<Value = Merging<'static>> {
 fn any_situation() -> impl Strategy<Value = Situation<'static>> {
     let merging = [option::of(any_merging()), option::of(any_merging())];
     (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging).prop_map(
-        |(me, here, there, section, merging)| Situation { me, here, there, section, band: 0.0, merging },
+        |(me, here, there, section, merging)| Situation {
+            toward: Toward::Offside,
+            me,
+            here,
+            there,
+            section,
+            band: 0.0,
+            merging,
+        },
     )
 }
 

@@ -1,6 +1,7 @@
 //! The rows of the paper's table, one by one, against the worked numbers.
 
 mod situations;
+mod weights;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
@@ -8,7 +9,8 @@ use laneweave_models::change::{
     RouteView, Situation, Speed, Urgency, anticipated_speed, discomfort, expected_time, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace};
-use situations::{ON_ROUTE, behind, driver, empty_road, mcdm};
+use situations::{ON_ROUTE, behind, driver, empty_road};
+use weights::mcdm;
 
 #[track_caller]
 fn assert_near(value: f64, expected: f64, tolerance: f64) {

@@ -3,7 +3,7 @@
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, Side};
 
 use crate::appeal::STANDS;
 use crate::clock::Clock;
@@ -225,7 +225,7 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
             let least = scene.characters[car.character as usize].safety.min_gap;
             waited > WAITS
                 && scene.motion(spot).speed < HARDLY_MOVES
-                && leader_beside(scene, spot).is_none_or(|it| it.gap >= least)
+                && leader_beside(scene, spot, mind.side).is_none_or(|it| it.gap >= least)
         }
         Phase::Cruises | Phase::Aborts => false,
     };
@@ -239,12 +239,20 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let style = &scene.characters[car.character as usize];
     let mut acceleration = f64::INFINITY;
     if car.phase == Phase::Wants {
-        let beside = leader_beside(scene, spot);
+        let beside = leader_beside(scene, spot, mind.side);
         // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
         let drives_on = motion.speed < HARDLY_MOVES && beside.is_some_and(|it| it.speed < STANDS);
-        if !drives_on {
+        let falls_in = f64::from(mind.urgency) >= style.change.synchronizes_from();
+        if falls_in && !drives_on {
             let falling_in = style.follow.acceleration(pace, beside);
             acceleration = falling_in.max(-style.manner.adjust_deceleration);
+        }
+    }
+    if style.change.minds_offside() {
+        let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
+        if offside.is_some_and(|it| style.change.stays_behind(motion.speed, it)) {
+            let staying_behind = style.follow.acceleration(pace, offside);
+            acceleration = acceleration.min(staying_behind.max(-style.manner.adjust_deceleration));
         }
     }
     let (gap, speed) = mind.lets_in;
@@ -267,10 +275,10 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     acceleration
 }
 
-/// The leader on the lane that a driver waits to change to.
-fn leader_beside(scene: &Scene, spot: Spot) -> Option<Ahead> {
+/// The leader on the lane beside, on `side`.
+fn leader_beside(scene: &Scene, spot: Spot, side: Side) -> Option<Ahead> {
     let from = scene.viewpoint(spot);
-    let beside = scene.network.chain(spot.chain).beside(scene.mind(spot).side, from.x)?;
+    let beside = scene.network.chain(spot.chain).beside(side, from.x)?;
     scene.ahead(scene.viewpoint_at(beside.chain, beside.across(from.x), from.id, from.destination))
 }
 

@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 
 use laneweave_models::change::{
-    Appraisal, GapPair, LaneChangeModel, Refusal, Situation, deceleration_to_avoid, time_to_collision,
-    urgency,
+    Appraisal, GapPair, LaneChangeModel, Refusal, deceleration_to_avoid, time_to_collision,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_models::{Concentration, Style};
@@ -25,8 +24,6 @@ use crate::tally::Tally;
 use crate::traffic::{Car, Kind, Mind, Phase};
 use crate::turn::next_turn;
 
-/// Urgency from which a driver signals so that others let it in.
-const ASKS_FROM: f64 = 0.3;
 /// Desire that a voluntary change counts for in the time gap accepted (ours).
 const VOLUNTARY_DESIRE: f64 = 0.3;
 /// What a driver who lets another in leaves beyond its usual gap [m].
@@ -109,6 +106,7 @@ fn consider(
         last_place: f64::INFINITY,
         urgency: 0.0,
         gives_up: false,
+        minds_offside: style.change.minds_offside(),
         rerouted: None,
     };
     let (navigator, goal) = (scene.navigator, car.goal.destination());
@@ -164,11 +162,11 @@ fn consider(
         let [wanted, other] = [mind.side, mind.side.opposite()].map(of);
         concern.gives_up =
             gives_up(moment, mind, style, [wanted, other].map(|it| it.map(|it| &it.appraisal)));
-        concern.urgency = wanted.map_or(0.0, |it| it.urgency as f32);
+        concern.urgency = wanted.map_or(0.0, |it| it.pressure as f32);
     } else {
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
         if let Some(choice) = desire(&outlook, moment, &change, epochs, draw, &mut outbox.tally) {
-            let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.urgency as f32);
+            let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.pressure as f32);
             let ask = Ask::Want(choice.want(outlook.here().prospect));
             outbox.requests.push(Request { urgency, id, chain, x, ask });
         }
@@ -211,7 +209,8 @@ fn desire(
 /// A driver keeps its way in mind if there is something about it to keep, or to forget.
 #[inline(never)]
 fn keep_in_mind(concern: Concern, car: &Car, plan: &mut Plan) {
-    if car.phase != Phase::Cruises || car.heeds_more || concern.last_place.is_finite() {
+    let minds_more = concern.last_place.is_finite() || concern.minds_offside;
+    if car.phase != Phase::Cruises || car.heeds_more || minds_more {
         push_tight(&mut plan.concerns, concern);
     }
 }
@@ -221,8 +220,8 @@ struct Choice {
     side: Side,
     appraisal: Appraisal,
     is_symmetric: bool,
-    /// How much the driver's route presses it to this side, 0…1.
-    urgency: f64,
+    /// How much the driver is pressed to this side, 0…1.
+    pressure: f64,
     /// Anticipated speed there [m/s].
     prospect: f64,
 }
@@ -243,12 +242,15 @@ impl Choice {
         }
         let situation = outlook.situation(side, from);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
-        (helps_the_route || !is_calm).then(|| Choice {
-            side,
-            appraisal: change.appraise(&situation),
-            is_symmetric: situation.is_symmetric(),
-            urgency: if helps_the_route { pressure(&situation) } else { 0.0 },
-            prospect: situation.there.prospect,
+        (helps_the_route || !is_calm).then(|| {
+            let appraisal = change.appraise(&situation);
+            Choice {
+                side,
+                appraisal,
+                is_symmetric: situation.is_symmetric(),
+                pressure: change.pressure(&situation, &appraisal),
+                prospect: situation.there.prospect,
+            }
         })
     }
 
@@ -260,12 +262,6 @@ impl Choice {
             speed_gain: (self.prospect - prospect_here) as f32,
         }
     }
-}
-
-/// How much the route presses a driver out of its lane.
-fn pressure(situation: &Situation) -> f64 {
-    let route = &situation.here.route;
-    urgency(route.changes, route.remaining, situation.me.pace.speed)
 }
 
 /// What the driver keeps in mind whatever it decides, considering lanes once in `period` steps.
@@ -287,7 +283,7 @@ fn gives_up(moment: Moment, mind: &Mind, style: &Style, [wanted, other]: [Option
     let Some(appraisal) = wanted else { return true };
     let waited = moment.clock.since(mind.since);
     let is_tired = mind.kind == Kind::Discretionary && waited > style.manner.patience;
-    let is_pointless = appraisal.gain < 0.0;
+    let is_pointless = style.change.would_rather_stay(appraisal);
     let is_better_elsewhere =
         other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());
     is_tired || is_pointless || is_better_elsewhere
@@ -296,6 +292,7 @@ fn gives_up(moment: Moment, mind: &Mind, style: &Style, [wanted, other]: [Option
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
 fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
     let (motion, mind) = (scene.motion(spot), scene.mind(spot));
+    let asks_from = scene.characters[scene.car(spot).character as usize].change.asks_from();
     let request =
         |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
     match gap(scene, spot, mind.side) {
@@ -305,7 +302,7 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
         Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
             outbox.requests.push(request(Ask::Change));
         }
-        Some(gap) if f64::from(mind.urgency) >= ASKS_FROM => {
+        Some(gap) if f64::from(mind.urgency) >= asks_from => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {
                 let behind = scene.motion(found.spot);
                 outbox.requests.push(request(Ask::LetIn {

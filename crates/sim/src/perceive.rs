@@ -4,7 +4,7 @@ mod glance;
 
 use std::borrow::Cow;
 
-use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation};
+use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
 use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::{Beside, Side};
 
@@ -115,8 +115,10 @@ impl<'s, 'a> Outlook<'s, 'a> {
         let (section, [route_here, route_there]) = self.routes(from);
         let here = LaneView { route: route_here, ..self.here };
         let there = lane_view(self.scene, &self.me, &sight, route_there);
+        let offside = self.scene.network.driving_side.overtaking();
+        let toward = if side == offside { Toward::Offside } else { Toward::Nearside };
         let (me, band, merging) = (self.me, self.beliefs.band, self.merging(side, from, &sight));
-        Situation { me, here, there, section, band, merging }
+        Situation { toward, me, here, there, section, band, merging }
     }
 
     /// The length over which the speeds of the own lane and of the one where the driver would be at `from` differ for it [m], and

@@ -201,10 +201,12 @@ pub(crate) struct Concern {
     pub(crate) index: u32,
     /// Where it has to have left a wrong lane soon [m]; infinite if it has not.
     pub(crate) last_place: f64,
-    /// How much the route presses it to the change that it wants, 0…1.
+    /// How much it is pressed to the change that it wants, 0…1.
     pub(crate) urgency: f32,
     /// It no longer wants to change.
     pub(crate) gives_up: bool,
+    /// It may have to stay behind slower drivers on the lane for overtaking.
+    pub(crate) minds_offside: bool,
     /// It goes somewhere else, or another way, from now on.
     pub(crate) rerouted: Option<Destination>,
 }

@@ -5,7 +5,7 @@ mod roads;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Attention;
 use laneweave_models::Style;
-use laneweave_models::change::{ConstantHazard, LaneChangeModel, Situation};
+use laneweave_models::change::{ConstantHazard, LaneChangeModel, Situation, Toward};
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Network, Side};
 use laneweave_sim::{Class, NewVehicle, Phase, Scene, Setup, Spot, Waypoint, World, perceive};
@@ -80,7 +80,8 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     truck(&mut world, 1, 700.0, 22.0);
     car(&mut world, 1, 495.0, 25.0);
     let scene = world.scene();
-    let Situation { me, here, there, section, band, merging } = look(&scene, &world, me, Side::Left);
+    let Situation { toward, me, here, there, section, band, merging } = look(&scene, &world, me, Side::Left);
+    assert_eq!(toward, Toward::Offside);
     // Who is recommended no other way keeps its own.
     assert_eq!(band, f64::INFINITY);
     assert_eq!((me.pace.speed, me.pace.desired, me.pace.tightness, me.length), (20.0, 30.0, 1.0, CAR));

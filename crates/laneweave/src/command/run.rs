@@ -8,9 +8,11 @@ use std::time::Instant;
 
 use clap::Args;
 use laneweave::Fault;
+use laneweave::did_you_mean;
 use laneweave::output::{Inputs, Summary, observers, write_whole};
 use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
 use laneweave::simulation::simulate;
+use laneweave::style::Model;
 
 use super::progress::Progress;
 use super::say;
@@ -39,6 +41,10 @@ pub(crate) struct Arguments {
     /// all styles of the scenario [default: aggressive=1 conservative=7.4].
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weighted)]
     style: Vec<(String, f64)>,
+    /// One lane-change model for all drivers, in place of those of their styles: mcdm, mobil, lmrs, mobil-lanes or lmrs-lanes
+    /// (never leave the lanes of their route), null (no incentives), constant-hazard (no reasons at all).
+    #[arg(long, value_name = "MODEL", value_parser = model)]
+    model: Option<Model>,
     /// Seed of all random draws [default: 1].
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -84,6 +90,12 @@ fn weighted(text: &str) -> Result<(String, f64), String> {
     Ok((name.into(), weight))
 }
 
+/// A lane-change model by its name.
+fn model(text: &str) -> Result<Model, String> {
+    let found = Model::ALL.into_iter().find(|it| it.name() == text);
+    found.ok_or_else(|| did_you_mean(text, Model::ALL.map(Model::name)))
+}
+
 fn format(text: &str) -> Result<TableFormat, String> {
     match text {
         "parquet" => Ok(TableFormat::Parquet),
@@ -113,7 +125,7 @@ impl Arguments {
                 origin.replaced(key, option);
             }
         }
-        let Scenario { demand, run, output, styles, .. } = scenario;
+        let Scenario { demand, run, output, styles, model, .. } = scenario;
         if self.demand.is_some() {
             demand.entrances.clear();
             demand.od.clear();
@@ -132,6 +144,7 @@ impl Arguments {
         replace(origin, ("output.format", "--format"), &mut output.format, self.format);
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
+        replace(origin, ("model", "--model"), model, self.model.map(Some));
     }
 }
 

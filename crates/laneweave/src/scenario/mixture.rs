@@ -17,6 +17,10 @@ pub(super) fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(Style
             let what = format!("the style {name:?} has the weight {weight}");
             return Err(Fault::new(place(), what, "give it a finite weight of 0 or more"));
         }
+        let template = match scenario.model {
+            Some(model) => model.drives(template)?,
+            None => template,
+        };
         mixture.push((template, *weight));
     }
     let total: f64 = scenario.styles.values().sum();

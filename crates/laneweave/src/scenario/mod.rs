@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::{Deserialize, Serialize};
 
-use crate::style::DEFAULT_MIXTURE;
+use crate::style::{DEFAULT_MIXTURE, Model};
 
 pub use headways::Headways;
 pub use origin::Origin;
@@ -55,6 +55,9 @@ pub struct Scenario {
     /// relative to the scenario file.
     #[serde(default = "default_styles")]
     pub styles: BTreeMap<String, f64>,
+    /// One lane-change model for all drivers, in place of those of their styles.
+    #[serde(default)]
+    pub model: Option<Model>,
     /// What is written, and where.
     #[serde(default)]
     pub output: Output,
@@ -249,6 +252,7 @@ impl Scenario {
             guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),
+            model: None,
             output: Output::default(),
         }
     }

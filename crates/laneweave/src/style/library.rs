@@ -31,6 +31,9 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "egoistic",
     "paper-aggressive",
     "paper-conservative",
+    "mobil",
+    "mobil-european",
+    "lmrs",
     "constant-hazard"
 ];
 

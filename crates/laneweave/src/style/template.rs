@@ -33,6 +33,8 @@ pub struct Parameter {
     pub path: Vec<String>,
     /// How it is distributed.
     pub distribution: Distribution,
+    /// Which draw of the style is its own.
+    number: u32,
 }
 
 impl StyleTemplate {
@@ -57,6 +59,12 @@ impl StyleTemplate {
             let remedy = "give sigma a value above 0, or set rule = \"threshold\"";
             return Err(Fault::new(source.place(&["change", "sigma"]), "a logit rule without noise", remedy));
         }
+        if let LaneChangeModel::Lmrs(it) = &typical.change
+            && !(it.free <= it.synchronize && it.synchronize < it.cooperate)
+        {
+            let remedy = "choose free ≤ synchronize < cooperate";
+            return Err(Fault::new(source.place(&["change"]), "thresholds of desire out of order", remedy));
+        }
         Ok(StyleTemplate { table, parameters, typical })
     }
 
@@ -75,16 +83,27 @@ impl StyleTemplate {
         &self.typical
     }
 
+    /// The same style with another lane-change model.
+    ///
+    /// # Errors
+    /// None, as long as every model can be written down.
+    pub fn with_change(self, change: &LaneChangeModel) -> Result<StyleTemplate, Fault> {
+        let StyleTemplate { mut table, mut parameters, typical } = self;
+        let model = Table::try_from(change)
+            .map_err(|error| Fault::new(&typical.name, error, "report this as a bug"))?;
+        table.insert("change".into(), Value::Table(model));
+        parameters.retain(|it| it.path.first().is_none_or(|it| it != "change"));
+        Ok(StyleTemplate { table, parameters, typical: Style { change: change.clone(), ..typical } })
+    }
+
     /// Driver `number` of the style, which is number `style` of the run.
     ///
     /// # Errors
     /// Only if a number that is drawn does not fit where it stands, which reading the file rules out.
     pub fn draw(&self, random: &Random, style: u32, number: u32) -> Result<Style, Fault> {
-        let mut count = style * PARAMETERS_PER_STYLE;
         let drawn = fill(&self.table, &self.parameters, |it| {
-            let p = random.uniform(number, Purpose::Parameter, count);
-            count += 1;
-            it.distribution.value(p)
+            let draw = style * PARAMETERS_PER_STYLE + it.number;
+            it.distribution.value(random.uniform(number, Purpose::Parameter, draw))
         });
         drawn.map_err(|error| {
             Fault::new(&self.typical.name, error.message(), "check the distributions of the style")
@@ -194,7 +213,8 @@ impl Reader<'_> {
             let what = format!("{} reaches from {least} to {largest}", self.key());
             return Err(self.fault(what, format!("set its min and max: {}", range.advice())));
         }
-        self.parameters.push(Parameter { path: self.path.clone(), distribution });
+        let number = self.parameters.len() as u32;
+        self.parameters.push(Parameter { path: self.path.clone(), distribution, number });
         Ok(())
     }
 
@@ -355,7 +375,7 @@ mod tests {
             }
         }
         let mut found = Vec::new();
-        for name in ["aggressive", "conservative", "constant-hazard"] {
+        for name in ["aggressive", "conservative", "mobil", "lmrs", "constant-hazard"] {
             unbounded(&Table::try_from(template(name).typical()).unwrap(), "", &mut found);
         }
         assert!(found.iter().all(|it| it.ends_with(".weight") || it == "change.theta"), "{found:?}");

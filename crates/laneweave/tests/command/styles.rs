@@ -54,6 +54,9 @@ fn every_built_in_style_is_listed_shown_and_driven() {
             "egoistic",
             "paper-aggressive",
             "paper-conservative",
+            "mobil",
+            "mobil-european",
+            "lmrs",
             "constant-hazard"
         ]
     );

@@ -60,7 +60,7 @@ impl Courtesy {
     pub fn relief(&self, me: &Driver, here: &LaneView) -> f64 {
         let in_the_way = me.pace.speed < here.flow.speed;
         here.behind.as_ref().filter(|_| in_the_way).map_or(0.0, |behind| {
-            let [with, without] = leaders(me, behind, here.ahead);
+            let [with, without] = behind.leaders(me, here.ahead);
             self.driver_share(&behind.driver, with, without)
         })
     }
@@ -68,7 +68,7 @@ impl Courtesy {
     /// Its share of A for the new follower, who would follow the driver instead of the leader `ahead` of it.
     #[inline]
     pub fn harm(&self, me: &Driver, ahead: Option<Ahead>, behind: &Behind) -> f64 {
-        let [with, without] = leaders(me, behind, ahead);
+        let [with, without] = behind.leaders(me, ahead);
         self.driver_share(&behind.driver, without, with)
     }
 
@@ -86,14 +86,6 @@ impl Courtesy {
             .map(|it| (1.0 + it.urgency) * self.driver_share(&it.driver, it.blocked, it.freed));
         harm + relief + room.sum::<f64>()
     }
-}
-
-/// What the one `behind` follows with `me` in the lane, and without, where the leader there is `ahead` of me.
-#[inline]
-fn leaders(me: &Driver, behind: &Behind, ahead: Option<Ahead>) -> [Option<Ahead>; 2] {
-    let with = Ahead { gap: behind.gap, speed: me.pace.speed };
-    let without = ahead.map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
-    [Some(with), without]
 }
 
 impl Incentive for Courtesy {

@@ -160,11 +160,6 @@ impl Mcdm {
         ])
     }
 
-    /// By how much G is above θ on either side.
-    fn excess(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
-        sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - self.theta))
-    }
-
     /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn, told
     /// without an exponential: the chance of either is at most `epochs` (or 1) times e^((G − θ)/σ), which for most drivers on
     /// most occasions is far below any draw.
@@ -180,11 +175,10 @@ impl Mcdm {
 
     /// Chances within one epoch of the desire for either side.
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
-        let excess = self.excess(sides);
         match self.rule {
             Rule::Logit if self.sigma > 0.0 => {
                 // Scaled by the largest exponent, so that nothing overflows.
-                let exponents = excess.map(|it| it / self.sigma);
+                let exponents = excess(sides).map(|it| it / self.sigma);
                 let largest = exponents[0].max(exponents[1]).max(0.0);
                 let [first, second] = exponents.map(|it| exp(it - largest));
                 let stay = if largest == 0.0 { 1.0 } else { exp(-largest) };
@@ -192,12 +186,24 @@ impl Mcdm {
                 [first / all, second / all]
             }
             // Without noise the logit is the threshold rule.
-            Rule::Logit | Rule::Threshold => match excess {
-                [first, second] if first > 0.0 && first >= second => [1.0, 0.0],
-                [_, second] if second > 0.0 => [0.0, 1.0],
-                _ => [0.0, 0.0],
-            },
+            Rule::Logit | Rule::Threshold => by_threshold(sides, |excess| excess > 0.0),
         }
+    }
+}
+
+/// By how much G is above θ on either side.
+#[inline]
+fn excess(sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
+    sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - it.theta))
+}
+
+/// The threshold rule: the desire comes for the side that is more above its threshold, if that is `enough`.
+#[inline]
+pub(super) fn by_threshold(sides: [Option<&Appraisal>; 2], enough: impl Fn(f64) -> bool) -> [f64; 2] {
+    match excess(sides) {
+        [first, second] if enough(first) && first >= second => [1.0, 0.0],
+        [_, second] if enough(second) => [0.0, 1.0],
+        _ => [0.0, 0.0],
     }
 }
 

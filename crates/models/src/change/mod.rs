@@ -1,13 +1,18 @@
-//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], its rows one file each.
+//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], its rows one file each. Beside it stand the models that it
+//! is compared with.
 
 mod comfort;
 mod constant_hazard;
 mod courtesy;
 mod glance;
 mod headway;
+mod keeping;
 mod lateral;
 mod link_time;
+mod lmrs;
 mod mcdm;
+mod mobil;
+mod model;
 mod returning;
 mod route;
 mod safety;
@@ -20,17 +25,19 @@ pub use constant_hazard::ConstantHazard;
 pub use courtesy::Courtesy;
 pub use glance::Glance;
 pub use headway::Flow;
+pub use keeping::RouteKeeping;
 pub use lateral::{moved_share, peak_lateral_acceleration, peak_lateral_speed};
 pub use link_time::{bpr, link_time};
+pub use lmrs::Lmrs;
 pub use mcdm::{Appraisal, Combination, INCENTIVES, Mcdm, Row, Rule, at_least_once_in};
+pub use mobil::{Accelerations, Mobil, Traffic};
+pub use model::LaneChangeModel;
 pub use returning::Returning;
 pub use route::{Route, expected_time};
 pub use safety::{GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
-pub use situation::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation};
+pub use situation::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
 pub use speed::{Speed, anticipated_speed};
 pub use urgency::{Urgency, urgency};
-
-use serde::{Deserialize, Serialize};
 
 /// The three cases of the paper's Table I, as gains: larger is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,75 +75,5 @@ pub trait Incentive {
         let outcomes = self.outcomes(situation, chances);
         let Outcomes { keep, back, away } = outcomes;
         (chances.there * back + (1.0 - chances.there) * away - keep) / self.scale(situation, &outcomes)
-    }
-}
-
-/// The lane-change models a style can name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "model", rename_all = "kebab-case")]
-pub enum LaneChangeModel {
-    /// Multi-criteria decision-making, the paper's.
-    Mcdm(Mcdm),
-    /// The control that every claim is held against.
-    ConstantHazard(ConstantHazard),
-}
-
-impl LaneChangeModel {
-    /// What the driver makes of one side.
-    pub fn appraise(&self, situation: &Situation) -> Appraisal {
-        match self {
-            LaneChangeModel::Mcdm(model) => model.appraise(situation),
-            LaneChangeModel::ConstantHazard(model) => model.appraise(situation),
-        }
-    }
-
-    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s], if it is better by more than
-    /// `band` [s]; `None` where it does not think of it.
-    pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
-        match self {
-            LaneChangeModel::Mcdm(model) => model.appraise_leaving(on_route, alternative, band),
-            LaneChangeModel::ConstantHazard(_) => None,
-        }
-    }
-
-    /// The same model where comfort weighs `factor` times as much.
-    pub fn with_comfort(&self, factor: f64) -> LaneChangeModel {
-        match self {
-            LaneChangeModel::Mcdm(model) => {
-                let comfort = Comfort { weight: factor * model.comfort.weight, ..model.comfort };
-                LaneChangeModel::Mcdm(Mcdm { comfort, ..model.clone() })
-            }
-            LaneChangeModel::ConstantHazard(_) => self.clone(),
-        }
-    }
-
-    /// Chances [first, second] that within one epoch the desire for either side comes, given the appraisals of
-    /// the sides that there are. With one side only this is the paper's rule.
-    pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
-        match self {
-            LaneChangeModel::Mcdm(model) => model.choose(sides),
-            LaneChangeModel::ConstantHazard(model) => model.choose(sides),
-        }
-    }
-
-    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn evenly
-    /// from [0, 1).
-    #[inline]
-    pub fn reach(&self, epochs: f64, draw: f64) -> f64 {
-        match self {
-            LaneChangeModel::Mcdm(model) => model.reach(epochs, draw),
-            LaneChangeModel::ConstantHazard(_) => f64::NEG_INFINITY,
-        }
-    }
-
-    /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
-    #[inline(always)]
-    pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
-        let reach = self.reach(epochs, draw);
-        if sides.into_iter().flatten().all(|it| it.gain < reach) {
-            return None;
-        }
-        let [first, second] = self.choose(sides).map(|p| at_least_once_in(epochs, p));
-        if draw < first { Some(0) } else { (draw < first + second).then_some(1) }
     }
 }

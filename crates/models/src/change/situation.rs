@@ -6,9 +6,20 @@ use crate::follow::{Ahead, FollowingModel, Pace};
 /// x₀: how far ahead drivers anticipate [m] (Schakel, Knoop, van Arem 2012).
 pub const SIGHT: f64 = 295.0;
 
+/// Where a lane beside lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Toward {
+    /// On the side on which one overtakes.
+    Offside,
+    /// On the side of the kerb.
+    Nearside,
+}
+
 /// A driver considers changing to the lane `there`.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
+    /// Where that lane lies.
+    pub toward: Toward,
     /// The driver.
     pub me: Driver<'a>,
     /// Its lane.
@@ -69,6 +80,16 @@ pub struct Behind<'a> {
     pub gap: f64,
     /// Its driver.
     pub driver: Driver<'a>,
+}
+
+impl Behind<'_> {
+    /// What it follows with `me` in its lane, and without, where the leader there is `ahead` of me.
+    #[inline]
+    pub(crate) fn leaders(&self, me: &Driver, ahead: Option<Ahead>) -> [Option<Ahead>; 2] {
+        let with = Ahead { gap: self.gap, speed: me.pace.speed };
+        let without = ahead.map(|ahead| Ahead { gap: self.gap + me.length + ahead.gap, ..ahead });
+        [Some(with), without]
+    }
 }
 
 /// What a lane means for a route.

@@ -1,10 +1,6 @@
 //! Situations to write down: a driver on an empty road, whose lanes a test then fills.
 
-use laneweave_models::Reading;
-use laneweave_models::change::{
-    Behind, Comfort, Courtesy, Driver, Flow, LaneView, Mcdm, Returning, Route, RouteView, Rule, Situation,
-    Speed,
-};
+use laneweave_models::change::{Behind, Driver, Flow, LaneView, RouteView, Situation, Toward};
 use laneweave_models::follow::{FollowingModel, Pace};
 
 /// Net length of every vehicle [m].
@@ -28,18 +24,13 @@ pub(crate) const ON_ROUTE: RouteView =
 pub(crate) fn empty_road(me: Driver<'_>) -> Situation<'_> {
     let flow = Flow { spacing: 300.0, speed: me.pace.desired, length: LENGTH };
     let lane = LaneView { ahead: None, behind: None, flow, prospect: me.pace.desired, route: ON_ROUTE };
-    Situation { me, here: lane, there: lane, section: 200.0, band: 0.0, merging: [None; 2] }
-}
-
-/// The paper's model with the weights μ₁…μ₄ and β, by the threshold rule with θ = 0.
-pub(crate) fn mcdm(reading: Reading, [speed, route, comfort, courtesy]: [f64; 4], beta: f64) -> Mcdm {
-    Mcdm {
-        rule: Rule::Threshold,
-        speed: Speed { weight: speed, reading },
-        route: Route { weight: route, reading, ..Route::default() },
-        comfort: Comfort { weight: comfort, reading, beta },
-        courtesy: Courtesy { weight: courtesy, reading },
-        returning: Returning { reading, ..Returning::default() },
-        ..Mcdm::default()
+    Situation {
+        toward: Toward::Offside,
+        me,
+        here: lane,
+        there: lane,
+        section: 200.0,
+        band: 0.0,
+        merging: [None; 2],
     }
 }

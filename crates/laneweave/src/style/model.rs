@@ -1,0 +1,104 @@
+//! One lane-change model for all drivers, so that models can be compared on the same traffic: everything else of their styles stays.
+
+use std::path::Path;
+
+use laneweave_models::change::{
+    Comfort, ConstantHazard, Courtesy, LaneChangeModel, Lmrs, Mcdm, Mobil, Route, RouteKeeping, Speed,
+    Urgency,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{DEFAULT_MIXTURE, StyleTemplate, find};
+use crate::fault::Fault;
+
+/// A lane-change model in place of that of the styles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// Multi-criteria decision-making: the weights of the style, or of conservative drivers where it has none.
+    Mcdm,
+    /// MOBIL, symmetric, which follows its route by urgency.
+    Mobil,
+    /// MOBIL, symmetric, which never leaves the lanes of its route.
+    MobilLanes,
+    /// LMRS, which follows its route by urgency.
+    Lmrs,
+    /// LMRS, which never leaves the lanes of its route.
+    LmrsLanes,
+    /// Multi-criteria decision-making without any weight: only its noise is left.
+    Null,
+    /// Changes at a constant rate, without a reason.
+    ConstantHazard,
+}
+
+impl Model {
+    /// All of them.
+    pub const ALL: [Model; 7] = [
+        Model::Mcdm,
+        Model::Mobil,
+        Model::MobilLanes,
+        Model::Lmrs,
+        Model::LmrsLanes,
+        Model::Null,
+        Model::ConstantHazard,
+    ];
+
+    /// Its name in scenarios and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Model::Mcdm => "mcdm",
+            Model::Mobil => "mobil",
+            Model::MobilLanes => "mobil-lanes",
+            Model::Lmrs => "lmrs",
+            Model::LmrsLanes => "lmrs-lanes",
+            Model::Null => "null",
+            Model::ConstantHazard => "constant-hazard",
+        }
+    }
+
+    /// The style `template`, whose drivers change lanes by this model.
+    ///
+    /// # Errors
+    /// None for the styles that come with the program.
+    pub fn drives(self, template: StyleTemplate) -> Result<StyleTemplate, Fault> {
+        let lanes = RouteKeeping::Lanes;
+        let change = match self {
+            Model::Mcdm => match &template.typical().change {
+                LaneChangeModel::Mcdm(_) => return Ok(template),
+                _ => LaneChangeModel::Mcdm(usual()?),
+            },
+            Model::Null => match &template.typical().change {
+                LaneChangeModel::Mcdm(model) => LaneChangeModel::Mcdm(without_weights(model.clone())),
+                _ => LaneChangeModel::Mcdm(without_weights(usual()?)),
+            },
+            Model::Mobil => LaneChangeModel::Mobil(Mobil::default()),
+            Model::MobilLanes => LaneChangeModel::Mobil(Mobil { route: lanes, ..Mobil::default() }),
+            Model::Lmrs => LaneChangeModel::Lmrs(Lmrs::default()),
+            Model::LmrsLanes => LaneChangeModel::Lmrs(Lmrs { route: lanes, ..Lmrs::default() }),
+            Model::ConstantHazard => LaneChangeModel::ConstantHazard(ConstantHazard::default()),
+        };
+        template.with_change(&change)
+    }
+}
+
+/// Who conservative drivers are.
+fn usual() -> Result<Mcdm, Fault> {
+    let [_, (name, _)] = DEFAULT_MIXTURE;
+    let template = StyleTemplate::parse(&find(name, Path::new(""), String::new)?)?;
+    match &template.typical().change {
+        LaneChangeModel::Mcdm(model) => Ok(model.clone()),
+        _ => Ok(Mcdm::default()),
+    }
+}
+
+fn without_weights(model: Mcdm) -> Mcdm {
+    Mcdm {
+        speed: Speed { weight: 0.0, ..model.speed },
+        route: Route { weight: 0.0, ..model.route },
+        comfort: Comfort { weight: 0.0, ..model.comfort },
+        courtesy: Courtesy { weight: 0.0, ..model.courtesy },
+        urgency: Urgency { weight: 0.0 },
+        ..model
+    }
+}

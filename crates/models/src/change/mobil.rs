@@ -1,0 +1,183 @@
+//! MOBIL: minimizing overall braking induced by lane changes.
+//!
+//! Kesting, Treiber, Helbing (2007), Transp. Res. Rec. 1999, 86–94. With accelerations a of the own car-following models before
+//! and ã after the change, of the driver (c), the new follower (n) and the old one (o):
+//!
+//! * safety: ã_n ≥ −b_safe;
+//! * symmetric: ã_c − a_c + p [(ã_n − a_n) + (ã_o − a_o)] > a_thr;
+//! * European: to the slow side ã_c^eur − a_c + p (ã_o − a_o) > a_thr − a_bias, to the fast side
+//!   ã_c − a_c^eur + p (ã_n − a_n) > a_thr + a_bias. On the slow side of a leader slower than oneself, but faster than v_crit,
+//!   a^eur is not above what one would accelerate behind it: nobody passes on that side in free traffic.
+//!
+//! The model has no route. It is given one by [`RouteKeeping`] (ours). Its safety criterion binds those who change by choice;
+//! for others, whom urgency presses, the gap test stands in, which all models share.
+
+use serde::{Deserialize, Serialize};
+
+use super::keeping::RouteKeeping;
+use super::mcdm::{Appraisal, INCENTIVES, Row, by_threshold};
+use super::situation::{LaneView, Situation, Toward};
+use crate::follow::{Ahead, CarFollowing};
+
+/// Minimizing overall braking induced by lane changes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Mobil {
+    /// Whether the lanes are equal, or one side is for overtaking.
+    pub traffic: Traffic,
+    /// p: weight of the others' gains.
+    pub politeness: f64,
+    /// a_thr: gain that makes a change worth it [m/s²].
+    pub threshold: f64,
+    /// a_bias: preference for the slow side, in European traffic [m/s²].
+    pub bias: f64,
+    /// b_safe: braking that a change may ask of the new follower [m/s²].
+    pub safe_deceleration: f64,
+    /// v_crit: speed above which nobody passes on the slow side, in European traffic [m/s].
+    pub critical_speed: f64,
+    /// How the driver follows its route.
+    pub route: RouteKeeping,
+    /// What full urgency is worth, where it keeps its route by urgency [m/s²].
+    pub urgency: f64,
+}
+
+/// Whether lanes are equal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Traffic {
+    /// One overtakes on either side.
+    #[default]
+    Symmetric,
+    /// One keeps to the slow side, and overtakes on the other.
+    European,
+}
+
+impl Default for Mobil {
+    /// The values of Kesting et al. (from memory); the weight of urgency is ours: full urgency outweighs the hardest
+    /// braking.
+    fn default() -> Mobil {
+        Mobil {
+            traffic: Traffic::Symmetric,
+            politeness: 0.2,
+            threshold: 0.1,
+            bias: 0.3,
+            safe_deceleration: 4.0,
+            critical_speed: 60.0 / 3.6,
+            route: RouteKeeping::Urgency,
+            urgency: 8.0,
+        }
+    }
+}
+
+/// Accelerations [m/s²] without the change and with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accelerations {
+    /// a_c, ã_c: of the driver.
+    pub own: [f64; 2],
+    /// a_n, ã_n: of the new follower; equal where there is none.
+    pub new_follower: [f64; 2],
+    /// a_o, ã_o: of the old follower.
+    pub old_follower: [f64; 2],
+}
+
+/// Weight [m/s²] of a change of lanes that the route needs, for those who keep to the lanes that lead on: above every gain.
+const DECISIVE: f64 = 1000.0;
+
+impl Accelerations {
+    /// Those in `situation`, by everybody's own car-following model.
+    pub fn of(situation: &Situation) -> Accelerations {
+        let Situation { me, here, there, .. } = situation;
+        let own = |lane: &LaneView| me.follow.acceleration(me.pace, lane.ahead);
+        // What the vehicle behind in a lane accelerates with the driver in it, and without.
+        let behind = |lane: &LaneView| {
+            lane.behind.map_or([0.0; 2], |it| {
+                it.leaders(me, lane.ahead).map(|ahead| it.driver.follow.acceleration(it.driver.pace, ahead))
+            })
+        };
+        let [new_with, new_without] = behind(there);
+        Accelerations {
+            own: [own(here), own(there)],
+            new_follower: [new_without, new_with],
+            old_follower: behind(here),
+        }
+    }
+}
+
+fn gain([now, then]: [f64; 2]) -> f64 {
+    then - now
+}
+
+impl Mobil {
+    /// The own gain and that of the others who count [m/s²] in a change `toward` a side.
+    pub fn gains(&self, toward: Toward, accelerations: &Accelerations) -> [f64; 2] {
+        let Accelerations { own, new_follower, old_follower } = accelerations;
+        let others = match (self.traffic, toward) {
+            (Traffic::Symmetric, _) => gain(*new_follower) + gain(*old_follower),
+            (Traffic::European, Toward::Offside) => gain(*new_follower),
+            (Traffic::European, Toward::Nearside) => gain(*old_follower),
+        };
+        [gain(*own), others]
+    }
+
+    /// θ: gain [m/s²] that makes a change `toward` a side worth it.
+    pub fn threshold(&self, toward: Toward) -> f64 {
+        match (self.traffic, toward) {
+            (Traffic::Symmetric, _) => self.threshold,
+            (Traffic::European, Toward::Offside) => self.threshold + self.bias,
+            (Traffic::European, Toward::Nearside) => self.threshold - self.bias,
+        }
+    }
+
+    /// Whether a driver of `speed` [m/s] on the slow side of `offside`, the leader on the lane beside, may not pass it.
+    #[inline]
+    pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
+        self.traffic == Traffic::European && speed > offside.speed && offside.speed > self.critical_speed
+    }
+
+    /// The same accelerations where the lane on the slow side is no faster than passing there allows: a^eur.
+    fn without_passing(&self, situation: &Situation, accelerations: Accelerations) -> Accelerations {
+        let Accelerations { own: [now, then], .. } = accelerations;
+        let Situation { me, here, there, toward, .. } = situation;
+        let offside = match toward {
+            Toward::Offside => there.ahead,
+            Toward::Nearside => here.ahead,
+        };
+        if !offside.is_some_and(|it| self.stays_behind(me.pace.speed, it)) {
+            return accelerations;
+        }
+        let own = match toward {
+            Toward::Offside => [now.min(then), then],
+            Toward::Nearside => [now, then.min(now)],
+        };
+        Accelerations { own, ..accelerations }
+    }
+
+    /// Chances within one epoch of the desire for either side: certain for the better one above its threshold.
+    pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
+        by_threshold(sides, |excess| excess > 0.0)
+    }
+
+    /// What the driver makes of the side in `situation`: its own gain stands in the row of speed, the others' in that of
+    /// courtesy. Where the change is neither safe nor for the route, the gain is −∞.
+    pub fn appraise(&self, situation: &Situation) -> Appraisal {
+        let accelerations = self.without_passing(situation, Accelerations::of(situation));
+        let [own, others] = self.gains(situation.toward, &accelerations);
+        let [route, urgency] = self.route.rows(situation, DECISIVE, self.urgency);
+        let rows: [Row; INCENTIVES] = [
+            Row { earning: own, weight: 1.0 },
+            route,
+            Row::default(),
+            Row { earning: others, weight: self.politeness },
+            urgency,
+        ];
+        let helps_the_route = RouteKeeping::changes_saved(situation) > 0.0;
+        let [_, new_follower] = accelerations.new_follower;
+        let is_safe = new_follower >= -self.safe_deceleration;
+        let gain = if is_safe || helps_the_route {
+            rows.iter().map(|it| it.weight * it.earning).sum()
+        } else {
+            f64::NEG_INFINITY
+        };
+        Appraisal { rows, gain, theta: self.threshold(situation.toward) }
+    }
+}

@@ -1,0 +1,141 @@
+//! The lane-change models a style can name, and what the simulation asks of each.
+
+use serde::{Deserialize, Serialize};
+
+use super::mcdm::{Appraisal, Mcdm, at_least_once_in};
+use super::situation::Situation;
+use super::urgency::urgency;
+use super::{Comfort, ConstantHazard, Lmrs, Mobil};
+use crate::follow::Ahead;
+
+/// The lane-change models a style can name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "model", rename_all = "kebab-case")]
+pub enum LaneChangeModel {
+    /// Multi-criteria decision-making, the paper's.
+    Mcdm(Mcdm),
+    /// Minimizing overall braking induced by lane changes.
+    Mobil(Mobil),
+    /// Lane changes with relaxation and synchronization.
+    Lmrs(Lmrs),
+    /// The control that every claim is held against.
+    ConstantHazard(ConstantHazard),
+}
+
+/// Pressure from which a driver signals so that others let it in (ours).
+const ASKS_FROM: f64 = 0.3;
+
+impl LaneChangeModel {
+    /// What the driver makes of one side.
+    pub fn appraise(&self, situation: &Situation) -> Appraisal {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.appraise(situation),
+            LaneChangeModel::Mobil(model) => model.appraise(situation),
+            LaneChangeModel::Lmrs(model) => model.appraise(situation),
+            LaneChangeModel::ConstantHazard(model) => model.appraise(situation),
+        }
+    }
+
+    /// How much a driver is pressed to the side of `situation`, which it made `appraisal` of, 0…1: by its route, or in LMRS by
+    /// all that it desires.
+    pub fn pressure(&self, situation: &Situation, appraisal: &Appraisal) -> f64 {
+        let route = &situation.here.route;
+        match self {
+            LaneChangeModel::Lmrs(_) => appraisal.gain.clamp(0.0, 1.0),
+            _ if situation.there.route.changes < route.changes => {
+                urgency(route.changes, route.remaining, situation.me.pace.speed)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Pressure from which a driver who waits for a gap falls in with the target lane.
+    #[inline]
+    pub fn synchronizes_from(&self) -> f64 {
+        match self {
+            LaneChangeModel::Lmrs(model) => model.synchronize,
+            _ => 0.0,
+        }
+    }
+
+    /// Pressure from which it signals so that others let it in.
+    pub fn asks_from(&self) -> f64 {
+        match self {
+            LaneChangeModel::Lmrs(model) => model.cooperate,
+            _ => ASKS_FROM,
+        }
+    }
+
+    /// Whether a driver who waits for a gap, and makes `appraisal` of the side now, would rather stay. In MOBIL and LMRS the desire
+    /// has no memory.
+    pub fn would_rather_stay(&self, appraisal: &Appraisal) -> bool {
+        match self {
+            LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_) => appraisal.gain < 0.0,
+            LaneChangeModel::Mobil(_) | LaneChangeModel::Lmrs(_) => appraisal.gain < appraisal.theta,
+        }
+    }
+
+    /// Whether drivers may have to stay behind slower ones on the lane for overtaking.
+    #[inline]
+    pub fn minds_offside(&self) -> bool {
+        matches!(self, LaneChangeModel::Mobil(model) if model.traffic == super::Traffic::European)
+    }
+
+    /// Whether a driver of `speed` [m/s] may not pass `offside`, its leader on the lane for overtaking.
+    #[inline]
+    pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
+        matches!(self, LaneChangeModel::Mobil(model) if model.stays_behind(speed, offside))
+    }
+
+    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s], if it is better by more than
+    /// `band` [s]; `None` where it does not think of it.
+    pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.appraise_leaving(on_route, alternative, band),
+            _ => None,
+        }
+    }
+
+    /// The same model where comfort weighs `factor` times as much.
+    pub fn with_comfort(&self, factor: f64) -> LaneChangeModel {
+        match self {
+            LaneChangeModel::Mcdm(model) => {
+                let comfort = Comfort { weight: factor * model.comfort.weight, ..model.comfort };
+                LaneChangeModel::Mcdm(Mcdm { comfort, ..model.clone() })
+            }
+            _ => self.clone(),
+        }
+    }
+
+    /// Chances [first, second] that within one epoch the desire for either side comes, given the appraisals of
+    /// the sides that there are. With one side only this is the paper's rule.
+    pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.choose(sides),
+            LaneChangeModel::Mobil(model) => model.choose(sides),
+            LaneChangeModel::Lmrs(model) => model.choose(sides),
+            LaneChangeModel::ConstantHazard(model) => model.choose(sides),
+        }
+    }
+
+    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn evenly
+    /// from [0, 1).
+    #[inline]
+    pub fn reach(&self, epochs: f64, draw: f64) -> f64 {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.reach(epochs, draw),
+            _ => f64::NEG_INFINITY,
+        }
+    }
+
+    /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
+    #[inline(always)]
+    pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
+        let reach = self.reach(epochs, draw);
+        if sides.into_iter().flatten().all(|it| it.gain < reach) {
+            return None;
+        }
+        let [first, second] = self.choose(sides).map(|p| at_least_once_in(epochs, p));
+        if draw < first { Some(0) } else { (draw < first + second).then_some(1) }
+    }
+}
