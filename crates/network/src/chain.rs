@@ -2,9 +2,10 @@
 
 use crate::geometry::Polyline;
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
+use serde::{Deserialize, Serialize};
 
 /// A chain's place in [`crate::Network::chains`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct ChainIndex(pub u32);
 
 impl ChainIndex {

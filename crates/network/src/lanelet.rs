@@ -1,6 +1,7 @@
 //! One lanelet: a piece of lane between two borders, and what lies around it.
 
 use crate::geometry::Polyline;
+use serde::{Deserialize, Serialize};
 
 /// A lanelet's place in [`crate::Network::lanelets`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,7 +15,7 @@ impl LaneletIndex {
 }
 
 /// Left or right in the direction of travel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Side {
     /// To the left.
     Left,

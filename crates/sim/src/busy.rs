@@ -1,9 +1,10 @@
 //! Lanes in which there is something to do: of the many short ones of a town most are empty at any time.
 
 use laneweave_network::ChainIndex;
+use serde::{Deserialize, Serialize};
 
 /// The lanes that have vehicles, or had some in the last step.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Busy {
     /// A bit for each lane.
     marks: Vec<u64>,

@@ -1,7 +1,9 @@
 //! Simulated time in whole steps.
 
+use serde::{Deserialize, Serialize};
+
 /// The current step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
     /// Number of the step.
     pub step: u32,

@@ -6,11 +6,12 @@
 //! usual actuated controllers (such as NEMA TS 2; from memory).
 
 use laneweave_network::{Extension, LightIndex, LightState, SignalPlan, Turn};
+use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
 
 /// Where a program is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Controller {
     turns: Vec<Timed>,
     /// The turn whose lights are, or were last, green.
@@ -25,7 +26,7 @@ pub(crate) struct Controller {
 }
 
 /// What a turn shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum Stage {
     Green,
     /// Before the turn with this number.
@@ -35,7 +36,7 @@ enum Stage {
 }
 
 /// A turn with its times in steps.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Timed {
     lights: Vec<LightIndex>,
     /// Nobody has to call it, and nobody extends it.

@@ -1,9 +1,10 @@
 //! What a way asks of its driver beside time.
 
 use laneweave_network::{ChainIndex, Network, Sign};
+use serde::{Deserialize, Serialize};
 
 /// Turns and traffic lights on a way.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Effort {
     /// Turns.
     pub turns: u16,

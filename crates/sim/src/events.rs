@@ -2,6 +2,7 @@
 
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side};
+use serde::{Deserialize, Serialize};
 
 use crate::traffic::{Kind, Motion, VehicleId};
 
@@ -26,7 +27,7 @@ pub enum Event {
 }
 
 /// A lane change, with the reasons for it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LaneChange {
     /// Who.
     pub vehicle: VehicleId,

@@ -7,6 +7,7 @@
 use laneweave_models::change::link_time;
 use laneweave_models::follow::{FollowingModel, Idm};
 use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
 use crate::links::{Link, Links};
@@ -22,7 +23,7 @@ const WAYPOINTS_A_STEP: usize = 4000;
 const SAMPLED_EVERY: f64 = 1.0;
 
 /// What guides drivers.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Guidance {
     /// Steps between two measurements.
     period: u32,
@@ -37,7 +38,7 @@ pub(crate) struct Guidance {
 }
 
 /// What is measured on a link.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Meter {
     /// Capacity [veh/s].
     capacity: f64,

@@ -3,13 +3,14 @@
 //! Every law keeps the mean headway t̄, one over the rate. What shapes it beside that is a shortest headway in seconds, which
 //! drivers keep whatever the rate, and a spread relative to the mean.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::gamma;
 use crate::normal;
 
 /// A law of headways.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Headways {
     /// Negative exponential, of vehicles that know nothing of each other: S = e^(−t/t̄).
     #[default]

@@ -10,6 +10,7 @@ mod assignment;
 mod attention;
 mod beliefs;
 mod busy;
+mod checkpoint;
 mod clock;
 mod controller;
 mod decide;
@@ -58,6 +59,7 @@ mod ways;
 mod world;
 
 pub use assignment::{Assignment, Change, Part};
+pub use checkpoint::CheckpointError;
 pub use clock::Clock;
 pub use demand::{Demand, Origin, Share};
 pub use effort::Effort;

@@ -4,6 +4,7 @@
 //! mean over all.
 
 use laneweave_network::{Chain, ChainIndex, Network};
+use serde::{Deserialize, Serialize};
 
 use crate::ways::free_time;
 
@@ -11,7 +12,7 @@ use crate::ways::free_time;
 const SHORTEST: f64 = 50.0;
 
 /// The links of all chains, chain by chain.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Links {
     /// For each chain the place of its first link; at last the number of links.
     first: Vec<usize>,
@@ -19,7 +20,7 @@ pub(crate) struct Links {
 }
 
 /// A piece of a chain.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Link {
     /// Where it begins along the chain [m].
     start: f64,

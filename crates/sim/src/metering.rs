@@ -6,6 +6,7 @@
 //! (a switch at its edge, as of Keyvan-Ekbatani and others, 2012).
 
 use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
 
 use crate::navigate::{Destination, Navigator};
 use crate::traffic::Lane;
@@ -19,7 +20,7 @@ const LEAST_GAP: f64 = 2.0;
 const LEAST_TOWN: f64 = 500.0;
 
 /// Whether the roads of a town are full.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Metering {
     /// For each chain whether it is part of the town.
     is_town: Vec<bool>,

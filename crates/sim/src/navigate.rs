@@ -8,6 +8,7 @@
 use std::borrow::Cow;
 
 use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
 
 use crate::links::Links;
 use crate::onward::Onward;
@@ -21,7 +22,7 @@ use crate::ways::{Into, Planner, Waypoint, beside_into, wander};
 pub type Destination = Option<u16>;
 
 /// A destination in two bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Goal(u16);
 
 impl Goal {
@@ -67,6 +68,15 @@ pub struct Navigator {
     views: Views,
     /// For each chain where trips end before its end.
     trip_ends: Vec<Vec<TripEnd>>,
+}
+
+/// What guidance has changed of a navigator.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Guided {
+    tables: Vec<Vec<Waypoint>>,
+    recommended: Vec<u16>,
+    links: Links,
+    measurements: u32,
 }
 
 impl Navigator {
@@ -122,6 +132,19 @@ impl Navigator {
         for (number, table) in self.tables.iter().enumerate() {
             self.onward.take(network, number, table);
         }
+    }
+
+    /// What guidance has changed.
+    pub(crate) fn guided(&self) -> Guided {
+        let Navigator { tables, recommended, links, measurements, .. } = self.clone();
+        Guided { tables, recommended, links, measurements }
+    }
+
+    /// Goes on from what guidance had changed of a navigator of the same network.
+    pub(crate) fn go_on(&mut self, network: &Network, guided: Guided) {
+        let Guided { tables, recommended, links, measurements } = guided;
+        *self = Navigator { tables, recommended, links, measurements, ..self.clone() };
+        self.look_onward(network);
     }
 
     fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {

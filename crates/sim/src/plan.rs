@@ -2,6 +2,7 @@
 
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side, ZoneIndex};
+use serde::{Deserialize, Serialize};
 
 use crate::junction::{Claim, Refuge, Survey, Turn};
 use crate::navigate::Destination;
@@ -130,7 +131,7 @@ pub(crate) struct Upkeep {
 }
 
 /// A driver who waits for its passage.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Waiting {
     /// Its entry.
     pub(crate) index: u32,

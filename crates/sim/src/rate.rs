@@ -1,7 +1,9 @@
 //! Rates of arrivals, constant by pieces of time.
 
+use serde::{Deserialize, Serialize};
+
 /// How many vehicles come per hour, and how that changes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// From each time [s] on so many [veh/h]; the first time is 0, and they rise.
     pieces: Vec<(f64, f64)>,

@@ -2,9 +2,10 @@
 
 use crate::events::LaneChange;
 use crate::plan::push_tight;
+use serde::{Deserialize, Serialize};
 
 /// The records.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Records {
     kept: Vec<LaneChange>,
     free: Vec<u32>,

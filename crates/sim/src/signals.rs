@@ -1,6 +1,7 @@
 //! What the traffic lights show: fixed programs by the time, others by who comes.
 
 use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Sign};
+use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
 use crate::controller::Controller;
@@ -11,7 +12,7 @@ use crate::world::World;
 const DETECTED_WITHIN: f64 = 30.0;
 
 /// What all traffic lights show.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Signals {
     /// By light.
     shown: Vec<LightState>,
@@ -26,7 +27,7 @@ pub struct Signals {
 }
 
 /// A stretch of a lane before the line of a light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Detector {
     chain: ChainIndex,
     /// From where to where [m].

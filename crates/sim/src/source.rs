@@ -5,6 +5,7 @@
 use std::collections::VecDeque;
 
 use laneweave_network::{ChainIndex, Gate, Network};
+use serde::{Deserialize, Serialize};
 
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::headways::Headways;
@@ -22,7 +23,7 @@ use crate::vehicle::Class;
 pub const TAKES_LANE_WITHIN: f64 = 800.0;
 
 /// A vehicle at the moment of its arrival.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Arrival {
     pub(crate) id: VehicleId,
     pub(crate) class: Class,
@@ -33,7 +34,7 @@ pub(crate) struct Arrival {
 }
 
 /// An origin with its queues.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Source {
     headways: Headways,
     /// Arrivals per hour in each stream.
@@ -47,7 +48,7 @@ pub(crate) struct Source {
 }
 
 /// Vehicles that come one after the other.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Stream {
     /// Subject of its draws.
     number: u32,
@@ -57,7 +58,7 @@ struct Stream {
 }
 
 /// The vehicles that wait for one lane.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Queue {
     pub(crate) chain: ChainIndex,
     pub(crate) start: Start,
@@ -65,7 +66,7 @@ pub(crate) struct Queue {
 }
 
 /// How vehicles come onto a lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Start {
     /// They come driving from before its start.
     Driving,

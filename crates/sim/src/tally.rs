@@ -1,9 +1,10 @@
 //! Counts of a run.
 
 use crate::signs::Sign;
+use serde::{Deserialize, Serialize};
 
 /// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on who did what.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     /// Times that a driver considered lanes.
     pub considerations: u64,

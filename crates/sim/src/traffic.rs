@@ -6,6 +6,7 @@
 //! shadow in the other.
 
 use laneweave_network::{ChainIndex, Side};
+use serde::{Deserialize, Serialize};
 
 use crate::navigate::Goal;
 use crate::prefetch::prefetch;
@@ -16,7 +17,7 @@ use crate::vehicle::Class;
 pub type VehicleId = u32;
 
 /// How a vehicle moves, and what others see of it: half a cache line.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
 pub struct Motion {
     /// Front bumper along the chain [m].
@@ -42,7 +43,7 @@ impl Motion {
 }
 
 /// What the driver of a vehicle needs at every step: half a cache line.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
 pub struct Car {
     /// Desired speed [m/s]; a lower limit is approached gently.
@@ -88,7 +89,7 @@ impl Car {
 }
 
 /// What a driver is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Phase {
     /// Keeps its lane.
@@ -110,7 +111,7 @@ impl Phase {
 }
 
 /// The warm part of a vehicle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mind {
     /// Side of the desired or current change.
     pub side: Side,
@@ -148,7 +149,7 @@ impl Mind {
 const _: () = assert!(size_of::<Mind>() <= 80, "memory of a vehicle");
 
 /// The other entry of a vehicle that changes lanes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Twin {
     /// Its chain.
     pub chain: ChainIndex,
@@ -189,7 +190,7 @@ pub(crate) enum Reached {
 }
 
 /// Why a change is desired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Kind {
     /// Between lanes that lead to the same place.
@@ -210,7 +211,7 @@ pub(crate) struct Entry {
 }
 
 /// The vehicles of one chain in driving order: the last entry is foremost.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Lane {
     motions: Vec<Motion>,
     cars: Vec<Car>,

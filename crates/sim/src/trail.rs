@@ -1,9 +1,10 @@
 //! Where a vehicle came from: over short chains its rear is still on an earlier one.
 
 use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
 
 /// The last two chains that a vehicle left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trail {
     last: u32,
     before: u32,

@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 
 use laneweave_network::{Chain, ChainIndex, Network, Side};
+use serde::{Deserialize, Serialize};
 
 use crate::navigate::{Destination, Navigator};
 use crate::traffic::VehicleId;
@@ -11,7 +12,7 @@ use crate::ways::Waypoint;
 
 /// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours; above it
 /// the number of times that the vehicle came to a halt; and whether it is over.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Trip(u32);
 
 impl Trip {
@@ -51,7 +52,7 @@ impl Trip {
 }
 
 /// The trips of all vehicles since the oldest one that is not over.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Trips {
     oldest: VehicleId,
     trips: VecDeque<Trip>,

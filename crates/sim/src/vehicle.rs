@@ -1,9 +1,10 @@
 //! Classes of vehicles.
 
 use laneweave_models::Style;
+use serde::{Deserialize, Serialize};
 
 /// A class of vehicles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Class {
     /// A passenger car.

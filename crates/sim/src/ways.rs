@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use laneweave_network::{Beside, Chain, ChainIndex, Network, Side};
+use serde::{Deserialize, Serialize};
 
 use crate::effort::Effort;
 use crate::links::Links;
@@ -12,7 +13,7 @@ use crate::place::Place;
 use crate::views::Views;
 
 /// What a chain means on the way to a destination.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Waypoint {
     /// n: fewest lane changes from it to a lane that leads there; [`Waypoint::NO_WAY`] if none does.
     pub changes: u32,

@@ -2,6 +2,7 @@
 
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Pose};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
 
@@ -68,7 +69,7 @@ pub struct World {
 }
 
 /// Counts of what the whole world, not a lane, does.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Vehicles that entered.
     pub entered: u64,
@@ -397,7 +398,12 @@ impl World {
 
     /// What the drivers did so far, added up over threads, and distances over the lanes.
     pub fn tally(&self) -> Tally {
-        let mut sum = Tally { distance: self.plans.iter().map(|it| it.distance).sum(), ..Tally::default() };
+        Tally { distance: self.plans.iter().map(|it| it.distance).sum(), ..self.counted() }
+    }
+
+    /// The same without distances.
+    pub(crate) fn counted(&self) -> Tally {
+        let mut sum = Tally::default();
         self.outboxes.iter().for_each(|it| sum.add(&it.tally));
         sum
     }

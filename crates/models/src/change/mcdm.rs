@@ -64,7 +64,7 @@ pub enum Combination {
 pub const INCENTIVES: usize = 5;
 
 /// One row of the table as it came out.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Y.
     pub earning: f64,
@@ -73,7 +73,7 @@ pub struct Row {
 }
 
 /// What a driver makes of one side.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Appraisal {
     /// The rows in the order of [`Mcdm::NAMES`].
     pub rows: [Row; INCENTIVES],

@@ -1,9 +1,10 @@
 //! Traffic lights and their programs.
 
 use super::{StopKind, StopRule};
+use serde::{Deserialize, Serialize};
 
 /// A light's place in [`super::Junctions::lights`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct LightIndex(pub u32);
 
 impl LightIndex {
@@ -24,7 +25,7 @@ pub struct Light {
 }
 
 /// What a light shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LightState {
     /// Go.
     Green,

@@ -2,6 +2,7 @@
 
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
+use serde::{Deserialize, Serialize};
 
 use super::kinship::{Kinship, Meeting};
 use crate::build::Network;
@@ -9,7 +10,7 @@ use crate::chain::{Chain, ChainIndex};
 use crate::geometry::Point;
 
 /// A zone's place in [`super::Junctions::zones`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct ZoneIndex(pub u32);
 
 impl ZoneIndex {

@@ -1,6 +1,7 @@
 //! The passages that were given, the order in each zone, and who waits for one.
 
 use laneweave_network::{LightIndex, Network, ZoneIndex};
+use serde::{Deserialize, Serialize};
 
 use super::refuge::{Numbers, Refuge};
 use super::rings::Rings;
@@ -12,7 +13,7 @@ use crate::traffic::VehicleId;
 pub(crate) const NO_PASSAGE: u32 = u32::MAX;
 
 /// All passages of an instant.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Passages {
     given: Vec<Passage>,
     free: Vec<u32>,
@@ -31,7 +32,7 @@ pub struct Passages {
 }
 
 /// The right of a vehicle to pass zones. Distances are those of its front from where the first of them was given [m].
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Passage {
     pub(crate) vehicle: VehicleId,
     pub(crate) is_given: bool,
@@ -50,7 +51,7 @@ pub(crate) struct Passage {
 }
 
 /// A side of a zone that a vehicle may pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Hold {
     pub(crate) zone: ZoneIndex,
     pub(crate) side: u8,
@@ -61,7 +62,7 @@ pub(crate) struct Hold {
 }
 
 /// Room kept for a vehicle beyond the zones.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Room {
     /// Number of the refuge.
     on: usize,
@@ -72,14 +73,14 @@ struct Room {
 }
 
 /// A place in the order of a zone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Holder {
     pub(crate) slot: u32,
     pub(crate) side: u8,
 }
 
 /// A driver who waits because of others. Those out of patience come before all others, then who has waited longer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) struct Claim {
     pub(crate) is_patient: bool,
     pub(crate) since: u32,

@@ -1,10 +1,11 @@
 //! Where vehicles stand beyond zones.
 
 use laneweave_network::{ChainIndex, Junctions, Network};
+use serde::{Deserialize, Serialize};
 
 /// A stretch of a chain between two places where drivers may have to stop: who stands on one of them is in nobody's way on
 /// another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Refuge {
     pub(crate) chain: ChainIndex,
     /// Number of places on the chain before it.
@@ -30,7 +31,7 @@ impl Refuge {
 }
 
 /// Numbers of all refuges of a network, from 0 on; none where there are no zones.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Numbers {
     /// Those of the first of each chain.
     first: Vec<u32>,

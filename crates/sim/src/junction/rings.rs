@@ -4,6 +4,7 @@
 //! some of it free, however long it waits, and those on it can always move up.
 
 use laneweave_network::{ChainIndex, Network, Sign};
+use serde::{Deserialize, Serialize};
 
 use super::passages::{Claim, Passages};
 use super::survey::SPARE_ROOM;
@@ -16,14 +17,14 @@ const LONGEST: f64 = 200.0;
 const BEARABLE: f64 = 0.4;
 
 /// The rings of a network.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Rings {
     rings: Vec<Ring>,
     /// For each chain the ring that it is part of; empty if there are none.
     of: Vec<Option<u32>>,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Ring {
     chains: Vec<ChainIndex>,
     /// Those that lead into it from outside.

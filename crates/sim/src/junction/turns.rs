@@ -4,6 +4,7 @@
 
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
+use serde::{Deserialize, Serialize};
 
 use super::heed::LONG;
 use super::passages::{Claim, Hold, Passage};
@@ -17,7 +18,7 @@ const APPROACHES: f64 = 1.5;
 const COURTESY: f64 = 1.0;
 
 /// The turn that somebody who waits claims on a side of a zone.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Turn {
     pub(crate) claim: Claim,
     /// Time until it can be there: those who have passages hold it up, and it has to drive there [s].
