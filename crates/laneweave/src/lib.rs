@@ -5,6 +5,7 @@
 
 mod capacity;
 pub mod check;
+pub mod explain;
 mod fault;
 pub mod output;
 pub mod scenario;

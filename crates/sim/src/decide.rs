@@ -2,32 +2,25 @@
 
 use std::borrow::Cow;
 
-use laneweave_models::change::{
-    Appraisal, GapPair, LaneChangeModel, Refusal, deceleration_to_avoid, time_to_collision,
-};
-use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_models::change::{Appraisal, LaneChangeModel, deceleration_to_avoid};
 use laneweave_models::{Concentration, Style};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::attention::concentration;
 use crate::beliefs::Beliefs;
 use crate::clock::Clock;
-use crate::junction::{Asking, Refuge, is_place_ahead};
+use crate::gap::{Hindrance, ROOM_TO_YIELD, gap};
 use crate::leave::departure;
-use crate::perceive::{Dismissed, Outlook, driver};
+use crate::perceive::{Dismissed, Outlook};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
 use crate::random::{Purpose, Random};
-use crate::scene::{Found, Scene, Spot, Viewpoint};
+use crate::scene::{Scene, Spot};
 use crate::signs::Sign;
 use crate::stuck::{STANDSTILL, is_stuck};
 use crate::tally::Tally;
 use crate::traffic::{Car, Kind, Mind, Phase};
 use crate::turn::next_turn;
 
-/// Desire that a voluntary change counts for in the time gap accepted (ours).
-const VOLUNTARY_DESIRE: f64 = 0.3;
-/// What a driver who lets another in leaves beyond its usual gap [m].
-const ROOM_TO_YIELD: f64 = 1.0;
 /// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
 const STANDS_IN_VAIN: f32 = 120.0;
 const AT_THE_PLACE: f64 = 20.0;
@@ -74,8 +67,8 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
     }
 }
 
-/// A driver considers both sides. `hints` are the entries beside the last driver of the lane who did.
-fn consider(
+/// A driver considers both sides at its turn. `hints` are the entries beside the last driver of the lane who did.
+pub(crate) fn consider(
     scene: &Scene,
     moment: Moment,
     spot: Spot,
@@ -143,10 +136,7 @@ fn consider(
     }
     let beliefs = Beliefs::of(&style.guidance, navigator, moment.random, motion.id, goal);
     let outlook = Outlook::new(scene, spot, &waypoint, alertness.sight, beliefs, hints);
-    let change = match state {
-        Concentration::Concentrated => Cow::Borrowed(&style.change),
-        Concentration::Inattentive => Cow::Owned(style.change.with_comfort(alertness.comfort)),
-    };
+    let change = model(style, state);
     let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
     if let Some(way) = departure(scene, moment, spot, &outlook, &change, epochs) {
         outbox.tally.route_changes += u64::from(way.is_change);
@@ -172,6 +162,16 @@ fn consider(
         }
     }
     keep_in_mind(concern, car, plan);
+}
+
+/// The lane-change model of a driver of `style` in this `state`.
+pub(crate) fn model(style: &Style, state: Concentration) -> Cow<'_, LaneChangeModel> {
+    match state {
+        Concentration::Concentrated => Cow::Borrowed(&style.change),
+        Concentration::Inattentive => {
+            Cow::Owned(style.change.with_comfort(style.attention.inattentive.comfort))
+        }
+    }
 }
 
 /// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where `draw` was
@@ -290,19 +290,17 @@ fn gives_up(moment: Moment, mind: &Mind, style: &Style, [wanted, other]: [Option
 }
 
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
-fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
+pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
     let (motion, mind) = (scene.motion(spot), scene.mind(spot));
     let asks_from = scene.characters[scene.car(spot).character as usize].change.asks_from();
     let request =
         |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
-    match gap(scene, spot, mind.side) {
-        None => {}
-        Some(_) if scene.has_passage(spot, f64::NEG_INFINITY) => {}
-        Some(gap) if gap.is_wanted_before(scene, spot, moment.clock) => {}
-        Some(gap) if gap.accepted(scene, spot, moment.clock.dt).is_ok() => {
-            outbox.requests.push(request(Ask::Change));
-        }
-        Some(gap) if f64::from(mind.urgency) >= asks_from => {
+    let Some(gap) = gap(scene, spot, mind.side) else { return };
+    match gap.taken(scene, spot, moment.clock) {
+        Ok(()) => outbox.requests.push(request(Ask::Change)),
+        Err(Hindrance::InPassage | Hindrance::WantedBefore) => {}
+        Err(_) if f64::from(mind.urgency) < asks_from => {}
+        Err(_) => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {
                 let behind = scene.motion(found.spot);
                 outbox.requests.push(request(Ask::LetIn {
@@ -314,175 +312,11 @@ fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
                 }));
             }
         }
-        Some(_) => {}
-    }
-}
-
-/// A gap in the lane beside, as it would be taken.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Gap {
-    /// The chain.
-    pub(crate) chain: ChainIndex,
-    /// Where the own front bumper would be on it [m].
-    pub(crate) x: f64,
-    /// Metres there for a metre here.
-    pub(crate) scale: f64,
-    /// Road on which the centre can still cross [m].
-    pub(crate) room: f64,
-    /// The new leader.
-    pub(crate) ahead: Option<Ahead>,
-    /// The new follower.
-    pub(crate) follower: Option<Found>,
-}
-
-/// The gap beside; `None` where a change to `side` is not allowed.
-pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let beside = scene.network.chain(spot.chain).beside(side, motion.x)?;
-    let x = beside.across(motion.x);
-    let from = scene.viewpoint_at(beside.chain, x, motion.id, car.goal.destination());
-    Some(Gap {
-        chain: beside.chain,
-        x,
-        scale: beside.scale,
-        room: permitted_ahead(scene, spot, side),
-        ahead: scene.ahead(from),
-        follower: scene.follower(from),
-    })
-}
-
-/// How far on a change to `side` stays allowed [m], as far as a change needs.
-fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
-    const ENOUGH: f64 = 150.0;
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let (mut chain, mut x, mut permitted) = (spot.chain, motion.x, 0.0);
-    while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
-        permitted += stretch.end - x;
-        if permitted > ENOUGH || stretch.end < scene.network.chain(chain).length - 1e-6 {
-            // Joined stretches of one chain follow each other without a break.
-            match scene.network.chain(chain).beside(side, stretch.end + 1e-6) {
-                Some(next) if permitted <= ENOUGH && next.start > stretch.start => {
-                    x = next.start;
-                    continue;
-                }
-                _ => break,
-            }
-        }
-        match scene.next(car.goal.destination(), chain) {
-            Some(next) => (chain, x) = (next, 0.0),
-            None => break,
-        }
-    }
-    permitted
-}
-
-impl Gap {
-    /// Whether the driver, its new leader and its new follower can live with the change.
-    ///
-    /// # Errors
-    /// Why not.
-    pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Refusal> {
-        let speed = scene.motion(spot).speed;
-        let style = &scene.characters[scene.car(spot).character as usize];
-        let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
-        let crossing = 0.5 * duration * speed;
-        if self.room < crossing || !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {
-            return Err(Refusal::Short);
-        }
-        let me = driver(scene, spot);
-        if let Some(ahead) = self.ahead {
-            let demanded = style.follow.acceleration(self.pace(spot, scene), Some(ahead));
-            let pair = GapPair { gap: ahead.gap, follower: speed, leader: ahead.speed, demanded };
-            style.safety.accept(pair, dt)?;
-        }
-        if let Some(found) = self.follower {
-            let behind = driver(scene, found.spot);
-            let gap = found.distance - me.length;
-            let demanded = behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed }));
-            let pair = GapPair { gap, follower: behind.pace.speed, leader: speed, demanded };
-            style.safety.accept(pair, dt)?;
-        }
-        Ok(())
-    }
-
-    /// Whether somebody who waits before a junction for room on that stretch comes first to it.
-    fn is_wanted_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
-        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
-        let claim = Asking::of(scene, spot, scene.mind(spot).since, clock).claim;
-        scene.passages.wanted_before(refuge, claim) > 0.0
-    }
-
-    /// The first behind who makes room by braking no harder than it does to let others in: those nearer drive past.
-    fn who_can_let_in(&self, scene: &Scene, spot: Spot) -> Option<Found> {
-        /// So many behind see who wants in.
-        const SEE_IT: usize = 10;
-        let motion = scene.motion(spot);
-        let room = scene.characters[scene.car(spot).character as usize].safety.min_gap + ROOM_TO_YIELD;
-        let can = |it: &Found| {
-            let (behind, car) = (scene.motion(it.spot), scene.car(it.spot));
-            let gentle = scene.characters[car.character as usize].manner.yield_deceleration;
-            let gap = it.distance - f64::from(motion.length);
-            // Who stands beside or right behind a standing vehicle cannot make room for it.
-            let is_beside = gap < room && motion.speed <= STANDSTILL;
-            let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
-            car.phase == Phase::Cruises && gentle > 0.0 && !is_beside && needed <= gentle
-        };
-        std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
-    }
-
-    /// Whether the change, which takes `way` [m], is over before the next place where somebody may have to stop, and
-    /// nobody who has a passage already comes behind.
-    fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
-        /// Least way before such a place on which a lane is still changed, at walking speed [m].
-        const LEAST: f64 = 15.0;
-        /// So far into a chain a junction may reach [m].
-        const JUNCTION: f64 = 15.0;
-        let motion = scene.motion(spot);
-        let here = scene.viewpoint(spot);
-        let there = Viewpoint { chain: self.chain, x: self.x, ..here };
-        let way = way.max(LEAST);
-        let has_passage = |it: &Found| scene.has_passage(it.spot, it.distance - f64::from(motion.length));
-        // Room that is kept for others beyond a junction stays theirs.
-        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
-        let kept = scene.passages.kept_on(refuge);
-        let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
-        let is_in_fork = self.x - f64::from(motion.length) < scene.network.chain(self.chain).fork_clearance;
-        !takes_room
-            && !is_in_fork
-            && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
-            && !self.follower.as_ref().is_some_and(has_passage)
-    }
-
-    /// The driver's pace with the time gap that it accepts for this change.
-    fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
-        let (motion, car) = (scene.motion(spot), scene.car(spot));
-        let style = &scene.characters[car.character as usize];
-        let desire = f64::from(scene.mind(spot).urgency).max(VOLUNTARY_DESIRE);
-        let tightness = style.manner.tightness(desire).min(f64::from(motion.tightness));
-        Pace { speed: motion.speed, desired: f64::from(car.desired), tightness }
-    }
-
-    /// Share of the usual time gap that the driver accepts for this change.
-    pub(crate) fn tightness(&self, scene: &Scene, spot: Spot) -> f64 {
-        self.pace(spot, scene).tightness
-    }
-
-    /// Gaps [m] and times to collision [s] ahead and behind; infinite where there is nobody.
-    pub(crate) fn measures(&self, scene: &Scene, spot: Spot) -> [f64; 4] {
-        let motion = scene.motion(spot);
-        let (gap_ahead, ttc_ahead) = self.ahead.map_or((f64::INFINITY, f64::INFINITY), |it| {
-            (it.gap, time_to_collision(it.gap, motion.speed, it.speed))
-        });
-        let (gap_behind, ttc_behind) = self.follower.map_or((f64::INFINITY, f64::INFINITY), |it| {
-            let gap = it.distance - f64::from(motion.length);
-            (gap, time_to_collision(gap, scene.motion(it.spot).speed, motion.speed))
-        });
-        [gap_ahead, gap_behind, ttc_ahead, ttc_behind]
     }
 }
 
 /// Before the crossing a driver goes back if its new leader forces it to brake much harder than its old one.
-fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
+pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
     let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };

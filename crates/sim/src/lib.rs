@@ -4,6 +4,7 @@
 //! observe. The order of vehicles and the number of threads change nothing, bit for bit.
 
 mod accelerate;
+mod account;
 mod advance;
 mod appeal;
 mod assignment;
@@ -20,6 +21,7 @@ mod effort;
 mod enter;
 mod events;
 mod gamma;
+mod gap;
 mod guidance;
 mod headways;
 mod junction;
@@ -58,12 +60,14 @@ mod views;
 mod ways;
 mod world;
 
+pub use account::{Account, Act, SideAccount};
 pub use assignment::{Assignment, Change, Part};
 pub use checkpoint::CheckpointError;
 pub use clock::Clock;
 pub use demand::{Demand, Origin, Share};
 pub use effort::Effort;
 pub use events::{Event, LaneChange};
+pub use gap::{Hindrance, Pairing};
 pub use headways::{HeadwayError, Headways};
 pub use junction::{Passages, STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE, STOPS_AT_YELLOW};
 pub use metering::Metering;

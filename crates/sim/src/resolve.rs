@@ -5,8 +5,8 @@ use laneweave_models::Concentration;
 use laneweave_network::ChainIndex;
 
 use crate::attention::concentration;
-use crate::decide::gap;
 use crate::events::{Event, LaneChange};
+use crate::gap::gap;
 use crate::junction::NO_PASSAGE;
 use crate::plan::{Ask, Request, Want};
 use crate::scene::Spot;

@@ -107,6 +107,14 @@ pub enum WorldError {
     /// The step is not a sensible length of time.
     #[error("a step of {0} s: it must lie between 0.01 and 1 s")]
     Step(f64),
+    /// Other characters are not as many as those in whose places they are to be.
+    #[error("{found} characters in place of {expected}")]
+    Characters {
+        /// The new ones.
+        found: usize,
+        /// The present ones.
+        expected: usize,
+    },
     /// There are no characters.
     #[error("there is no style to drive with")]
     NoCharacters,
@@ -363,6 +371,24 @@ impl World {
             passages: &self.passages,
             signals: &self.signals,
         }
+    }
+
+    /// All different drivers.
+    pub fn characters(&self) -> &[Style] {
+        &self.characters
+    }
+
+    /// Gives the drivers other characters, each in the place of its own. What they are about they go on with.
+    ///
+    /// # Errors
+    /// If there are not as many of them.
+    pub fn change_characters(&mut self, characters: Vec<Style>) -> Result<(), WorldError> {
+        let [found, expected] = [characters.len(), self.characters.len()];
+        if found != expected {
+            return Err(WorldError::Characters { found, expected });
+        }
+        self.characters = characters;
+        Ok(())
     }
 
     /// What happened in the last step.

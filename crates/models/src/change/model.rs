@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::{Appraisal, Mcdm, at_least_once_in};
+use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, at_least_once_in};
 use super::situation::Situation;
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
@@ -26,6 +26,24 @@ pub enum LaneChangeModel {
 const ASKS_FROM: f64 = 0.3;
 
 impl LaneChangeModel {
+    /// The names of the rows of its appraisals, in their order; a row without a name is not used.
+    pub fn row_names(&self) -> [&'static str; INCENTIVES] {
+        match self {
+            LaneChangeModel::Mcdm(_) => Mcdm::NAMES,
+            LaneChangeModel::Mobil(_) => ["own gain", "route", "", "others' gain", "urgency"],
+            LaneChangeModel::Lmrs(_) => ["speed", "", "bias", "", "route"],
+            LaneChangeModel::ConstantHazard(_) => [""; INCENTIVES],
+        }
+    }
+
+    /// The gain of these rows: G.
+    pub fn gain(&self, rows: &[Row]) -> f64 {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.combine(rows),
+            _ => rows.iter().map(|it| it.weight * it.earning).sum(),
+        }
+    }
+
     /// What the driver makes of one side.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         match self {

@@ -1,0 +1,209 @@
+//! The smallest change of one number that would have turned a decision.
+//!
+//! A gain is linear in the weights, so that for each there is one place on either side, if any, where the decision turns. It is
+//! found by bisection to the last bit, which also does for speeds and gaps, and for two sides that compete.
+
+use laneweave_models::change::{Appraisal, Row, Situation};
+use laneweave_models::follow::Pace;
+use laneweave_network::Side;
+use laneweave_sim::{Account, Act, Hindrance, Pairing, SideAccount};
+
+/// A number that a decision depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Knob {
+    /// Weight of the incentive of this row.
+    Weight(usize),
+    /// Speed anticipated in the own lane [m/s].
+    SpeedHere,
+    /// Speed anticipated in the lane on that side [m/s].
+    SpeedThere(Side),
+    /// Gap to the new leader [m].
+    GapAhead,
+    /// Gap to the new follower [m].
+    GapBehind,
+    /// The driver's own speed [m/s].
+    OwnSpeed,
+    /// Speed of the new leader [m/s].
+    LeaderSpeed,
+    /// Speed of the new follower [m/s].
+    FollowerSpeed,
+}
+
+/// A change that turns the decision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flip {
+    /// Of what.
+    pub knob: Knob,
+    /// What it is.
+    pub value: f64,
+    /// By how much it would have to be more, or less; half of that would not do.
+    pub by: f64,
+    /// The side to which the driver would have changed, or gone; none: it would have stayed, or waited.
+    pub to: Option<Side>,
+}
+
+impl Flip {
+    /// Size of the change relative to the number.
+    pub fn relative(&self) -> f64 {
+        self.by.abs() / self.value.abs().max(f64::MIN_POSITIVE)
+    }
+}
+
+/// What would have turned the decision in `account`, made with time step `dt` [s]: the change that is smallest relative to its number
+/// first. Empty where there was nothing to decide, or no single number decides.
+pub fn flips(account: &Account, dt: f64) -> Vec<Flip> {
+    let mut found = match account.act {
+        Act::Stays | Act::Wants(..) => of_desire(account),
+        Act::Goes(side) | Act::Waits(side, Hindrance::Ahead(..) | Hindrance::Behind(..)) => {
+            of_gap(account, side, dt)
+        }
+        _ => Vec::new(),
+    };
+    found.sort_by(|a, b| a.relative().total_cmp(&b.relative()));
+    found
+}
+
+/// The sides that the driver weighs.
+fn weighed<'s, 'a>(account: &'s Account<'a>) -> [Option<&'s SideAccount<'a>>; 2] {
+    account.sides.each_ref().map(|it| it.as_ref().filter(|it| !it.is_out_of_question))
+}
+
+/// The side that is desired if the sides are appraised so.
+fn desired(account: &Account, appraised: impl Fn(&SideAccount) -> Appraisal) -> Option<Side> {
+    let sides = weighed(account);
+    let appraisals = sides.map(|it| it.map(&appraised));
+    let drawn = account.change.drawn(appraisals.each_ref().map(Option::as_ref), account.epochs, account.draw);
+    drawn.and_then(|it| sides[it]).map(|it| it.side)
+}
+
+fn of_desire(account: &Account) -> Vec<Flip> {
+    let sides = weighed(account);
+    let Some(any) = sides.into_iter().flatten().next() else { return Vec::new() };
+    let mut flips = Vec::new();
+    for (row, Row { weight, .. }) in any.appraisal.rows.iter().enumerate() {
+        if sides.into_iter().flatten().all(|it| it.appraisal.rows[row].earning == 0.0) {
+            continue;
+        }
+        let outcome = |by| desired(account, |it| with_weight(account, it, row, by));
+        flips.extend(flip(Knob::Weight(row), *weight, [f64::NEG_INFINITY, f64::INFINITY], outcome));
+    }
+    let desired_speed = any.situation.me.pace.desired;
+    let bounds = |speed: f64| [-speed, desired_speed - speed];
+    let here = any.situation.here.prospect;
+    let outcome =
+        |by| desired(account, |it| reappraised(account, it, |situation| situation.here.prospect += by));
+    flips.extend(flip(Knob::SpeedHere, here, bounds(here), outcome));
+    for side in sides.into_iter().flatten() {
+        let there = side.situation.there.prospect;
+        let outcome = |by| {
+            desired(account, |it| {
+                reappraised(account, it, |situation| {
+                    situation.there.prospect += if it.side == side.side { by } else { 0.0 };
+                })
+            })
+        };
+        flips.extend(flip(Knob::SpeedThere(side.side), there, bounds(there), outcome));
+    }
+    flips
+}
+
+/// The appraisal of a side where the incentive of `row` weighs more by `by`.
+fn with_weight(account: &Account, side: &SideAccount, row: usize, by: f64) -> Appraisal {
+    let mut rows = side.appraisal.rows;
+    rows[row].weight += by;
+    // What is out of the question for another reason stays so.
+    let gain = if side.appraisal.gain.is_finite() { account.change.gain(&rows) } else { side.appraisal.gain };
+    Appraisal { rows, gain, ..side.appraisal }
+}
+
+/// The appraisal of a side where something is otherwise.
+fn reappraised(account: &Account, side: &SideAccount, change: impl Fn(&mut Situation)) -> Appraisal {
+    let mut situation = side.situation;
+    change(&mut situation);
+    account.change.appraise(&situation)
+}
+
+fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
+    let with_speed = |it: Pairing<'_>, by: f64| -> f64 { it.follower.pace.speed + by };
+    let goes = |change: &dyn Fn(&mut [Option<Pairing>; 2])| {
+        let mut pairings = account.pairings;
+        change(&mut pairings);
+        let safety = &account.style.safety;
+        pairings.iter().flatten().all(|it| it.accepted(safety, dt).is_ok()).then_some(side)
+    };
+    let paced = |pairing: Pairing<'_>, speed: f64| Pace { speed, ..pairing.follower.pace };
+    let [ahead, behind] = account.pairings;
+    let mut flips = Vec::new();
+    const FAR: f64 = 1000.0;
+    if let Some(it) = ahead {
+        let gap = |by: f64| goes(&|all| all[0].iter_mut().for_each(|it| it.gap += by));
+        flips.extend(flip(Knob::GapAhead, it.gap, [-FAR, FAR], gap));
+        let speed = |by: f64| goes(&|all| all[0].iter_mut().for_each(|it| it.leader_speed += by));
+        flips.extend(flip(Knob::LeaderSpeed, it.leader_speed, [-it.leader_speed, FAR], speed));
+    }
+    if let Some(it) = behind {
+        let gap = |by: f64| goes(&|all| all[1].iter_mut().for_each(|it| it.gap += by));
+        flips.extend(flip(Knob::GapBehind, it.gap, [-FAR, FAR], gap));
+        let of = it.follower.pace.speed;
+        let speed = |by: f64| {
+            goes(&|all| {
+                all[1].iter_mut().for_each(|it| it.follower.pace = paced(*it, with_speed(*it, by)));
+            })
+        };
+        flips.extend(flip(Knob::FollowerSpeed, of, [-of, FAR], speed));
+    }
+    let own = ahead.map(|it| it.follower.pace.speed).or(behind.map(|it| it.leader_speed));
+    if let Some(own) = own {
+        let speed = |by: f64| {
+            goes(&|all| {
+                all[0].iter_mut().for_each(|it| it.follower.pace = paced(*it, with_speed(*it, by)));
+                all[1].iter_mut().for_each(|it| it.leader_speed += by);
+            })
+        };
+        flips.extend(flip(Knob::OwnSpeed, own, [-own, FAR], speed));
+    }
+    flips
+}
+
+/// The smaller of the changes of `knob`, which is `value`, up and down within `bounds`, that turns the `outcome`.
+fn flip(
+    knob: Knob,
+    value: f64,
+    [least, most]: [f64; 2],
+    outcome: impl Fn(f64) -> Option<Side>,
+) -> Option<Flip> {
+    let now = outcome(0.0);
+    let up = turning_point(most, |by| outcome(by) != now);
+    let down = turning_point(-least, |by| outcome(-by) != now).map(|by| -by);
+    let nearest = [up, down].into_iter().flatten().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    Some(Flip { knob, value, by: nearest, to: outcome(nearest) })
+}
+
+/// The least positive number up to `most`, to the last bit, for which `turns` holds, of which the half does not.
+fn turning_point(most: f64, turns: impl Fn(f64) -> bool) -> Option<f64> {
+    const LEAST: f64 = 1e-6;
+    const DOUBLINGS: i32 = 40;
+    let grid = (0..DOUBLINGS).map(|it| LEAST * f64::from(2.0_f32).powi(it)).take_while(|it| *it < most);
+    let last = Some(most).filter(|it| it.is_finite() && *it > 0.0);
+    let mut beyond = grid.chain(last).find(|by| turns(*by))?;
+    loop {
+        let mut before = 0.5 * beyond;
+        while turns(before) {
+            (before, beyond) = (0.5 * before, before);
+            if before < f64::MIN_POSITIVE {
+                return None;
+            }
+        }
+        loop {
+            let middle = 0.5 * (before + beyond);
+            if middle <= before || middle >= beyond {
+                break;
+            }
+            if turns(middle) { beyond = middle } else { before = middle }
+        }
+        if !turns(0.5 * beyond) {
+            return Some(beyond);
+        }
+        beyond *= 0.5;
+    }
+}

@@ -1,0 +1,258 @@
+//! Explanations agree with what drivers do, with what is worked out by hand, and with what would have happened otherwise.
+
+mod twin;
+
+use std::path::Path;
+
+use laneweave::explain::{Flip, Knob, flips};
+use laneweave::models::Style;
+use laneweave::models::change::LaneChangeModel;
+use laneweave::network::Side;
+use laneweave::scenario::{Origin, Scenario, prepare};
+use laneweave::sim::{Account, Act, Event, Hindrance, Phase, Purpose, Random, Spot, World};
+use twin::{Otherwise, Twin};
+
+/// Length of a step [s].
+const DT: f64 = 0.1;
+/// How many refusals are worked out by hand.
+const REFUSALS: usize = 1000;
+/// What rounding may make of a yield.
+const ROUNDING: f64 = 1e-9;
+
+/// A busy straight motorway of three lanes with the usual drivers.
+fn motorway() -> World {
+    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/motorway_3_lanes.osm");
+    let mut scenario = Scenario::of_map(map);
+    scenario.demand.vehicles_per_hour = Some(4500.0);
+    scenario.guidance.interval_s = 0.0;
+    prepare(&scenario, &Origin::default()).expect("the map is sound").world
+}
+
+fn phase(world: &World, id: u32) -> Option<Phase> {
+    world.vehicles().find(|it| it.id() == id).map(|it| it.car.phase)
+}
+
+/// Those who consider lanes or wait for a gap in the next step.
+fn deciding(world: &World) -> Vec<Spot> {
+    let step = world.clock().step;
+    let decides = |phase, due| match phase {
+        Phase::Cruises => due <= step,
+        Phase::Wants => true,
+        Phase::Changes | Phase::Aborts => false,
+    };
+    world.vehicles().filter(|it| decides(it.car.phase, it.car.due)).map(|it| it.spot).collect()
+}
+
+/// What a driver said, and did.
+struct Said {
+    id: u32,
+    act: Act,
+}
+
+#[track_caller]
+fn assert_near(value: f64, expected: f64) {
+    assert!((value - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{value} is not {expected}");
+}
+
+/// The account of a driver who considers lanes is what comes out by hand.
+fn assert_weighed_as_by_hand(twin: &Twin, account: &Account) {
+    let by_hand = twin.weigh(account.vehicle, Otherwise::default());
+    assert_eq!(account.sides.iter().flatten().count(), by_hand.len());
+    for side in account.sides.iter().flatten() {
+        let expected = by_hand.iter().find(|it| it.side == side.side).expect("there is a lane");
+        for (row, expected) in side.appraisal.rows.iter().zip(expected.yields) {
+            assert_near(row.earning, expected);
+        }
+        assert_near(side.appraisal.gain, expected.gain);
+    }
+    let draw = Random::new(1).uniform(account.vehicle, Purpose::Desire, (account.time / DT).round() as u32);
+    assert_eq!(account.draw, draw);
+    if account.calm_for == 0.0 && matches!(account.act, Act::Stays | Act::Wants(..)) {
+        let wanted = match account.act {
+            Act::Wants(side, _) => Some(side),
+            _ => None,
+        };
+        assert_eq!(wanted, twin.desired(account.vehicle, Otherwise::default(), draw));
+    }
+}
+
+/// So is the reason of a driver who waits.
+fn assert_refused_as_by_hand(twin: &Twin, account: &Account) {
+    let Act::Waits(side, hindrance) = account.act else { return };
+    let by_hand = twin.refusal(account.vehicle, side, Otherwise::default(), DT);
+    match hindrance {
+        Hindrance::Ahead(refusal, _) => assert_eq!(by_hand, Some((0, refusal))),
+        Hindrance::Behind(refusal, _) => assert_eq!(by_hand, Some((1, refusal))),
+        Hindrance::TooLittleRoad => {
+            assert!(twin.road_left(account.vehicle) < 2.0 * twin.speed(account.vehicle))
+        }
+        Hindrance::Junction => assert!(twin.road_left(account.vehicle) < 200.0, "nowhere else"),
+        other => panic!("{other:?} on a straight road"),
+    }
+}
+
+#[test]
+fn every_change_and_a_thousand_refusals_are_explained_as_by_hand() {
+    let mut world = motorway();
+    let random = Random::new(7);
+    let (mut wants, mut changes, mut stays, mut waits) = (0, 0, 0, 0);
+    let mut desires = std::collections::BTreeMap::new();
+    for step in 0..6000_u32 {
+        let mut said = Vec::new();
+        let mut twin = None;
+        for spot in deciding(&world) {
+            let account = world.explain(spot);
+            said.push(Said { id: account.vehicle, act: account.act });
+            let is_chosen = random.uniform(account.vehicle, Purpose::Parameter, step) < 0.02;
+            let is_change = matches!(account.act, Act::Wants(..));
+            let is_refusal = matches!(account.act, Act::Stays | Act::Waits(..));
+            if is_change || (is_chosen && is_refusal && stays + waits < REFUSALS) {
+                let twin = twin.get_or_insert_with(|| Twin::of(&world));
+                assert_weighed_as_by_hand(twin, &account);
+                assert_refused_as_by_hand(twin, &account);
+                wants += usize::from(is_change);
+                stays += usize::from(account.act == Act::Stays);
+                waits += usize::from(matches!(account.act, Act::Waits(..)));
+            }
+            if let Act::Wants(side, _) = account.act {
+                let wanted = account.sides.iter().flatten().find(|it| it.side == side);
+                desires.insert(account.vehicle, wanted.expect("it wants there").appraisal);
+            }
+        }
+        world.step();
+        for Said { id, act } in said {
+            let Some(phase) = phase(&world, id) else { continue };
+            match act {
+                Act::Wants(..) | Act::Waits(..) => assert_eq!(phase, Phase::Wants, "{id} at {step}: {act:?}"),
+                // Another may have taken the gap.
+                Act::Goes(_) => assert!(matches!(phase, Phase::Changes | Phase::Wants), "{id} at {step}"),
+                Act::Stays | Act::GivesUp(_) => assert_eq!(phase, Phase::Cruises, "{id} at {step}: {act:?}"),
+                other => panic!("{other:?} on a straight road"),
+            }
+        }
+        for event in world.events() {
+            if let Event::LaneChange(change) = event {
+                changes += 1;
+                assert_eq!(Some(&change.appraisal), desires.get(&change.vehicle));
+            }
+        }
+    }
+    assert!(changes > 300 && wants >= changes, "{changes} changes, {wants} desires");
+    assert_eq!(stays + waits, REFUSALS);
+    assert!(waits > 20, "{waits}");
+}
+
+/// The style with another weight of the incentive of row `row`.
+fn with_weight(style: &Style, row: usize, weight: f64) -> Style {
+    let mut model = twin::mcdm(&style.change).clone();
+    let place = match row {
+        0 => &mut model.speed.weight,
+        1 => &mut model.route.weight,
+        2 => &mut model.comfort.weight,
+        3 => &mut model.courtesy.weight,
+        _ => &mut model.urgency.weight,
+    };
+    *place = weight;
+    Style { change: LaneChangeModel::Mcdm(model), ..style.clone() }
+}
+
+/// The side to which the driver of `id` turns, who considers lanes in the next step of `saved`, where the incentive of `row` has
+/// another weight: it is driven.
+fn driven(
+    stage: &mut World,
+    saved: &[u8],
+    original: &[Style],
+    id: u32,
+    row: usize,
+    weight: f64,
+) -> Option<Side> {
+    stage.restore(saved).expect("the same world");
+    let character = stage.vehicles().find(|it| it.id() == id).expect("it is there").car.character as usize;
+    let mut characters = original.to_vec();
+    characters[character] = with_weight(&characters[character], row, weight);
+    stage.change_characters(characters).expect("as many");
+    stage.step();
+    let vehicle = stage.vehicles().find(|it| it.id() == id).expect("it is there");
+    (vehicle.car.phase == Phase::Wants).then_some(vehicle.mind.side)
+}
+
+fn at(side: Side) -> usize {
+    usize::from(side == Side::Right)
+}
+
+/// What is otherwise by the share `share` of a flip of speeds or gaps.
+fn otherwise(flip: &Flip, share: f64) -> Otherwise {
+    let by = share * flip.by;
+    let mut it = Otherwise::default();
+    match flip.knob {
+        Knob::SpeedHere => it.here = by,
+        Knob::SpeedThere(side) => it.there[at(side)] = by,
+        Knob::GapAhead => it.gaps[0] = by,
+        Knob::GapBehind => it.gaps[1] = by,
+        Knob::OwnSpeed => it.speeds[0] = by,
+        Knob::LeaderSpeed => it.speeds[1] = by,
+        Knob::FollowerSpeed => it.speeds[2] = by,
+        Knob::Weight(_) => panic!("a weight is driven"),
+    }
+    it
+}
+
+#[test]
+fn every_flip_flips_when_applied_and_half_of_it_does_not() {
+    /// A flip is found to the last bit of the program's own sums; by hand they may differ in it.
+    const BEYOND: f64 = 1.0 + 1e-6;
+    let (mut world, mut stage) = (motorway(), motorway());
+    let original = world.characters().to_vec();
+    let random = Random::new(11);
+    let (mut weights, mut speeds, mut gaps) = (0, 0, 0);
+    for step in 0..4000_u32 {
+        let mut saved = None;
+        for spot in deciding(&world) {
+            let account = world.explain(spot);
+            let share = match account.act {
+                Act::Wants(..) => 0.3,
+                Act::Waits(..) | Act::Goes(_) => 0.1,
+                _ => 0.002,
+            };
+            if step < 600 || random.uniform(account.vehicle, Purpose::Parameter, step) > share {
+                continue;
+            }
+            let (id, twin) = (account.vehicle, Twin::of(&world));
+            for flip in flips(&account, DT) {
+                match (flip.knob, account.act) {
+                    (Knob::Weight(row), _) => {
+                        let saved = saved.get_or_insert_with(|| world.save().expect("it can be saved"));
+                        let now = match account.act {
+                            Act::Wants(side, _) => Some(side),
+                            _ => None,
+                        };
+                        let mut turn = |share: f64| {
+                            let weight = flip.value + share * flip.by;
+                            driven(&mut stage, saved, &original, id, row, weight)
+                        };
+                        assert_eq!(turn(1.0), flip.to, "{id} at {step}: {flip:?}");
+                        assert_ne!(flip.to, now);
+                        assert_eq!(turn(0.5), now, "{id} at {step}: half of {flip:?}");
+                        weights += 1;
+                    }
+                    (_, Act::Waits(side, _) | Act::Goes(side)) => {
+                        let goes = |share| twin.refusal(id, side, otherwise(&flip, share), DT).is_none();
+                        assert_eq!(goes(BEYOND), flip.to.is_some(), "{id} at {step}: {flip:?}");
+                        assert_eq!(goes(0.5), flip.to.is_none(), "{id} at {step}: half of {flip:?}");
+                        gaps += 1;
+                    }
+                    _ => {
+                        // As one side's chance falls, a draw may come to be the other's, and then nobody's.
+                        let wanted = |share| twin.desired(id, otherwise(&flip, share), account.draw);
+                        let now = wanted(0.0);
+                        assert_ne!(wanted(BEYOND), now, "{id} at {step}: {flip:?}");
+                        assert_eq!(wanted(0.5), now, "{id} at {step}: half of {flip:?}");
+                        speeds += 1;
+                    }
+                }
+            }
+        }
+        world.step();
+    }
+    assert!(weights > 200 && speeds > 200 && gaps > 200, "{weights} weights, {speeds} speeds, {gaps} gaps");
+}

@@ -1,0 +1,341 @@
+//! The decision of a driver on a straight road, worked out by hand: from a plain list of all vehicles, with the formulas as they are
+//! written in the book, by nothing that the program uses for it.
+
+use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal};
+use laneweave::models::follow::FollowingModel;
+use laneweave::network::Side;
+use laneweave::sim::{Phase, World};
+
+/// A vehicle in a lane. Who is between two lanes stands in both.
+#[derive(Clone, Copy)]
+pub(crate) struct Body {
+    pub(crate) id: u32,
+    lane: u32,
+    x: f64,
+    speed: f64,
+    length: f64,
+    desired: f64,
+    tightness: f64,
+    character: usize,
+    wants: Option<Side>,
+    urgency: f64,
+}
+
+/// What the driver is told of otherwise than it is.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Otherwise {
+    /// Speed anticipated in the own lane, and on the left and the right, more by so much [m/s].
+    pub(crate) here: f64,
+    pub(crate) there: [f64; 2],
+    /// Gaps ahead and behind larger by so much [m].
+    pub(crate) gaps: [f64; 2],
+    /// Speeds of driver, new leader and new follower higher by so much [m/s].
+    pub(crate) speeds: [f64; 3],
+}
+
+/// A side as it comes out.
+#[derive(Debug)]
+pub(crate) struct Weighed {
+    pub(crate) side: Side,
+    /// Yields of speed, route, comfort, courtesy, urgency.
+    pub(crate) yields: [f64; 5],
+    pub(crate) gain: f64,
+}
+
+/// A straight motorway whose lane 0 is the slow one, with traffic on the right.
+pub(crate) struct Twin<'a> {
+    world: &'a World,
+    lanes: u32,
+    length: f64,
+    bodies: Vec<Body>,
+}
+
+/// What is ahead and behind in a lane.
+struct Around {
+    ahead: Option<(Body, f64)>,
+    behind: Option<(Body, f64)>,
+    prospect: f64,
+    /// Mean spacing, speed and length.
+    flow: [f64; 3],
+}
+
+impl<'a> Twin<'a> {
+    pub(crate) fn of(world: &'a World) -> Twin<'a> {
+        let mut bodies = Vec::new();
+        for it in world.vehicles() {
+            let body = Body {
+                id: it.id(),
+                lane: it.spot.chain.0,
+                x: it.x(),
+                speed: it.speed(),
+                length: f64::from(it.motion.length),
+                desired: f64::from(it.car.desired),
+                tightness: f64::from(it.motion.tightness),
+                character: it.car.character as usize,
+                wants: (it.car.phase == Phase::Wants).then_some(it.mind.side),
+                urgency: f64::from(it.mind.urgency),
+            };
+            bodies.push(body);
+            bodies.extend(it.mind.twin.map(|twin| Body { lane: twin.chain.0, x: twin.x, ..body }));
+        }
+        let chains = &world.network().chains;
+        Twin { world, lanes: chains.len() as u32, length: chains[0].length, bodies }
+    }
+
+    /// The vehicle with this name, where its centre is.
+    pub(crate) fn me(&self, id: u32) -> Body {
+        *self.bodies.iter().find(|it| it.id == id).expect("it is on the road")
+    }
+
+    fn beside(&self, lane: u32, side: Side) -> Option<u32> {
+        match side {
+            Side::Left => Some(lane + 1).filter(|it| *it < self.lanes),
+            Side::Right => lane.checked_sub(1),
+        }
+    }
+
+    fn others(&self, me: &Body, lane: u32) -> impl Iterator<Item = &Body> {
+        let id = me.id;
+        self.bodies.iter().filter(move |it| it.lane == lane && it.id != id)
+    }
+
+    fn around(&self, me: &Body, lane: u32) -> Around {
+        let ahead: Vec<&Body> = self.others(me, lane).filter(|it| it.x > me.x).collect();
+        let gap = |it: &Body| it.x - it.length - me.x;
+        // Nobody looks past the first who is further away than 295 m.
+        let nearest_first = {
+            let mut all = ahead.clone();
+            all.sort_by(|a, b| a.x.total_cmp(&b.x));
+            all
+        };
+        let seen: Vec<&Body> = nearest_first.into_iter().take_while(|it| gap(it) <= 295.0).collect();
+        let anticipated = |it: &&Body| {
+            let share = (gap(it) / 295.0).clamp(0.0, 1.0);
+            if it.speed >= me.desired { me.desired } else { (1.0 - share) * it.speed + share * me.desired }
+        };
+        let prospect = seen.iter().map(anticipated).fold(me.desired, f64::min);
+        let behind = self.others(me, lane).filter(|it| it.x <= me.x && me.x - it.x < 250.0);
+        let behind = behind.max_by(|a, b| a.x.total_cmp(&b.x));
+        let in_window = |it: &&Body| {
+            (it.x > me.x && it.x - me.x <= 200.0 && gap(it) <= 295.0)
+                || (it.x <= me.x && me.x - it.x <= 100.0)
+        };
+        let window: Vec<&Body> = self.others(me, lane).filter(in_window).collect();
+        let far = seen.len() < ahead.len() || self.length - me.x > 295.0;
+        let extent_ahead = if far { 200.0 } else { (self.length - me.x).clamp(1.0, 200.0) };
+        let extent = extent_ahead + me.x.clamp(0.0, 100.0);
+        let count = window.len() as f64;
+        let mean = |of: fn(&Body) -> f64| window.iter().map(|it| of(it)).sum::<f64>() / count;
+        let flow = if window.is_empty() {
+            [extent, me.desired, me.length]
+        } else {
+            [extent / count, mean(|it| it.speed), mean(|it| it.length)]
+        };
+        Around {
+            ahead: seen.first().map(|it| (**it, gap(it))),
+            behind: behind.map(|it| (*it, me.x - it.x - me.length)),
+            prospect,
+            flow,
+        }
+    }
+
+    /// Acceleration of `body` behind a leader with this gap and speed.
+    fn acceleration(&self, body: &Body, ahead: Option<(f64, f64)>) -> f64 {
+        let (v, v0) = (body.speed, body.desired);
+        match &self.world.characters()[body.character].follow {
+            FollowingModel::Idm(idm) => {
+                let interaction = ahead.map_or(0.0, |(gap, leader)| {
+                    let time_gap = (idm.time_gap * body.tightness).max(idm.time_gap.min(0.5));
+                    let braking = v * (v - leader) / (2.0 * (idm.acceleration * idm.deceleration).sqrt());
+                    let desired = idm.jam_gap + (v * time_gap + braking).max(0.0);
+                    (desired / gap.max(0.1)).powi(2)
+                });
+                idm.acceleration * (1.0 - (v / v0).powf(idm.exponent) - interaction)
+            }
+            FollowingModel::Fvdm(fvdm) => {
+                let closing = ahead.map_or(0.0, |(_, leader)| (v - leader).max(0.0));
+                let tightness = if body.tightness < 1.0 {
+                    body.tightness + (1.0 - body.tightness) * (closing / 5.0).min(1.0)
+                } else {
+                    body.tightness
+                };
+                let (c1, c2) = (0.13, 1.57_f64);
+                let gap = ahead
+                    .map_or(f64::INFINITY, |(gap, _)| (gap / tightness - fvdm.jam_gap / tightness).max(0.0));
+                let rise = (c1 * gap * 14.66 / v0 - c2).tanh() + c2.tanh();
+                let optimal = (v0 * rise / (1.0 + c2.tanh())).max(0.0);
+                let relative = match ahead {
+                    Some((gap, leader)) if gap <= fvdm.range * v0 / 14.66 => leader - v,
+                    _ => 0.0,
+                };
+                fvdm.sensitivity * (optimal - v) + fvdm.relative_sensitivity * relative
+            }
+        }
+    }
+
+    /// What `body` gains of its desired speed in a second with one leader instead of another.
+    fn share(&self, body: &Body, now: Option<(f64, f64)>, then: Option<(f64, f64)>) -> f64 {
+        let expected = |ahead| (body.speed + self.acceleration(body, ahead)).clamp(0.0, body.desired);
+        let short = |speed: f64| (speed - body.desired).abs();
+        (short(expected(now)) - short(expected(then))) / body.desired
+    }
+
+    fn courtesy(&self, me: &Body, side: Side, here: &Around, there: &Around) -> f64 {
+        let of = |(it, gap): (Body, f64)| (gap, it.speed);
+        let harm = there.behind.map_or(0.0, |(it, gap)| {
+            let without = there.ahead.map(|(ahead, further)| (gap + me.length + further, ahead.speed));
+            self.share(&it, without, Some((gap, me.speed)))
+        });
+        let in_the_way = me.speed < here.flow[1];
+        let relief = here.behind.filter(|_| in_the_way).map_or(0.0, |(it, gap)| {
+            let without = here.ahead.map(|(ahead, further)| (gap + me.length + further, ahead.speed));
+            self.share(&it, Some((gap, me.speed)), without)
+        });
+        // Who signals a change into this lane: of the other side the one behind, or else the one ahead; of this side the new leader.
+        let across = self.beside(me.lane, side.opposite()).map(|lane| self.around(me, lane));
+        let room = |it: Body| {
+            let forward = it.x - me.x;
+            let is_next = if forward > 0.0 {
+                here.ahead.is_none_or(|(_, gap)| gap > forward)
+            } else {
+                here.behind.is_none_or(|(_, gap)| gap + me.length > -forward)
+            };
+            let lane_of_mine = it.wants.and_then(|side| self.beside(it.lane, side));
+            if !is_next || lane_of_mine != Some(me.lane) {
+                return None;
+            }
+            let gap = -forward - me.length;
+            let blocked =
+                if gap > 0.0 { Some((gap, me.speed)) } else { self.around(&it, it.lane).ahead.map(of) };
+            let freed = here.ahead.map(|(ahead, gap)| (gap - forward, ahead.speed));
+            Some((1.0 + it.urgency) * self.share(&it, blocked, freed))
+        };
+        let signals = |it: &Body| it.wants.is_some();
+        let from_across = across.and_then(|it| {
+            let behind = it.behind.map(|(it, _)| it).filter(signals).and_then(room);
+            behind.or_else(|| it.ahead.map(|(it, _)| it).filter(signals).and_then(room))
+        });
+        let from_there = there.ahead.map(|(it, _)| it).filter(signals).and_then(room);
+        harm + relief + from_across.unwrap_or(0.0) + from_there.unwrap_or(0.0)
+    }
+
+    /// Both sides as they come out for the driver of `id`, the left one first.
+    pub(crate) fn weigh(&self, id: u32, otherwise: Otherwise) -> Vec<Weighed> {
+        let me = self.me(id);
+        let model = mcdm(&self.world.characters()[me.character].change);
+        let here = self.around(&me, me.lane);
+        let speed_here = here.prospect + otherwise.here;
+        let both = [Side::Left, Side::Right].into_iter().zip(otherwise.there);
+        both.filter_map(|(side, more)| {
+            let there = self.around(&me, self.beside(me.lane, side)?);
+            let speed_there = there.prospect + more;
+            let time = |speed: f64| 295.0 / speed.max(1.0);
+            let [spacing, speed, length] = there.flow;
+            let headway = (spacing - length - 2.0).max(0.0) / speed.max(2.0);
+            let yields = [
+                (speed_there - speed_here) / me.desired,
+                ((time(speed_here) - time(speed_there)) / 60.0).clamp(-10.0, 10.0),
+                -headway.max(0.3).powf(-model.comfort.beta),
+                self.courtesy(&me, side, &here, &there),
+                0.0,
+            ];
+            let gain = weights(model).into_iter().zip(yields).map(|(weight, it)| weight * it).sum();
+            Some(Weighed { side, yields, gain })
+        })
+        .collect()
+    }
+
+    /// The side that is desired where `draw` was drawn.
+    pub(crate) fn desired(&self, id: u32, otherwise: Otherwise, draw: f64) -> Option<Side> {
+        let model = mcdm(&self.world.characters()[self.me(id).character].change);
+        let sides = self.weigh(id, otherwise);
+        let size = |it: &Weighed| ((it.gain - model.theta) / model.sigma).exp();
+        let all = 1.0 + sides.iter().map(size).sum::<f64>();
+        let mut below = 0.0;
+        sides
+            .iter()
+            .find(|it| {
+                below += size(it) / all;
+                draw < below
+            })
+            .map(|it| it.side)
+    }
+
+    /// What is wrong with the gap on `side`, ahead (0) or behind (1), with time step `dt`; the share of its time gap that the driver
+    /// accepts is that of a change by choice.
+    pub(crate) fn refusal(
+        &self,
+        id: u32,
+        side: Side,
+        otherwise: Otherwise,
+        dt: f64,
+    ) -> Option<(usize, Refusal)> {
+        let mut me = self.me(id);
+        let there = self.around_far(&me, self.beside(me.lane, side)?);
+        let style = &self.world.characters()[me.character];
+        let [own, leader, follower] = otherwise.speeds;
+        me.speed += own;
+        let tightness = 1.0 - 0.3 * (1.0 - style.manner.tightest);
+        let pressed = Body { tightness: tightness.min(me.tightness), ..me };
+        let check = |follower: &Body, gap: f64, leader: f64| {
+            let closing = (follower.speed - leader).max(0.0);
+            let stopping = |v: f64| v * v / 16.0;
+            let safety = &style.safety;
+            let needed = (stopping(follower.speed) - stopping(leader)).max(0.0) + follower.speed * dt;
+            if gap < safety.min_gap {
+                Some(Refusal::Short)
+            } else if closing > 0.0 && gap / closing < safety.min_time_to_collision {
+                Some(Refusal::TimeToCollision)
+            } else if closing * closing / (2.0 * gap) > safety.max_deceleration {
+                Some(Refusal::Forced)
+            } else if self.acceleration(follower, Some((gap, leader))) < -safety.max_deceleration {
+                Some(Refusal::Demanded)
+            } else {
+                (gap < needed).then_some(Refusal::Insecure)
+            }
+        };
+        let ahead = there.0.and_then(|(it, gap)| check(&pressed, gap + otherwise.gaps[0], it.speed + leader));
+        let behind = || {
+            there.1.and_then(|(it, gap)| {
+                let it = Body { speed: it.speed + follower, ..it };
+                check(&it, gap + otherwise.gaps[1], me.speed)
+            })
+        };
+        ahead.map(|it| (0, it)).or_else(|| behind().map(|it| (1, it)))
+    }
+
+    /// The next ahead and behind, however far away.
+    fn around_far(&self, me: &Body, lane: u32) -> (Option<(Body, f64)>, Option<(Body, f64)>) {
+        let ahead = self
+            .others(me, lane)
+            .filter(|it| it.x > me.x)
+            .min_by(|a, b| (a.x - a.length).total_cmp(&(b.x - b.length)));
+        let behind = self.others(me, lane).filter(|it| it.x <= me.x).max_by(|a, b| a.x.total_cmp(&b.x));
+        (
+            ahead.map(|it| (*it, it.x - it.length - me.x)),
+            behind.filter(|it| me.x - it.x < 250.0).map(|it| (*it, me.x - it.x - me.length)),
+        )
+    }
+
+    /// Road left to the end [m].
+    pub(crate) fn road_left(&self, id: u32) -> f64 {
+        self.length - self.me(id).x
+    }
+
+    /// Speed of a vehicle [m/s].
+    pub(crate) fn speed(&self, id: u32) -> f64 {
+        self.me(id).speed
+    }
+}
+
+pub(crate) fn mcdm(change: &LaneChangeModel) -> &Mcdm {
+    match change {
+        LaneChangeModel::Mcdm(model) => model,
+        other => panic!("{other:?} has no twin"),
+    }
+}
+
+fn weights(model: &Mcdm) -> [f64; 5] {
+    let Mcdm { speed, route, comfort, courtesy, urgency, .. } = model;
+    [speed.weight, route.weight, comfort.weight, courtesy.weight, urgency.weight]
+}
