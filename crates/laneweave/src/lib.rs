@@ -8,6 +8,7 @@ pub mod check;
 pub mod explain;
 mod fault;
 pub mod output;
+pub mod record;
 pub mod scenario;
 pub mod simulation;
 mod source;

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod check;
+mod explain;
 mod generate;
 mod progress;
 mod routes;
@@ -28,6 +29,8 @@ pub(crate) struct Cli {
 enum Command {
     /// Simulate a scenario, or a bare map.
     Run(run::Arguments),
+    /// Say why a driver of a run changed lanes, waited, or stayed.
+    Explain(explain::Arguments),
     /// Say what a map or a recording holds, and what is wrong with it.
     Check(check::Arguments),
     /// Name the sensible ways from one lanelet of a map to another.
@@ -51,6 +54,7 @@ impl Cli {
                 run::run(&scenario, &origin, run::Screen::default(), started)
             }
             Some(Command::Run(arguments)) => arguments.execute(started),
+            Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Generate(kind)) => kind.execute(),

@@ -1,7 +1,9 @@
 //! `laneweave run`.
 
+use std::fs;
+use std::io;
 use std::num::NonZero;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -10,6 +12,7 @@ use clap::Args;
 use laneweave::Fault;
 use laneweave::did_you_mean;
 use laneweave::output::{Inputs, Summary, observers, write_whole};
+use laneweave::record;
 use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
 use laneweave::simulation::simulate;
 use laneweave::style::Model;
@@ -159,7 +162,11 @@ pub(crate) fn run(
     if !screen.quiet {
         warn(&prepared);
     }
+    let fingerprint = record::fingerprint(scenario, origin)?;
     let mut observers = observers(scenario, &prepared)?;
+    let summary_path = scenario.output.dir.join("summary.json");
+    forget(&summary_path)?;
+    let kept = record::keep(scenario, origin, &scenario.output.dir)?;
     let stop = stop_by_keyboard()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
     let mut load_s = 0.0;
@@ -173,24 +180,33 @@ pub(crate) fn run(
         || load_s = started.elapsed().as_secs_f64(),
     )?;
     progress.clear();
-    let mut files = Vec::new();
+    let mut files = vec![kept];
     for observer in observers {
         files.push(observer.finish(&prepared.world)?);
     }
     let wall_s = started.elapsed().as_secs_f64();
-    let summary = Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s });
+    let summary = Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s, fingerprint });
     let json = serde_json::to_string_pretty(&summary)
         .map_err(|error| Fault::new("summary.json", error, "report this as a bug"))?
         + "\n";
-    let path = scenario.output.dir.join("summary.json");
-    write_whole(&path, &json)?;
-    files.push(path);
+    write_whole(&summary_path, &json)?;
+    files.push(summary_path);
     match screen {
         Screen { json: true, .. } => say(&json),
         Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files)),
         _ => {}
     }
     Ok(())
+}
+
+/// Removes the summary of a former run: the results that it is about are about to be replaced.
+fn forget(summary: &Path) -> Result<(), Fault> {
+    match fs::remove_file(summary) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(Fault::refused(summary, "replaced", &error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Lists what in the map could not be used as it stands.

@@ -85,7 +85,8 @@ fn of_desire(account: &Account) -> Vec<Flip> {
             continue;
         }
         let outcome = |by| desired(account, |it| with_weight(account, it, row, by));
-        flips.extend(flip(Knob::Weight(row), *weight, [f64::NEG_INFINITY, f64::INFINITY], outcome));
+        // Nobody weighs less than not at all, unless it does already.
+        flips.extend(flip(Knob::Weight(row), *weight, [-weight.max(0.0), f64::INFINITY], outcome));
     }
     let desired_speed = any.situation.me.pace.desired;
     let bounds = |speed: f64| [-speed, desired_speed - speed];

@@ -1,7 +1,11 @@
 //! Why a driver changed lanes, waited, or stayed. Nothing is logged for it: the run is repeated, and the driver asked.
 
+mod commonest;
 mod flip;
+mod trip;
 mod words;
 
+pub use commonest::Commonest;
 pub use flip::{Flip, Knob, flips};
-pub use words::{act, story};
+pub use trip::{Moment, moment, trip};
+pub use words::{act, reason, story};

@@ -66,6 +66,47 @@ fn stays(account: &Account) -> String {
     format!("stays: {gain}")
 }
 
+/// Why a driver stays or waits, in a few words that others share.
+pub fn reason(account: &Account) -> String {
+    if let Act::Waits(_, hindrance) = account.act {
+        return match hindrance {
+            Hindrance::Ahead(refusal, _) => format!("waits: the gap to the new leader {}", kind(refusal)),
+            Hindrance::Behind(refusal, _) => format!("waits: the gap to the new follower {}", kind(refusal)),
+            other => format!("waits: {}", because(&other)),
+        };
+    }
+    let sides = account.sides.iter().flatten();
+    let Some(best) = sides.max_by(|a, b| above(a).total_cmp(&above(b))) else {
+        return "no lane beside to which it may change".into();
+    };
+    if best.is_out_of_question {
+        return "calm after a change, or after giving one up".into();
+    }
+    if above(best) > 0.0 {
+        return "by chance: the desire did not come".into();
+    }
+    let names = account.change.row_names();
+    match best.appraisal.rows[worst(best)] {
+        _ if best.appraisal.gain == f64::NEG_INFINITY => {
+            "the new follower would have to brake too hard".into()
+        }
+        row if product(&row) < 0.0 && !names[worst(best)].is_empty() => {
+            format!("gains too little; most against it is {}", names[worst(best)])
+        }
+        _ => "gains too little".into(),
+    }
+}
+
+fn kind(refusal: Refusal) -> &'static str {
+    match refusal {
+        Refusal::Short => "is too short",
+        Refusal::TimeToCollision => "closes too soon",
+        Refusal::Forced => "closes too fast",
+        Refusal::Demanded => "would make who follows brake too hard",
+        Refusal::Insecure => "would not do if the one ahead braked as hard as it can",
+    }
+}
+
 fn above(side: &SideAccount) -> f64 {
     if side.is_out_of_question { f64::NEG_INFINITY } else { side.appraisal.gain - side.appraisal.theta }
 }
@@ -177,7 +218,7 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
     }
     for (number, flip) in flips.iter().enumerate() {
         let lead = if number == 0 { "  would have turned it" } else { "                    or" };
-        say(format!("{lead}: {}", words(account, flip)));
+        say(format!("{lead}: {}", flip_in_words(account, flip)));
     }
     text
 }
@@ -206,7 +247,8 @@ fn table(account: &Account, side: &SideAccount) -> Vec<String> {
     lines
 }
 
-fn words(account: &Account, flip: &Flip) -> String {
+/// What would have turned a decision, and to what.
+pub(super) fn flip_in_words(account: &Account, flip: &Flip) -> String {
     let Flip { knob, value, by, to } = flip;
     let what = match knob {
         Knob::Weight(row) => format!("the weight of {}", account.change.row_names()[*row]),

@@ -77,6 +77,8 @@ pub struct Summary {
     pub peak_rss_mb: f64,
     /// Hash of all vehicles' states at the end, 16 hexadecimal digits.
     pub state_hash: String,
+    /// Hash of all that the run depended on: version, scenario, styles, map.
+    pub fingerprint: String,
     /// Demand over all entrances [veh/h].
     pub demand_veh_h: f64,
     /// Simulated and measured time [s].
@@ -96,7 +98,7 @@ pub struct Summary {
 }
 
 /// What a summary is made from, beside the world.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Inputs<'a> {
     /// The scenario.
     pub scenario: &'a Scenario,
@@ -106,12 +108,14 @@ pub struct Inputs<'a> {
     pub wall_s: f64,
     /// See [`Summary::load_s`].
     pub load_s: f64,
+    /// See [`Summary::fingerprint`].
+    pub fingerprint: String,
 }
 
 impl Summary {
     /// The summary of `prepared` after it has run.
     pub fn of(prepared: &Prepared, inputs: Inputs) -> Summary {
-        let Inputs { scenario, ending, wall_s, load_s } = inputs;
+        let Inputs { scenario, ending, wall_s, load_s, fingerprint } = inputs;
         let world: &World = &prepared.world;
         let (tally, counts) = (world.tally(), world.counts());
         let veh_km = tally.distance / METRES_PER_KM;
@@ -147,6 +151,7 @@ impl Summary {
             queues: ending.queues.clone(),
             peak_rss_mb: peak_rss_mb(),
             state_hash: format!("{:016x}", world.state_hash()),
+            fingerprint,
             demand_veh_h: prepared.demand_veh_h,
             duration_s: rounded(ending.measured_s),
             warmup_s: rounded(ending.measured_from_s),

@@ -32,5 +32,7 @@ pub(super) fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(Style
             "give at least one of them a weight above 0",
         ));
     }
+    // Neither do the names of style files matter, nor where they are.
+    mixture.sort_by(|(a, _), (b, _)| a.typical().name.cmp(&b.typical().name));
     Ok(mixture)
 }

@@ -63,8 +63,13 @@ impl Origin {
         self.source.as_ref().map(|source| source.place(path))
     }
 
+    /// The map's text, if it comes with the program.
+    pub(crate) fn built_in_map(&self) -> Option<&'static str> {
+        self.map
+    }
+
     /// The folder from which the paths of style files are sought.
-    pub(super) fn style_folder(&self) -> &Path {
+    pub(crate) fn style_folder(&self) -> &Path {
         match &self.source {
             Some(source) if !self.options.contains_key("styles") => source.folder(),
             _ => Path::new(""),

@@ -1,0 +1,74 @@
+//! `laneweave explain`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use laneweave::Fault;
+use laneweave::explain::{Commonest, Moment, moment, trip};
+use laneweave::record::{End, Record};
+use laneweave::scenario::prepare;
+
+use super::say;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The folder of results of a run, which is repeated.
+    #[arg(value_name = "OUT")]
+    out: PathBuf,
+    /// The vehicle that is asked, by its id in the tables.
+    #[arg(long, value_name = "ID", required_unless_present = "summary")]
+    vehicle: Option<u32>,
+    /// When it is asked, in seconds as in the tables [default: all of its trip].
+    #[arg(long, value_name = "S", requires = "vehicle")]
+    time: Option<f64>,
+    /// Say which smallest change of a weight, a gap or a speed would have turned its decisions.
+    #[arg(long, requires = "vehicle")]
+    flip: bool,
+    /// Ask everybody: for what drivers changed lanes, and why they did not.
+    #[arg(long, conflicts_with = "vehicle")]
+    summary: bool,
+}
+
+impl Arguments {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        let Arguments { out, vehicle, time, flip, .. } = self;
+        let Record { scenario, origin, end } = Record::open(&out)?;
+        let End { duration_s, warmup_s, .. } = end;
+        let steps = ((duration_s + warmup_s) / scenario.run.step_s).round() as u32;
+        let last = f64::from(steps) * scenario.run.step_s;
+        if let Some(time) = time.filter(|it| !(0.0..=last).contains(it)) {
+            let what = format!("the time {time} s");
+            return Err(Fault::new(
+                "--time",
+                what,
+                format!("the run lasted from 0 to {last} s: choose one of them"),
+            ));
+        }
+        let mut world = prepare(&scenario, &origin)?.world;
+        let Some(vehicle) = vehicle else {
+            let mut commonest = Commonest::default();
+            (0..steps).for_each(|_| commonest.step(&mut world));
+            say(&commonest.to_text());
+            return Ok(());
+        };
+        let never = || {
+            let what = format!("no vehicle {vehicle} came onto the road");
+            Fault::new("--vehicle", what, "choose an id of the tables lane_changes, trips or trajectories")
+        };
+        let Some(time) = time else {
+            let told = trip(&mut world, vehicle, steps, flip).ok_or_else(never)?;
+            say(&told);
+            return Ok(());
+        };
+        match moment(&mut world, vehicle, time, steps, flip) {
+            Moment::Told(told) => say(&told),
+            Moment::At(from, until) => {
+                let what = format!("vehicle {vehicle} was not on the road at {time} s");
+                let remedy = format!("choose a time from {from:.1} to {until:.1} s");
+                return Err(Fault::new("--time", what, remedy));
+            }
+            Moment::Never => return Err(never()),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,95 @@
+//! `laneweave explain`: reasons of drivers, by repeating a run.
+
+use crate::program::Folder;
+
+/// A run of two minutes on the motorway with ramps, with CSV tables; and its first lane change: vehicle and time of the crossing.
+fn run() -> (Folder, String, f64) {
+    let folder = Folder::new();
+    folder.summary("MAPS/ramps.osm --duration 120 --warmup 60 --record 0 --format csv");
+    let table = folder.read("out/lane_changes.csv");
+    let cells: Vec<&str> = table.lines().nth(1).expect("there is a change").split(',').collect();
+    let (vehicle, time) = (cells[3].to_string(), cells[0].parse().expect("a time"));
+    (folder, vehicle, time)
+}
+
+#[test]
+fn a_trip_is_told_from_its_beginning_with_every_change_of_the_table() {
+    let (folder, vehicle, time) = run();
+    let told = folder.laneweave(&format!("explain out --vehicle {vehicle}"));
+    assert_eq!((told.code(), told.errors().as_str()), (0, ""));
+    let text = told.text();
+    assert!(text.lines().next().is_some_and(|it| it.contains("enters on lanelet")), "{text}");
+    assert!(text.contains("wants to change to the"), "{text}");
+    let across = text
+        .lines()
+        .find(|it| it.contains("is across") && it.trim_start().starts_with(&format!("{time:.1} s")));
+    assert!(across.is_some(), "{time}: {text}");
+}
+
+#[test]
+fn a_moment_is_told_with_the_yields_that_the_table_holds_and_what_would_have_turned_it() {
+    let (folder, ..) = run();
+    let table = folder.read("out/lane_changes.csv");
+    let column = |name: &str| table.lines().next().unwrap().split(',').position(|it| it == name).unwrap();
+    let by_choice = table.lines().find(|it| it.contains("discretionary")).expect("there is one");
+    let cell = |name: &str| by_choice.split(',').nth(column(name)).unwrap().to_string();
+    let trip = folder.laneweave(&format!("explain out --vehicle {}", cell("vehicle"))).text();
+    let wants = trip.lines().filter(|it| it.contains("wants to change")).find(|it| {
+        it.trim_start()
+            .split(' ')
+            .next()
+            .and_then(|it| it.parse::<f64>().ok())
+            .is_some_and(|at| at < cell("started_s").parse::<f64>().unwrap())
+    });
+    let time =
+        wants.expect("it wanted before it changed").trim_start().split(' ').next().unwrap().to_string();
+    let told =
+        folder.laneweave(&format!("explain out --vehicle {} --time {time} --flip", cell("vehicle"))).text();
+    let gain: f64 = cell("g").parse().unwrap();
+    assert!(told.contains(&format!("G {gain:.4}, θ 0.1120")), "{gain}: {told}");
+    assert!(told.contains("would have turned it: "), "{told}");
+}
+
+#[test]
+fn everybody_can_be_asked() {
+    let (folder, ..) = run();
+    let told = folder.laneweave("explain out --summary").text();
+    assert!(told.contains("lane changes, by style and by what spoke most for them"), "{told}");
+    assert!(told.contains("no lane beside to which it may change"), "{told}");
+    // Changes of the warm-up are told as well.
+    let all: f64 = told.split(' ').next().unwrap().parse().unwrap();
+    let table = folder.read("out/lane_changes.csv");
+    assert!(all >= table.lines().filter(|it| it.ends_with("completed")).count() as f64);
+}
+
+#[test]
+fn what_cannot_be_told_is_refused_with_a_remedy() {
+    let folder = Folder::new();
+    std::fs::copy(folder.maps().join("ramps.osm"), folder.path().join("own.osm")).unwrap();
+    folder.summary("own.osm --duration 60 --record 0");
+    let refused = |line: &str| {
+        let run = folder.laneweave(line);
+        assert_eq!(run.code(), 2, "{line}");
+        run.errors()
+    };
+    assert!(refused("explain out --vehicle 99999").contains("no vehicle 99999 came onto the road"));
+    assert!(refused("explain out --vehicle 0 --time 61").contains("the run lasted from 0 to 60 s"));
+    assert!(refused("explain nowhere --vehicle 0").contains("no results of a run"));
+    assert!(refused("explain out").contains("--vehicle"));
+    let map = folder.read("own.osm").replacen("120", "110", 1);
+    std::fs::write(folder.path().join("own.osm"), map).unwrap();
+    let changed = refused("explain out --vehicle 0");
+    assert!(changed.contains("has changed since this was run; run it again"), "{changed}");
+}
+
+#[test]
+fn what_is_kept_with_the_results_runs_again_to_the_same_end_with_styles_from_files() {
+    let folder = Folder::new();
+    folder.laneweave("styles new mine --from aggressive");
+    let first =
+        folder.summary("MAPS/ramps.osm --duration 60 --record 0 --style mine.toml=1 --style conservative=2");
+    std::fs::remove_file(folder.path().join("mine.toml")).unwrap();
+    let again = folder.summary("out/scenario.toml --out again");
+    assert_eq!(again["state_hash"], first["state_hash"]);
+    assert_eq!(again["fingerprint"], first["fingerprint"]);
+}
