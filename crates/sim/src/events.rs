@@ -3,6 +3,7 @@
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side};
 
+use crate::journal::TripRecord;
 use crate::traffic::{Kind, Motion, VehicleId};
 
 /// Something that happened in a step.
@@ -20,6 +21,8 @@ pub enum Event {
         chain: ChainIndex,
         /// How it moved in its last step, which may have ended beyond the chain.
         motion: Motion,
+        /// The record of its trip, where trips are recorded.
+        trip: Option<TripRecord>,
     },
     /// A lane change is completed, or was aborted.
     LaneChange(LaneChange),

@@ -27,7 +27,7 @@ impl Trail {
     }
 
     /// The chains before `chain`, the nearest first: those that are known, then those that there is no choice of.
-    pub(crate) fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
+    pub fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
         let mut known = [self.last, self.before].into_iter();
         std::iter::successors(Some(chain), move |here| match known.next() {
             Some(index) if index != Trail::UNKNOWN => Some(ChainIndex(index)),

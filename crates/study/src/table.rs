@@ -40,7 +40,8 @@ use thiserror::Error;
 
 use self::csv::CsvSink;
 use self::parquet::ParquetSink;
-use self::partial::PartialFile;
+
+pub use self::partial::PartialFile;
 
 /// What the cells of a column hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,22 +61,29 @@ pub struct Column {
     pub name: &'static str,
     /// What its cells hold.
     pub kind: Kind,
+    /// Its values come again and again, so that a dictionary saves room.
+    pub repeats: bool,
 }
 
 impl Column {
-    /// A column of floating-point numbers.
+    /// A column of floating-point numbers, most of which come once.
     pub const fn real(name: &'static str) -> Column {
-        Column { name, kind: Kind::F64 }
+        Column { name, kind: Kind::F64, repeats: false }
     }
 
-    /// A column of integers.
+    /// A column of integers, which come again and again.
     pub const fn integer(name: &'static str) -> Column {
-        Column { name, kind: Kind::I64 }
+        Column { name, kind: Kind::I64, repeats: true }
     }
 
-    /// A column of text.
+    /// A column of text, which comes again and again.
     pub const fn text(name: &'static str) -> Column {
-        Column { name, kind: Kind::Text }
+        Column { name, kind: Kind::Text, repeats: true }
+    }
+
+    /// The same column, whose values come again and again.
+    pub const fn repeating(self) -> Column {
+        Column { repeats: true, ..self }
     }
 }
 
@@ -138,7 +146,7 @@ impl<'a, T: Into<Cell<'a>>> From<Option<T>> for Cell<'a> {
 pub enum Format {
     /// Comma-separated values with a header; numbers in their shortest form that reads back exactly.
     Csv,
-    /// Apache Parquet, uncompressed, repeated values by dictionary.
+    /// Apache Parquet, uncompressed, repeating values by dictionary.
     Parquet,
 }
 
@@ -204,11 +212,24 @@ impl TableWriter {
     /// # Errors
     /// If the file cannot be created or written.
     pub fn create(path: &Path, format: Format, columns: &[Column]) -> Result<TableWriter, TableError> {
+        TableWriter::create_with(path, format, columns, &[])
+    }
+
+    /// The same with `notes` about the table, keys with their values, where the format has a place for them: in Parquet.
+    ///
+    /// # Errors
+    /// If the file cannot be created or written.
+    pub fn create_with(
+        path: &Path,
+        format: Format,
+        columns: &[Column],
+        notes: &[(&str, &str)],
+    ) -> Result<TableWriter, TableError> {
         let (file, output) = PartialFile::create(path)
             .map_err(|source| TableError::Create { path: path.to_owned(), source })?;
         let sink = match format {
             Format::Csv => Ok(Sink::Csv(CsvSink::new(output, columns))),
-            Format::Parquet => ParquetSink::new(output, columns).map(Sink::Parquet),
+            Format::Parquet => ParquetSink::new(output, columns, notes).map(Sink::Parquet),
         };
         let sink = sink.map_err(|source| TableError::Write { path: path.to_owned(), source })?;
         Ok(TableWriter { columns: columns.to_vec(), sink, file })

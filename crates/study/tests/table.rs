@@ -8,7 +8,7 @@ use parquet::basic::Encoding;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 
-const ROWS_OF_A_GROUP: usize = 65_536;
+const ROWS_OF_A_GROUP: usize = 16_384;
 
 struct Trajectory<'a> {
     time_s: f64,
@@ -140,7 +140,7 @@ fn a_parquet_table_of_several_row_groups_reads_back_cell_by_cell() {
     write(&path, Format::Parquet, rows).unwrap();
     let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     let sizes: Vec<i64> = reader.metadata().row_groups().iter().map(|it| it.num_rows()).collect();
-    assert_eq!(sizes, [65_536, 65_536, 1000]);
+    assert_eq!(sizes, [16_384, 16_384, 1000]);
     let mut count = 0;
     for (index, row) in reader.get_row_iter(None).unwrap().enumerate() {
         let row = row.unwrap();
@@ -159,6 +159,36 @@ fn parquet_keeps_repeated_texts_in_a_dictionary() {
     let class = reader.metadata().row_group(0).column(2);
     assert!(class.encodings().any(|it| it == Encoding::RLE_DICTIONARY));
     assert!(class.uncompressed_size() < 2000, "{} bytes", class.uncompressed_size());
+}
+
+#[test]
+fn notes_stand_in_the_parquet_file_and_nowhere_in_the_csv() {
+    let folder = folder("notes");
+    let notes = [("laneweave.seed", "7"), ("laneweave.scenario", "map = \"a.osm\"\n")];
+    for (format, name) in [(Format::Csv, "t.csv"), (Format::Parquet, "t.parquet")] {
+        let columns = [Column::real("time_s")];
+        TableWriter::create_with(&folder.join(name), format, &columns, &notes).unwrap().finish().unwrap();
+    }
+    assert_eq!(fs::read_to_string(folder.join("t.csv")).unwrap(), "time_s\n");
+    let reader = SerializedFileReader::new(File::open(folder.join("t.parquet")).unwrap()).unwrap();
+    let noted = reader.metadata().file_metadata().key_value_metadata().unwrap();
+    let noted: Vec<(&str, Option<&str>)> =
+        noted.iter().map(|it| (it.key.as_str(), it.value.as_deref())).collect();
+    assert_eq!(noted, notes.map(|(key, value)| (key, Some(value))));
+}
+
+#[test]
+fn numbers_that_come_once_are_written_plainly_and_those_that_repeat_in_a_dictionary() {
+    let path = folder("plain").join("t.parquet");
+    let columns = [Column::real("x_m"), Column::real("length_m").repeating()];
+    let mut table = TableWriter::create(&path, Format::Parquet, &columns).unwrap();
+    (0..1000).for_each(|it| table.row(&[Cell::F64(f64::from(it)), Cell::F64(4.5)]).unwrap());
+    table.finish().unwrap();
+    let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
+    let has_dictionary = |column: usize| {
+        reader.metadata().row_group(0).column(column).encodings().any(|it| it == Encoding::RLE_DICTIONARY)
+    };
+    assert_eq!([0, 1].map(has_dictionary), [false, true]);
 }
 
 #[test]

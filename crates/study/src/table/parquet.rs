@@ -7,6 +7,7 @@ use std::sync::Arc;
 use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
@@ -14,7 +15,7 @@ use parquet::schema::types::Type;
 use super::{Cell, Column, Kind};
 
 /// Rows held in memory and written together.
-const ROW_GROUP: usize = 1 << 16;
+const ROW_GROUP: usize = 1 << 14;
 /// A column with more distinct values in a group than this holds goes on without a dictionary [bytes].
 const DICTIONARY_SIZE: usize = 1 << 16;
 /// Definition levels of an optional column: the value is there, or null.
@@ -44,12 +45,11 @@ enum Values {
 }
 
 impl ParquetSink {
-    pub(super) fn new(file: File, columns: &[Column]) -> io::Result<ParquetSink> {
+    pub(super) fn new(file: File, columns: &[Column], notes: &[(&str, &str)]) -> io::Result<ParquetSink> {
         let fields = columns.iter().map(field).collect::<Result<_, _>>().map_err(io::Error::other)?;
         let schema =
             Type::group_type_builder("table").with_fields(fields).build().map_err(io::Error::other)?;
-        let properties =
-            Arc::new(WriterProperties::builder().set_dictionary_page_size_limit(DICTIONARY_SIZE).build());
+        let properties = Arc::new(properties(columns, notes));
         let writer =
             SerializedFileWriter::new(file, Arc::new(schema), properties).map_err(io::Error::other)?;
         Ok(ParquetSink { writer, columns: columns.iter().map(|it| Buffer::new(it.kind)).collect(), rows: 0 })
@@ -81,6 +81,18 @@ impl ParquetSink {
         self.rows = 0;
         Ok(())
     }
+}
+
+/// How the columns are written, and what is noted about them.
+fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
+    let notes = notes.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), (*value).to_owned()));
+    let properties = WriterProperties::builder()
+        .set_dictionary_page_size_limit(DICTIONARY_SIZE)
+        .set_key_value_metadata(Some(notes.collect()));
+    let plain = columns.iter().filter(|it| !it.repeats);
+    let properties =
+        plain.fold(properties, |it, column| it.set_column_dictionary_enabled(column.name.into(), false));
+    properties.build()
 }
 
 /// The schema of a column.
