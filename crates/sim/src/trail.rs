@@ -26,8 +26,13 @@ impl Trail {
         (self.last != Trail::UNKNOWN).then_some(ChainIndex(self.last))
     }
 
+    /// The chains that it is known to have come over, the latest first.
+    pub fn known(self) -> impl Iterator<Item = ChainIndex> {
+        [self.last, self.before].into_iter().take_while(|it| *it != Trail::UNKNOWN).map(ChainIndex)
+    }
+
     /// The chains before `chain`, the nearest first: those that are known, then those that there is no choice of.
-    pub fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
+    pub(crate) fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
         let mut known = [self.last, self.before].into_iter();
         std::iter::successors(Some(chain), move |here| match known.next() {
             Some(index) if index != Trail::UNKNOWN => Some(ChainIndex(index)),

@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use clap::Args;
 use laneweave::Fault;
-use laneweave::output::{Inputs, Summary, observers, write_whole};
-use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
+use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
+use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
 use laneweave::simulation::simulate;
 
 use super::progress::Progress;
@@ -63,6 +63,9 @@ pub(crate) struct Arguments {
     /// Format of the tables [default: parquet].
     #[arg(long, value_name = "parquet|csv", value_parser = format)]
     format: Option<TableFormat>,
+    /// Files that are written as SUMO writes them, separated by commas: fcd, tripinfo, lanechange [default: none].
+    #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
+    sumo: Vec<SumoFile>,
     #[command(flatten)]
     screen: Screen,
 }
@@ -89,6 +92,15 @@ fn format(text: &str) -> Result<TableFormat, String> {
         "parquet" => Ok(TableFormat::Parquet),
         "csv" => Ok(TableFormat::Csv),
         _ => Err("choose parquet or csv".into()),
+    }
+}
+
+fn sumo_file(text: &str) -> Result<SumoFile, String> {
+    match text {
+        "fcd" => Ok(SumoFile::Fcd),
+        "tripinfo" => Ok(SumoFile::Tripinfo),
+        "lanechange" => Ok(SumoFile::Lanechange),
+        _ => Err("choose of fcd, tripinfo and lanechange".into()),
     }
 }
 
@@ -130,6 +142,8 @@ impl Arguments {
         replace(origin, ("output.record_s", "--record"), &mut output.record_s, self.record);
         replace(origin, ("output.flows_s", "--flows"), &mut output.flows_s, self.flows);
         replace(origin, ("output.format", "--format"), &mut output.format, self.format);
+        let sumo = (!self.sumo.is_empty()).then(|| self.sumo.into_iter().collect());
+        replace(origin, ("output.sumo", "--sumo"), &mut output.sumo, sumo);
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
     }
@@ -146,7 +160,9 @@ pub(crate) fn run(
     if !screen.quiet {
         warn(&prepared);
     }
-    let mut observers = observers(scenario, &prepared)?;
+    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
+    let provenance = Provenance::of(scenario, arguments)?;
+    let mut observers = observers(scenario, &prepared, &provenance)?;
     let stop = stop_by_keyboard()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
     let mut load_s = 0.0;
@@ -162,7 +178,7 @@ pub(crate) fn run(
     progress.clear();
     let mut files = Vec::new();
     for observer in observers {
-        files.push(observer.finish(&prepared.world)?);
+        files.extend(observer.finish(&prepared.world)?);
     }
     let wall_s = started.elapsed().as_secs_f64();
     let summary = Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s });
