@@ -457,6 +457,11 @@ impl World {
         self.lanes.iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
     }
 
+    /// Whether its steps are shared among all its threads: where few vehicles drive, one moves them all.
+    pub fn moves_on_all_threads(&self) -> bool {
+        self.pools[pool_for(self.crowd)].threads() > 1
+    }
+
     /// Vehicles that wait to enter.
     pub fn waiting(&self) -> usize {
         self.sources.iter().map(Source::waiting).sum()

@@ -141,6 +141,36 @@ impl<'a, T: Into<Cell<'a>>> From<Option<T>> for Cell<'a> {
     }
 }
 
+/// The values of one column in several rows, none of them missing but for NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cells<'a> {
+    /// Numbers; NaN is written as missing.
+    F64(&'a [f64]),
+    /// Integers.
+    I64(&'a [i64]),
+    /// Texts.
+    Text(&'a [&'a str]),
+}
+
+impl<'a> Cells<'a> {
+    fn len(&self) -> usize {
+        match self {
+            Cells::F64(values) => values.len(),
+            Cells::I64(values) => values.len(),
+            Cells::Text(values) => values.len(),
+        }
+    }
+
+    /// The value in a row.
+    fn get(&self, row: usize) -> Cell<'a> {
+        match self {
+            Cells::F64(values) => values[row].into(),
+            Cells::I64(values) => values[row].into(),
+            Cells::Text(values) => values[row].into(),
+        }
+    }
+}
+
 /// How a table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -244,6 +274,24 @@ impl TableWriter {
         let written = match &mut self.sink {
             Sink::Csv(sink) => sink.row(cells),
             Sink::Parquet(sink) => sink.row(cells),
+        };
+        written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
+    }
+
+    /// Appends several rows, given by their columns of the same length.
+    ///
+    /// # Errors
+    /// If the cells do not fit the columns, which leaves the table as it was; or if the file cannot be written.
+    pub fn rows(&mut self, columns: &[Cells<'_>]) -> Result<(), TableError> {
+        let count = columns.first().map_or(0, Cells::len);
+        if count == 0 {
+            return Ok(());
+        }
+        let first: Vec<Cell> = columns.iter().filter(|it| it.len() == count).map(|it| it.get(0)).collect();
+        self.check(&first)?;
+        let written = match &mut self.sink {
+            Sink::Csv(sink) => sink.rows(count, columns),
+            Sink::Parquet(sink) => sink.rows(count, columns),
         };
         written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
     }

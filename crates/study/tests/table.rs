@@ -3,7 +3,7 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use laneweave_study::{Cell, Column, Format, TableError, TableWriter};
+use laneweave_study::{Cell, Cells, Column, Format, TableError, TableWriter};
 use parquet::basic::Encoding;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
@@ -159,6 +159,42 @@ fn parquet_keeps_repeated_texts_in_a_dictionary() {
     let class = reader.metadata().row_group(0).column(2);
     assert!(class.encodings().any(|it| it == Encoding::RLE_DICTIONARY));
     assert!(class.uncompressed_size() < 2000, "{} bytes", class.uncompressed_size());
+}
+
+#[test]
+fn rows_that_are_given_by_columns_are_the_same_as_one_by_one() {
+    let columns = [Column::real("x_m"), Column::integer("vehicle"), Column::text("class")];
+    let folder = folder("columns");
+    let x: Vec<f64> = (0..20_000).map(|it| if it % 700 == 3 { f64::NAN } else { f64::from(it) }).collect();
+    let vehicles: Vec<i64> = (0..20_000).map(|it| it % 90).collect();
+    let classes: Vec<&str> = (0..20_000).map(|it| ["car", "", "truck"][it % 3]).collect();
+    for (format, name) in [(Format::Csv, "csv"), (Format::Parquet, "parquet")] {
+        let [one, many] = ["one", "many"].map(|it| folder.join(format!("{it}.{name}")));
+        let mut table = TableWriter::create(&one, format, &columns).unwrap();
+        for row in 0..x.len() {
+            table.row(&[x[row].into(), vehicles[row].into(), classes[row].into()]).unwrap();
+        }
+        table.finish().unwrap();
+        let mut table = TableWriter::create(&many, format, &columns).unwrap();
+        table.row(&[x[0].into(), vehicles[0].into(), classes[0].into()]).unwrap();
+        for part in [1..2, 2..2, 2..16_000, 16_000..20_000] {
+            let columns = [Cells::F64(&x[part.clone()]), Cells::I64(&vehicles[part.clone()]), Cells::Text(&classes[part])];
+            table.rows(&columns).unwrap();
+        }
+        let wrong = table.rows(&[Cells::F64(&x), Cells::I64(&vehicles[1..]), Cells::Text(&classes)]);
+        assert!(matches!(wrong, Err(TableError::Width { cells: 2, columns: 3, .. })));
+        table.finish().unwrap();
+        if format == Format::Csv {
+            assert_eq!(fs::read(&one).unwrap(), fs::read(&many).unwrap());
+            continue;
+        }
+        let [one, many] = [one, many].map(|it| {
+            let reader = SerializedFileReader::new(File::open(it).unwrap()).unwrap();
+            let rows: Vec<String> = reader.get_row_iter(None).unwrap().map(|it| it.unwrap().to_string()).collect();
+            rows
+        });
+        assert_eq!((one.len(), one), (20_000, many));
+    }
 }
 
 #[test]

@@ -2,18 +2,22 @@
 //!
 //! The world is copied while it waits; what it takes to find the bodies is left to the thread that writes.
 
+use std::mem;
+use std::num::NonZero;
+use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
+use std::thread::available_parallelism;
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
 use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_between};
 
 use super::Observer;
 use super::names::Names;
-use super::scribe::{Page, Pen};
+use super::scribe::{Page, Pen, THREADS};
 use crate::fault::Fault;
 
-/// Vehicles in a page, or a few more: those of one instant are not parted.
-const PAGE: usize = 4096;
+/// Vehicles in a page, or a few more: those of one instant are not parted. As many as fill a group of rows of the table.
+const PAGE: usize = 1 << 14;
 
 /// Vehicles at some instants.
 #[derive(Clone, Debug, Default)]
@@ -80,10 +84,12 @@ impl Frame {
         instants.push((world.clock().step, seen.len()));
     }
 
-    /// Finds the bodies of all.
+    /// Finds the bodies of all, if that is not done.
     pub(super) fn locate(&mut self, names: &Names) {
         let Frame { seen, across, bodies, .. } = self;
-        bodies.clear();
+        if bodies.len() == seen.len() {
+            return;
+        }
         let mut across = across.iter().peekable();
         bodies.extend(seen.iter().enumerate().map(|(place, it)| {
             let (lanelet, along) = names.network.chain(it.chain).lanelet(it.motion.x);
@@ -102,6 +108,16 @@ impl Frame {
         places.map(|((step, end), begin)| (*step, &self.seen[begin..*end], &self.bodies[begin..*end]))
     }
 
+    /// All that were seen, one instant after the other.
+    pub(super) fn seen(&self) -> &[Seen] {
+        &self.seen
+    }
+
+    /// Their bodies, which must be located.
+    pub(super) fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
     /// Empties it.
     pub(super) fn clear(&mut self) {
         let Frame { instants, seen, across, bodies } = self;
@@ -116,19 +132,39 @@ impl Frame {
 pub(super) struct Samples {
     every: u32,
     frame: Frame,
+    /// The machine has no core to spare for the writers while the world moves on all its threads.
+    is_machine_full: bool,
     pen: Pen,
-    spares: Receiver<Frame>,
+    written: Receiver<Frame>,
+    /// Frames that are handed over and not yet written, and one to go on with.
+    under_way: usize,
+    spare: Frame,
 }
 
 impl Samples {
-    /// Samples at every `every`-th step.
-    pub(super) fn new(every: u32, pen: Pen, spares: Receiver<Frame>) -> Samples {
-        Samples { every, frame: Frame::default(), pen, spares }
+    /// Samples at every `every`-th step a world that moves on `threads` threads. Frames that are `written` come back.
+    pub(super) fn new(every: u32, threads: usize, pen: Pen, written: Receiver<Frame>) -> Samples {
+        let cores = available_parallelism().map_or(1, NonZero::get);
+        let is_machine_full = threads + THREADS > cores;
+        let [frame, spare] = [Frame::default(), Frame::default()];
+        Samples { every, frame, is_machine_full, pen, written, under_way: 0, spare }
     }
 
-    fn hand_over(&mut self) -> Result<(), Fault> {
-        let spare = self.spares.try_recv().unwrap_or_default();
-        self.pen.hand_over(Page::Frame(std::mem::replace(&mut self.frame, spare)))
+    /// Hands the frame over. Threads that move the world spin while they wait for each other: where the writers would take the
+    /// core of one of them, it is better to wait until they have written.
+    fn hand_over(&mut self, world: &World) -> Result<(), Fault> {
+        let full = mem::replace(&mut self.frame, mem::take(&mut self.spare));
+        self.pen.hand_over(Page::Frame(full))?;
+        self.under_way += 1;
+        let must_wait = self.is_machine_full && world.moves_on_all_threads();
+        while self.under_way > 0 {
+            // If the writers broke off, that is known when the next frame is handed over.
+            let frame = if must_wait { self.written.recv().ok() } else { self.written.try_recv().ok() };
+            let Some(frame) = frame else { break };
+            self.under_way -= 1;
+            self.spare = frame;
+        }
+        Ok(())
     }
 }
 
@@ -138,11 +174,11 @@ impl Observer for Samples {
             return Ok(());
         }
         self.frame.sample(world);
-        if self.frame.seen.len() >= PAGE { self.hand_over() } else { Ok(()) }
+        if self.frame.seen.len() >= PAGE { self.hand_over(world) } else { Ok(()) }
     }
 
-    fn finish(mut self: Box<Self>, _world: &World) -> Result<Vec<std::path::PathBuf>, Fault> {
-        self.hand_over()?;
+    fn finish(mut self: Box<Self>, world: &World) -> Result<Vec<PathBuf>, Fault> {
+        self.hand_over(world)?;
         Ok(Vec::new())
     }
 }

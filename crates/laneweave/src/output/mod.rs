@@ -72,10 +72,12 @@ pub fn observers(
     let [begin, duration] =
         [prepared.warmup_steps, prepared.steps].map(|it| f64::from(it) * scenario.run.step_s);
     let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
-    let (scribe, pen, spares) = Scribe::begin(writers(scenario, prepared, &folder)?, Names::of(world))?;
+    let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
+    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world))?;
+    let pen = scribe.pen();
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
-        observers.push(Box::new(Samples::new(steps, pen.clone(), spares)));
+        observers.push(Box::new(Samples::new(steps, prepared.threads, pen.clone(), written)));
     }
     observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
     observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
@@ -86,13 +88,8 @@ pub fn observers(
     Ok(observers)
 }
 
-/// What writes the files of `scenario` that are made while it runs.
-fn writers(
-    scenario: &Scenario,
-    prepared: &Prepared,
-    folder: &Folder,
-) -> Result<Vec<Box<dyn Writer>>, Fault> {
-    let network = prepared.world.network();
+/// What writes the tables.
+fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
     let mut writers: Vec<Box<dyn Writer>> = Vec::new();
     if prepared.record_steps.is_some() {
         writers.push(Box::new(Trajectories::create(folder)?));
@@ -103,16 +100,22 @@ fn writers(
     writers.push(Box::new(LaneChangeTable::create(folder)?));
     writers.push(Box::new(TripTable::create(folder)?));
     writers.push(Box::new(LaneletTable::create(folder)?));
-    for file in &scenario.output.sumo {
-        writers.push(match file {
+    Ok(writers)
+}
+
+/// What writes the files of SUMO that `scenario` asks for.
+fn xml(scenario: &Scenario, prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
+    let network = prepared.world.network();
+    let writer = |file: &SumoFile| -> Result<Box<dyn Writer>, Fault> {
+        Ok(match file {
             SumoFile::Fcd => Box::new(Fcd::create(folder, network)?),
             SumoFile::Tripinfo => Box::new(TripInfo::create(folder)?),
             SumoFile::Lanechange => {
                 Box::new(LaneChangeOutput::create(folder, network.driving_side.overtaking())?)
             }
-        });
-    }
-    Ok(writers)
+        })
+    };
+    scenario.output.sumo.iter().map(writer).collect()
 }
 
 /// The folder of the results, and what is the same for all files in it.

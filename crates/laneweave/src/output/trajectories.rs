@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use laneweave_sim::Phase;
-use laneweave_study::{Cell, Column, TableWriter};
+use laneweave_study::{Cells, Column, TableWriter};
 
 use super::Folder;
-use super::frame::{Body, Seen};
 use super::names::Names;
 use super::scribe::{Page, Writer};
 use crate::fault::Fault;
@@ -35,25 +34,64 @@ const COLUMNS: [Column; 16] = [
 pub(super) struct Trajectories {
     table: TableWriter,
     path: PathBuf,
+    /// Room for the columns of numbers and of integers.
+    numbers: [Vec<f64>; 11],
+    integers: [Vec<i64>; 2],
 }
 
 impl Trajectories {
     /// Begins the table in `folder`.
     pub(super) fn create(folder: &Folder) -> Result<Trajectories, Fault> {
         let (table, path) = folder.table("trajectories", &COLUMNS)?;
-        Ok(Trajectories { table, path })
+        Ok(Trajectories { table, path, numbers: Default::default(), integers: Default::default() })
     }
 }
 
 impl Writer for Trajectories {
     fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
         let Page::Frame(frame) = page else { return Ok(()) };
-        for (step, seen, bodies) in frame.instants() {
-            let time = f64::from(step) * names.step_s;
-            for (seen, body) in seen.iter().zip(bodies) {
-                self.table.row(&row(time, seen, body, names))?;
-            }
+        let (seen, bodies) = (frame.seen(), frame.bodies());
+        let Trajectories { table, numbers, integers, .. } = self;
+        numbers.iter_mut().for_each(Vec::clear);
+        let [time, along, offset, x, y, z, heading, speed, acceleration, length, width] = numbers;
+        for (step, here, _) in frame.instants() {
+            time.resize(time.len() + here.len(), f64::from(step) * names.step_s);
         }
+        along.extend(bodies.iter().map(|it| it.along));
+        offset.extend(bodies.iter().map(|it| it.offset));
+        x.extend(bodies.iter().map(|it| it.pose.at.x));
+        y.extend(bodies.iter().map(|it| it.pose.at.y));
+        z.extend(bodies.iter().map(|it| it.pose.at.z));
+        heading.extend(bodies.iter().map(|it| it.pose.heading));
+        speed.extend(seen.iter().map(|it| it.motion.speed));
+        acceleration.extend(seen.iter().map(|it| f64::from(it.motion.acceleration)));
+        length.extend(seen.iter().map(|it| it.class.body().length));
+        width.extend(seen.iter().map(|it| it.class.body().width));
+        integers.iter_mut().for_each(Vec::clear);
+        let [vehicle, lanelet] = integers;
+        vehicle.extend(seen.iter().map(|it| i64::from(it.motion.id)));
+        lanelet.extend(bodies.iter().map(|it| names.network.lanelets[it.lanelet.at()].id));
+        let class: Vec<&str> = seen.iter().map(|it| it.class.body().name).collect();
+        let style: Vec<&str> = seen.iter().map(|it| names.style(it.character)).collect();
+        let state: Vec<&str> = seen.iter().map(|it| state(it.phase)).collect();
+        table.rows(&[
+            Cells::F64(time),
+            Cells::I64(vehicle),
+            Cells::Text(&class),
+            Cells::Text(&style),
+            Cells::I64(lanelet),
+            Cells::F64(along),
+            Cells::F64(offset),
+            Cells::F64(x),
+            Cells::F64(y),
+            Cells::F64(z),
+            Cells::F64(heading),
+            Cells::F64(speed),
+            Cells::F64(acceleration),
+            Cells::F64(length),
+            Cells::F64(width),
+            Cells::Text(&state),
+        ])?;
         Ok(())
     }
 
@@ -61,30 +99,6 @@ impl Writer for Trajectories {
         self.table.finish()?;
         Ok(self.path)
     }
-}
-
-fn row<'a>(time: f64, seen: &Seen, body: &Body, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
-    let Seen { motion, class, .. } = seen;
-    let Body { lanelet, along, offset, pose, .. } = body;
-    let class = class.body();
-    [
-        time.into(),
-        motion.id.into(),
-        class.name.into(),
-        names.style(seen.character).into(),
-        names.network.lanelets[lanelet.at()].id.into(),
-        (*along).into(),
-        (*offset).into(),
-        pose.at.x.into(),
-        pose.at.y.into(),
-        pose.at.z.into(),
-        pose.heading.into(),
-        motion.speed.into(),
-        f64::from(motion.acceleration).into(),
-        class.length.into(),
-        class.width.into(),
-        state(seen.phase).into(),
-    ]
 }
 
 fn state(phase: Phase) -> &'static str {

@@ -46,7 +46,8 @@ impl XmlFile {
 
     /// A number with two decimals.
     pub(super) fn number(&mut self, value: f64) -> &mut XmlFile {
-        self.hundredths((100.0 * value).round() as i64)
+        // To the nearer one; the library's rounding takes as long as all the rest.
+        self.hundredths((100.0 * value + 0.5_f64.copysign(value)) as i64)
     }
 
     /// A time [s] with two decimals, or with three where a step takes no whole hundredths.
