@@ -20,7 +20,7 @@ use crate::fault::Fault;
 
 /// Pages that wait for a thread.
 const WAITING: usize = 2;
-/// Threads that write, at most: one for the XML files, which passes all pages on to one for the tables.
+/// Threads that write, at most: one for the tables, which passes all pages on to one for the XML files.
 pub(super) const THREADS: usize = 2;
 
 /// What was seen, in plain numbers.
@@ -79,7 +79,7 @@ impl Scribe {
         let (written, spares) = channel();
         let (names, fault) = (Arc::new(names), Arc::new(OnceLock::new()));
         let (mut threads, mut next) = (Vec::new(), None);
-        let stages = [("tables", tables), ("xml", xml)];
+        let stages = [("xml", xml), ("tables", tables)];
         for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
             let (pages, received) = sync_channel(WAITING);
             let pen = Pen { pages, fault: Arc::clone(&fault) };
@@ -111,7 +111,8 @@ impl Scribe {
     fn join(threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>) -> Result<Vec<PathBuf>, Fault> {
         let ended: Vec<_> =
             threads.into_iter().map(|it| it.join().unwrap_or_else(|_| Err(broke_off()))).collect();
-        let files: Result<Vec<Vec<PathBuf>>, Fault> = ended.into_iter().collect();
+        // The tables, whose thread was begun last, stand first.
+        let files: Result<Vec<Vec<PathBuf>>, Fault> = ended.into_iter().rev().collect();
         Ok(files?.concat())
     }
 }

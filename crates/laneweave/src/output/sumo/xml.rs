@@ -11,6 +11,8 @@ use crate::output::Provenance;
 
 /// Text that is collected before it is written [bytes].
 const BUFFER: usize = 1 << 18;
+/// Digits of a number, with sign and point.
+const DIGITS: usize = 24;
 /// Room for a line, so that the text never has to move [bytes].
 const LINE: usize = 1 << 10;
 
@@ -61,13 +63,29 @@ impl XmlFile {
     }
 
     fn hundredths(&mut self, value: i64) -> &mut XmlFile {
-        if value < 0 {
-            self.text.push(b'-');
+        // Written from the end on: most of a file is such numbers, and this is the shortest way.
+        let mut digits = [0; DIGITS];
+        let (mut at, mut left) = (DIGITS, value.unsigned_abs());
+        let mut digit = |digit: u8| {
+            at -= 1;
+            digits[at] = digit;
+        };
+        for _ in 0..2 {
+            digit(b'0' + (left % 10) as u8);
+            left /= 10;
         }
-        let value = value.unsigned_abs();
-        let (whole, part) = (value / 100, (value % 100) as u8);
-        self.integer(whole);
-        self.text.extend_from_slice(&[b'.', b'0' + part / 10, b'0' + part % 10]);
+        digit(b'.');
+        loop {
+            digit(b'0' + (left % 10) as u8);
+            left /= 10;
+            if left == 0 {
+                break;
+            }
+        }
+        if value < 0 {
+            digit(b'-');
+        }
+        self.text.extend_from_slice(&digits[at..]);
         self
     }
 
