@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use laneweave::output::{Flows, Observer};
-use laneweave::scenario::{Origin, Scenario, prepare};
+use laneweave::output::{Provenance, observers};
+use laneweave::scenario::{Origin, Scenario, TableFormat, prepare};
 use laneweave::simulation::simulate;
-use laneweave::study::Format;
 
 /// Seconds that all vehicles spent on the lanelets, and metres that they drove there, from the rows of the table; and the same
 /// as the world counted them, with the number of those who left.
@@ -16,15 +15,18 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     scenario.demand.vehicles_per_hour = Some(demand);
     (scenario.run.warmup_s, scenario.run.duration_s) = (60.0, 200.0);
     let dir = std::env::temp_dir().join(format!("laneweave-flows-{}-{map}", std::process::id()));
-    std::fs::create_dir_all(&dir).expect("it can be done");
+    scenario.output.dir = dir.clone();
+    scenario.output.format = TableFormat::Csv;
+    (scenario.output.record_s, scenario.output.flows_s) = (0.0, f64::from(every) * 0.1);
+    let provenance = Provenance::of(&scenario, String::new(), []).expect("it can be done");
     let mut prepared = prepare(&scenario, &Origin::default()).expect("it can be done");
-    let flows =
-        Flows::create(&dir, Format::Csv, &prepared.world, every, [600, 2600]).expect("it can be done");
-    let mut observers: Vec<Box<dyn Observer>> = vec![Box::new(flows)];
+    let mut observers = observers(&scenario, &prepared, &provenance).expect("it can be done");
     simulate(&mut prepared, &mut observers, |_| true, || ()).expect("it can be done");
     let world = &prepared.world;
-    let file = observers.remove(0).finish(world).expect("it can be done");
-    let table = std::fs::read_to_string(file).expect("it can be done");
+    for observer in observers {
+        observer.finish(world).expect("it can be done");
+    }
+    let table = std::fs::read_to_string(dir.join("flows.csv")).expect("it can be done");
     std::fs::remove_dir_all(&dir).expect("it can be done");
     let lengths: HashMap<String, f64> =
         world.network().lanelets.iter().map(|it| (it.id.to_string(), it.length())).collect();

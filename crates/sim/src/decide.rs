@@ -93,6 +93,9 @@ pub(crate) fn consider(
     if note.standing > 0.0 && car.standing == 0.0 {
         outbox.halts.push(motion.id);
     }
+    if note.standing == 0.0 && car.standing > 0.0 {
+        outbox.set_off.push((motion.id, car.standing));
+    }
     push_tight(&mut plan.notes, note);
     let mut concern = Concern {
         index: note.index,
@@ -115,14 +118,14 @@ pub(crate) fn consider(
         let from = if has_another_way { beyond } else { motion.x };
         concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
         concern.gives_up = true;
-        outbox.tally.missed_turns += 1;
+        outbox.count_missed_turn(motion.id);
         push_tight(&mut plan.concerns, concern);
         return;
     }
     // Who passed the last place goes round, if there is a way round; if not, it has a passage, and is re-routed beyond.
     let leads_on = waypoint.leads_on(motion.x);
-    if leads_on && matches!(waypoint, Cow::Owned(_)) {
-        outbox.tally.missed_turns += u64::from(scene.mind(spot).last_place < motion.x);
+    if leads_on && matches!(waypoint, Cow::Owned(_)) && scene.mind(spot).last_place < motion.x {
+        outbox.count_missed_turn(motion.id);
     }
     if leads_on && waypoint.last_place - motion.x < HEEDED_WITHIN {
         concern.last_place = waypoint.last_place;
@@ -139,7 +142,9 @@ pub(crate) fn consider(
     let change = model(style, state);
     let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
     if let Some(way) = departure(scene, moment, spot, &outlook, &change, epochs) {
-        outbox.tally.route_changes += u64::from(way.is_change);
+        if way.is_change {
+            outbox.count_route_change(motion.id);
+        }
         push_tight(
             &mut plan.concerns,
             Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern },

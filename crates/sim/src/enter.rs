@@ -25,7 +25,7 @@ impl World {
         }
         let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
         let time = self.clock.time();
-        for source in &mut sources {
+        for (origin, source) in sources.iter_mut().enumerate() {
             let scene = self.scene();
             let mut next_id = self.next_id;
             let metering = self.metering.as_ref();
@@ -34,9 +34,12 @@ impl World {
             for queue in source.queues() {
                 while let Some(place) = queue.first(is_full)
                     && let Some(vehicle) = self.admit(queue, &queue.waiting[place])
-                    && let Some(Arrival { id, .. }) = queue.waiting.remove(place)
+                    && let Some(Arrival { id, time, .. }) = queue.waiting.remove(place)
                 {
-                    self.put(vehicle, id);
+                    self.put(vehicle, id, time);
+                    if let Some(record) = self.record_mut(id) {
+                        record.origin = Some(origin);
+                    }
                     self.events.push(Event::Entered(id));
                 }
             }

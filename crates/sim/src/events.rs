@@ -4,6 +4,7 @@ use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side};
 use serde::{Deserialize, Serialize};
 
+use crate::journal::TripRecord;
 use crate::traffic::{Kind, Motion, VehicleId};
 
 /// Something that happened in a step.
@@ -21,6 +22,8 @@ pub enum Event {
         chain: ChainIndex,
         /// How it moved in its last step, which may have ended beyond the chain.
         motion: Motion,
+        /// The record of its trip, where trips are recorded.
+        trip: Option<TripRecord>,
     },
     /// A lane change is completed, or was aborted.
     LaneChange(LaneChange),

@@ -84,6 +84,10 @@ pub(crate) struct Outbox {
     pub(crate) tally: Tally,
     /// Vehicles that came to a halt.
     pub(crate) halts: Vec<VehicleId>,
+    /// Vehicles that drive on after they stood for so long [s].
+    pub(crate) set_off: Vec<(VehicleId, f32)>,
+    /// Drivers who took another route.
+    pub(crate) reroutings: Vec<(VehicleId, Rerouting)>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
     /// Lanes that had no vehicles when they were to be moved.
@@ -91,6 +95,18 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
+    /// Counts a turn that a driver missed.
+    pub(crate) fn count_missed_turn(&mut self, id: VehicleId) {
+        self.tally.missed_turns += 1;
+        self.reroutings.push((id, Rerouting::MissedTurn));
+    }
+
+    /// Counts that a driver left its route for a better one.
+    pub(crate) fn count_route_change(&mut self, id: VehicleId) {
+        self.tally.route_changes += 1;
+        self.reroutings.push((id, Rerouting::Choice));
+    }
+
     /// Takes over all that is in `other`.
     pub(crate) fn gather(&mut self, other: &mut Outbox) {
         take_over(&mut self.requests, &mut other.requests);
@@ -103,6 +119,8 @@ impl Outbox {
         take_over(&mut self.wants, &mut other.wants);
         take_over(&mut self.rings, &mut other.rings);
         take_over(&mut self.halts, &mut other.halts);
+        take_over(&mut self.set_off, &mut other.set_off);
+        take_over(&mut self.reroutings, &mut other.reroutings);
         take_over(&mut self.arrived, &mut other.arrived);
         take_over(&mut self.empty, &mut other.empty);
     }
@@ -113,6 +131,15 @@ fn take_over<T>(list: &mut Vec<T>, other: &mut Vec<T>) {
     if !other.is_empty() {
         list.append(other);
     }
+}
+
+/// Why a driver took another route.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rerouting {
+    /// It missed a turn.
+    MissedTurn,
+    /// The other is better.
+    Choice,
 }
 
 /// What became in a step of an entry that does not only follow.

@@ -8,13 +8,22 @@ use crate::traffic::{Entry, Motion};
 use crate::trail::Trail;
 
 /// Pose of the centre of the vehicle whose main entry is `spot`.
-///
-/// In a lane change its front and rear bumpers both lie on the path: the rear bumper follows the front one, so that a
-/// long vehicle does not swing out.
 pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
+    between(bumpers(scene, spot))
+}
+
+/// Pose of the centre of a vehicle between the middles of its front and its rear bumper.
+pub fn between([front, rear]: [Point; 2]) -> Pose {
+    Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
+}
+
+/// The middles of the front and the rear bumper of the vehicle whose main entry is `spot`.
+///
+/// In a lane change both lie on the path: the rear bumper follows the front one, so that a long vehicle does not swing out.
+pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
     let Entry { motion, mind, .. } = &entry;
-    let [front, rear] = match mind.twin {
+    match mind.twin {
         Some(twin) => {
             let [share_of_front, share_of_rear] = shares(scene, &entry);
             let between = |x: f64, twin_x: f64, share: f64| {
@@ -30,8 +39,13 @@ pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
             let at = |x: f64, offset: f64| on_path(network, spot.chain, mind.trail, x, offset);
             [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
         }
-    };
-    Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
+    }
+}
+
+/// The middles of the front and the rear bumper of a vehicle that moves on `chain` and keeps its lane, and came there over
+/// `trail`.
+pub fn bumpers_in_lane(network: &Network, chain: ChainIndex, trail: Trail, motion: &Motion) -> [Point; 2] {
+    [motion.x, motion.rear()].map(|it| on_path(network, chain, trail, it, 0.0))
 }
 
 /// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres for

@@ -7,10 +7,11 @@ use laneweave_network::ChainIndex;
 use crate::attention::concentration;
 use crate::events::{Event, LaneChange};
 use crate::gap::gap;
+use crate::journal::TripRecord;
 use crate::junction::NO_PASSAGE;
 use crate::plan::{Ask, Request, Want};
 use crate::scene::Spot;
-use crate::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin};
+use crate::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin, VehicleId};
 use crate::trail::Trail;
 use crate::world::World;
 
@@ -19,7 +20,14 @@ impl World {
     pub(crate) fn gather(&mut self) {
         let [first, others @ ..] = &mut self.outboxes[..] else { return };
         others.iter_mut().for_each(|it| first.gather(it));
+        if let Some(journal) = &mut self.journal {
+            first.halts.iter().for_each(|id| journal.stop(*id));
+            first.set_off.iter().for_each(|(id, stood)| journal.set_off(*id, f64::from(*stood)));
+            first.reroutings.iter().for_each(|(id, why)| journal.reroute(*id, *why));
+        }
         first.halts.drain(..).for_each(|id| self.trips.stop(id));
+        first.set_off.clear();
+        first.reroutings.clear();
         first.empty.drain(..).for_each(|chain| self.busy.forget(chain));
     }
 
@@ -181,9 +189,14 @@ impl World {
                 record.is_completed = true;
                 record.to = milestone.at;
                 record.from = milestone.shadow.unwrap_or(milestone.at);
+                let jump = record.from.1 - record.to.1;
                 match record.kind {
                     crate::traffic::Kind::Discretionary => self.counts.discretionary_changes += 1,
                     crate::traffic::Kind::Route => self.counts.route_changes += 1,
+                }
+                if let Some(trip) = self.record_mut(milestone.id) {
+                    trip.way_to_start += jump;
+                    trip.lane_changes += 1;
                 }
             }
             Reached::End | Reached::Return => {
@@ -271,6 +284,11 @@ impl World {
         entry.motion.x -= length;
         entry.mind.last_place -= length;
         entry.mind.trail = entry.mind.trail.left(from);
+        if !entry.car.is_shadow
+            && let Some(trip) = self.record_mut(entry.motion.id)
+        {
+            trip.way_to_start += length;
+        }
         let limit = self.network.chain(next).limit(entry.motion.x);
         let style = &self.characters[entry.car.character as usize];
         entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
@@ -313,7 +331,13 @@ impl World {
             self.counts.planned += 1;
             self.counts.delay += delay;
         }
-        self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion });
+        let trip = self.journal.as_mut().and_then(|it| it.end(motion.id));
+        self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion, trip });
+    }
+
+    /// The record of the trip of a vehicle on the road, where trips are recorded.
+    pub(crate) fn record_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
+        self.journal.as_mut()?.of_mut(id)
     }
 
     /// Tells the other entry of a vehicle where this one stands now.

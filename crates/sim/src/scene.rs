@@ -126,6 +126,11 @@ impl<'a> Scene<'a> {
         self.lanes[chain.at()].cars()
     }
 
+    /// The warm parts of the drivers on `chain`, the foremost last.
+    pub fn minds(&self, chain: ChainIndex) -> &'a [Mind] {
+        self.lanes[chain.at()].minds()
+    }
+
     /// What a light shows.
     #[inline]
     pub fn light(&self, light: LightIndex) -> LightState {

@@ -26,6 +26,8 @@ pub const TAKES_LANE_WITHIN: f64 = 800.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Arrival {
     pub(crate) id: VehicleId,
+    /// When it came [s].
+    pub(crate) time: f64,
     pub(crate) class: Class,
     pub(crate) character: u32,
     pub(crate) destination: Destination,
@@ -146,7 +148,8 @@ impl Source {
             (first.next <= time).then_some(index)
         };
         while let Some(stream) = due(self) {
-            let mut arrival = self.draw(scene.navigator, demand, random, *next_id);
+            let came = self.streams[stream].next;
+            let mut arrival = self.draw(scene.navigator, demand, random, (*next_id, came));
             *next_id += 1;
             self.streams[stream].arrived += 1;
             self.draw_next(stream, random);
@@ -158,7 +161,14 @@ impl Source {
         }
     }
 
-    fn draw(&self, navigator: &Navigator, demand: &Demand, random: &Random, id: VehicleId) -> Arrival {
+    /// Draws the vehicle `id` that comes at `time` [s].
+    fn draw(
+        &self,
+        navigator: &Navigator,
+        demand: &Demand,
+        random: &Random,
+        (id, time): (VehicleId, f64),
+    ) -> Arrival {
         let uniform = |purpose| random.uniform(id, purpose, 0);
         let class = demand.fleet.class(uniform(Purpose::Class));
         let total: f64 = demand.population.iter().map(|it| it.weight).sum();
@@ -178,7 +188,7 @@ impl Source {
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
         let destination = navigator.seen_by(class, destination);
-        Arrival { id, class, character, destination, is_through_town: false }
+        Arrival { id, time, class, character, destination, is_through_town: false }
     }
 
     /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long

@@ -27,6 +27,11 @@ impl Trail {
         (self.last != Trail::UNKNOWN).then_some(ChainIndex(self.last))
     }
 
+    /// The chains that it is known to have come over, the latest first.
+    pub fn known(self) -> impl Iterator<Item = ChainIndex> {
+        [self.last, self.before].into_iter().take_while(|it| *it != Trail::UNKNOWN).map(ChainIndex)
+    }
+
     /// The chains before `chain`, the nearest first: those that are known, then those that there is no choice of.
     pub(crate) fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
         let mut known = [self.last, self.before].into_iter();

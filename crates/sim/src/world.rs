@@ -1,7 +1,9 @@
 //! The world and its step.
 
+use std::sync::Arc;
+
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network, Pose};
+use laneweave_network::{ChainIndex, Network, Point, Pose};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use xxhash_rust::xxh3::Xxh3;
@@ -17,13 +19,14 @@ use crate::drive::drive;
 use crate::events::Event;
 use crate::guidance::Guidance;
 use crate::headways::HeadwayError;
+use crate::journal::{Journal, TripRecord};
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::metering::Metering;
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
 use crate::plan::{Outbox, Plan};
 use crate::pool::Pool;
-use crate::pose::{lateral_offset, pose};
+use crate::pose::{bumpers, lateral_offset, pose};
 use crate::random::Random;
 use crate::records::Records;
 use crate::scene::{Scene, Spot};
@@ -39,7 +42,7 @@ use crate::views::Views;
 
 /// Traffic on a network, and all that moves it.
 pub struct World {
-    pub(crate) network: Network,
+    pub(crate) network: Arc<Network>,
     pub(crate) navigator: Navigator,
     pub(crate) characters: Vec<Style>,
     pub(crate) clock: Clock,
@@ -50,6 +53,8 @@ pub struct World {
     pub(crate) signals: Signals,
     pub(crate) records: Records,
     pub(crate) trips: Trips,
+    /// Where trips are recorded.
+    pub(crate) journal: Option<Journal>,
     pub(crate) events: Vec<Event>,
     pub(crate) counts: Counts,
     /// One for each thread.
@@ -167,11 +172,12 @@ impl World {
     /// # Errors
     /// If the step is not between 0.01 and 1 s, there are no characters, the demand is no demand, or has too many destinations.
     pub fn new(
-        network: Network,
+        network: impl Into<Arc<Network>>,
         characters: Vec<Style>,
         demand: Demand,
         setup: Setup,
     ) -> Result<World, WorldError> {
+        let network = network.into();
         if !(0.01..=1.0).contains(&setup.step) {
             return Err(WorldError::Step(setup.step));
         }
@@ -209,6 +215,7 @@ impl World {
             guidance: None,
             records: Records::default(),
             trips: Trips::default(),
+            journal: None,
             events: Vec::new(),
             counts: Counts::default(),
             outboxes: (0..setup.threads.max(1)).map(|_| Outbox::default()).collect(),
@@ -233,6 +240,12 @@ impl World {
             self.guidance = Some(Guidance::new(self.navigator.links(), self.clock.steps(interval)));
         }
         Ok(self)
+    }
+
+    /// The same world, which records every trip until it ends.
+    pub fn with_journal(mut self) -> World {
+        self.journal = Some(Journal::default());
+        self
     }
 
     /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
@@ -271,7 +284,7 @@ impl World {
         } = self;
         let chosen = busy.chosen();
         let (passages, signals) = (&*passages, &*signals);
-        let (network, navigator, characters) = (&*network, &*navigator, &characters[..]);
+        let (network, navigator, characters) = (&**network, &*navigator, &characters[..]);
         let moment = Moment { clock: *clock, random: *random, overtaking: network.driving_side.overtaking() };
         self.pools[pool_for(self.crowd)].look_then_act(
             outboxes,
@@ -301,11 +314,12 @@ impl World {
     pub fn place(&mut self, vehicle: NewVehicle) -> VehicleId {
         let id = self.next_id;
         self.next_id += 1;
-        self.put(vehicle, id);
+        self.put(vehicle, id, self.clock.time());
         id
     }
 
-    pub(crate) fn put(&mut self, vehicle: NewVehicle, id: VehicleId) {
+    /// Puts a vehicle on the road that came at the time `arrived` [s].
+    pub(crate) fn put(&mut self, vehicle: NewVehicle, id: VehicleId, arrived: f64) {
         let NewVehicle { chain, x, speed, class, character, destination } = vehicle;
         let style = &self.characters[character as usize];
         let body = class.body();
@@ -313,7 +327,21 @@ impl World {
         let period = self.clock.steps(style.attention.epoch);
         let destination = self.navigator.seen_by(class, destination);
         let desires = |limit| class.desired_speed(style, limit);
-        self.trips.begin(id, free_time(&self.network, &self.navigator, destination, (chain, x), desires));
+        let free_time = free_time(&self.network, &self.navigator, destination, (chain, x), desires);
+        self.trips.begin(id, free_time);
+        if let Some(journal) = &mut self.journal {
+            let entered = self.clock.time();
+            let destination = self.navigator.number(destination);
+            journal.begin(TripRecord {
+                arrived,
+                entered,
+                from: (chain, x),
+                speed,
+                destination,
+                free_time,
+                ..TripRecord::of(id, class, character)
+            });
+        }
         let motion = Motion { x, speed, acceleration: 0.0, tightness: 1.0, length: body.length as f32, id };
         let car = Car {
             desired,
@@ -391,6 +419,11 @@ impl World {
         Ok(())
     }
 
+    /// The record of the trip of a vehicle on the road, where trips are recorded.
+    pub fn trip(&self, id: VehicleId) -> Option<&TripRecord> {
+        self.journal.as_ref()?.of(id)
+    }
+
     /// What happened in the last step.
     pub fn events(&self) -> &[Event] {
         &self.events
@@ -404,6 +437,11 @@ impl World {
     /// The roads.
     pub fn network(&self) -> &Network {
         &self.network
+    }
+
+    /// The roads, for those who need them beyond the world: they never change.
+    pub fn shared_network(&self) -> Arc<Network> {
+        Arc::clone(&self.network)
     }
 
     /// Who comes, from where and to where.
@@ -449,6 +487,11 @@ impl World {
     /// Vehicles on the road.
     pub fn on_road(&self) -> usize {
         self.lanes.iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
+    }
+
+    /// Whether its steps are shared among all its threads: where few vehicles drive, one moves them all.
+    pub fn moves_on_all_threads(&self) -> bool {
+        self.pools[pool_for(self.crowd)].threads() > 1
     }
 
     /// Vehicles that wait to enter.
@@ -529,6 +572,11 @@ impl Vehicle<'_> {
     /// Where its body is.
     pub fn pose(&self) -> Pose {
         pose(&self.world.scene(), self.spot)
+    }
+
+    /// The middles of its front and its rear bumper.
+    pub fn bumpers(&self) -> [Point; 2] {
+        bumpers(&self.world.scene(), self.spot)
     }
 
     /// How far it is to the left of the centre of its lane [m].

@@ -14,4 +14,4 @@ pub use figures::{Mark, RateSeries, Sample, escaped, rate_density, text_width, t
 pub use rate::{RatePoint, rate_by_density};
 pub use signal::{Signal, SignalQueue};
 pub use statistics::{Estimate, Interval, geh, mean, poisson_interval, required_replications};
-pub use table::{Cell, Column, Format, Kind, TableError, TableWriter};
+pub use table::{Cell, Cells, Column, Format, Kind, PartialFile, TableError, TableWriter};

@@ -40,7 +40,8 @@ use thiserror::Error;
 
 use self::csv::CsvSink;
 use self::parquet::ParquetSink;
-use self::partial::PartialFile;
+
+pub use self::partial::PartialFile;
 
 /// What the cells of a column hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,22 +61,29 @@ pub struct Column {
     pub name: &'static str,
     /// What its cells hold.
     pub kind: Kind,
+    /// Its values come again and again, so that a dictionary saves room.
+    pub repeats: bool,
 }
 
 impl Column {
-    /// A column of floating-point numbers.
+    /// A column of floating-point numbers, most of which come once.
     pub const fn real(name: &'static str) -> Column {
-        Column { name, kind: Kind::F64 }
+        Column { name, kind: Kind::F64, repeats: false }
     }
 
-    /// A column of integers.
+    /// A column of integers, which come again and again.
     pub const fn integer(name: &'static str) -> Column {
-        Column { name, kind: Kind::I64 }
+        Column { name, kind: Kind::I64, repeats: true }
     }
 
-    /// A column of text.
+    /// A column of text, which comes again and again.
     pub const fn text(name: &'static str) -> Column {
-        Column { name, kind: Kind::Text }
+        Column { name, kind: Kind::Text, repeats: true }
+    }
+
+    /// The same column, whose values come again and again.
+    pub const fn repeating(self) -> Column {
+        Column { repeats: true, ..self }
     }
 }
 
@@ -133,12 +141,42 @@ impl<'a, T: Into<Cell<'a>>> From<Option<T>> for Cell<'a> {
     }
 }
 
+/// The values of one column in several rows, none of them missing but for NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cells<'a> {
+    /// Numbers; NaN is written as missing.
+    F64(&'a [f64]),
+    /// Integers.
+    I64(&'a [i64]),
+    /// Texts.
+    Text(&'a [&'a str]),
+}
+
+impl<'a> Cells<'a> {
+    fn len(&self) -> usize {
+        match self {
+            Cells::F64(values) => values.len(),
+            Cells::I64(values) => values.len(),
+            Cells::Text(values) => values.len(),
+        }
+    }
+
+    /// The value in a row.
+    fn get(&self, row: usize) -> Cell<'a> {
+        match self {
+            Cells::F64(values) => values[row].into(),
+            Cells::I64(values) => values[row].into(),
+            Cells::Text(values) => values[row].into(),
+        }
+    }
+}
+
 /// How a table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Comma-separated values with a header; numbers in their shortest form that reads back exactly.
     Csv,
-    /// Apache Parquet, uncompressed, repeated values by dictionary.
+    /// Apache Parquet, uncompressed, repeating values by dictionary.
     Parquet,
 }
 
@@ -204,11 +242,24 @@ impl TableWriter {
     /// # Errors
     /// If the file cannot be created or written.
     pub fn create(path: &Path, format: Format, columns: &[Column]) -> Result<TableWriter, TableError> {
+        TableWriter::create_with(path, format, columns, &[])
+    }
+
+    /// The same with `notes` about the table, keys with their values, where the format has a place for them: in Parquet.
+    ///
+    /// # Errors
+    /// If the file cannot be created or written.
+    pub fn create_with(
+        path: &Path,
+        format: Format,
+        columns: &[Column],
+        notes: &[(&str, &str)],
+    ) -> Result<TableWriter, TableError> {
         let (file, output) = PartialFile::create(path)
             .map_err(|source| TableError::Create { path: path.to_owned(), source })?;
         let sink = match format {
             Format::Csv => Ok(Sink::Csv(CsvSink::new(output, columns))),
-            Format::Parquet => ParquetSink::new(output, columns).map(Sink::Parquet),
+            Format::Parquet => ParquetSink::new(output, columns, notes).map(Sink::Parquet),
         };
         let sink = sink.map_err(|source| TableError::Write { path: path.to_owned(), source })?;
         Ok(TableWriter { columns: columns.to_vec(), sink, file })
@@ -223,6 +274,24 @@ impl TableWriter {
         let written = match &mut self.sink {
             Sink::Csv(sink) => sink.row(cells),
             Sink::Parquet(sink) => sink.row(cells),
+        };
+        written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
+    }
+
+    /// Appends several rows, given by their columns of the same length.
+    ///
+    /// # Errors
+    /// If the cells do not fit the columns, which leaves the table as it was; or if the file cannot be written.
+    pub fn rows(&mut self, columns: &[Cells<'_>]) -> Result<(), TableError> {
+        let count = columns.first().map_or(0, Cells::len);
+        if count == 0 {
+            return Ok(());
+        }
+        let first: Vec<Cell> = columns.iter().filter(|it| it.len() == count).map(|it| it.get(0)).collect();
+        self.check(&first)?;
+        let written = match &mut self.sink {
+            Sink::Csv(sink) => sink.rows(count, columns),
+            Sink::Parquet(sink) => sink.rows(count, columns),
         };
         written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
     }

@@ -3,12 +3,12 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use laneweave_study::{Cell, Column, Format, TableError, TableWriter};
+use laneweave_study::{Cell, Cells, Column, Format, TableError, TableWriter};
 use parquet::basic::Encoding;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 
-const ROWS_OF_A_GROUP: usize = 65_536;
+const ROWS_OF_A_GROUP: usize = 16_384;
 
 struct Trajectory<'a> {
     time_s: f64,
@@ -140,7 +140,7 @@ fn a_parquet_table_of_several_row_groups_reads_back_cell_by_cell() {
     write(&path, Format::Parquet, rows).unwrap();
     let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     let sizes: Vec<i64> = reader.metadata().row_groups().iter().map(|it| it.num_rows()).collect();
-    assert_eq!(sizes, [65_536, 65_536, 1000]);
+    assert_eq!(sizes, [16_384, 16_384, 1000]);
     let mut count = 0;
     for (index, row) in reader.get_row_iter(None).unwrap().enumerate() {
         let row = row.unwrap();
@@ -159,6 +159,77 @@ fn parquet_keeps_repeated_texts_in_a_dictionary() {
     let class = reader.metadata().row_group(0).column(2);
     assert!(class.encodings().any(|it| it == Encoding::RLE_DICTIONARY));
     assert!(class.uncompressed_size() < 2000, "{} bytes", class.uncompressed_size());
+}
+
+#[test]
+fn rows_that_are_given_by_columns_are_the_same_as_one_by_one() {
+    let columns = [Column::real("x_m"), Column::integer("vehicle"), Column::text("class")];
+    let folder = folder("columns");
+    let x: Vec<f64> = (0..20_000).map(|it| if it % 700 == 3 { f64::NAN } else { f64::from(it) }).collect();
+    let vehicles: Vec<i64> = (0..20_000).map(|it| it % 90).collect();
+    let classes: Vec<&str> = (0..20_000).map(|it| ["car", "", "truck"][it % 3]).collect();
+    for (format, name) in [(Format::Csv, "csv"), (Format::Parquet, "parquet")] {
+        let [one, many] = ["one", "many"].map(|it| folder.join(format!("{it}.{name}")));
+        let mut table = TableWriter::create(&one, format, &columns).unwrap();
+        for row in 0..x.len() {
+            table.row(&[x[row].into(), vehicles[row].into(), classes[row].into()]).unwrap();
+        }
+        table.finish().unwrap();
+        let mut table = TableWriter::create(&many, format, &columns).unwrap();
+        table.row(&[x[0].into(), vehicles[0].into(), classes[0].into()]).unwrap();
+        for part in [1..2, 2..2, 2..16_000, 16_000..20_000] {
+            let columns = [
+                Cells::F64(&x[part.clone()]),
+                Cells::I64(&vehicles[part.clone()]),
+                Cells::Text(&classes[part]),
+            ];
+            table.rows(&columns).unwrap();
+        }
+        let wrong = table.rows(&[Cells::F64(&x), Cells::I64(&vehicles[1..]), Cells::Text(&classes)]);
+        assert!(matches!(wrong, Err(TableError::Width { cells: 2, columns: 3, .. })));
+        table.finish().unwrap();
+        if format == Format::Csv {
+            assert_eq!(fs::read(&one).unwrap(), fs::read(&many).unwrap());
+            continue;
+        }
+        let [one, many] = [one, many].map(|it| {
+            let reader = SerializedFileReader::new(File::open(it).unwrap()).unwrap();
+            let rows: Vec<String> =
+                reader.get_row_iter(None).unwrap().map(|it| it.unwrap().to_string()).collect();
+            rows
+        });
+        assert_eq!((one.len(), one), (20_000, many));
+    }
+}
+
+#[test]
+fn notes_stand_in_the_parquet_file_and_nowhere_in_the_csv() {
+    let folder = folder("notes");
+    let notes = [("laneweave.seed", "7"), ("laneweave.scenario", "map = \"a.osm\"\n")];
+    for (format, name) in [(Format::Csv, "t.csv"), (Format::Parquet, "t.parquet")] {
+        let columns = [Column::real("time_s")];
+        TableWriter::create_with(&folder.join(name), format, &columns, &notes).unwrap().finish().unwrap();
+    }
+    assert_eq!(fs::read_to_string(folder.join("t.csv")).unwrap(), "time_s\n");
+    let reader = SerializedFileReader::new(File::open(folder.join("t.parquet")).unwrap()).unwrap();
+    let noted = reader.metadata().file_metadata().key_value_metadata().unwrap();
+    let noted: Vec<(&str, Option<&str>)> =
+        noted.iter().map(|it| (it.key.as_str(), it.value.as_deref())).collect();
+    assert_eq!(noted, notes.map(|(key, value)| (key, Some(value))));
+}
+
+#[test]
+fn numbers_that_come_once_are_written_plainly_and_those_that_repeat_in_a_dictionary() {
+    let path = folder("plain").join("t.parquet");
+    let columns = [Column::real("x_m"), Column::real("length_m").repeating()];
+    let mut table = TableWriter::create(&path, Format::Parquet, &columns).unwrap();
+    (0..1000).for_each(|it| table.row(&[Cell::F64(f64::from(it)), Cell::F64(4.5)]).unwrap());
+    table.finish().unwrap();
+    let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
+    let has_dictionary = |column: usize| {
+        reader.metadata().row_group(0).column(column).encodings().any(|it| it == Encoding::RLE_DICTIONARY)
+    };
+    assert_eq!([0, 1].map(has_dictionary), [false, true]);
 }
 
 #[test]

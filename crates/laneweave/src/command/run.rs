@@ -11,9 +11,9 @@ use std::time::Instant;
 use clap::Args;
 use laneweave::Fault;
 use laneweave::did_you_mean;
-use laneweave::output::{Inputs, Summary, observers, write_whole};
+use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
 use laneweave::record;
-use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
+use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
 use laneweave::simulation::simulate;
 use laneweave::style::Model;
 
@@ -72,6 +72,9 @@ pub(crate) struct Arguments {
     /// Format of the tables [default: parquet].
     #[arg(long, value_name = "parquet|csv", value_parser = format)]
     format: Option<TableFormat>,
+    /// Files that are written as SUMO writes them, separated by commas: fcd, tripinfo, lanechange [default: none].
+    #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
+    sumo: Vec<SumoFile>,
     #[command(flatten)]
     screen: Screen,
 }
@@ -104,6 +107,15 @@ fn format(text: &str) -> Result<TableFormat, String> {
         "parquet" => Ok(TableFormat::Parquet),
         "csv" => Ok(TableFormat::Csv),
         _ => Err("choose parquet or csv".into()),
+    }
+}
+
+fn sumo_file(text: &str) -> Result<SumoFile, String> {
+    match text {
+        "fcd" => Ok(SumoFile::Fcd),
+        "tripinfo" => Ok(SumoFile::Tripinfo),
+        "lanechange" => Ok(SumoFile::Lanechange),
+        _ => Err("choose of fcd, tripinfo and lanechange".into()),
     }
 }
 
@@ -145,6 +157,8 @@ impl Arguments {
         replace(origin, ("output.record_s", "--record"), &mut output.record_s, self.record);
         replace(origin, ("output.flows_s", "--flows"), &mut output.flows_s, self.flows);
         replace(origin, ("output.format", "--format"), &mut output.format, self.format);
+        let sumo = (!self.sumo.is_empty()).then(|| self.sumo.into_iter().collect());
+        replace(origin, ("output.sumo", "--sumo"), &mut output.sumo, sumo);
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
         replace(origin, ("model", "--model"), model, self.model.map(Some));
@@ -162,8 +176,9 @@ pub(crate) fn run(
     if !screen.quiet {
         warn(&prepared);
     }
-    let fingerprint = record::fingerprint(scenario, origin)?;
-    let mut observers = observers(scenario, &prepared)?;
+    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
+    let provenance = Provenance::of(scenario, record::fingerprint(scenario, origin)?, arguments)?;
+    let mut observers = observers(scenario, &prepared, &provenance)?;
     let summary_path = scenario.output.dir.join("summary.json");
     forget(&summary_path)?;
     let kept = record::keep(scenario, origin, &scenario.output.dir)?;
@@ -182,10 +197,11 @@ pub(crate) fn run(
     progress.clear();
     let mut files = vec![kept];
     for observer in observers {
-        files.push(observer.finish(&prepared.world)?);
+        files.extend(observer.finish(&prepared.world)?);
     }
     let wall_s = started.elapsed().as_secs_f64();
-    let summary = Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s, fingerprint });
+    let summary =
+        Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s, provenance: &provenance });
     let json = serde_json::to_string_pretty(&summary)
         .map_err(|error| Fault::new("summary.json", error, "report this as a bug"))?
         + "\n";

@@ -18,7 +18,7 @@ const SAMPLING: f64 = 1.0;
 const BIN: f64 = 2.0;
 
 /// Collects densities and lane changes.
-pub struct LaneChangeRate {
+pub(super) struct LaneChangeRate {
     path: PathBuf,
     sections: Sections,
     window: Window,
@@ -29,7 +29,7 @@ pub struct LaneChangeRate {
 
 impl LaneChangeRate {
     /// For the figure in `dir`, over `duration` [s] from the time `begin` [s] on.
-    pub fn new(dir: &Path, world: &World, begin: f64, duration: f64) -> LaneChangeRate {
+    pub(super) fn new(dir: &Path, world: &World, begin: f64, duration: f64) -> LaneChangeRate {
         let sections = Sections::of(world.network());
         let intervals = ((duration / INTERVAL) as usize).max(1);
         let window = Window { from_s: begin, interval_s: INTERVAL.min(duration), intervals };
@@ -77,12 +77,12 @@ impl Observer for LaneChangeRate {
         Ok(())
     }
 
-    fn finish(self: Box<Self>, world: &World) -> Result<PathBuf, Fault> {
+    fn finish(self: Box<Self>, world: &World) -> Result<Vec<PathBuf>, Fault> {
         let end = world.clock().time();
         let all = self.series("all", end, |_| true);
         let discretionary = self.series("discretionary", end, |kind| kind == Kind::Discretionary);
         let svg = rate_density("Lane changes against density", &[all, discretionary]);
         write_whole(&self.path, &svg)?;
-        Ok(self.path)
+        Ok(vec![self.path])
     }
 }

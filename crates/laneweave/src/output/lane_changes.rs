@@ -1,13 +1,15 @@
 //! Every lane change with its reasons: the table `lane_changes`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use laneweave_models::change::INCENTIVES;
 use laneweave_network::{Point, Side};
 use laneweave_sim::{Event, Kind, LaneChange, World};
-use laneweave_study::{Cell, Column, Format, TableWriter};
+use laneweave_study::{Cell, Column, TableWriter};
 
-use super::{Observer, table_path};
+use super::Observer;
+use super::names::Names;
+use super::scribe::{Page, Pen, Writer};
 use crate::fault::Fault;
 
 /// Columns before those of the incentives.
@@ -48,23 +50,21 @@ const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
     ["urgency_yield", "urgency_weight"],
 ];
 
-/// Writes the lane changes that are completed or aborted.
-pub struct LaneChanges {
-    table: TableWriter,
-    path: PathBuf,
+/// Lane changes in a page, at most those of one step more.
+const PAGE: usize = 256;
+
+/// Collects the lane changes that are completed or aborted.
+pub(super) struct LaneChanges {
+    /// Time from which on they count [s].
     begin: f64,
+    ended: Vec<LaneChange>,
+    pen: Pen,
 }
 
 impl LaneChanges {
-    /// Begins the table in `dir`, of changes from the time `begin` [s] on.
-    ///
-    /// # Errors
-    /// If the file cannot be created.
-    pub fn create(dir: &Path, format: Format, begin: f64) -> Result<LaneChanges, Fault> {
-        let path = table_path(dir, "lane_changes", format);
-        let incentives = OF_INCENTIVE.as_flattened().iter().map(|name| Column::real(name));
-        let columns: Vec<Column> = BEFORE.into_iter().chain(incentives).chain(AFTER).collect();
-        Ok(LaneChanges { table: TableWriter::create(&path, format, &columns)?, path, begin })
+    /// Collects those from the time `begin` [s] on.
+    pub(super) fn new(begin: f64, pen: Pen) -> LaneChanges {
+        LaneChanges { begin, ended: Vec::new(), pen }
     }
 }
 
@@ -74,28 +74,62 @@ impl Observer for LaneChanges {
             if let Event::LaneChange(change) = event
                 && change.time >= self.begin
             {
-                self.table.row(&row(world, change))?;
+                self.ended.push(*change);
+            }
+        }
+        if self.ended.len() < PAGE {
+            return Ok(());
+        }
+        self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))
+    }
+
+    fn finish(self: Box<Self>, _world: &World) -> Result<Vec<PathBuf>, Fault> {
+        self.pen.hand_over(Page::LaneChanges(self.ended))?;
+        Ok(Vec::new())
+    }
+}
+
+/// Writes a row for each lane change.
+pub(super) struct LaneChangeTable {
+    table: TableWriter,
+    path: PathBuf,
+}
+
+impl LaneChangeTable {
+    /// Begins the table in `folder`.
+    pub(super) fn create(folder: &super::Folder) -> Result<LaneChangeTable, Fault> {
+        let incentives = OF_INCENTIVE.as_flattened().iter().map(|name| Column::real(name));
+        let columns: Vec<Column> = BEFORE.into_iter().chain(incentives).chain(AFTER).collect();
+        let (table, path) = folder.table("lane_changes", &columns)?;
+        Ok(LaneChangeTable { table, path })
+    }
+}
+
+impl Writer for LaneChangeTable {
+    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
+        if let Page::LaneChanges(changes) = page {
+            for change in changes {
+                self.table.row(&row(names, change))?;
             }
         }
         Ok(())
     }
 
-    fn finish(self: Box<Self>, _world: &World) -> Result<PathBuf, Fault> {
+    fn finish(self: Box<Self>) -> Result<PathBuf, Fault> {
         self.table.finish()?;
         Ok(self.path)
     }
 }
 
-fn row<'a>(world: &'a World, change: &LaneChange) -> Vec<Cell<'a>> {
-    let network = world.network();
-    let lanelet = |(chain, x)| network.lanelet_at(chain, x).0.id;
-    let Point { x, y, .. } = place(world, change);
+fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
+    let lanelet = |at| names.lanelet(at).1.id;
+    let Point { x, y, .. } = place(names, change);
     let mut cells: Vec<Cell> = vec![
         change.time.into(),
         change.started.into(),
         change.duration.into(),
         change.vehicle.into(),
-        world.scene().characters[change.character as usize].name.as_str().into(),
+        names.style(change.character).into(),
         change.class.body().name.into(),
         lanelet(change.from).into(),
         lanelet(change.to).into(),
@@ -124,9 +158,9 @@ fn row<'a>(world: &'a World, change: &LaneChange) -> Vec<Cell<'a>> {
 }
 
 /// Where the vehicle's centre crossed the line between the lanes.
-fn place(world: &World, change: &LaneChange) -> Point {
+fn place(names: &Names, change: &LaneChange) -> Point {
     let half = 0.5 * change.class.body().length;
-    let on = |(chain, x): (_, f64)| world.network().chain(chain).centre.at(x - half);
+    let on = |(chain, x): (_, f64)| names.network.chain(chain).centre.at(x - half);
     on(change.from).towards(&on(change.to), 0.5)
 }
 

@@ -1,34 +1,46 @@
 //! What a run leaves behind: tables, figures and a summary, each made by an observer that reads the world and never
 //! writes it.
 
-mod flows;
+mod frame;
 mod lane_change_rate;
 mod lane_changes;
+mod lanelets;
+mod names;
+mod provenance;
 mod queues;
 mod road;
+mod scribe;
 mod summary;
+mod sumo;
 mod time_space;
 mod trajectories;
+mod trips;
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use laneweave_sim::World;
-use laneweave_study::{Format, TableError};
+use laneweave_study::{Column, Format, TableError, TableWriter};
 
+use self::frame::Samples;
+use self::lane_change_rate::LaneChangeRate;
+use self::lane_changes::{LaneChangeTable, LaneChanges};
+use self::lanelets::{FlowTable, LaneletTable, Lanelets};
+use self::names::Names;
+use self::scribe::{Scribe, Writer};
+use self::sumo::{Fcd, LaneChangeOutput, TripInfo};
+use self::time_space::TimeSpace;
+use self::trajectories::Trajectories;
+use self::trips::{TripTable, Trips};
 use crate::fault::Fault;
-use crate::scenario::{Prepared, Scenario, TableFormat};
+use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
 
-pub use flows::Flows;
-pub use lane_change_rate::LaneChangeRate;
-pub use lane_changes::LaneChanges;
+pub use provenance::Provenance;
 pub use queues::{HeldFor, Queue, Queues};
 pub use summary::{Inputs, Summary};
-pub use time_space::TimeSpace;
-pub use trajectories::Trajectories;
 
-/// Something that watches a run and leaves a file.
+/// Something that watches a run and leaves files.
 pub trait Observer {
     /// Sees the world after a step.
     ///
@@ -36,35 +48,103 @@ pub trait Observer {
     /// If what it sees cannot be written.
     fn observe(&mut self, world: &World) -> Result<(), Fault>;
 
-    /// Completes its file, and names it.
+    /// Completes its files, and names them.
     ///
     /// # Errors
-    /// If the file cannot be written.
-    fn finish(self: Box<Self>, world: &World) -> Result<PathBuf, Fault>;
+    /// If a file cannot be written.
+    fn finish(self: Box<Self>, world: &World) -> Result<Vec<PathBuf>, Fault>;
 }
 
-/// The observers of `scenario`; makes the folder of its results.
+/// The observers of `scenario`; makes the folder of its results. The last of them completes what the others began, and finishes
+/// after them.
 ///
 /// # Errors
 /// If the folder or a file in it cannot be made.
-pub fn observers(scenario: &Scenario, prepared: &Prepared) -> Result<Vec<Box<dyn Observer>>, Fault> {
-    let dir = &scenario.output.dir;
-    fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made the folder of the results", &error))?;
-    let format = Format::from(scenario.output.format);
-    let begin = f64::from(prepared.warmup_steps) * scenario.run.step_s;
+pub fn observers(
+    scenario: &Scenario,
+    prepared: &Prepared,
+    provenance: &Provenance,
+) -> Result<Vec<Box<dyn Observer>>, Fault> {
+    let folder = Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
+    folder.make()?;
+    let world = &prepared.world;
+    let [begin, duration] =
+        [prepared.warmup_steps, prepared.steps].map(|it| f64::from(it) * scenario.run.step_s);
+    let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
+    let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
+    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world))?;
+    let pen = scribe.pen();
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
-        observers.push(Box::new(Trajectories::create(dir, format, steps)?));
+        observers.push(Box::new(Samples::new(steps, prepared.threads, pen.clone(), written)));
     }
-    if let Some(every) = prepared.flows_steps {
-        let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
-        observers.push(Box::new(Flows::create(dir, format, &prepared.world, every, measured)?));
-    }
-    observers.push(Box::new(LaneChanges::create(dir, format, begin)?));
-    let duration = f64::from(prepared.steps) * scenario.run.step_s;
-    observers.push(Box::new(LaneChangeRate::new(dir, &prepared.world, begin, duration)));
-    observers.push(Box::new(TimeSpace::new(dir, &prepared.world, &prepared.origins, begin, duration)));
+    observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
+    observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
+    observers.push(Box::new(Trips::new(pen)));
+    observers.push(Box::new(LaneChangeRate::new(folder.dir, world, begin, duration)));
+    observers.push(Box::new(TimeSpace::new(folder.dir, world, &prepared.origins, begin, duration)));
+    observers.push(Box::new(scribe));
     Ok(observers)
+}
+
+/// What writes the tables.
+fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
+    let mut writers: Vec<Box<dyn Writer>> = Vec::new();
+    if prepared.record_steps.is_some() {
+        writers.push(Box::new(Trajectories::create(folder)?));
+    }
+    if prepared.flows_steps.is_some() {
+        writers.push(Box::new(FlowTable::create(folder)?));
+    }
+    writers.push(Box::new(LaneChangeTable::create(folder)?));
+    writers.push(Box::new(TripTable::create(folder)?));
+    writers.push(Box::new(LaneletTable::create(folder)?));
+    Ok(writers)
+}
+
+/// What writes the files of SUMO that `scenario` asks for.
+fn xml(scenario: &Scenario, prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
+    let network = prepared.world.network();
+    let writer = |file: &SumoFile| -> Result<Box<dyn Writer>, Fault> {
+        Ok(match file {
+            SumoFile::Fcd => Box::new(Fcd::create(folder, network)?),
+            SumoFile::Tripinfo => Box::new(TripInfo::create(folder)?),
+            SumoFile::Lanechange => {
+                Box::new(LaneChangeOutput::create(folder, network.driving_side.overtaking())?)
+            }
+        })
+    };
+    scenario.output.sumo.iter().map(writer).collect()
+}
+
+/// The folder of the results, and what is the same for all files in it.
+struct Folder<'a> {
+    dir: &'a Path,
+    format: Format,
+    provenance: &'a Provenance,
+}
+
+impl Folder<'_> {
+    fn make(&self) -> Result<(), Fault> {
+        let Folder { dir, .. } = self;
+        fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made the folder of the results", &error))
+    }
+
+    /// The path of a file in it.
+    fn file(&self, name: &str) -> PathBuf {
+        self.dir.join(name)
+    }
+
+    /// Begins the table called `name`.
+    fn table(&self, name: &str, columns: &[Column]) -> Result<(TableWriter, PathBuf), Fault> {
+        let path = self.file(name).with_extension(match self.format {
+            Format::Csv => "csv",
+            Format::Parquet => "parquet",
+        });
+        let notes = self.provenance.notes();
+        let notes = notes.each_ref().map(|(key, value)| (*key, value.as_str()));
+        Ok((TableWriter::create_with(&path, self.format, columns, &notes)?, path))
+    }
 }
 
 impl From<TableFormat> for Format {
@@ -74,14 +154,6 @@ impl From<TableFormat> for Format {
             TableFormat::Parquet => Format::Parquet,
         }
     }
-}
-
-/// The path of the table called `name`.
-fn table_path(dir: &Path, name: &str, format: Format) -> PathBuf {
-    dir.join(name).with_extension(match format {
-        Format::Csv => "csv",
-        Format::Parquet => "parquet",
-    })
 }
 
 /// Writes a file that is complete or not there at all.

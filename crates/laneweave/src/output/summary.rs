@@ -7,6 +7,7 @@ use laneweave_sim::World;
 use serde::Serialize;
 
 use super::queues::Queue;
+use crate::output::Provenance;
 use crate::scenario::{Prepared, Scenario};
 use crate::simulation::Ending;
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
@@ -79,6 +80,8 @@ pub struct Summary {
     pub state_hash: String,
     /// Hash of all that the run depended on: version, scenario, styles, map.
     pub fingerprint: String,
+    /// The command line.
+    pub command: String,
     /// Demand over all entrances [veh/h].
     pub demand_veh_h: f64,
     /// Simulated and measured time [s].
@@ -98,7 +101,7 @@ pub struct Summary {
 }
 
 /// What a summary is made from, beside the world.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub struct Inputs<'a> {
     /// The scenario.
     pub scenario: &'a Scenario,
@@ -108,14 +111,14 @@ pub struct Inputs<'a> {
     pub wall_s: f64,
     /// See [`Summary::load_s`].
     pub load_s: f64,
-    /// See [`Summary::fingerprint`].
-    pub fingerprint: String,
+    /// Where it comes from.
+    pub provenance: &'a Provenance,
 }
 
 impl Summary {
     /// The summary of `prepared` after it has run.
     pub fn of(prepared: &Prepared, inputs: Inputs) -> Summary {
-        let Inputs { scenario, ending, wall_s, load_s, fingerprint } = inputs;
+        let Inputs { scenario, ending, wall_s, load_s, provenance } = inputs;
         let world: &World = &prepared.world;
         let (tally, counts) = (world.tally(), world.counts());
         let veh_km = tally.distance / METRES_PER_KM;
@@ -151,7 +154,8 @@ impl Summary {
             queues: ending.queues.clone(),
             peak_rss_mb: peak_rss_mb(),
             state_hash: format!("{:016x}", world.state_hash()),
-            fingerprint,
+            fingerprint: provenance.fingerprint.clone(),
+            command: provenance.command.clone(),
             demand_veh_h: prepared.demand_veh_h,
             duration_s: rounded(ending.measured_s),
             warmup_s: rounded(ending.measured_from_s),

@@ -19,7 +19,7 @@ const LONGEST_TIME: f64 = 3600.0;
 const SAMPLING: f64 = 1.0;
 
 /// Collects the vehicles of one lane.
-pub struct TimeSpace {
+pub(super) struct TimeSpace {
     path: PathBuf,
     title: String,
     road: Option<Road>,
@@ -35,7 +35,13 @@ pub struct TimeSpace {
 impl TimeSpace {
     /// For the figure in `dir`, over at most `duration` [s] from the time `begin` [s] on; `origins`, each with its
     /// demand [veh/h], tell the busiest entrance.
-    pub fn new(dir: &Path, world: &World, origins: &[(Place, f64)], begin: f64, duration: f64) -> TimeSpace {
+    pub(super) fn new(
+        dir: &Path,
+        world: &World,
+        origins: &[(Place, f64)],
+        begin: f64,
+        duration: f64,
+    ) -> TimeSpace {
         let network = world.network();
         let busiest = origins.iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let start = busiest.and_then(|(place, _)| match place {
@@ -103,10 +109,10 @@ impl Observer for TimeSpace {
         Ok(())
     }
 
-    fn finish(self: Box<Self>, _world: &World) -> Result<PathBuf, Fault> {
+    fn finish(self: Box<Self>, _world: &World) -> Result<Vec<PathBuf>, Fault> {
         let TimeSpace { path, title, current, mut past, changes, .. } = *self;
         past.extend(current.into_values());
         write_whole(&path, &time_space(&title, &past, &changes))?;
-        Ok(path)
+        Ok(vec![path])
     }
 }

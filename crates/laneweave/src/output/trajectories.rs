@@ -1,90 +1,104 @@
 //! Where every vehicle was: the table `trajectories`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use laneweave_sim::{Phase, Vehicle, World};
-use laneweave_study::{Cell, Column, Format, TableWriter};
+use laneweave_sim::Phase;
+use laneweave_study::{Cells, Column, TableWriter};
 
-use super::{Observer, table_path};
+use super::Folder;
+use super::names::Names;
+use super::scribe::{Page, Writer};
 use crate::fault::Fault;
 
 /// Columns of the table.
 const COLUMNS: [Column; 16] = [
-    Column::real("time_s"),
+    Column::real("time_s").repeating(),
     Column::integer("vehicle"),
     Column::text("class"),
     Column::text("style"),
     Column::integer("lanelet"),
     Column::real("position_m"),
-    Column::real("offset_m"),
+    Column::real("offset_m").repeating(),
     Column::real("x_m"),
     Column::real("y_m"),
-    Column::real("z_m"),
+    Column::real("z_m").repeating(),
     Column::real("heading_rad"),
     Column::real("speed_mps"),
     Column::real("acceleration_mps2"),
-    Column::real("length_m"),
-    Column::real("width_m"),
+    Column::real("length_m").repeating(),
+    Column::real("width_m").repeating(),
     Column::text("state"),
 ];
 
-/// Writes all vehicles every few steps.
-pub struct Trajectories {
+/// Writes a row for each vehicle at each instant.
+pub(super) struct Trajectories {
     table: TableWriter,
     path: PathBuf,
-    every: u32,
+    /// Room for the columns of numbers and of integers.
+    numbers: [Vec<f64>; 11],
+    integers: [Vec<i64>; 2],
 }
 
 impl Trajectories {
-    /// Begins the table in `dir`, of every `every`-th step.
-    ///
-    /// # Errors
-    /// If the file cannot be created.
-    pub fn create(dir: &Path, format: Format, every: u32) -> Result<Trajectories, Fault> {
-        let path = table_path(dir, "trajectories", format);
-        Ok(Trajectories { table: TableWriter::create(&path, format, &COLUMNS)?, path, every })
+    /// Begins the table in `folder`.
+    pub(super) fn create(folder: &Folder) -> Result<Trajectories, Fault> {
+        let (table, path) = folder.table("trajectories", &COLUMNS)?;
+        Ok(Trajectories { table, path, numbers: Default::default(), integers: Default::default() })
     }
 }
 
-impl Observer for Trajectories {
-    fn observe(&mut self, world: &World) -> Result<(), Fault> {
-        if world.clock().step.is_multiple_of(self.every) {
-            for vehicle in world.vehicles() {
-                self.table.row(&row(world, &vehicle))?;
-            }
+impl Writer for Trajectories {
+    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
+        let Page::Frame(frame) = page else { return Ok(()) };
+        let (seen, bodies) = (frame.seen(), frame.bodies());
+        let Trajectories { table, numbers, integers, .. } = self;
+        numbers.iter_mut().for_each(Vec::clear);
+        let [time, along, offset, x, y, z, heading, speed, acceleration, length, width] = numbers;
+        for (step, here, _) in frame.instants() {
+            time.resize(time.len() + here.len(), f64::from(step) * names.step_s);
         }
+        along.extend(bodies.iter().map(|it| it.along));
+        offset.extend(bodies.iter().map(|it| it.offset));
+        x.extend(bodies.iter().map(|it| it.pose.at.x));
+        y.extend(bodies.iter().map(|it| it.pose.at.y));
+        z.extend(bodies.iter().map(|it| it.pose.at.z));
+        heading.extend(bodies.iter().map(|it| it.pose.heading));
+        speed.extend(seen.iter().map(|it| it.motion.speed));
+        acceleration.extend(seen.iter().map(|it| f64::from(it.motion.acceleration)));
+        length.extend(seen.iter().map(|it| it.class.body().length));
+        width.extend(seen.iter().map(|it| it.class.body().width));
+        integers.iter_mut().for_each(Vec::clear);
+        let [vehicle, lanelet] = integers;
+        vehicle.extend(seen.iter().map(|it| i64::from(it.motion.id)));
+        lanelet.extend(bodies.iter().map(|it| names.network.lanelets[it.lanelet.at()].id));
+        let class: Vec<&str> = seen.iter().map(|it| it.class.body().name).collect();
+        let style: Vec<&str> = seen.iter().map(|it| names.style(it.character)).collect();
+        let state: Vec<&str> = seen.iter().map(|it| state(it.phase)).collect();
+        table.rows(&[
+            Cells::F64(time),
+            Cells::I64(vehicle),
+            Cells::Text(&class),
+            Cells::Text(&style),
+            Cells::I64(lanelet),
+            Cells::F64(along),
+            Cells::F64(offset),
+            Cells::F64(x),
+            Cells::F64(y),
+            Cells::F64(z),
+            Cells::F64(heading),
+            Cells::F64(speed),
+            Cells::F64(acceleration),
+            Cells::F64(length),
+            Cells::F64(width),
+            Cells::Text(&state),
+        ])?;
         Ok(())
     }
 
-    fn finish(self: Box<Self>, _world: &World) -> Result<PathBuf, Fault> {
+    fn finish(self: Box<Self>) -> Result<PathBuf, Fault> {
         self.table.finish()?;
         Ok(self.path)
     }
-}
-
-fn row<'a>(world: &World, vehicle: &'a Vehicle<'a>) -> [Cell<'a>; COLUMNS.len()] {
-    let Vehicle { motion, car, spot, .. } = vehicle;
-    let (lanelet, position) = world.network().lanelet_at(spot.chain, motion.x);
-    let pose = vehicle.pose();
-    let body = car.class.body();
-    [
-        world.clock().time().into(),
-        motion.id.into(),
-        body.name.into(),
-        vehicle.style().name.as_str().into(),
-        lanelet.id.into(),
-        position.into(),
-        vehicle.lateral_offset().into(),
-        pose.at.x.into(),
-        pose.at.y.into(),
-        pose.at.z.into(),
-        pose.heading.into(),
-        motion.speed.into(),
-        f64::from(motion.acceleration).into(),
-        body.length.into(),
-        body.width.into(),
-        state(car.phase).into(),
-    ]
 }
 
 fn state(phase: Phase) -> &'static str {

@@ -8,7 +8,7 @@ mod prepare;
 mod signals;
 mod turns;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -217,11 +217,19 @@ pub struct Output {
     pub flows_s: f64,
     /// Format of the tables.
     pub format: TableFormat,
+    /// Files that are written as SUMO writes them.
+    pub sumo: BTreeSet<SumoFile>,
 }
 
 impl Default for Output {
     fn default() -> Output {
-        Output { dir: "out".into(), record_s: 1.0, flows_s: 0.0, format: TableFormat::Parquet }
+        Output {
+            dir: "out".into(),
+            record_s: 1.0,
+            flows_s: 0.0,
+            format: TableFormat::Parquet,
+            sumo: BTreeSet::new(),
+        }
     }
 }
 
@@ -233,6 +241,18 @@ pub enum TableFormat {
     Parquet,
     /// Comma-separated values.
     Csv,
+}
+
+/// A file as SUMO writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SumoFile {
+    /// fcd.xml: every vehicle at every sample.
+    Fcd,
+    /// tripinfo.xml: every trip that ended.
+    Tripinfo,
+    /// lanechanges.xml: every completed lane change.
+    Lanechange,
 }
 
 fn default_styles() -> BTreeMap<String, f64> {

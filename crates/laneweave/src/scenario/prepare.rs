@@ -12,7 +12,7 @@ use super::demand::{check_ways, demand};
 use super::mixture::mixture;
 use super::signals::plans;
 use super::turns::check_arrivals;
-use super::{MapOptions, Origin, Scenario};
+use super::{MapOptions, Origin, Scenario, SumoFile};
 use crate::capacity::Capacity;
 use crate::fault::Fault;
 use crate::style::Population;
@@ -67,6 +67,14 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
     let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
     let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
+    if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
+        let what = "fcd.xml is sampled at output.record_s, which is 0";
+        return Err(Fault::new(
+            origin.place(&["output", "sumo"]),
+            what,
+            "leave fcd out, or set record_s = 1",
+        ));
+    }
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
@@ -87,7 +95,8 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         demand.origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
     let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
     let world = World::new(network, characters, demand, setup)
-        .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?;
+        .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?
+        .with_journal();
     let world = match scenario.guidance.interval_s {
         0.0 => world,
         interval => world.guided(interval).map_err(|error| {

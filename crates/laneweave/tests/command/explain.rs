@@ -1,6 +1,6 @@
 //! `laneweave explain`: reasons of drivers, by repeating a run.
 
-use crate::program::Folder;
+use crate::program::{Folder, maps};
 
 /// A run of two minutes on the motorway with ramps, with CSV tables; and its first lane change: vehicle and time of the crossing.
 fn run() -> (Folder, String, f64) {
@@ -65,7 +65,7 @@ fn everybody_can_be_asked() {
 #[test]
 fn what_cannot_be_told_is_refused_with_a_remedy() {
     let folder = Folder::new();
-    std::fs::copy(folder.maps().join("ramps.osm"), folder.path().join("own.osm")).unwrap();
+    std::fs::copy(maps().join("ramps.osm"), folder.path().join("own.osm")).unwrap();
     folder.summary("own.osm --duration 60 --record 0");
     let refused = |line: &str| {
         let run = folder.laneweave(line);

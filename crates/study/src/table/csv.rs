@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{self, Write};
 
-use super::{Cell, Column};
+use super::{Cell, Cells, Column};
 
 /// Text that is collected before it is written [bytes].
 const BUFFER: usize = 1 << 16;
@@ -38,6 +38,16 @@ impl CsvSink {
         }
         self.end_line();
         if self.buffer.len() >= BUFFER { self.flush() } else { Ok(()) }
+    }
+
+    pub(super) fn rows(&mut self, count: usize, columns: &[Cells<'_>]) -> io::Result<()> {
+        let mut cells = Vec::with_capacity(columns.len());
+        for row in 0..count {
+            cells.clear();
+            cells.extend(columns.iter().map(|it| it.get(row)));
+            self.row(&cells)?;
+        }
+        Ok(())
     }
 
     pub(super) fn finish(mut self) -> io::Result<()> {

@@ -7,14 +7,15 @@ use std::sync::Arc;
 use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
-use super::{Cell, Column, Kind};
+use super::{Cell, Cells, Column, Kind};
 
 /// Rows held in memory and written together.
-const ROW_GROUP: usize = 1 << 16;
+const ROW_GROUP: usize = 1 << 14;
 /// A column with more distinct values in a group than this holds goes on without a dictionary [bytes].
 const DICTIONARY_SIZE: usize = 1 << 16;
 /// Definition levels of an optional column: the value is there, or null.
@@ -26,12 +27,15 @@ pub(super) struct ParquetSink {
     writer: SerializedFileWriter<File>,
     columns: Vec<Buffer>,
     rows: usize,
+    /// The levels of columns that miss nothing.
+    all_present: Vec<i16>,
 }
 
 /// The values of one column that are not written yet.
 struct Buffer {
-    /// One a row.
+    /// One a row; empty as long as no value is missing.
     levels: Vec<i16>,
+    rows: usize,
     /// Those present.
     values: Values,
 }
@@ -44,23 +48,35 @@ enum Values {
 }
 
 impl ParquetSink {
-    pub(super) fn new(file: File, columns: &[Column]) -> io::Result<ParquetSink> {
+    pub(super) fn new(file: File, columns: &[Column], notes: &[(&str, &str)]) -> io::Result<ParquetSink> {
         let fields = columns.iter().map(field).collect::<Result<_, _>>().map_err(io::Error::other)?;
         let schema =
             Type::group_type_builder("table").with_fields(fields).build().map_err(io::Error::other)?;
-        let properties =
-            Arc::new(WriterProperties::builder().set_dictionary_page_size_limit(DICTIONARY_SIZE).build());
+        let properties = Arc::new(properties(columns, notes));
         let writer =
             SerializedFileWriter::new(file, Arc::new(schema), properties).map_err(io::Error::other)?;
-        Ok(ParquetSink { writer, columns: columns.iter().map(|it| Buffer::new(it.kind)).collect(), rows: 0 })
+        let columns = columns.iter().map(|it| Buffer::new(it.kind)).collect();
+        Ok(ParquetSink { writer, columns, rows: 0, all_present: Vec::new() })
     }
 
     pub(super) fn row(&mut self, cells: &[Cell<'_>]) -> io::Result<()> {
         for (column, cell) in self.columns.iter_mut().zip(cells) {
             column.push(cell);
         }
-        self.rows += 1;
-        if self.rows == ROW_GROUP { self.flush().map_err(io::Error::other) } else { Ok(()) }
+        self.go_on(1)
+    }
+
+    /// Writes `count` rows at once; a group may get so many more.
+    pub(super) fn rows(&mut self, count: usize, columns: &[Cells<'_>]) -> io::Result<()> {
+        for (column, cells) in self.columns.iter_mut().zip(columns) {
+            column.extend(*cells);
+        }
+        self.go_on(count)
+    }
+
+    fn go_on(&mut self, rows: usize) -> io::Result<()> {
+        self.rows += rows;
+        if self.rows >= ROW_GROUP { self.flush().map_err(io::Error::other) } else { Ok(()) }
     }
 
     pub(super) fn finish(mut self) -> io::Result<()> {
@@ -74,13 +90,30 @@ impl ParquetSink {
             return Ok(());
         }
         let mut group = self.writer.next_row_group()?;
+        self.all_present.resize(self.rows, PRESENT);
         for column in &mut self.columns {
-            column.write(&mut group)?;
+            column.write(&mut group, &self.all_present)?;
         }
         group.close()?;
         self.rows = 0;
         Ok(())
     }
+}
+
+/// How the columns are written, and what is noted about them.
+fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
+    let notes = notes.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), (*value).to_owned()));
+    let properties = WriterProperties::builder()
+        .set_dictionary_page_size_limit(DICTIONARY_SIZE)
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_key_value_metadata(Some(notes.collect()));
+    let plain = columns.iter().filter(|it| !it.repeats);
+    let properties = plain.fold(properties, |it, column| {
+        // Nobody looks for single rows by such a number: its extremes are not worth the time.
+        it.set_column_dictionary_enabled(column.name.into(), false)
+            .set_column_statistics_enabled(column.name.into(), EnabledStatistics::None)
+    });
+    properties.build()
 }
 
 /// The schema of a column.
@@ -104,38 +137,68 @@ impl Buffer {
             Kind::I64 => Values::I64(Vec::new()),
             Kind::Text => Values::Text(Vec::new(), Vec::new()),
         };
-        Buffer { levels: Vec::new(), values }
+        Buffer { levels: Vec::new(), rows: 0, values }
     }
 
     fn push(&mut self, cell: &Cell<'_>) {
-        let level = match (&mut self.values, cell) {
+        let is_present = match (&mut self.values, cell) {
             (Values::F64(values), Cell::F64(value)) if !value.is_nan() => {
                 values.push(*value);
-                PRESENT
+                true
             }
             (Values::I64(values), Cell::I64(value)) => {
                 values.push(*value);
-                PRESENT
+                true
             }
             (Values::Text(bytes, ends), Cell::Text(value)) => {
                 bytes.extend(value.as_bytes());
                 ends.push(bytes.len());
-                PRESENT
+                true
             }
-            _ => NULL,
+            _ => false,
         };
-        self.levels.push(level);
+        if !is_present && self.levels.is_empty() {
+            self.levels.resize(self.rows, PRESENT);
+        }
+        if !is_present || !self.levels.is_empty() {
+            self.levels.push(if is_present { PRESENT } else { NULL });
+        }
+        self.rows += 1;
+    }
+
+    fn extend(&mut self, cells: Cells<'_>) {
+        let misses_nothing = |values: &[f64]| values.iter().all(|it| !it.is_nan());
+        match (&mut self.values, cells) {
+            (Values::F64(all), Cells::F64(values)) if misses_nothing(values) => all.extend_from_slice(values),
+            (Values::I64(all), Cells::I64(values)) => all.extend_from_slice(values),
+            (Values::Text(bytes, ends), Cells::Text(values)) => {
+                for value in values {
+                    bytes.extend_from_slice(value.as_bytes());
+                    ends.push(bytes.len());
+                }
+            }
+            _ => return (0..cells.len()).for_each(|it| self.push(&cells.get(it))),
+        }
+        self.rows += cells.len();
+        if !self.levels.is_empty() {
+            self.levels.resize(self.rows, PRESENT);
+        }
     }
 
     /// Writes the next column of `group` and empties itself.
-    fn write(&mut self, group: &mut SerializedRowGroupWriter<'_, File>) -> Result<(), ParquetError> {
+    fn write(
+        &mut self,
+        group: &mut SerializedRowGroupWriter<'_, File>,
+        all_present: &[i16],
+    ) -> Result<(), ParquetError> {
+        let levels = if self.levels.is_empty() { &all_present[..self.rows] } else { &self.levels };
         match &mut self.values {
             Values::F64(values) => {
-                write_column::<DoubleType>(group, values, &self.levels)?;
+                write_column::<DoubleType>(group, values, levels)?;
                 values.clear();
             }
             Values::I64(values) => {
-                write_column::<Int64Type>(group, values, &self.levels)?;
+                write_column::<Int64Type>(group, values, levels)?;
                 values.clear();
             }
             Values::Text(bytes, ends) => {
@@ -143,11 +206,12 @@ impl Buffer {
                 let begins = std::iter::once(0).chain(ends.iter().copied());
                 let values: Vec<ByteArray> =
                     begins.zip(ends.iter()).map(|(begin, end)| all.slice(begin, end - begin)).collect();
-                write_column::<ByteArrayType>(group, &values, &self.levels)?;
+                write_column::<ByteArrayType>(group, &values, levels)?;
                 ends.clear();
             }
         }
         self.levels.clear();
+        self.rows = 0;
         Ok(())
     }
 }

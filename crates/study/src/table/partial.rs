@@ -5,14 +5,18 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// A file under a provisional name; removed when dropped before it is complete.
-pub(super) struct PartialFile {
+#[derive(Debug)]
+pub struct PartialFile {
     target: PathBuf,
     partial: PathBuf,
 }
 
 impl PartialFile {
     /// Opens `NAME.partial` beside `target`.
-    pub(super) fn create(target: &Path) -> io::Result<(PartialFile, File)> {
+    ///
+    /// # Errors
+    /// If it cannot be created.
+    pub fn create(target: &Path) -> io::Result<(PartialFile, File)> {
         let mut partial = target.as_os_str().to_owned();
         partial.push(".partial");
         let partial = PathBuf::from(partial);
@@ -21,12 +25,15 @@ impl PartialFile {
     }
 
     /// The path the file will have.
-    pub(super) fn target(&self) -> &Path {
+    pub fn target(&self) -> &Path {
         &self.target
     }
 
     /// Gives the file its name.
-    pub(super) fn complete(self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// If it cannot be renamed.
+    pub fn complete(self) -> io::Result<()> {
         fs::rename(&self.partial, &self.target)
     }
 }

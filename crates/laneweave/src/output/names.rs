@@ -1,0 +1,65 @@
+//! What the numbers in pages stand for: lanelets, styles, origins and destinations, and lanes as SUMO names them.
+
+use std::sync::Arc;
+
+use laneweave_network::{ChainIndex, Lanelet, LaneletIndex, Network};
+use laneweave_sim::{Place, World};
+
+use super::sumo::Lanes;
+
+/// What all writers look up.
+pub(super) struct Names {
+    /// The roads.
+    pub(super) network: Arc<Network>,
+    /// For each character the name of its style, and its factor on the speed limit.
+    characters: Vec<(String, f64)>,
+    /// The ids of the origins and of the destinations, in the order of the demand.
+    origins: Vec<i64>,
+    destinations: Vec<i64>,
+    /// The lanelets as lanes of SUMO.
+    pub(super) lanes: Lanes,
+    /// Length of a step [s].
+    pub(super) step_s: f64,
+}
+
+impl Names {
+    pub(super) fn of(world: &World) -> Names {
+        let network = world.shared_network();
+        let characters = world.scene().characters.iter().map(|it| (it.name.clone(), it.speed_factor));
+        let demand = world.demand();
+        Names {
+            characters: characters.collect(),
+            origins: demand.origins.iter().map(|it| it.place.id()).collect(),
+            destinations: demand.destinations.iter().map(Place::id).collect(),
+            lanes: Lanes::of(&network),
+            step_s: world.clock().dt,
+            network,
+        }
+    }
+
+    /// The lanelet at a station of a chain, and how far along it that is [m].
+    pub(super) fn lanelet(&self, (chain, x): (ChainIndex, f64)) -> (LaneletIndex, &Lanelet, f64) {
+        let (index, along) = self.network.chain(chain).lanelet(x);
+        (index, &self.network.lanelets[index.at()], along)
+    }
+
+    /// The style of a character.
+    pub(super) fn style(&self, character: u32) -> &str {
+        &self.characters[character as usize].0
+    }
+
+    /// Factor of a character on the speed limit.
+    pub(super) fn speed_factor(&self, character: u32) -> f64 {
+        self.characters[character as usize].1
+    }
+
+    /// The id of an origin of the demand.
+    pub(super) fn origin(&self, number: Option<usize>) -> Option<i64> {
+        number.and_then(|it| self.origins.get(it)).copied()
+    }
+
+    /// The id of a destination of the demand.
+    pub(super) fn destination(&self, number: Option<usize>) -> Option<i64> {
+        number.and_then(|it| self.destinations.get(it)).copied()
+    }
+}

@@ -1,0 +1,184 @@
+//! Tables and XML files are written by threads of their own. What observers see reaches them in pages of plain numbers,
+//! through channels that hold few of them: an observer that is too fast waits, so that memory is bounded.
+//!
+//! Each kind of page comes from one observer, in the order in which it was seen, and each file is made from one kind: what is
+//! in a file does not depend on when it is written.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::{Arc, OnceLock};
+use std::thread::{self, JoinHandle};
+
+use laneweave_sim::{LaneChange, World};
+
+use super::Observer;
+use super::frame::Frame;
+use super::lanelets::Traffic;
+use super::names::Names;
+use super::trips::Trip;
+use crate::fault::Fault;
+
+/// Pages that wait for a thread.
+const WAITING: usize = 2;
+/// Threads that write, at most: one for the tables, which passes all pages on to one for the XML files.
+pub(super) const THREADS: usize = 2;
+
+/// What was seen, in plain numbers.
+pub(super) enum Page {
+    /// All vehicles at some instants.
+    Frame(Frame),
+    /// Lane changes that ended.
+    LaneChanges(Vec<LaneChange>),
+    /// Trips that ended, or that go on when the run ends.
+    Trips(Vec<Trip>),
+    /// What happened on all lanelets in an interval.
+    Flows(Traffic),
+    /// What happened on all lanelets in the whole run.
+    Lanelets(Traffic),
+    /// The run is over, and files are to be completed.
+    End,
+}
+
+/// Makes one file of those pages that concern it.
+pub(super) trait Writer: Send {
+    /// Writes what concerns it.
+    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault>;
+
+    /// Completes its file, and names it.
+    fn finish(self: Box<Self>) -> Result<PathBuf, Fault>;
+}
+
+/// Hands pages to a thread that writes.
+#[derive(Clone)]
+pub(super) struct Pen {
+    pages: SyncSender<Arc<Page>>,
+    fault: Arc<OnceLock<Fault>>,
+}
+
+impl Pen {
+    /// Hands `page` over, as soon as there is room for it.
+    pub(super) fn hand_over(&self, page: impl Into<Arc<Page>>) -> Result<(), Fault> {
+        self.pages.send(page.into()).map_err(|_| self.fault.get().cloned().unwrap_or_else(broke_off))
+    }
+}
+
+/// The threads that write, as the last of the observers: it sees nothing of the world, and has all files completed when the
+/// others have finished.
+pub(super) struct Scribe {
+    pen: Pen,
+    threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
+}
+
+impl Scribe {
+    /// Begins to write with `xml` and `tables`. The receiver gives frames back that are written, to be used again.
+    pub(super) fn begin(
+        xml: Vec<Box<dyn Writer>>,
+        tables: Vec<Box<dyn Writer>>,
+        names: Names,
+    ) -> Result<(Scribe, Receiver<Frame>), Fault> {
+        let (written, spares) = channel();
+        let (names, fault) = (Arc::new(names), Arc::new(OnceLock::new()));
+        let (mut threads, mut next) = (Vec::new(), None);
+        let stages = [("xml", xml), ("tables", tables)];
+        for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
+            let (pages, received) = sync_channel(WAITING);
+            let pen = Pen { pages, fault: Arc::clone(&fault) };
+            let stage =
+                Stage { next: next.replace(pen), names: Arc::clone(&names), written: written.clone() };
+            let fault = Arc::clone(&fault);
+            let work = move || {
+                let outcome = stage.write(&received, writers);
+                if let Err(error) = &outcome {
+                    // The first fault is the one that counts. It is known before a channel closes.
+                    let _ = fault.set(error.clone());
+                }
+                drop((received, stage));
+                outcome
+            };
+            threads.push(thread::Builder::new().name(name.into()).spawn(work).map_err(|error| {
+                Fault::new("a thread that writes", error, "stop other programs, and try again")
+            })?);
+        }
+        let pen = next.ok_or_else(broke_off)?;
+        Ok((Scribe { pen, threads }, spares))
+    }
+
+    /// What hands pages over to it.
+    pub(super) fn pen(&self) -> Pen {
+        self.pen.clone()
+    }
+
+    /// Waits until all threads have ended.
+    fn join(threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>) -> Result<Vec<PathBuf>, Fault> {
+        let ended: Vec<_> =
+            threads.into_iter().map(|it| it.join().unwrap_or_else(|_| Err(broke_off()))).collect();
+        // The tables, whose thread was begun last, stand first.
+        let files: Result<Vec<Vec<PathBuf>>, Fault> = ended.into_iter().rev().collect();
+        Ok(files?.concat())
+    }
+}
+
+impl Observer for Scribe {
+    fn observe(&mut self, _world: &World) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>, _world: &World) -> Result<Vec<PathBuf>, Fault> {
+        let ended = self.pen.hand_over(Page::End);
+        let files = Scribe::join(std::mem::take(&mut self.threads));
+        ended.and(files)
+    }
+}
+
+impl Drop for Scribe {
+    /// Without an end, files that are not complete are gone when this returns.
+    fn drop(&mut self) {
+        let (pages, _) = sync_channel(0);
+        drop(std::mem::replace(&mut self.pen.pages, pages));
+        let _ = Scribe::join(std::mem::take(&mut self.threads));
+    }
+}
+
+fn broke_off() -> Fault {
+    Fault::new("a thread that writes", "broke off", "report this as a bug")
+}
+
+/// What a thread works with, beside its writers.
+struct Stage {
+    /// To whom it passes pages on.
+    next: Option<Pen>,
+    names: Arc<Names>,
+    /// Where frames go back that all have written.
+    written: Sender<Frame>,
+}
+
+impl Stage {
+    /// Writes pages until the end, or until nobody is left to hand one over.
+    fn write(
+        &self,
+        pages: &Receiver<Arc<Page>>,
+        mut writers: Vec<Box<dyn Writer>>,
+    ) -> Result<Vec<PathBuf>, Fault> {
+        for mut page in pages {
+            // Only the first thread has the page for itself.
+            if let Some(Page::Frame(frame)) = Arc::get_mut(&mut page) {
+                frame.locate(&self.names);
+            }
+            if let Some(next) = &self.next {
+                next.hand_over(Arc::clone(&page))?;
+            }
+            if matches!(*page, Page::End) {
+                return writers.into_iter().map(Writer::finish).collect();
+            }
+            for writer in &mut writers {
+                writer.write(&page, &self.names)?;
+            }
+            if let Some(Page::Frame(mut frame)) = Arc::into_inner(page) {
+                frame.clear();
+                // Nobody takes it when the run is over.
+                let _ = self.written.send(frame);
+            }
+        }
+        Ok(Vec::new())
+    }
+}
