@@ -3,6 +3,7 @@
 //! A [`scenario`] names a map, [`style`]s and a demand; prepared, it is a world that a [`simulation`] steps through
 //! while [`output`]s observe it.
 
+pub mod branch;
 mod capacity;
 pub mod check;
 pub mod explain;

@@ -7,6 +7,7 @@ use thiserror::Error;
 use crate::busy::Busy;
 use crate::clock::Clock;
 use crate::guidance::Guidance;
+use crate::journal::Journal;
 use crate::junction::Passages;
 use crate::metering::Metering;
 use crate::navigate::Guided;
@@ -47,6 +48,7 @@ struct Traffic {
     next_id: VehicleId,
     records: Records,
     trips: Trips,
+    journal: Option<Journal>,
     counts: Counts,
     tally: Tally,
 }
@@ -77,6 +79,7 @@ impl World {
             next_id: self.next_id,
             records: self.records.clone(),
             trips: self.trips.clone(),
+            journal: self.journal.clone(),
             counts: self.counts,
             tally: self.counted(),
         };
@@ -111,6 +114,7 @@ impl World {
         (self.crowd, self.next_id) = (traffic.crowd, traffic.next_id);
         self.records = traffic.records;
         self.trips = traffic.trips;
+        self.journal = traffic.journal;
         self.counts = traffic.counts;
         self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
         if let Some(outbox) = self.outboxes.first_mut() {

@@ -6,13 +6,14 @@
 use std::collections::VecDeque;
 
 use laneweave_network::ChainIndex;
+use serde::{Deserialize, Serialize};
 
 use crate::plan::Rerouting;
 use crate::traffic::VehicleId;
 use crate::vehicle::Class;
 
 /// A trip up to now.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TripRecord {
     /// Who.
     pub vehicle: VehicleId,
@@ -78,7 +79,7 @@ impl TripRecord {
 }
 
 /// The records of all vehicles on the road.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Journal {
     /// The oldest vehicle whose trip is not over.
     oldest: VehicleId,

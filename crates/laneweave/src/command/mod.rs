@@ -1,5 +1,6 @@
 //! The command line.
 
+mod branch;
 mod check;
 mod explain;
 mod generate;
@@ -31,6 +32,8 @@ enum Command {
     Run(run::Arguments),
     /// Say why a driver of a run changed lanes, waited, or stayed.
     Explain(explain::Arguments),
+    /// Repeat a run, and from a time on with something otherwise: say and write what differs.
+    Branch(branch::Arguments),
     /// Say what a map or a recording holds, and what is wrong with it.
     Check(check::Arguments),
     /// Name the sensible ways from one lanelet of a map to another.
@@ -55,6 +58,7 @@ impl Cli {
             }
             Some(Command::Run(arguments)) => arguments.execute(started),
             Some(Command::Explain(arguments)) => arguments.execute(),
+            Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Generate(kind)) => kind.execute(),

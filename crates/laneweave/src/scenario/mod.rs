@@ -2,7 +2,7 @@
 
 mod demand;
 mod headways;
-mod mixture;
+pub(crate) mod mixture;
 mod origin;
 mod prepare;
 mod signals;

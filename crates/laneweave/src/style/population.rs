@@ -35,6 +35,21 @@ impl Population {
         Ok(population)
     }
 
+    /// The same drivers by the changed templates of the `mixture` that they were drawn of: each in the place of its own.
+    ///
+    /// # Errors
+    /// If a distribution gives a value that a parameter cannot have.
+    pub fn redrawn(&self, mixture: &[(StyleTemplate, f64)], seed: u64) -> Result<Vec<Style>, Fault> {
+        let random = Random::new(seed);
+        let mut characters = Vec::new();
+        for (((template, _), share), number) in mixture.iter().zip(&self.shares).zip(0..) {
+            for variant in 0..share.count {
+                characters.push(template.draw(&random, number, variant)?);
+            }
+        }
+        Ok(characters)
+    }
+
     /// The drivers that come where nothing is said.
     ///
     /// # Errors

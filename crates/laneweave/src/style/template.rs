@@ -96,6 +96,44 @@ impl StyleTemplate {
         Ok(StyleTemplate { table, parameters, typical: Style { change: change.clone(), ..typical } })
     }
 
+    /// The same style with `value` at `path`, the keys from the outermost in. What is drawn of it stays as it was.
+    ///
+    /// # Errors
+    /// If there is no such key, or the value does not fit; the place is `place`.
+    pub fn with_value(&self, path: &[String], value: Value, place: &str) -> Result<StyleTemplate, Fault> {
+        let mut table = self.table.clone();
+        let Some((last, outer)) = path.split_last() else { return Ok(self.clone()) };
+        let mut inner = &mut table;
+        for key in outer {
+            let next = inner.entry(key.clone()).or_insert_with(|| Value::Table(Table::new()));
+            inner = next.as_table_mut().ok_or_else(|| {
+                Fault::new(
+                    place,
+                    format!("{key} is no section of a style"),
+                    "see `laneweave styles show NAME`",
+                )
+            })?;
+        }
+        inner.insert(last.clone(), value);
+        let text =
+            toml::to_string(&table).map_err(|error| Fault::new(place, error, "report this as a bug"))?;
+        let source = Source { path: self.typical.name.clone().into(), text };
+        let changed =
+            StyleTemplate::parse(&source).map_err(|fault| Fault { place: place.into(), ..fault })?;
+        let number =
+            |it: &Parameter| self.parameters.iter().find(|own| own.path == it.path).map(|own| own.number);
+        let mut next = self.parameters.iter().map(|it| it.number + 1).max().unwrap_or(0);
+        let renumbered = changed.parameters.iter().map(|it| {
+            let number = number(it).unwrap_or_else(|| {
+                next += 1;
+                next - 1
+            });
+            Parameter { number, ..it.clone() }
+        });
+        let parameters = renumbered.collect();
+        Ok(StyleTemplate { parameters, ..changed })
+    }
+
     /// Driver `number` of the style, which is number `style` of the run.
     ///
     /// # Errors

@@ -1,0 +1,186 @@
+//! What differs between twins: who, since when, and what came of it.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use laneweave_sim::{Event, Phase, VehicleId, World};
+
+use crate::units::KMH_PER_MPS;
+
+/// How often twins are held against each other [s].
+const EVERY: f64 = 1.0;
+
+/// The twins at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// When [s].
+    pub time_s: f64,
+    /// Vehicles on the road in either.
+    pub on_road: u32,
+    /// Of these, those that are elsewhere, or on the road in one only, or drive or wish otherwise.
+    pub differ: u32,
+    /// Lane changes since the twins parted, in the base and in the branch.
+    pub lane_changes: [u64; 2],
+    /// Mean speeds over all vehicles [m/s].
+    pub mean_speed_mps: [f64; 2],
+}
+
+/// A vehicle that differs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Vehicle {
+    /// Its style and class.
+    pub style: String,
+    /// Its class.
+    pub class: &'static str,
+    /// Since when [s].
+    pub since_s: f64,
+    /// Lane changes since the twins parted, in the base and in the branch.
+    pub lane_changes: [u32; 2],
+    /// When it left, where it did [s].
+    pub left_s: [Option<f64>; 2],
+}
+
+/// What differs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Differences {
+    /// When the twins parted [s].
+    pub since_s: f64,
+    /// Second by second.
+    pub instants: Vec<Instant>,
+    /// Those who differ, by id.
+    pub vehicles: BTreeMap<VehicleId, Vehicle>,
+    /// Those who left in both, but at other times.
+    changes: [u64; 2],
+    by_vehicle: BTreeMap<VehicleId, [u32; 2]>,
+    left: BTreeMap<VehicleId, [Option<f64>; 2]>,
+}
+
+/// How a vehicle is: its name, lane, place, speed and state.
+type State = (VehicleId, u32, u64, u64, Phase);
+
+impl Differences {
+    /// None yet, between `base` and its twin.
+    pub(super) fn between(base: &World) -> Differences {
+        Differences {
+            since_s: base.clock().time(),
+            instants: Vec::new(),
+            vehicles: BTreeMap::new(),
+            changes: [0; 2],
+            by_vehicle: BTreeMap::new(),
+            left: BTreeMap::new(),
+        }
+    }
+
+    /// Sees both after a step.
+    pub(super) fn observe(&mut self, base: &World, branch: &World) {
+        for (which, world) in [base, branch].into_iter().enumerate() {
+            for event in world.events() {
+                match event {
+                    Event::LaneChange(change) if change.is_completed => {
+                        self.changes[which] += 1;
+                        self.by_vehicle.entry(change.vehicle).or_default()[which] += 1;
+                    }
+                    Event::Left { vehicle, .. } => {
+                        self.left.entry(*vehicle).or_default()[which] = Some(world.clock().time());
+                    }
+                    _ => {}
+                }
+            }
+        }
+        if base.clock().step.is_multiple_of(base.clock().steps(EVERY)) {
+            self.compare(base, branch);
+        }
+    }
+
+    fn compare(&mut self, base: &World, branch: &World) {
+        let time_s = base.clock().time();
+        let states = [base, branch].map(states);
+        let (mut on_road, mut differ, [mut a, mut b]) = (0, 0, [0, 0]);
+        while a < states[0].len() || b < states[1].len() {
+            let [one, other] = [states[0].get(a), states[1].get(b)];
+            let id = one.map_or(VehicleId::MAX, |it| it.0).min(other.map_or(VehicleId::MAX, |it| it.0));
+            let here = one.filter(|it| it.0 == id);
+            let there = other.filter(|it| it.0 == id);
+            on_road += 1;
+            if here != there {
+                differ += 1;
+                let world = if here.is_some() { base } else { branch };
+                self.vehicles.entry(id).or_insert_with(|| found(world, id, time_s));
+            }
+            a += usize::from(here.is_some());
+            b += usize::from(there.is_some());
+        }
+        let mean_speed_mps = [base, branch].map(mean_speed);
+        self.instants.push(Instant { time_s, on_road, differ, lane_changes: self.changes, mean_speed_mps });
+        for (id, vehicle) in &mut self.vehicles {
+            vehicle.lane_changes = self.by_vehicle.get(id).copied().unwrap_or_default();
+            vehicle.left_s = self.left.get(id).copied().unwrap_or_default();
+        }
+    }
+
+    /// Nothing differs.
+    pub fn are_none(&self) -> bool {
+        self.vehicles.is_empty()
+    }
+
+    /// The differences for the screen, where `settings` were changed.
+    pub fn to_text(&self, settings: &str) -> String {
+        let mut text = String::new();
+        let mut line = |name: &str, value: String| {
+            // Writing to a string never fails.
+            let _ = writeln!(text, "  {name:<17}{value}");
+        };
+        line("branch", format!("from {:.1} s on with {settings}", self.since_s));
+        let first =
+            self.vehicles.iter().min_by(|a, b| a.1.since_s.total_cmp(&b.1.since_s).then(a.0.cmp(b.0)));
+        let Some((id, vehicle)) = first else {
+            line("differences", "none: both twins are the same to the last bit".into());
+            return text;
+        };
+        line("first", format!("vehicle {id} ({}) at {:.0} s", vehicle.style, vehicle.since_s));
+        let Some(last) = self.instants.last() else { return text };
+        let met: std::collections::BTreeSet<VehicleId> = self.vehicles.keys().copied().collect();
+        let share = 100.0 * f64::from(last.differ) / f64::from(last.on_road.max(1));
+        line("differ", format!("{} vehicles; at the end {share:.0} % of those on the road", met.len()));
+        let both = |of: [f64; 2], unit: &str, digits: usize| {
+            format!("{:.digits$} → {:.digits$}{unit} ({:+.digits$})", of[0], of[1], of[1] - of[0])
+        };
+        line("lane changes", both(self.changes.map(|it| it as f64), "", 0));
+        let speeds = [0, 1].map(|which| {
+            let all: f64 = self.instants.iter().map(|it| it.mean_speed_mps[which]).sum();
+            KMH_PER_MPS * all / self.instants.len() as f64
+        });
+        line("mean speed", both(speeds, " km/h", 1));
+        let left = [0, 1].map(|which| self.left.values().filter(|it| it[which].is_some()).count() as f64);
+        line("left", both(left, "", 0));
+        let later: Vec<f64> =
+            self.left.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?)).collect();
+        if !later.is_empty() {
+            let mean = later.iter().sum::<f64>() / later.len() as f64;
+            line("who left in both", format!("{} vehicles, {mean:+.2} s later on average", later.len()));
+        }
+        text
+    }
+}
+
+/// All vehicles in the order of their ids.
+fn states(world: &World) -> Vec<State> {
+    let mut states: Vec<State> = world
+        .vehicles()
+        .map(|it| (it.id(), it.spot.chain.0, it.x().to_bits(), it.speed().to_bits(), it.car.phase))
+        .collect();
+    states.sort_unstable_by_key(|it| it.0);
+    states
+}
+
+fn mean_speed(world: &World) -> f64 {
+    let (sum, count) = world.vehicles().fold((0.0, 0), |(sum, count), it| (sum + it.speed(), count + 1));
+    if count == 0 { 0.0 } else { sum / f64::from(count) }
+}
+
+fn found(world: &World, id: VehicleId, since_s: f64) -> Vehicle {
+    let vehicle = world.vehicles().find(|it| it.id() == id);
+    let style = vehicle.map_or(String::new(), |it| it.style().name.clone());
+    let class = vehicle.map_or("", |it| it.car.class.body().name);
+    Vehicle { style, class, since_s, lane_changes: [0; 2], left_s: [None; 2] }
+}

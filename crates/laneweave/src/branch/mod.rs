@@ -1,0 +1,75 @@
+//! Twins: the same traffic twice from a time on, once with one thing changed. All draws are equal, so every difference between the two
+//! is caused by that change.
+
+mod differences;
+mod setting;
+
+use laneweave_models::Style;
+use laneweave_sim::World;
+
+use crate::fault::Fault;
+use crate::record::{End, Record};
+use crate::scenario::mixture::mixture;
+use crate::scenario::prepare;
+use crate::style::Population;
+
+pub use differences::{Differences, Instant, Vehicle};
+pub use setting::Setting;
+
+/// Two worlds that were one.
+pub struct Twins {
+    /// As it went on.
+    pub base: World,
+    /// As it goes otherwise.
+    pub branch: World,
+    /// Steps until the run ends.
+    steps_left: u32,
+}
+
+impl Twins {
+    /// The run of `record` up to the time `at` [s], and from there on with `settings`.
+    ///
+    /// # Errors
+    /// If there is no such time in the run, or a setting does not fit.
+    pub fn part(record: &Record, at: f64, settings: &[Setting]) -> Result<Twins, Fault> {
+        let Record { scenario, origin, end: End { duration_s, warmup_s, .. } } = record;
+        let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
+        let [all, before] = [duration_s + warmup_s, at].map(steps);
+        if at < 0.0 || before >= all {
+            let what = format!("the time {at} s");
+            let remedy =
+                format!("the run lasted from 0 to {} s: choose a time before its end", duration_s + warmup_s);
+            return Err(Fault::new("--at", what, remedy));
+        }
+        let characters = changed(record, settings)?;
+        let [mut base, mut branch] = [prepare(scenario, origin)?.world, prepare(scenario, origin)?.world];
+        (0..before).for_each(|_| base.step());
+        let bug = |error: &dyn std::fmt::Display| Fault::new("branch", error, "report this as a bug");
+        let saved = base.save().map_err(|error| bug(&error))?;
+        branch.restore(&saved).map_err(|error| bug(&error))?;
+        branch.change_characters(characters).map_err(|error| bug(&error))?;
+        Ok(Twins { base, branch, steps_left: all - before })
+    }
+
+    /// Drives both to the end of the run.
+    pub fn drive(&mut self) -> Differences {
+        let mut differences = Differences::between(&self.base);
+        for _ in 0..self.steps_left {
+            self.base.step();
+            self.branch.step();
+            differences.observe(&self.base, &self.branch);
+        }
+        differences
+    }
+}
+
+/// The drivers of `record` with `settings`.
+fn changed(record: &Record, settings: &[Setting]) -> Result<Vec<Style>, Fault> {
+    let Record { scenario, origin, .. } = record;
+    let mut mixture = mixture(scenario, origin)?;
+    let population = Population::draw(&mixture, scenario.run.seed)?;
+    for setting in settings {
+        setting.apply(&mut mixture)?;
+    }
+    population.redrawn(&mixture, scenario.run.seed)
+}

@@ -1,0 +1,119 @@
+//! What is changed: `STYLE.KEY=VALUE`.
+
+use std::str::FromStr;
+
+use toml::Value;
+
+use crate::fault::{Fault, did_you_mean};
+use crate::style::StyleTemplate;
+
+/// A key of one style, or of all, with another value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// As it was given.
+    text: String,
+    /// The style; none: all.
+    style: Option<String>,
+    /// The keys from the outermost in.
+    path: Vec<String>,
+    value: Value,
+}
+
+/// The name that stands for all styles.
+const ALL: &str = "style";
+/// Where keys are sought that are no sections of a style.
+const USUAL_SECTION: &str = "change";
+/// The sections and keys at the top of a style.
+const TOP: [&str; 8] =
+    ["speed_factor", "follow", "change", "safety", "attention", "manner", "yielding", "guidance"];
+
+impl FromStr for Setting {
+    type Err = String;
+
+    /// `style.change.speed.weight=2`, or with the name of a style in the place of `style`; `change` may be left out.
+    fn from_str(text: &str) -> Result<Setting, String> {
+        let (key, value) =
+            text.split_once('=').ok_or("write STYLE.KEY=VALUE, such as style.speed.weight=2")?;
+        let mut keys = key.trim().split('.').map(str::to_owned);
+        let style = keys.next().filter(|it| !it.is_empty()).ok_or("the name of a style is missing")?;
+        let mut path: Vec<String> = keys.collect();
+        if path.is_empty() {
+            return Err(format!(
+                "the key is missing: write {style}.KEY=VALUE, such as {style}.speed.weight=2"
+            ));
+        }
+        if !TOP.contains(&path[0].as_str()) {
+            path.insert(0, USUAL_SECTION.into());
+        }
+        let value = value.trim();
+        let document: Result<toml::Table, _> = format!("value = {value}").parse();
+        // What is no TOML is a text.
+        let value = document
+            .ok()
+            .and_then(|mut it| it.remove("value"))
+            .unwrap_or_else(|| Value::String(value.into()));
+        let style = Some(style).filter(|it| it != ALL);
+        Ok(Setting { text: text.into(), style, path, value })
+    }
+}
+
+impl Setting {
+    /// As it was given.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Changes the styles of `mixture` that it is about; of all styles those that have the key.
+    pub(super) fn apply(&self, mixture: &mut [(StyleTemplate, f64)]) -> Result<(), Fault> {
+        let place = format!("--set {}", self.text);
+        let names: Vec<String> = mixture.iter().map(|(it, _)| it.typical().name.clone()).collect();
+        if let Some(style) = &self.style
+            && !names.contains(style)
+        {
+            let known = names.iter().map(String::as_str).chain([ALL]);
+            return Err(Fault::new(
+                place,
+                format!("no style {style:?} drives here"),
+                did_you_mean(style, known),
+            ));
+        }
+        let (mut applied, mut refused) = (0, None);
+        for (template, _) in mixture.iter_mut() {
+            if self.style.as_ref().is_some_and(|it| *it != template.typical().name) {
+                continue;
+            }
+            match template.with_value(&self.path, self.value.clone(), &place) {
+                Ok(changed) => {
+                    *template = changed;
+                    applied += 1;
+                }
+                Err(fault) => refused = Some(fault),
+            }
+        }
+        match refused {
+            Some(fault) if applied == 0 => Err(fault),
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_setting_names_a_style_a_key_and_a_value() {
+        let setting = |text: &str| text.parse::<Setting>().unwrap();
+        let path = |it: &Setting| it.path.join(".");
+        let all = setting("style.speed.weight=2");
+        assert_eq!((all.style.as_deref(), path(&all).as_str()), (None, "change.speed.weight"));
+        assert_eq!(all.value, Value::Integer(2));
+        let one = setting("aggressive.follow.time_gap = 0.9");
+        assert_eq!((one.style.as_deref(), path(&one).as_str()), (Some("aggressive"), "follow.time_gap"));
+        assert_eq!(one.value, Value::Float(0.9));
+        assert_eq!(setting("style.rule=threshold").value, Value::String("threshold".into()));
+        for wrong in ["speed", "style=2", ".speed=1"] {
+            assert!(wrong.parse::<Setting>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! `laneweave branch`.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::Args;
+use laneweave::Fault;
+use laneweave::branch::{Differences, Setting, Twins};
+use laneweave::record::Record;
+use laneweave::study::{Column, Format, TableWriter};
+
+use super::say;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The folder of results of a run, which is repeated.
+    #[arg(value_name = "OUT")]
+    out: PathBuf,
+    /// From when on something is otherwise, in seconds as in the tables.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    at: f64,
+    /// What is otherwise: a key of all styles (style.speed.weight=2), or of one (aggressive.follow.time_gap=0.9); may be repeated.
+    #[arg(long = "set", value_name = "STYLE.KEY=VALUE")]
+    settings: Vec<Setting>,
+    /// Folder of the differences [default: OUT/branch].
+    #[arg(long, value_name = "DIR")]
+    into: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        let Arguments { out, at, settings, into } = self;
+        let record = Record::open(&out)?;
+        let mut twins = Twins::part(&record, at, &settings)?;
+        let differences = twins.drive();
+        let end = format!("{:016x}", twins.base.state_hash());
+        if end != record.end.state_hash {
+            let what =
+                format!("the run ended with the state {}, and repeated with {end}", record.end.state_hash);
+            return Err(Fault::new(out.display(), what, "report this as a bug"));
+        }
+        let texts: Vec<&str> = settings.iter().map(Setting::text).collect();
+        let settings = if texts.is_empty() { "nothing changed".into() } else { texts.join(", ") };
+        let mut text = differences.to_text(&settings);
+        if !differences.are_none() {
+            let folder = into.unwrap_or_else(|| out.join("branch"));
+            fs::create_dir_all(&folder).map_err(|error| Fault::refused(&folder, "made", &error))?;
+            for (number, path) in
+                tables(&differences, &folder, record.scenario.output.format.into())?.iter().enumerate()
+            {
+                let name = if number == 0 { "files" } else { "" };
+                text += &format!("  {name:<17}{}\n", path.display());
+            }
+        }
+        say(&text);
+        Ok(())
+    }
+}
+
+const VEHICLES: [Column; 8] = [
+    Column::integer("vehicle"),
+    Column::text("style"),
+    Column::text("class"),
+    Column::real("since_s"),
+    Column::integer("base_lane_changes"),
+    Column::integer("branch_lane_changes"),
+    Column::real("base_left_s"),
+    Column::real("branch_left_s"),
+];
+
+const INSTANTS: [Column; 7] = [
+    Column::real("time_s"),
+    Column::integer("on_road"),
+    Column::integer("differ"),
+    Column::integer("base_lane_changes"),
+    Column::integer("branch_lane_changes"),
+    Column::real("base_mean_speed_mps"),
+    Column::real("branch_mean_speed_mps"),
+];
+
+/// Writes who differs, and how much second by second.
+fn tables(
+    differences: &Differences,
+    folder: &std::path::Path,
+    format: Format,
+) -> Result<Vec<PathBuf>, Fault> {
+    let path = |name: &str| {
+        folder.join(name).with_extension(match format {
+            Format::Csv => "csv",
+            Format::Parquet => "parquet",
+        })
+    };
+    let (vehicles, instants) = (path("differences"), path("instants"));
+    let mut table = TableWriter::create(&vehicles, format, &VEHICLES)?;
+    for (id, it) in &differences.vehicles {
+        let [base, branch] = it.lane_changes;
+        let [base_left, branch_left] = it.left_s;
+        table.row(&[
+            (*id).into(),
+            it.style.as_str().into(),
+            it.class.into(),
+            it.since_s.into(),
+            base.into(),
+            branch.into(),
+            base_left.into(),
+            branch_left.into(),
+        ])?;
+    }
+    table.finish()?;
+    let mut table = TableWriter::create(&instants, format, &INSTANTS)?;
+    for it in &differences.instants {
+        let [base, branch] = it.lane_changes.map(|it| it as i64);
+        let [base_speed, branch_speed] = it.mean_speed_mps;
+        table.row(&[
+            it.time_s.into(),
+            it.on_road.into(),
+            it.differ.into(),
+            base.into(),
+            branch.into(),
+            base_speed.into(),
+            branch_speed.into(),
+        ])?;
+    }
+    table.finish()?;
+    Ok(vec![vehicles, instants])
+}
