@@ -219,7 +219,7 @@ proptest! {
         sigma in prop_oneof![Just(0.0), Just(1e-3), Just(1.0)],
         rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], tightness in 0.4..1.0_f64,
     ) {
-        let me = Driver { pace: Pace { speed, desired: 14.0, tightness }, follow, length: LENGTH };
+        let me = Driver { pace: Pace { speed, desired: 14.0, tightness }, acceleration: 0.0, follow, length: LENGTH };
         let model = Mcdm { rule, sigma, ..model };
         let situation = Situation { here, there, section, ..empty_road(me) };
         let appraisal = model.appraise(&situation);

@@ -401,7 +401,8 @@ impl Gap {
         if let Some(found) = self.follower {
             let behind = driver(scene, found.spot);
             let gap = found.distance - me.length;
-            let demanded = behind.follow.acceleration(behind.pace, Some(Ahead { gap, speed }));
+            let ego = Ahead { gap, speed, acceleration: me.acceleration };
+            let demanded = behind.follow.acceleration(behind.pace, Some(ego));
             let pair = GapPair { gap, follower: behind.pace.speed, leader: speed, demanded };
             style.safety.accept(pair, dt)?;
         }

@@ -91,8 +91,8 @@ impl Courtesy {
 /// What the one `behind` follows with `me` in the lane, and without, where the leader there is `ahead` of me.
 #[inline]
 fn leaders(me: &Driver, behind: &Behind, ahead: Option<Ahead>) -> [Option<Ahead>; 2] {
-    let with = Ahead { gap: behind.gap, speed: me.pace.speed };
-    let without = ahead.map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, speed: ahead.speed });
+    let with = Ahead { gap: behind.gap, speed: me.pace.speed, acceleration: me.acceleration };
+    let without = ahead.map(|ahead| Ahead { gap: behind.gap + me.length + ahead.gap, ..ahead });
     [Some(with), without]
 }
 

@@ -41,6 +41,8 @@ impl Situation<'_> {
 pub struct Driver<'a> {
     /// Its motion.
     pub pace: Pace,
+    /// Its acceleration, as others see it [m/s²].
+    pub acceleration: f64,
     /// How it follows.
     pub follow: &'a FollowingModel,
     /// Vehicle length [m].
