@@ -54,7 +54,7 @@ fn any_driver() -> impl Strategy<Value = Driver<'static>> {
 }
 
 fn any_ahead() -> impl Strategy<Value = Ahead> {
-    (0.5..200.0_f64, 0.0..40.0_f64).prop_map(|(gap, speed)| Ahead { gap, speed })
+    (0.5..200.0_f64, 0.0..40.0_f64).prop_map(|(gap, speed)| Ahead::steady(gap, speed))
 }
 
 fn any_behind() -> impl Strategy<Value = Behind<'static>> {
@@ -154,7 +154,7 @@ proptest! {
         model in any_model(), mut situation in any_situation(), merging in any_merging(), gap in 0.5..30.0_f64,
         speed in 0.0..40.0_f64, share in 0.0..1.0_f64,
     ) {
-        situation.merging[0] = Some(Merging { freed: Some(Ahead { gap, speed }), ..merging });
+        situation.merging[0] = Some(Merging { freed: Some(Ahead::steady(gap, speed)), ..merging });
         let before = model.appraise(&situation).gain;
         situation.merging[0] = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
         prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
@@ -199,7 +199,7 @@ fn any_extreme_length() -> impl Strategy<Value = f64> {
 }
 
 fn any_extreme_ahead() -> impl Strategy<Value = Option<Ahead>> {
-    option::of((any_extreme_length(), any_extreme_speed()).prop_map(|(gap, speed)| Ahead { gap, speed }))
+    option::of((any_extreme_length(), any_extreme_speed()).prop_map(|(gap, speed)| Ahead::steady(gap, speed)))
 }
 
 fn any_extreme_lane() -> impl Strategy<Value = LaneView<'static>> {
@@ -229,7 +229,7 @@ proptest! {
         sigma in prop_oneof![Just(0.0), Just(1e-3), Just(1.0)],
         rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], tightness in 0.4..1.0_f64,
     ) {
-        let me = Driver { pace: Pace { speed, desired: 14.0, tightness }, follow, length: LENGTH };
+        let me = Driver { pace: Pace { speed, desired: 14.0, tightness }, acceleration: 0.0, follow, length: LENGTH };
         let model = Mcdm { rule, sigma, ..model };
         let situation = Situation { here, there, section, ..empty_road(me) };
         let appraisal = model.appraise(&situation);

@@ -31,7 +31,7 @@ fn desire(model: Lmrs, situation: &Situation) -> f64 {
 fn between(toward: Toward, here: f64, there: f64) -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 25.0, 30.0));
     situation.toward = toward;
-    situation.here.ahead = Some(Ahead { gap: 10.0, speed: 25.0 });
+    situation.here.ahead = Some(Ahead::steady(10.0, 25.0));
     (situation.here.prospect, situation.there.prospect) = (here, there);
     situation
 }
@@ -90,7 +90,7 @@ fn v45_the_accepted_time_gap_shrinks_with_desire_and_relaxes() {
 
 #[test]
 fn v45_the_anticipated_speed_lies_between_the_leaders_and_the_desired_one() {
-    assert_near(anticipated_speed(Ahead { gap: 60.0, speed: 8.0 }, 50.0 / 3.6), 9.197740, 1e-6);
+    assert_near(anticipated_speed(Ahead::steady(60.0, 8.0), 50.0 / 3.6), 9.197740, 1e-6);
 }
 
 #[test]

@@ -95,21 +95,18 @@ fn v44_above_60_kmh_nobody_gains_by_passing_on_the_slow_side() {
     // Behind the leader on the fast lane one is no slower than beside it.
     assert_eq!(gain(european(), Toward::Offside, None, slower(25.0)), 0.0);
     assert!(gain(european(), Toward::Offside, None, slower(16.0)) < -1.0);
-    let me = |speed, leader| european().stays_behind(speed, Ahead { gap: 40.0, speed: leader });
+    let me = |speed, leader| european().stays_behind(speed, Ahead::steady(40.0, leader));
     assert_eq!([me(30.0, 25.0), me(25.0, 30.0), me(30.0, 16.0)], [true, false, false]);
 }
 
 #[test]
 fn accelerations_are_those_of_everybodys_own_model() {
     let [slow, quick] = [driver(&DRIVERS, 22.0, 30.0), driver(&DRIVERS, 28.0, 36.0)];
-    let mut situation = between(
-        Toward::Offside,
-        Some(Ahead { gap: 20.0, speed: 20.0 }),
-        Some(Ahead { gap: 50.0, speed: 31.0 }),
-    );
+    let mut situation =
+        between(Toward::Offside, Some(Ahead::steady(20.0, 20.0)), Some(Ahead::steady(50.0, 31.0)));
     (situation.here.behind, situation.there.behind) = (behind(15.0, slow), behind(25.0, quick));
     let (me, length) = (situation.me.pace, situation.me.length);
-    let idm = |pace: Pace, gap, speed| IDM.acceleration(pace, Some(Ahead { gap, speed }));
+    let idm = |pace: Pace, gap, speed| IDM.acceleration(pace, Some(Ahead::steady(gap, speed)));
     let expected = Accelerations {
         own: [idm(me, 20.0, 20.0), idm(me, 50.0, 31.0)],
         new_follower: [idm(quick.pace, 25.0 + length + 50.0, 31.0), idm(quick.pace, 25.0, 30.0)],
@@ -122,7 +119,7 @@ fn accelerations_are_those_of_everybodys_own_model() {
 
 #[test]
 fn a_change_that_would_make_the_new_follower_brake_too_hard_is_not_desired() {
-    let mut situation = between(Toward::Offside, Some(Ahead { gap: 15.0, speed: 20.0 }), None);
+    let mut situation = between(Toward::Offside, Some(Ahead::steady(15.0, 20.0)), None);
     assert!(wants(Mobil::default(), &situation));
     situation.there.behind = behind(20.0, driver(&DRIVERS, 38.0, 40.0));
     let [_, forced] = Accelerations::of(&situation).new_follower;
@@ -139,12 +136,12 @@ fn a_change_that_would_make_the_new_follower_brake_too_hard_is_not_desired() {
 fn who_keeps_to_the_lanes_of_the_route_never_leaves_them_and_always_seeks_them() {
     let lanes = Mobil { route: RouteKeeping::Lanes, ..Mobil::default() };
     let wrong = RouteView { changes: 1, remaining: 2000.0, ..ON_ROUTE };
-    let mut situation = between(Toward::Offside, Some(Ahead { gap: 15.0, speed: 10.0 }), None);
+    let mut situation = between(Toward::Offside, Some(Ahead::steady(15.0, 10.0)), None);
     assert!(wants(lanes, &situation));
     situation.there.route = wrong;
     assert!(!wants(lanes, &situation), "far before the turn already");
     assert!(wants(Mobil::default(), &situation), "by urgency only near the turn");
-    let mut situation = between(Toward::Offside, None, Some(Ahead { gap: 15.0, speed: 10.0 }));
+    let mut situation = between(Toward::Offside, None, Some(Ahead::steady(15.0, 10.0)));
     situation.here.route = wrong;
     assert!(wants(lanes, &situation));
     assert!(!wants(Mobil::default(), &situation));
@@ -152,7 +149,7 @@ fn who_keeps_to_the_lanes_of_the_route_never_leaves_them_and_always_seeks_them()
 
 #[test]
 fn urgency_outweighs_any_loss_at_the_last_place_and_none_far_before_it() {
-    let mut situation = between(Toward::Offside, None, Some(Ahead { gap: 60.0, speed: 27.0 }));
+    let mut situation = between(Toward::Offside, None, Some(Ahead::steady(60.0, 27.0)));
     let at = |situation: &mut Situation<'static>, remaining| -> Appraisal {
         situation.here.route = RouteView { changes: 1, remaining, ..ON_ROUTE };
         Mobil::default().appraise(situation)

@@ -72,7 +72,7 @@ impl OpenRoad {
 // The most frequent call of a motorway.
 #[inline(always)]
 pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
-    let ahead = Ahead { gap: leader.rear() - motion.x, speed: leader.speed };
+    let ahead = leader.ahead(leader.rear() - motion.x);
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(motion, car), Some(ahead));
     let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
@@ -257,7 +257,7 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     }
     let (gap, speed) = mind.lets_in;
     if gap < f32::INFINITY {
-        let ahead = Ahead { gap: f64::from(gap).max(0.1), speed: f64::from(speed) };
+        let ahead = Ahead::steady(f64::from(gap).max(0.1), f64::from(speed));
         let giving_way = style.follow.acceleration(pace, Some(ahead));
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }

@@ -98,10 +98,8 @@ fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
 pub struct Pairing<'a> {
     /// Who would follow.
     pub follower: Driver<'a>,
-    /// Net gap between them [m].
-    pub gap: f64,
-    /// Speed of who would be followed [m/s].
-    pub leader_speed: f64,
+    /// Whom it would follow.
+    pub leader: Ahead,
 }
 
 impl Pairing<'_> {
@@ -110,10 +108,9 @@ impl Pairing<'_> {
     /// # Errors
     /// Why not.
     pub fn accepted(&self, safety: &Safety, dt: f64) -> Result<(), (Refusal, GapPair)> {
-        let Pairing { follower, gap, leader_speed } = *self;
-        let ahead = Ahead { gap, speed: leader_speed };
-        let demanded = follower.follow.acceleration(follower.pace, Some(ahead));
-        let pair = GapPair { gap, follower: follower.pace.speed, leader: leader_speed, demanded };
+        let Pairing { follower, leader } = *self;
+        let demanded = follower.follow.acceleration(follower.pace, Some(leader));
+        let pair = GapPair { gap: leader.gap, follower: follower.pace.speed, leader: leader.speed, demanded };
         safety.accept(pair, dt).map_err(|why| (why, pair))
     }
 }
@@ -147,13 +144,14 @@ impl Gap {
     /// Who would follow whom: the driver its new leader, its new follower the driver.
     pub(crate) fn pairings<'a>(&self, scene: &Scene<'a>, spot: Spot) -> [Option<Pairing<'a>>; 2] {
         let me = driver(scene, spot);
-        let ahead = self.ahead.map(|it| {
+        let ahead = self.ahead.map(|leader| {
             let follower = Driver { pace: self.pace(spot, scene), ..me };
-            Pairing { follower, gap: it.gap, leader_speed: it.speed }
+            Pairing { follower, leader }
         });
         let behind = self.follower.map(|it| {
             let gap = it.distance - me.length;
-            Pairing { follower: driver(scene, it.spot), gap, leader_speed: me.pace.speed }
+            let leader = Ahead { gap, speed: me.pace.speed, acceleration: me.acceleration };
+            Pairing { follower: driver(scene, it.spot), leader }
         });
         [ahead, behind]
     }

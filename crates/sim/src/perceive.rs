@@ -41,6 +41,7 @@ pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
             desired: f64::from(car.desired),
             tightness: f64::from(motion.tightness),
         },
+        acceleration: f64::from(motion.acceleration),
         follow: &scene.characters[car.character as usize].follow,
         length: f64::from(motion.length),
     }
@@ -203,7 +204,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
         if !is_next {
             return None;
         }
-        let me_ahead = Ahead { gap: -forward - self.me.length, speed: self.me.pace.speed };
+        let Driver { pace, acceleration, length, .. } = self.me;
+        let me_ahead = Ahead { gap: -forward - length, speed: pace.speed, acceleration };
         let blocked = if me_ahead.gap > 0.0 { Some(me_ahead) } else { self.held_in_its_lane(spot) };
         let freed = self.sight.ahead.map(|it| Ahead { gap: it.gap - forward, ..it });
         Some(Merging { driver: driver(self.scene, spot), blocked, freed, urgency: f64::from(mind.urgency) })

@@ -199,7 +199,7 @@ impl<'a> Scene<'a> {
     pub fn ahead(&self, from: Viewpoint) -> Option<Ahead> {
         let motions = self.motions(from.chain);
         let on_way = match motions[from.ahead..].iter().find(|it| it.id != from.id) {
-            Some(it) => Some(Ahead { gap: it.rear() - from.x, speed: it.speed }),
+            Some(it) => Some(it.ahead(it.rear() - from.x)),
             None => self.ahead_beyond(from),
         };
         let is_in_fork = from.x < self.network.chain(from.chain).fork_clearance;
@@ -222,7 +222,7 @@ impl<'a> Scene<'a> {
 
     /// The vehicle at `spot`, whose rear bumper is `gap` ahead [m].
     fn rear_ahead(&self, spot: Spot, gap: f64) -> Ahead {
-        Ahead { gap, speed: self.motion(spot).speed }
+        self.motion(spot).ahead(gap)
     }
 
     /// The chains that fork off together with `chain`, each with the one before the fork.
@@ -302,7 +302,7 @@ impl<'a> Scene<'a> {
             let on_way = lane.motions().iter().position(|it| it.id != from.id);
             let leader = on_way.map(|index| {
                 let (it, mind) = (&lane.motions()[index], &lane.minds()[index]);
-                Ahead { gap: self.gap_to(chain, base, it, mind), speed: it.speed }
+                it.ahead(self.gap_to(chain, base, it, mind))
             });
             let beside = self.beyond_the_fork(chain, next, from.id);
             let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, base + rear));
@@ -548,7 +548,7 @@ impl View {
     ) -> bool {
         for (index, it) in (first..).zip(motions) {
             let front = base + it.x;
-            let ahead = Ahead { gap: front - f64::from(it.length), speed: it.speed };
+            let ahead = it.ahead(front - f64::from(it.length));
             if ahead.gap > self.sight {
                 return true;
             }

@@ -5,6 +5,7 @@
 //! lane need. A vehicle that changes lanes stands in both lanes: with its main entry where its centre is, with a
 //! shadow in the other.
 
+use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Side};
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +40,12 @@ impl Motion {
     #[inline]
     pub fn rear(&self) -> f64 {
         self.x - f64::from(self.length)
+    }
+
+    /// It as the leader of one whose net gap to it is `gap` [m].
+    #[inline(always)]
+    pub(crate) fn ahead(&self, gap: f64) -> Ahead {
+        Ahead { gap, speed: self.speed, acceleration: f64::from(self.acceleration) }
     }
 }
 

@@ -135,6 +135,8 @@ struct Queued<'a> {
     /// Front beyond the line [m].
     x: f64,
     speed: f64,
+    /// Of the last step [m/s²].
+    acceleration: f64,
 }
 
 impl<'a> Queue<'a> {
@@ -147,7 +149,7 @@ impl<'a> Queue<'a> {
     }
 
     fn push(&mut self, kind: &'a Kind<'a>) {
-        self.vehicles.push(Queued { kind, x: self.next(), speed: 0.0 });
+        self.vehicles.push(Queued { kind, x: self.next(), speed: 0.0, acceleration: 0.0 });
     }
 
     /// Whether one more might reach the line at all in this time [s].
@@ -159,12 +161,15 @@ impl<'a> Queue<'a> {
     }
 
     fn drive(&mut self, dt: f64) {
-        let mut leader: Option<(f64, f64)> = None;
-        for Queued { kind, x, speed } in &mut self.vehicles {
-            let ahead = leader.map(|(rear, speed)| Ahead { gap: rear - *x, speed });
-            leader = Some((*x - kind.class.body().length, *speed));
+        // Where the rear bumper of the vehicle before is, and what its driver sees of it who comes next.
+        let mut leader: Option<(f64, Ahead)> = None;
+        for Queued { kind, x, speed, acceleration: chosen } in &mut self.vehicles {
+            let ahead = leader.map(|(rear, it)| Ahead { gap: rear - *x, ..it });
+            let (gap, rear) = (0.0, *x - kind.class.body().length);
+            leader = Some((rear, Ahead { gap, speed: *speed, acceleration: *chosen }));
             let pace = Pace::new(*speed, kind.desired);
             let acceleration = kind.style.follow.acceleration(pace, ahead).min(kind.class.strength());
+            *chosen = acceleration;
             let after = (*speed + acceleration * dt).max(0.0);
             *x += 0.5 * (*speed + after) * dt;
             *speed = after;

@@ -137,14 +137,14 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
     let mut flips = Vec::new();
     const FAR: f64 = 1000.0;
     if let Some(it) = ahead {
-        let gap = |by: f64| goes(&|all| all[0].iter_mut().for_each(|it| it.gap += by));
-        flips.extend(flip(Knob::GapAhead, it.gap, [-FAR, FAR], gap));
-        let speed = |by: f64| goes(&|all| all[0].iter_mut().for_each(|it| it.leader_speed += by));
-        flips.extend(flip(Knob::LeaderSpeed, it.leader_speed, [-it.leader_speed, FAR], speed));
+        let gap = |by: f64| goes(&|all| all[0].iter_mut().for_each(|it| it.leader.gap += by));
+        flips.extend(flip(Knob::GapAhead, it.leader.gap, [-FAR, FAR], gap));
+        let speed = |by: f64| goes(&|all| all[0].iter_mut().for_each(|it| it.leader.speed += by));
+        flips.extend(flip(Knob::LeaderSpeed, it.leader.speed, [-it.leader.speed, FAR], speed));
     }
     if let Some(it) = behind {
-        let gap = |by: f64| goes(&|all| all[1].iter_mut().for_each(|it| it.gap += by));
-        flips.extend(flip(Knob::GapBehind, it.gap, [-FAR, FAR], gap));
+        let gap = |by: f64| goes(&|all| all[1].iter_mut().for_each(|it| it.leader.gap += by));
+        flips.extend(flip(Knob::GapBehind, it.leader.gap, [-FAR, FAR], gap));
         let of = it.follower.pace.speed;
         let speed = |by: f64| {
             goes(&|all| {
@@ -153,12 +153,12 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
         };
         flips.extend(flip(Knob::FollowerSpeed, of, [-of, FAR], speed));
     }
-    let own = ahead.map(|it| it.follower.pace.speed).or(behind.map(|it| it.leader_speed));
+    let own = ahead.map(|it| it.follower.pace.speed).or(behind.map(|it| it.leader.speed));
     if let Some(own) = own {
         let speed = |by: f64| {
             goes(&|all| {
                 all[0].iter_mut().for_each(|it| it.follower.pace = paced(*it, with_speed(*it, by)));
-                all[1].iter_mut().for_each(|it| it.leader_speed += by);
+                all[1].iter_mut().for_each(|it| it.leader.speed += by);
             })
         };
         flips.extend(flip(Knob::OwnSpeed, own, [-own, FAR], speed));

@@ -205,12 +205,12 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
     }
     for (who, pairing) in ["ahead", "behind"].into_iter().zip(account.pairings) {
         if let Some(it) = pairing {
-            let (follower, leader) = (it.follower.pace.speed, it.leader_speed);
-            let ttc = time_to_collision(it.gap, follower, leader);
+            let (follower, leader) = (it.follower.pace.speed, it.leader.speed);
+            let ttc = time_to_collision(it.leader.gap, follower, leader);
             let closes = if ttc.is_finite() { format!(", closes in {ttc:.1} s") } else { String::new() };
             say(format!(
                 "  gap {who}  {:.1} m{closes} ({:.1} km/h behind {:.1} km/h)",
-                it.gap,
+                it.leader.gap,
                 follower * KMH_PER_MPS,
                 leader * KMH_PER_MPS
             ));

@@ -170,6 +170,7 @@ impl<'a> Twin<'a> {
                 };
                 fvdm.sensitivity * (optimal - v) + fvdm.relative_sensitivity * relative
             }
+            other => panic!("{other:?} has no twin"),
         }
     }
 

@@ -97,7 +97,7 @@ impl Safety {
             (gap >= self.min_time_to_collision * closing, Refusal::TimeToCollision),
             (deceleration_to_avoid(gap, follower, leader) <= self.max_deceleration, Refusal::Forced),
             (demanded >= -self.max_deceleration, Refusal::Demanded),
-            (is_secure(follower, Ahead { gap, speed: leader }, dt), Refusal::Insecure),
+            (is_secure(follower, Ahead::steady(gap, leader), dt), Refusal::Insecure),
         ];
         conditions.into_iter().find(|(met, _)| !met).map_or(Ok(()), |(_, refusal)| Err(refusal))
     }

@@ -52,6 +52,8 @@ impl Situation<'_> {
 pub struct Driver<'a> {
     /// Its motion.
     pub pace: Pace,
+    /// Its acceleration, as others see it [m/s²].
+    pub acceleration: f64,
     /// How it follows.
     pub follow: &'a FollowingModel,
     /// Vehicle length [m].
@@ -86,7 +88,7 @@ impl Behind<'_> {
     /// What it follows with `me` in its lane, and without, where the leader there is `ahead` of me.
     #[inline]
     pub(crate) fn leaders(&self, me: &Driver, ahead: Option<Ahead>) -> [Option<Ahead>; 2] {
-        let with = Ahead { gap: self.gap, speed: me.pace.speed };
+        let with = Ahead { gap: self.gap, speed: me.pace.speed, acceleration: me.acceleration };
         let without = ahead.map(|ahead| Ahead { gap: self.gap + me.length + ahead.gap, ..ahead });
         [Some(with), without]
     }

@@ -34,9 +34,7 @@ impl Default for Idm {
 
 impl Idm {
     /// Gaps are not taken below this, so that the interaction stays finite [m].
-    const SHORTEST: f64 = 0.1;
-    /// No driver accepts a shorter time gap around a lane change [s].
-    const SHORTEST_TIME_GAP: f64 = 0.5;
+    pub(super) const SHORTEST: f64 = 0.1;
     /// The usual δ, for which two products serve as the power.
     const USUAL_EXPONENT: f64 = 4.0;
 
@@ -57,12 +55,8 @@ impl CarFollowing for Idm {
         let interaction = ahead.map_or(0.0, |ahead| {
             let approach = pace.speed - ahead.speed;
             let braking = pace.speed * approach / (2.0 * (self.acceleration * self.deceleration).sqrt());
-            let tight = self.time_gap * pace.tightness;
-            let shortest =
-                if self.time_gap < Idm::SHORTEST_TIME_GAP { self.time_gap } else { Idm::SHORTEST_TIME_GAP };
-            let time_gap = if tight > shortest { tight } else { shortest };
             // Plain comparisons: f64::max costs five times as much here.
-            let dynamic = pace.speed * time_gap + braking;
+            let dynamic = pace.speed * pace.time_gap(self.time_gap) + braking;
             let desired_gap = self.jam_gap + if dynamic > 0.0 { dynamic } else { 0.0 };
             let ratio = desired_gap / if ahead.gap > Idm::SHORTEST { ahead.gap } else { Idm::SHORTEST };
             ratio * ratio

@@ -1,10 +1,24 @@
 //! Car-following: how a driver accelerates behind a leader.
 
+mod acc;
 mod fvdm;
+mod gfm;
+mod gipps;
 mod idm;
+mod krauss;
+mod newell;
+mod optimal_velocity;
+mod ovm;
 
+pub use acc::Acc;
 pub use fvdm::Fvdm;
+pub use gfm::{Gfm, GfmForm};
+pub use gipps::Gipps;
 pub use idm::Idm;
+pub use krauss::Krauss;
+pub use newell::Newell;
+pub use optimal_velocity::OptimalVelocity;
+pub use ovm::Ovm;
 
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +41,15 @@ impl Pace {
     pub fn new(speed: f64, desired: f64) -> Pace {
         Pace { speed, desired, tightness: 1.0 }
     }
+
+    /// What the driver accepts for now of its `usual` time gap [s]: no less than half a second, unless that is its usual one.
+    #[inline]
+    pub(crate) fn time_gap(&self, usual: f64) -> f64 {
+        /// No driver accepts a shorter time gap around a lane change [s].
+        const SHORTEST: f64 = 0.5;
+        let (tight, shortest) = (usual * self.tightness, if usual < SHORTEST { usual } else { SHORTEST });
+        if tight > shortest { tight } else { shortest }
+    }
 }
 
 /// The vehicle, or standing obstacle, ahead.
@@ -36,12 +59,21 @@ pub struct Ahead {
     pub gap: f64,
     /// v_l: its speed [m/s].
     pub speed: f64,
+    /// a_l: its acceleration [m/s²], as far as it can be seen; 0 of what is supposed only.
+    pub acceleration: f64,
 }
 
 impl Ahead {
     /// A standing obstacle `gap` metres ahead: the end of a lane, a stop line.
+    #[inline]
     pub fn standing(gap: f64) -> Ahead {
-        Ahead { gap, speed: 0.0 }
+        Ahead::steady(gap, 0.0)
+    }
+
+    /// A vehicle `gap` metres ahead that keeps its `speed` [m/s].
+    #[inline]
+    pub fn steady(gap: f64, speed: f64) -> Ahead {
+        Ahead { gap, speed, acceleration: 0.0 }
     }
 }
 
@@ -65,46 +97,93 @@ pub fn speed_after(acceleration: f64, pace: Pace) -> f64 {
 }
 
 /// The car-following models a style can name.
+// Which one it is stands in a byte of its own, which is told at every step of every driver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[repr(u8)]
 #[serde(tag = "model", rename_all = "lowercase")]
 pub enum FollowingModel {
     /// Intelligent Driver Model.
     Idm(Idm),
     /// Full Velocity Difference Model.
     Fvdm(Fvdm),
+    /// Enhanced Intelligent Driver Model.
+    Acc(Acc),
+    /// Optimal Velocity Model.
+    Ovm(Ovm),
+    /// Generalized Force Model.
+    Gfm(Gfm),
+    /// The model of Krauss.
+    Krauss(Krauss),
+    /// The model of Gipps.
+    Gipps(Gipps),
+    /// Newell's simplified model.
+    Newell(Newell),
+}
+
+/// What the model that is named answers, whichever it is.
+macro_rules! ask {
+    ($self:expr, $model:ident => $answer:expr) => {
+        match $self {
+            FollowingModel::Idm($model) => $answer,
+            FollowingModel::Fvdm($model) => $answer,
+            FollowingModel::Acc($model) => $answer,
+            FollowingModel::Ovm($model) => $answer,
+            FollowingModel::Gfm($model) => $answer,
+            FollowingModel::Krauss($model) => $answer,
+            FollowingModel::Gipps($model) => $answer,
+            FollowingModel::Newell($model) => $answer,
+        }
+    };
 }
 
 impl CarFollowing for FollowingModel {
-    // The most frequent call of a simulation: inlined, it costs a third less.
+    // The most frequent call of a simulation: inlined, it costs a third less for the model of most drivers.
     #[inline(always)]
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        match self {
-            FollowingModel::Idm(model) => model.acceleration(pace, ahead),
-            FollowingModel::Fvdm(model) => model.acceleration(pace, ahead),
+        if let FollowingModel::Idm(model) = self {
+            return model.acceleration(pace, ahead);
         }
+        let Pace { speed, desired, tightness } = pace;
+        let ahead = ahead.unwrap_or(Ahead::steady(f64::INFINITY, 0.0));
+        self.any_acceleration(speed, desired, tightness, ahead.gap, ahead.speed, ahead.acceleration)
     }
 
     fn prospect(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        match self {
-            FollowingModel::Idm(model) => model.prospect(pace, ahead),
-            FollowingModel::Fvdm(model) => model.prospect(pace, ahead),
-        }
+        ask!(self, model => model.prospect(pace, ahead))
     }
 }
 
 impl FollowingModel {
+    /// The acceleration of any model. It gets numbers, since structs would be written to memory for the others as well;
+    /// without a leader the gap is infinite.
+    #[inline(never)]
+    fn any_acceleration(
+        &self,
+        speed: f64,
+        desired: f64,
+        tightness: f64,
+        gap: f64,
+        leader_speed: f64,
+        leader_acceleration: f64,
+    ) -> f64 {
+        let pace = Pace { speed, desired, tightness };
+        let ahead = Ahead { gap, speed: leader_speed, acceleration: leader_acceleration };
+        let ahead = (gap < f64::INFINITY).then_some(ahead);
+        ask!(self, model => model.acceleration(pace, ahead))
+    }
+
     /// s_e: net gap [m] at which a driver keeps `pace` behind an equally fast leader; infinite at or above the
     /// desired speed.
     pub fn equilibrium_gap(&self, pace: Pace) -> f64 {
         const FAR: f64 = 1e5;
-        let balance = |gap: f64| self.acceleration(pace, Some(Ahead { gap, speed: pace.speed }));
+        let balance = |gap: f64| self.acceleration(pace, Some(Ahead::steady(gap, pace.speed)));
         if balance(FAR) <= 0.0 {
             return f64::INFINITY;
         }
         let (mut short, mut long) = (0.0, FAR);
         for _ in 0..100 {
             let middle = 0.5 * (short + long);
-            if balance(middle) < 0.0 { short = middle } else { long = middle }
+            if balance(middle) <= 0.0 { short = middle } else { long = middle }
         }
         0.5 * (short + long)
     }

@@ -8,7 +8,7 @@ pub(crate) const LENGTH: f64 = 5.0;
 
 /// A relaxed driver.
 pub(crate) fn driver(follow: &FollowingModel, speed: f64, desired: f64) -> Driver<'_> {
-    Driver { pace: Pace::new(speed, desired), follow, length: LENGTH }
+    Driver { pace: Pace::new(speed, desired), acceleration: 0.0, follow, length: LENGTH }
 }
 
 /// A vehicle `gap` [m] behind.

@@ -123,11 +123,12 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
     }
 }
 
-/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it.
+/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road its speed is
+/// seen, and not whether it changes (ours).
 pub(super) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
     let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
-    Some(Ahead { gap, speed: other.speed })
+    Some(Ahead::steady(gap, other.speed))
 }
 
 /// From where on, along the `passage` of the driver at `spot`, somebody is in its way who has none, as who changed into its lane before

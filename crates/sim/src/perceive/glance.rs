@@ -77,7 +77,7 @@ impl Outlook<'_, '_> {
         if [leader.id, follower.id].contains(&from.id) {
             return None;
         }
-        let ahead = Ahead { gap: leader.rear() - from.x, speed: leader.speed };
+        let ahead = leader.ahead(leader.rear() - from.x);
         let found = Found { spot: Spot { chain: from.chain, index }, distance: from.x - follower.x };
         let is_seen = |it: &Found| it.distance < REAR_SIGHT;
         Some((Some(ahead).filter(|it| it.gap <= self.reach), Some(found).filter(is_seen)))

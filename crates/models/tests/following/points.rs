@@ -1,33 +1,21 @@
 //! Car-following against numbers known exactly: points, equilibria, capacities, prospects.
 
-mod parameter_sets;
-
-use laneweave_models::Reading;
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace, speed_after};
-use parameter_sets::{k2010, t2000, urban};
 
-/// Net length of the vehicles in a capacity [m].
-const VEHICLE_LENGTH: f64 = 5.0;
+use crate::assert_near;
+use crate::cars::LENGTH;
+use crate::sets::{k2010, literal_fvdm, t2000, urban};
+
 /// Seconds in an hour.
 const HOUR: f64 = 3600.0;
 
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
-
-fn literal() -> Fvdm {
-    Fvdm { reading: Reading::Literal, ..Fvdm::default() }
-}
-
-fn behind(gap: f64, speed: f64) -> Option<Ahead> {
-    Some(Ahead { gap, speed })
+pub(crate) fn behind(gap: f64, speed: f64) -> Option<Ahead> {
+    Some(Ahead::steady(gap, speed))
 }
 
 /// Speed [m/s] and flow [veh/h] of the largest flow in equilibrium, by ternary search.
-fn optimum(model: FollowingModel, desired: f64) -> (f64, f64) {
-    let flow =
-        |speed: f64| HOUR * speed / (model.equilibrium_gap(Pace::new(speed, desired)) + VEHICLE_LENGTH);
+pub(crate) fn optimum(model: FollowingModel, desired: f64) -> (f64, f64) {
+    let flow = |speed: f64| HOUR * speed / (model.equilibrium_gap(Pace::new(speed, desired)) + LENGTH);
     let (mut low, mut high) = (0.0, desired);
     for _ in 0..100 {
         let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
@@ -97,7 +85,7 @@ fn the_capacity_of_a_style_is_the_optimum_of_its_equilibria() {
         (urban().model(), urban().desired),
         (FollowingModel::Fvdm(Fvdm::default()), 120.0 / 3.6),
     ] {
-        let capacity = HOUR * model.capacity(desired, VEHICLE_LENGTH);
+        let capacity = HOUR * model.capacity(desired, LENGTH);
         let (_, optimum) = optimum(model, desired);
         assert!(capacity <= optimum + 1e-6 && capacity > optimum * (1.0 - 1e-4), "{capacity}, {optimum}");
     }
@@ -186,103 +174,6 @@ fn a_prospect_lies_between_standstill_and_the_desired_speed() {
     assert_eq!(speed_after(2.5, pace), 12.0);
     assert_eq!(speed_after(-9.0, pace), 1.0);
     assert_eq!(speed_after(-11.0, pace), 0.0);
-    assert_eq!(literal().prospect(pace, None), 12.0);
-    assert_eq!(literal().prospect(pace, Some(Ahead::standing(0.0))), 0.0);
-}
-
-#[test]
-fn v3_the_literal_optimal_velocity() {
-    let pace = Pace::new(10.0, 50.0);
-    for (gap, speed) in [(5.0, 1.008151), (10.0, 4.664728), (20.0, 12.871615)] {
-        assert_near(literal().optimal_speed(pace, gap), speed, 1e-6);
-    }
-    // V(0) = −0.503674: nobody expects to drive backwards, but a follower brakes for it.
-    assert_eq!(literal().optimal_speed(pace, 0.0), 0.0);
-    let touching = literal().acceleration(Pace::new(0.0, 50.0), Some(Ahead::standing(0.0)));
-    assert_near(touching, 0.41 * -0.503674, 1e-6);
-    assert_near(literal().optimal_speed(pace, f64::INFINITY), 14.66, 1e-12);
-    // V rises most steeply at the gap C₂/C₁, where it is V₁.
-    assert_near(literal().optimal_speed(pace, 1.57 / 0.13), 6.75, 1e-12);
-}
-
-#[test]
-fn v3_the_repaired_optimal_velocity_scales_speed_and_length() {
-    let fvdm = Fvdm::default();
-    let motorway = Pace::new(10.0, 120.0 / 3.6);
-    assert_near(fvdm.optimal_speed(motorway, 20.0), 8.948182, 1e-6);
-    assert_near(fvdm.optimal_speed(motorway, 40.0), 26.639331, 1e-6);
-    assert_near(fvdm.optimal_speed(Pace::new(10.0, 50.0 / 3.6), 20.0), 12.625809, 1e-6);
-    for desired in [5.0, 50.0 / 3.6, 120.0 / 3.6] {
-        let pace = Pace::new(3.0, desired);
-        assert_near(fvdm.optimal_speed(pace, 0.0), 0.0, 1e-12);
-        assert_near(fvdm.optimal_speed(pace, f64::INFINITY), desired, 1e-12);
-    }
-}
-
-#[test]
-fn v3_fvdm_accelerates_as_published() {
-    let at_ten = Pace::new(10.0, 50.0);
-    assert_near(literal().acceleration(at_ten, behind(20.0, 8.0)), 0.177362, 1e-6);
-    assert_near(literal().acceleration(at_ten, behind(20.0, 12.0)), 2.177362, 1e-6);
-    assert_near(literal().acceleration(Pace::new(0.0, 50.0), None), 6.010600, 1e-6);
-}
-
-#[test]
-fn v3_fvdm_ignores_relative_speed_beyond_its_range() {
-    let pace = Pace::new(10.0, 50.0);
-    let of_gap = |gap| {
-        literal().acceleration(pace, behind(gap, 4.0)) - literal().acceleration(pace, behind(gap, 10.0))
-    };
-    assert_near(of_gap(100.0), -3.0, 1e-12);
-    assert_eq!(of_gap(100.001), 0.0);
-    // The repaired range is a length and scales with the others: 100 · 29.32/14.66.
-    let pace = Pace::new(10.0, 29.32);
-    let fvdm = Fvdm::default();
-    let of_gap = |gap| fvdm.acceleration(pace, behind(gap, 4.0)) - fvdm.acceleration(pace, behind(gap, 10.0));
-    assert_near(of_gap(199.999), -3.0, 1e-12);
-    assert_eq!(of_gap(200.001), 0.0);
-}
-
-#[test]
-fn v3_fvdm_lanes_have_the_published_capacities() {
-    let (speed, flow) = optimum(FollowingModel::Fvdm(literal()), 14.66);
-    assert_near(flow, 1862.610, 1e-3);
-    assert_near(speed, 12.325554, 1e-4);
-    let gap = FollowingModel::Fvdm(literal()).equilibrium_gap(Pace::new(speed, 14.66));
-    assert_near(gap, 18.822, 1e-3);
-    let (_, flow) = optimum(FollowingModel::Fvdm(Fvdm::default()), 120.0 / 3.6);
-    assert_near(flow, 2132.0, 0.5);
-}
-
-#[test]
-fn a_jam_gap_shifts_the_repaired_optimal_velocity() {
-    let (fvdm, pace) = (Fvdm { jam_gap: 2.0, ..Fvdm::default() }, Pace::new(5.0, 20.0));
-    for gap in [0.0, 2.0, 7.0, 30.0] {
-        let beyond = f64::max(gap - 2.0, 0.0);
-        assert_eq!(fvdm.optimal_speed(pace, gap), Fvdm::default().optimal_speed(pace, beyond));
-    }
-}
-
-#[test]
-fn a_tight_driver_keeps_its_share_of_the_time_gap() {
-    let idm = urban().idm;
-    let short = Idm { time_gap: 0.6 * idm.time_gap, ..idm };
-    let (relaxed, ahead) = (Pace::new(10.0, 13.0), behind(15.0, 9.0));
-    let tight = Pace { tightness: 0.6, ..relaxed };
-    assert_near(idm.acceleration(tight, ahead), short.acceleration(relaxed, ahead), 1e-12);
-    for fvdm in [literal(), Fvdm::default()] {
-        assert_near(fvdm.optimal_speed(tight, 12.0), fvdm.optimal_speed(relaxed, 20.0), 1e-12);
-    }
-    // Standing still, a tight driver keeps the jam gap of a relaxed one.
-    let fvdm = Fvdm { jam_gap: 2.0, ..Fvdm::default() };
-    assert_near(fvdm.optimal_speed(tight, 2.0), 0.0, 1e-12);
-    assert_near(fvdm.optimal_speed(tight, 2.0 + 12.0), fvdm.optimal_speed(relaxed, 2.0 + 20.0), 1e-12);
-}
-
-#[test]
-fn nobody_keeps_a_gap_at_which_to_drive_as_fast_as_desired() {
-    for model in [urban().model(), FollowingModel::Fvdm(Fvdm::default())] {
-        assert_eq!(model.equilibrium_gap(Pace::new(14.0, 14.0)), f64::INFINITY);
-        assert!(model.equilibrium_gap(Pace::new(13.0, 14.0)).is_finite());
-    }
+    assert_eq!(literal_fvdm().prospect(pace, None), 12.0);
+    assert_eq!(literal_fvdm().prospect(pace, Some(Ahead::standing(0.0))), 0.0);
 }

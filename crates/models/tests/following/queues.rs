@@ -1,45 +1,27 @@
 //! Queues: how they start when a light turns green, and how their ends move.
 
-use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Idm, Pace};
+use laneweave_models::follow::{FollowingModel, Idm};
 
-/// Length of every vehicle [m].
-const LENGTH: f64 = 5.0;
-
-/// A vehicle on a line: front bumper [m] and speed [m/s].
-#[derive(Clone, Copy, Debug)]
-struct Car {
-    position: f64,
-    speed: f64,
-}
+use crate::cars::{Car, LENGTH};
 
 /// Everybody but the first follows for a step of `dt` [s].
 fn follow(model: &FollowingModel, desired: f64, cars: &mut [Car], dt: f64) {
     let before = cars.to_vec();
     for (car, leader) in cars[1..].iter_mut().zip(&before) {
-        let gap = leader.position - LENGTH - car.position;
-        let ahead = Ahead { gap, speed: leader.speed };
-        advance(car, model.acceleration(Pace::new(car.speed, desired), Some(ahead)), dt);
+        *car = car.moved(car.wish(model, desired, Some(*leader)), dt);
     }
-}
-
-fn advance(car: &mut Car, acceleration: f64, dt: f64) {
-    let speed = (car.speed + acceleration * dt).max(0.0);
-    car.position += 0.5 * (car.speed + speed) * dt;
-    car.speed = speed;
 }
 
 /// Times [s] after the beginning of green at which the fronts of a standing queue pass the line, which the first stands at.
 fn passages(model: FollowingModel, desired: f64, cars: usize) -> Vec<f64> {
     const DT: f64 = 0.01;
     let jam_gap = 2.0;
-    let mut queue: Vec<Car> =
-        (0..cars).map(|it| Car { position: -(LENGTH + jam_gap) * it as f64, speed: 0.0 }).collect();
+    let mut queue: Vec<Car> = (0..cars).map(|it| Car::at(-(LENGTH + jam_gap) * it as f64, 0.0)).collect();
     let mut passed = vec![0.0];
     let mut time = 0.0;
     while passed.len() < cars {
         follow(&model, desired, &mut queue, DT);
-        let first = model.acceleration(Pace::new(queue[0].speed, desired), None);
-        advance(&mut queue[0], first, DT);
+        queue[0] = queue[0].moved(queue[0].wish(&model, desired, None), DT);
         time += DT;
         let next = &queue[passed.len()];
         if next.position >= 0.0 {
@@ -82,13 +64,13 @@ fn v24_the_end_of_a_queue_moves_as_flow_and_density_say() {
     let desired = fast / (1.0 - share * share).powf(0.25);
     let idm = Idm { acceleration: 1.4, deceleration: 2.0, time_gap, jam_gap, exponent: 4.0 };
     let model = FollowingModel::Idm(idm);
-    let mut cars: Vec<Car> = (0..CARS).map(|it| Car { position: -far * it as f64, speed: fast }).collect();
+    let mut cars: Vec<Car> = (0..CARS).map(|it| Car::at(-far * it as f64, fast)).collect();
     // Where and when each first drives at less than half the way between the two speeds.
     let mut joined: Vec<Option<(f64, f64)>> = vec![None; CARS];
     for step in 0..24_000 {
         follow(&model, desired, &mut cars, DT);
         let braking = if cars[0].speed > slow { -1.0 } else { 0.0 };
-        advance(&mut cars[0], braking, DT);
+        cars[0] = cars[0].moved(braking, DT);
         for (car, joined) in cars.iter().zip(&mut joined) {
             if joined.is_none() && car.speed < 0.5 * (fast + slow) {
                 *joined = Some((f64::from(step) * DT, car.position));

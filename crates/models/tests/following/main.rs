@@ -1,0 +1,20 @@
+//! Car-following: numbers known exactly, and what becomes of cars that follow each other.
+
+mod cars;
+mod delayed;
+mod limits;
+mod optimal;
+mod points;
+mod queues;
+mod rarer_points;
+mod ring;
+mod runs;
+mod sets;
+mod start;
+mod stops;
+mod waves;
+
+#[track_caller]
+fn assert_near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
+}
