@@ -13,8 +13,9 @@ use crate::scenario::{Origin, Output, Scenario};
 use crate::source::Source;
 use crate::style::{built_in, find};
 
-/// The scenario among the results, the folder of its style files, and the map that came with the program.
-const SCENARIO: &str = "scenario.toml";
+/// The scenario among the results.
+pub const SCENARIO: &str = "scenario.toml";
+/// The folder of its style files, and the map that came with the program.
 const STYLES: &str = "styles";
 const MAP: &str = "map.osm";
 

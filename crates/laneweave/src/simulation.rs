@@ -1,7 +1,8 @@
 //! A run from its first step to its last, watched by observers.
 
-use laneweave_sim::World;
+use laneweave_sim::{CheckpointError, World};
 
+use crate::checkpoint::{Checkpoint, FILE, Keeper};
 use crate::fault::Fault;
 use crate::output::{Observer, Queue, Queues};
 use crate::scenario::Prepared;
@@ -19,41 +20,110 @@ pub struct Ending {
     pub queues: Vec<Queue>,
 }
 
-/// Runs `prepared` through its warm-up and its measured time. `observers` see the world after each measured step;
-/// `goes_on` is asked before every step; `when_warm` is called once, when measuring begins.
+/// Runs `prepared` through its warm-up and its measured time, or on from a checkpoint. `observers` see the world after each measured
+/// step; `goes_on` is asked before every step; `when_warm` is called once, when measuring begins or goes on. If there is a `keeper`, it
+/// gets checkpoints.
 ///
 /// # Errors
-/// If an observer cannot write what it sees.
+/// If an observer cannot write what it sees, or the checkpoint is none of this run.
 pub fn simulate(
     prepared: &mut Prepared,
     observers: &mut [Box<dyn Observer>],
+    from: Option<Checkpoint>,
+    keeper: Option<&Keeper>,
     mut goes_on: impl FnMut(&World) -> bool,
     when_warm: impl FnOnce(),
 ) -> Result<Ending, Fault> {
-    let Prepared { world, warmup_steps, steps, .. } = prepared;
-    let mut is_interrupted = false;
-    for _ in 0..*warmup_steps {
-        if !goes_on(world) {
-            is_interrupted = true;
-            break;
-        }
-        world.step();
-    }
-    world.reset_counts();
+    let steps = prepared.steps;
+    let mut run = match from {
+        Some(checkpoint) => Run::resumed(prepared, observers, checkpoint)?,
+        None => Run::warmed_up(prepared, &mut goes_on),
+    };
     when_warm();
-    let mut queues = Queues::of(world);
-    let measured_from_s = world.clock().time();
-    for _ in 0..*steps {
-        is_interrupted = is_interrupted || !goes_on(world);
-        if is_interrupted {
+    let world = &mut prepared.world;
+    while run.measured_steps < steps {
+        run.is_interrupted = run.is_interrupted || !goes_on(world);
+        if run.is_interrupted {
             break;
         }
         world.step();
-        queues.observe(world);
+        run.measured_steps += 1;
+        run.queues.observe(world);
         for observer in &mut *observers {
             observer.observe(world)?;
         }
+        if let Some(keeper) = keeper
+            && run.measured_steps.is_multiple_of(keeper.every)
+        {
+            run.keep(world, observers, keeper)?;
+        }
     }
-    let measured_s = world.clock().time() - measured_from_s;
+    let measured_s = world.clock().time() - run.measured_from_s;
+    let Run { measured_from_s, is_interrupted, queues, .. } = run;
     Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world) })
+}
+
+/// A run on its way.
+struct Run {
+    /// Simulated time at which measuring began [s].
+    measured_from_s: f64,
+    measured_steps: u32,
+    is_interrupted: bool,
+    queues: Queues,
+}
+
+impl Run {
+    /// After the warm-up.
+    fn warmed_up(prepared: &mut Prepared, mut goes_on: impl FnMut(&World) -> bool) -> Run {
+        let Prepared { world, warmup_steps, .. } = prepared;
+        let mut is_interrupted = false;
+        for _ in 0..*warmup_steps {
+            if !goes_on(world) {
+                is_interrupted = true;
+                break;
+            }
+            world.step();
+        }
+        world.reset_counts();
+        Run {
+            measured_from_s: world.clock().time(),
+            measured_steps: 0,
+            is_interrupted,
+            queues: Queues::of(world),
+        }
+    }
+
+    /// As it was kept.
+    fn resumed(
+        prepared: &mut Prepared,
+        observers: &mut [Box<dyn Observer>],
+        checkpoint: Checkpoint,
+    ) -> Result<Run, Fault> {
+        let Checkpoint { measured_from_s, measured_steps, world, queues, observers: kept, .. } = checkpoint;
+        let other = |what: String| Fault::new(FILE, what, "run again from the beginning, without --resume");
+        prepared.world.restore(&world).map_err(|error| other(error.to_string()))?;
+        if kept.len() != observers.len() {
+            return Err(other(format!("{} observers instead of {}", kept.len(), observers.len())));
+        }
+        for (observer, kept) in observers.iter_mut().zip(kept) {
+            observer.restore(&kept)?;
+        }
+        Ok(Run { measured_from_s, measured_steps, is_interrupted: false, queues })
+    }
+
+    /// Writes a checkpoint.
+    fn keep(&self, world: &World, observers: &mut [Box<dyn Observer>], keeper: &Keeper) -> Result<(), Fault> {
+        let kept: Result<Vec<Vec<u8>>, Fault> = observers.iter_mut().map(|it| it.save(world)).collect();
+        let bug = |error: CheckpointError| Fault::new(FILE, error, "report this as a bug");
+        let checkpoint = Checkpoint {
+            fingerprint: keeper.fingerprint.clone(),
+            command: keeper.command.clone(),
+            measured_from_s: self.measured_from_s,
+            measured_steps: self.measured_steps,
+            world: world.save().map_err(bug)?,
+            queues: self.queues.clone(),
+            observers: kept?,
+        };
+        checkpoint.write(&keeper.path)
+    }
 }

@@ -1,7 +1,9 @@
 //! Points, lines with stations along them, and poses.
 
+use serde::{Deserialize, Serialize};
+
 /// A point of the map's local metric frame: x to the east, y to the north, z up [m].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// East [m].
     pub x: f64,

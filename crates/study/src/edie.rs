@@ -5,13 +5,14 @@
 //!
 //! k = Σt / (L T),  q = Σd / (L T),  v = Σd / Σt = q / k
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 const METRES_PER_KM: f64 = 1000.0;
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
 /// The observed time: consecutive intervals of equal duration. What happens outside is not counted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Begin of the first interval [s].
     pub from_s: f64,
@@ -43,7 +44,7 @@ pub enum EdieError {
 }
 
 /// Boxes of road sections × intervals, and what vehicles did in them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EdieGrid {
     window: Window,
     lengths_m: Vec<f64>,
@@ -52,7 +53,7 @@ pub struct EdieGrid {
 }
 
 /// What happened in one box.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Totals {
     /// Σt: time spent by all vehicles [s].
     time_s: f64,

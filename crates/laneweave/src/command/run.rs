@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use clap::Args;
 use laneweave::Fault;
+use laneweave::checkpoint::{self, Checkpoint, Keeper};
 use laneweave::did_you_mean;
 use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
 use laneweave::record;
@@ -20,6 +21,8 @@ use laneweave::style::Model;
 use super::progress::Progress;
 use super::say;
 
+/// The file with the numbers of a run.
+const SUMMARY: &str = "summary.json";
 /// Exit code of a program that was stopped by the keyboard.
 const STOPPED: i32 = 130;
 /// Problems of a map that are listed one by one.
@@ -27,8 +30,8 @@ const LISTED_PROBLEMS: usize = 3;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
-    #[arg(value_name = "SCENARIO.toml|MAP")]
+    /// With --resume the folder of results of a run that broke off. Otherwise a scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
+    #[arg(value_name = "SCENARIO.toml|MAP|OUT")]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
     /// evenly over its lanelets), whatever the scenario says of them [default for a map: 1000 a lane, or 200 a kilometre].
@@ -75,6 +78,12 @@ pub(crate) struct Arguments {
     /// Files that are written as SUMO writes them, separated by commas: fcd, tripinfo, lanechange [default: none].
     #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
     sumo: Vec<SumoFile>,
+    /// Seconds of the run between two checkpoints, from which it can be resumed if it breaks off; 0: there are none [default: 0].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    checkpoint: Option<f64>,
+    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none.
+    #[arg(long)]
+    resume: bool,
     #[command(flatten)]
     screen: Screen,
 }
@@ -121,8 +130,11 @@ fn sumo_file(text: &str) -> Result<SumoFile, String> {
 
 impl Arguments {
     pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
-        let (mut scenario, mut origin) = Origin::open(&self.input)?;
         let screen = self.screen;
+        if self.resume {
+            return resume(&self.input, screen, started);
+        }
+        let (mut scenario, mut origin) = Origin::open(&self.input)?;
         self.replace(&mut scenario, &mut origin);
         run(&scenario, &origin, screen, started)
     }
@@ -157,6 +169,7 @@ impl Arguments {
         replace(origin, ("output.record_s", "--record"), &mut output.record_s, self.record);
         replace(origin, ("output.flows_s", "--flows"), &mut output.flows_s, self.flows);
         replace(origin, ("output.format", "--format"), &mut output.format, self.format);
+        replace(origin, ("output.checkpoint_s", "--checkpoint"), &mut output.checkpoint_s, self.checkpoint);
         let sumo = (!self.sumo.is_empty()).then(|| self.sumo.into_iter().collect());
         replace(origin, ("output.sumo", "--sumo"), &mut output.sumo, sumo);
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
@@ -172,22 +185,94 @@ pub(crate) fn run(
     screen: Screen,
     started: Instant,
 ) -> Result<(), Fault> {
-    let mut prepared = prepare(scenario, origin)?;
+    let prepared = prepare(scenario, origin)?;
+    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
+    let provenance = Provenance::of(scenario, record::fingerprint(scenario, origin)?, arguments)?;
+    let dir = &scenario.output.dir;
+    fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made the folder of the results", &error))?;
+    // What a former run left is no part of this one.
+    for name in [SUMMARY, record::SCENARIO, checkpoint::FILE, checkpoint::LOG] {
+        checkpoint::remove(&dir.join(name))?;
+    }
+    record::keep(scenario, origin, dir)?;
+    drive(scenario, prepared, provenance, None, screen, started)
+}
+
+/// Goes on with the run that left its scenario in `dir`.
+fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
+    let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
+        let remedy = "name the folder of results of a run that broke off";
+        Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
+    })?;
+    scenario.output.dir = dir.into();
+    if let Some(summary) = ended(&dir.join(SUMMARY))? {
+        if !screen.quiet {
+            eprintln!("{}: the run has ended already", dir.display());
+        }
+        if screen.json {
+            say(&summary);
+        }
+        return Ok(());
+    }
+    let fingerprint = record::fingerprint(&scenario, &origin)?;
+    let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
+    if kept.as_ref().is_some_and(|it| it.fingerprint != fingerprint) {
+        let what = "the map, a style, the scenario or the program has changed since this was run";
+        return Err(Fault::new(dir.display(), what, "run it again from the beginning"));
+    }
+    let prepared = prepare(&scenario, &origin)?;
+    let provenance = match &kept {
+        Some(kept) => {
+            Provenance { command: kept.command.clone(), ..Provenance::of(&scenario, fingerprint, [])? }
+        }
+        None => {
+            let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
+            Provenance::of(&scenario, fingerprint, arguments)?
+        }
+    };
+    checkpoint::remove(&dir.join(SUMMARY))?;
+    drive(&scenario, prepared, provenance, kept, screen, started)
+}
+
+/// The summary of a run that was not interrupted, if there is one.
+fn ended(summary: &Path) -> Result<Option<String>, Fault> {
+    let text = match fs::read_to_string(summary) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        read => read.map_err(|error| Fault::refused(summary, "read", &error))?,
+    };
+    let value: serde_json::Value = serde_json::from_str(&text)
+        .map_err(|error| Fault::new(summary.display(), error, "remove it, and resume again"))?;
+    Ok((value["interrupted"] == false).then_some(text))
+}
+
+/// Runs what is prepared, from a checkpoint on if there is one, and leaves its results.
+fn drive(
+    scenario: &Scenario,
+    mut prepared: Prepared,
+    provenance: Provenance,
+    from: Option<Checkpoint>,
+    screen: Screen,
+    started: Instant,
+) -> Result<(), Fault> {
     if !screen.quiet {
         warn(&prepared);
     }
-    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
-    let provenance = Provenance::of(scenario, record::fingerprint(scenario, origin)?, arguments)?;
+    let dir = &scenario.output.dir;
     let mut observers = observers(scenario, &prepared, &provenance)?;
-    let summary_path = scenario.output.dir.join("summary.json");
-    forget(&summary_path)?;
-    let kept = record::keep(scenario, origin, &scenario.output.dir)?;
+    let keeper = prepared.checkpoint_steps.map(|every| Keeper {
+        path: dir.join(checkpoint::FILE),
+        every,
+        fingerprint: provenance.fingerprint.clone(),
+        command: provenance.command.clone(),
+    });
     let stop = stop_by_keyboard()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
     let mut load_s = 0.0;
     let ending = simulate(
         &mut prepared,
         &mut observers,
+        from,
+        keeper.as_ref(),
         |world| {
             progress.show(world);
             !stop.load(Ordering::Relaxed)
@@ -195,7 +280,7 @@ pub(crate) fn run(
         || load_s = started.elapsed().as_secs_f64(),
     )?;
     progress.clear();
-    let mut files = vec![kept];
+    let mut files = vec![dir.join(record::SCENARIO)];
     for observer in observers {
         files.extend(observer.finish(&prepared.world)?);
     }
@@ -203,26 +288,22 @@ pub(crate) fn run(
     let summary =
         Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s, provenance: &provenance });
     let json = serde_json::to_string_pretty(&summary)
-        .map_err(|error| Fault::new("summary.json", error, "report this as a bug"))?
+        .map_err(|error| Fault::new(SUMMARY, error, "report this as a bug"))?
         + "\n";
-    write_whole(&summary_path, &json)?;
-    files.push(summary_path);
+    let path = dir.join(SUMMARY);
+    write_whole(&path, &json)?;
+    files.push(path);
+    if !ending.is_interrupted {
+        // There is nothing to resume any more.
+        checkpoint::remove(&dir.join(checkpoint::FILE))?;
+        checkpoint::remove(&dir.join(checkpoint::LOG))?;
+    }
     match screen {
         Screen { json: true, .. } => say(&json),
         Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files)),
         _ => {}
     }
     Ok(())
-}
-
-/// Removes the summary of a former run: the results that it is about are about to be replaced.
-fn forget(summary: &Path) -> Result<(), Fault> {
-    match fs::remove_file(summary) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            Err(Fault::refused(summary, "replaced", &error))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Lists what in the map could not be used as it stands.

@@ -87,7 +87,8 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
                 Event::LaneChange(change) if change.vehicle == id => {
                     let lanelet = |(chain, x)| world.network().lanelet_at(chain, x).0.id;
                     let line = if change.is_completed {
-                        format!("is across, from lanelet {} to {}", lanelet(change.from), lanelet(change.to))
+                        let [from, to] = [change.from, change.to].map(lanelet);
+                        format!("is across; passed from lanelet {from} to {to} at {:.1} s", change.time)
                     } else {
                         "is back in its lane".into()
                     };

@@ -10,6 +10,7 @@ use std::thread::available_parallelism;
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
 use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_between};
+use serde::{Deserialize, Serialize};
 
 use super::Observer;
 use super::names::Names;
@@ -20,18 +21,19 @@ use crate::fault::Fault;
 const PAGE: usize = 1 << 14;
 
 /// Vehicles at some instants.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Frame {
     /// Each instant by its step, with the number of seen vehicles up to it.
     instants: Vec<(u32, usize)>,
     seen: Vec<Seen>,
     across: Vec<Across>,
     /// Where the bodies of those seen are; empty until they are located.
+    #[serde(skip)]
     bodies: Vec<Body>,
 }
 
 /// A vehicle as the world holds it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Seen {
     pub(super) motion: Motion,
     pub(super) chain: ChainIndex,
@@ -44,7 +46,7 @@ pub(super) struct Seen {
 const _: () = assert!(size_of::<Seen>() == 64, "what is copied of a vehicle fills one cache line");
 
 /// Where the body of a vehicle between two lanes is: it takes both to tell.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Across {
     /// Its place in the list of those seen.
     place: usize,
@@ -169,6 +171,17 @@ impl Samples {
 }
 
 impl Observer for Samples {
+    fn save(&mut self, world: &World) -> Result<Vec<u8>, Fault> {
+        if !self.frame.instants.is_empty() {
+            self.hand_over(world)?;
+        }
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         if !world.clock().step.is_multiple_of(self.every) {
             return Ok(());

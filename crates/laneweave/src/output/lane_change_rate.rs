@@ -8,6 +8,7 @@ use laneweave_study::{EdieGrid, EdieRow, RateSeries, Window, rate_by_density, ra
 
 use super::road::Sections;
 use super::{Observer, write_whole};
+use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 
 /// Duration of a box [s].
@@ -54,6 +55,15 @@ impl LaneChangeRate {
 }
 
 impl Observer for LaneChangeRate {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        pack(&(&self.grid, &self.changes))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
+        (self.grid, self.changes) = unpack(saved)?;
+        Ok(())
+    }
+
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         for event in world.events() {
             if let Event::LaneChange(change) = event

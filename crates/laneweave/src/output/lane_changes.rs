@@ -69,6 +69,15 @@ impl LaneChanges {
 }
 
 impl Observer for LaneChanges {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))?;
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         for event in world.events() {
             if let Event::LaneChange(change) = event

@@ -8,10 +8,12 @@ use std::path::PathBuf;
 use laneweave_network::{Chain, ChainIndex, LaneletIndex, Network, Side};
 use laneweave_sim::{Car, Clock, Event, LaneChange, Motion, World};
 use laneweave_study::{Column, TableWriter};
+use serde::{Deserialize, Serialize};
 
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
 use super::{Folder, Observer};
+use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 use crate::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 
@@ -19,7 +21,7 @@ use crate::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 const STANDS: f64 = 0.1;
 
 /// What happened on all lanelets between two instants.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Traffic {
     /// From when to when [s].
     during: [f64; 2],
@@ -28,7 +30,7 @@ pub(super) struct Traffic {
 }
 
 /// What happened on one lanelet.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Counts {
     /// Σt: time that fronts of vehicles spent on it [s].
     time: f64,
@@ -240,6 +242,15 @@ impl Lanelets {
 }
 
 impl Observer for Lanelets {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        pack(&(&self.until, &self.past, &self.interval))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
+        (self.until, self.past, self.interval) = unpack(saved)?;
+        Ok(())
+    }
+
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         let Lanelets { begin, every, until: [end, last], past, interval, pen } = self;
         interval.observe(world, |change| change.time >= *begin);

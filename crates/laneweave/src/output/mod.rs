@@ -5,6 +5,7 @@ mod frame;
 mod lane_change_rate;
 mod lane_changes;
 mod lanelets;
+mod log;
 mod names;
 mod provenance;
 mod queues;
@@ -33,6 +34,7 @@ use self::sumo::{Fcd, LaneChangeOutput, TripInfo};
 use self::time_space::TimeSpace;
 use self::trajectories::Trajectories;
 use self::trips::{TripTable, Trips};
+use crate::checkpoint;
 use crate::fault::Fault;
 use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
 
@@ -47,6 +49,18 @@ pub trait Observer {
     /// # Errors
     /// If what it sees cannot be written.
     fn observe(&mut self, world: &World) -> Result<(), Fault>;
+
+    /// What it keeps in memory, as bytes; what it has collected for the files it hands over first.
+    ///
+    /// # Errors
+    /// If what is handed over cannot be written.
+    fn save(&mut self, world: &World) -> Result<Vec<u8>, Fault>;
+
+    /// Goes on from what it kept.
+    ///
+    /// # Errors
+    /// If it is not what it kept.
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Fault>;
 
     /// Completes its files, and names them.
     ///
@@ -71,8 +85,9 @@ pub fn observers(
     let [begin, duration] =
         [prepared.warmup_steps, prepared.steps].map(|it| f64::from(it) * scenario.run.step_s);
     let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
+    let log = prepared.checkpoint_steps.map(|_| folder.file(checkpoint::LOG));
     let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
-    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world))?;
+    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world), log)?;
     let pen = scribe.pen();
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {

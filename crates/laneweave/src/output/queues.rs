@@ -1,20 +1,20 @@
 //! Who waits at the entrances, and what holds them: a part of the summary.
 
 use laneweave_sim::{EntryQueue, Held, World};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Time between two looks at the queues [s].
 const SAMPLING: f64 = 1.0;
 
 /// Watches the queues at all lanes of all entrances.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Queues {
     /// In the order of the demand.
     lanes: Vec<Queue>,
 }
 
 /// The queue for one lane of an entrance.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Queue {
     /// The entrance's name: the smallest id of its lanelets.
     pub entrance: i64,
@@ -29,7 +29,7 @@ pub struct Queue {
 }
 
 /// Times for which the first in a queue was held [s].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeldFor {
     /// The traffic on the lane moved, but left no gap.
     pub traffic: f64,

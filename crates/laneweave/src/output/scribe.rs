@@ -10,12 +10,15 @@ use std::sync::{Arc, OnceLock};
 use std::thread::{self, JoinHandle};
 
 use laneweave_sim::{LaneChange, World};
+use serde::{Deserialize, Serialize};
 
 use super::Observer;
 use super::frame::Frame;
 use super::lanelets::Traffic;
+use super::log::{PageLog, pages};
 use super::names::Names;
 use super::trips::Trip;
+use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 
 /// Pages that wait for a thread.
@@ -23,7 +26,13 @@ const WAITING: usize = 2;
 /// Threads that write, at most: one for the tables, which passes all pages on to one for the XML files.
 pub(super) const THREADS: usize = 2;
 
+/// Frames that wait to be filled again, at most: of pages that come again there are more.
+const SPARES: usize = 8;
+/// The thread that keeps the log.
+const LOGS: &str = "tables";
+
 /// What was seen, in plain numbers.
+#[derive(Serialize, Deserialize)]
 pub(super) enum Page {
     /// All vehicles at some instants.
     Frame(Frame),
@@ -35,7 +44,11 @@ pub(super) enum Page {
     Flows(Traffic),
     /// What happened on all lanelets in the whole run.
     Lanelets(Traffic),
+    /// The log of pages is to be complete up to here; its length is told.
+    #[serde(skip)]
+    Mark(Sender<u64>),
     /// The run is over, and files are to be completed.
+    #[serde(skip)]
     End,
 }
 
@@ -67,6 +80,8 @@ impl Pen {
 pub(super) struct Scribe {
     pen: Pen,
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
+    /// The log of pages, if there is one.
+    log: Option<PathBuf>,
 }
 
 impl Scribe {
@@ -75,19 +90,23 @@ impl Scribe {
         xml: Vec<Box<dyn Writer>>,
         tables: Vec<Box<dyn Writer>>,
         names: Names,
+        log_path: Option<PathBuf>,
     ) -> Result<(Scribe, Receiver<Frame>), Fault> {
-        let (written, spares) = channel();
+        let mut log = log_path.as_deref().map(PageLog::create).transpose()?;
+        let (written, spares) = sync_channel(SPARES);
         let (names, fault) = (Arc::new(names), Arc::new(OnceLock::new()));
         let (mut threads, mut next) = (Vec::new(), None);
-        let stages = [("xml", xml), ("tables", tables)];
+        let stages = [("xml", xml), (LOGS, tables)];
         for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
             let (pages, received) = sync_channel(WAITING);
             let pen = Pen { pages, fault: Arc::clone(&fault) };
             let stage =
                 Stage { next: next.replace(pen), names: Arc::clone(&names), written: written.clone() };
             let fault = Arc::clone(&fault);
+            // The first to get the pages logs them.
+            let log = if name == LOGS { log.take() } else { None };
             let work = move || {
-                let outcome = stage.write(&received, writers);
+                let outcome = stage.write(&received, writers, log);
                 if let Err(error) = &outcome {
                     // The first fault is the one that counts. It is known before a channel closes.
                     let _ = fault.set(error.clone());
@@ -100,7 +119,7 @@ impl Scribe {
             })?);
         }
         let pen = next.ok_or_else(broke_off)?;
-        Ok((Scribe { pen, threads }, spares))
+        Ok((Scribe { pen, threads, log: log_path }, spares))
     }
 
     /// What hands pages over to it.
@@ -119,6 +138,23 @@ impl Scribe {
 }
 
 impl Observer for Scribe {
+    /// All pages up to now are in the log, whose length is kept.
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        let (told, length) = channel();
+        self.pen.hand_over(Page::Mark(told))?;
+        let length = length.recv().map_err(|_| self.pen.fault.get().cloned().unwrap_or_else(broke_off))?;
+        pack(&length)
+    }
+
+    /// Pages that were logged come again.
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
+        let Some(log) = &self.log else { return Ok(()) };
+        for page in pages(log, unpack(saved)?)? {
+            self.pen.hand_over(page?)?;
+        }
+        Ok(())
+    }
+
     fn observe(&mut self, _world: &World) -> Result<(), Fault> {
         Ok(())
     }
@@ -149,7 +185,7 @@ struct Stage {
     next: Option<Pen>,
     names: Arc<Names>,
     /// Where frames go back that all have written.
-    written: Sender<Frame>,
+    written: SyncSender<Frame>,
 }
 
 impl Stage {
@@ -158,6 +194,7 @@ impl Stage {
         &self,
         pages: &Receiver<Arc<Page>>,
         mut writers: Vec<Box<dyn Writer>>,
+        mut log: Option<PageLog>,
     ) -> Result<Vec<PathBuf>, Fault> {
         for mut page in pages {
             // Only the first thread has the page for itself.
@@ -166,6 +203,14 @@ impl Stage {
             }
             if let Some(next) = &self.next {
                 next.hand_over(Arc::clone(&page))?;
+            }
+            if let Some(log) = &mut log {
+                match &*page {
+                    // Who asked has gone if nobody hears it.
+                    Page::Mark(told) => drop(told.send(log.mark()?)),
+                    Page::End => {}
+                    page => log.write(page)?,
+                }
             }
             if matches!(*page, Page::End) {
                 return writers.into_iter().map(Writer::finish).collect();
@@ -176,7 +221,7 @@ impl Stage {
             if let Some(Page::Frame(mut frame)) = Arc::into_inner(page) {
                 frame.clear();
                 // Nobody takes it when the run is over.
-                let _ = self.written.send(frame);
+                let _ = self.written.try_send(frame);
             }
         }
         Ok(Vec::new())

@@ -9,6 +9,7 @@ use laneweave_study::{Mark, Sample, time_space};
 
 use super::road::Road;
 use super::{Observer, write_whole};
+use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 
 /// Longest road that is drawn [m].
@@ -89,6 +90,15 @@ fn slow_lane(network: &Network, gate: &Gate) -> Option<ChainIndex> {
 }
 
 impl Observer for TimeSpace {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        pack(&(&self.current, &self.past, &self.changes))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
+        (self.current, self.past, self.changes) = unpack(saved)?;
+        Ok(())
+    }
+
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         let Some(road) = self.road.take() else { return Ok(()) };
         let clock = world.clock();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use laneweave_network::ChainIndex;
 use laneweave_sim::{Event, TripRecord, World};
 use laneweave_study::{Cell, Column, TableWriter};
+use serde::{Deserialize, Serialize};
 
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
@@ -12,7 +13,7 @@ use super::{Folder, Observer};
 use crate::fault::Fault;
 
 /// A trip that ended, or goes on when the run ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Trip {
     /// Its record.
     pub(super) record: TripRecord,
@@ -23,7 +24,7 @@ pub(super) struct Trip {
 }
 
 /// The end of a trip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct End {
     /// When [s].
     pub(super) time: f64,
@@ -63,6 +64,15 @@ impl Trips {
 }
 
 impl Observer for Trips {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        self.pen.hand_over(Page::Trips(std::mem::take(&mut self.ended)))?;
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         for event in world.events() {
             if let Event::Left { duration, chain, motion, trip: Some(record), .. } = event {

@@ -219,6 +219,8 @@ pub struct Output {
     pub format: TableFormat,
     /// Files that are written as SUMO writes them.
     pub sumo: BTreeSet<SumoFile>,
+    /// Time between two checkpoints, from which a run that broke off can be resumed [s]; 0: there are none.
+    pub checkpoint_s: f64,
 }
 
 impl Default for Output {
@@ -229,6 +231,7 @@ impl Default for Output {
             flows_s: 0.0,
             format: TableFormat::Parquet,
             sumo: BTreeSet::new(),
+            checkpoint_s: 0.0,
         }
     }
 }

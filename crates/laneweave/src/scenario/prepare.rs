@@ -30,6 +30,7 @@ const LONGEST: f64 = 1e7;
 /// What the intervals of the output are called.
 const RECORDING: &str = "a recording interval";
 const FLOWS: &str = "an interval of flows";
+const CHECKPOINTS: &str = "an interval of checkpoints";
 
 /// A scenario that is ready to run.
 pub struct Prepared {
@@ -41,6 +42,8 @@ pub struct Prepared {
     pub steps: u32,
     /// Steps between two samples of a trajectory, if there are any.
     pub record_steps: Option<u32>,
+    /// Steps between two checkpoints, if there are any.
+    pub checkpoint_steps: Option<u32>,
     /// Steps over which flows are measured, if they are.
     pub flows_steps: Option<u32>,
     /// Mean demand over all origins while it is measured [veh/h].
@@ -75,6 +78,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
             "leave fcd out, or set record_s = 1",
         ));
     }
+    let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
@@ -112,6 +116,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         warmup_steps: steps(scenario.run.warmup_s),
         steps: steps(scenario.run.duration_s).max(1),
         record_steps,
+        checkpoint_steps,
         flows_steps,
         demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
         origins,
@@ -162,6 +167,7 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
         check(&path, "an interval of guidance", guidance, (SHORTEST_GUIDANCE, LONGEST), " s")?;
     }
     check(&["output", "record_s"], RECORDING, output.record_s, (0.0, LONGEST), " s")?;
+    check(&["output", "checkpoint_s"], CHECKPOINTS, output.checkpoint_s, (0.0, LONGEST), " s")?;
     check(&["output", "flows_s"], FLOWS, output.flows_s, (0.0, LONGEST), " s")
 }
 

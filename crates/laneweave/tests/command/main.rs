@@ -13,6 +13,8 @@ mod mistakes;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod resume;
+#[cfg(test)]
 mod run;
 #[cfg(test)]
 mod schema;

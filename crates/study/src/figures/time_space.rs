@@ -2,6 +2,7 @@
 
 use super::axes::Axis;
 use super::drawing::{Anchor, BOTTOM, Drawing, LEFT, RIGHT, TOP, across, down, text_width};
+use serde::{Deserialize, Serialize};
 
 const METRES_PER_KM: f64 = 1000.0;
 const KMH_PER_MPS: f64 = 3.6;
@@ -24,7 +25,7 @@ const RAMP: [[f64; 3]; 5] = [
 ];
 
 /// A vehicle at one instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// Time [s].
     pub time_s: f64,
@@ -41,7 +42,7 @@ impl Sample {
 }
 
 /// Where and when a vehicle changed lanes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// Time [s].
     pub time_s: f64,

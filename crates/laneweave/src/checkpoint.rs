@@ -1,0 +1,117 @@
+//! A run as it stands, in a file: what moves, and what observers keep. A run that broke off goes on from there, and ends as it would
+//! have ended.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::xxh3_64;
+
+use crate::fault::Fault;
+use crate::output::Queues;
+
+/// A run as it stands.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Hash of all that the run depends on.
+    pub fingerprint: String,
+    /// The command line that began it.
+    pub command: String,
+    /// Simulated time at which measuring began [s].
+    pub measured_from_s: f64,
+    /// Steps that were measured.
+    pub measured_steps: u32,
+    /// The world.
+    pub world: Vec<u8>,
+    /// The queues at the entrances so far.
+    pub queues: Queues,
+    /// What each observer keeps.
+    pub observers: Vec<Vec<u8>>,
+}
+
+/// Where and how often a run is kept as it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keeper {
+    /// The file.
+    pub path: PathBuf,
+    /// After so many measured steps each.
+    pub every: u32,
+    /// See [`Checkpoint::fingerprint`].
+    pub fingerprint: String,
+    /// See [`Checkpoint::command`].
+    pub command: String,
+}
+
+/// The name of the file among the results.
+pub const FILE: &str = "checkpoint";
+/// The name of the file of what was written so far.
+pub const LOG: &str = "checkpoint.pages";
+/// Bytes of the hash at the end of the file.
+const HASH: usize = 8;
+
+impl Checkpoint {
+    /// Writes the file at `path`, in place of a former one: it is whole or not there.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), Fault> {
+        let mut bytes = pack(self)?;
+        bytes.extend(xxh3_64(&bytes).to_le_bytes());
+        let mut partial = path.as_os_str().to_owned();
+        partial.push(".partial");
+        let write = || -> io::Result<()> {
+            let mut file = File::create(&partial)?;
+            file.write_all(&bytes)?;
+            file.sync_data()?;
+            fs::rename(&partial, path)
+        };
+        write().map_err(|error| Fault::refused(path, "written", &error))
+    }
+
+    /// The checkpoint at `path`, if there is one.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not whole.
+    pub fn read(path: &Path) -> Result<Option<Checkpoint>, Fault> {
+        let bytes = match fs::read(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            read => read.map_err(|error| Fault::refused(path, "read", &error))?,
+        };
+        let whole =
+            bytes.split_last_chunk::<HASH>().filter(|(body, hash)| xxh3_64(body).to_le_bytes() == **hash);
+        let Some((body, _)) = whole else {
+            let remedy = "run again from the beginning, without --resume";
+            return Err(Fault::new(path.display(), "the checkpoint is damaged", remedy));
+        };
+        unpack(body).map(Some)
+    }
+}
+
+/// Removes the file at `path`, if it is there.
+///
+/// # Errors
+/// If it is there and cannot be removed.
+pub fn remove(path: &Path) -> Result<(), Fault> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(Fault::refused(path, "removed", &error)),
+        _ => Ok(()),
+    }
+}
+
+/// What is to be kept, as bytes.
+pub(crate) fn pack(kept: &impl Serialize) -> Result<Vec<u8>, Fault> {
+    postcard::to_allocvec(kept).map_err(|error| Fault::new(FILE, error, "report this as a bug"))
+}
+
+/// What was kept.
+pub(crate) fn unpack<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Fault> {
+    postcard::from_bytes(bytes).map_err(|error| {
+        Fault::new(
+            FILE,
+            format!("no checkpoint of this version: {error}"),
+            "run again from the beginning, without --resume",
+        )
+    })
+}

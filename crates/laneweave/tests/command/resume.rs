@@ -1,0 +1,126 @@
+//! Runs that are killed at any moment, and resumed, end as if nothing had happened.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::program::{Folder, maps};
+
+/// A run with checkpoints every ten seconds.
+const RUN: &str =
+    "MAPS/ramps.osm --demand 5000 --duration 150 --warmup 20 --checkpoint 10 --format csv --flows 30";
+/// The files that are compared to the last byte.
+const FILES: [&str; 8] = [
+    "trajectories.csv",
+    "lane_changes.csv",
+    "trips.csv",
+    "lanelets.csv",
+    "flows.csv",
+    "lane_change_rate.svg",
+    "time_space.svg",
+    "scenario.toml",
+];
+
+/// How many runs are killed: LANEWEAVE_KILLS, or a few.
+fn kills() -> u64 {
+    const FEW: u64 = 8;
+    std::env::var("LANEWEAVE_KILLS").ok().and_then(|it| it.parse().ok()).unwrap_or(FEW)
+}
+
+/// Evenly distributed from [0, 1), the same in each test.
+fn drawn(number: u64) -> f64 {
+    let mixed = (number + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    (mixed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Starts the program in `folder` and kills it after `delay`, if it still runs.
+fn killed(folder: &Path, line: &str, delay: Duration) {
+    let line = line.replace("MAPS", maps().to_str().unwrap());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_laneweave"))
+        .args(line.split_whitespace())
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(delay);
+    let _ = child.kill();
+    child.wait().unwrap();
+}
+
+#[test]
+fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
+    let undisturbed = Folder::new();
+    let started = Instant::now();
+    let expected = undisturbed.summary(RUN);
+    let duration = started.elapsed();
+    let read = |folder: &Folder, file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap();
+    let (mut resumed, mut from_a_checkpoint) = (0, 0);
+    for number in 0..kills() {
+        let folder = Folder::new();
+        let out = folder.path().join("out");
+        killed(folder.path(), &format!("run {RUN}"), duration.mul_f64(drawn(2 * number)));
+        if !out.join("scenario.toml").exists() {
+            // Killed before anything was there.
+            continue;
+        }
+        // Every third is killed once more.
+        if number % 3 == 0 {
+            killed(folder.path(), "run out --resume", duration.mul_f64(drawn(2 * number + 1)));
+        }
+        let has_ended = out.join("summary.json").exists();
+        // What has its name is whole.
+        for file in &FILES[..7] {
+            if out.join(file).exists() {
+                assert_eq!(read(&folder, file), read(&undisturbed, file), "{file} after kill {number}");
+            }
+        }
+        resumed += u64::from(!has_ended);
+        from_a_checkpoint += u64::from(!has_ended && out.join("checkpoint").exists());
+        let summary = folder.summary("out --resume");
+        for field in
+            ["state_hash", "entered", "left", "lane_changes", "considerations", "updates", "mean_speed_mps"]
+        {
+            assert_eq!(summary[field], expected[field], "{field} after kill {number}");
+        }
+        for file in FILES {
+            assert_eq!(read(&folder, file), read(&undisturbed, file), "{file} after kill {number}");
+        }
+        let left_over: Vec<_> = std::fs::read_dir(&out)
+            .unwrap()
+            .map(|it| it.unwrap().file_name().into_string().unwrap())
+            .filter(|it| it.contains("checkpoint") || it.ends_with(".partial"))
+            .collect();
+        assert!(left_over.is_empty(), "{left_over:?} after kill {number}");
+    }
+    assert!(resumed >= kills() / 4 && from_a_checkpoint >= kills() / 8, "{resumed}, {from_a_checkpoint}");
+}
+
+#[test]
+fn a_run_that_has_ended_has_nothing_to_resume() {
+    let folder = Folder::new();
+    let ended = folder.summary("MAPS/ramps.osm --duration 20 --record 0 --checkpoint 5");
+    assert!(!folder.holds("out/checkpoint") && !folder.holds("out/checkpoint.pages"));
+    let again = folder.laneweave("run out --resume");
+    assert_eq!(again.code(), 0);
+    assert!(again.errors().contains("the run has ended already"), "{}", again.errors());
+    assert_eq!(folder.summary("out --resume")["wall_s"], ended["wall_s"]);
+}
+
+#[test]
+fn what_cannot_be_resumed_is_refused_with_a_remedy() {
+    let folder = Folder::new();
+    let refused = |line: &str| {
+        let run = folder.laneweave(line);
+        assert_eq!(run.code(), 2, "{line}");
+        run.errors()
+    };
+    assert!(refused("run nowhere --resume").contains("nothing to resume"));
+    folder.summary("MAPS/ramps.osm --duration 20 --record 0");
+    std::fs::remove_file(folder.path().join("out/summary.json")).unwrap();
+    std::fs::write(folder.path().join("out/checkpoint"), b"half of a checkpoint").unwrap();
+    let damaged = refused("run out --resume");
+    assert!(damaged.contains("the checkpoint is damaged; run again from the beginning"), "{damaged}");
+    assert!(refused("run MAPS/ramps.osm --checkpoint 0.25").contains("choose a multiple of the step"));
+}
