@@ -199,6 +199,9 @@ mod tests {
         journal.reroute(0, Rerouting::Choice);
         journal.stop(4);
         let trip = journal.of(0).copied();
-        assert_eq!(trip.map(|it| (it.stops, it.stood, it.route_changes, it.missed_turns)), Some((3, 5.5, 1, 0)));
+        assert_eq!(
+            trip.map(|it| (it.stops, it.stood, it.route_changes, it.missed_turns)),
+            Some((3, 5.5, 1, 0))
+        );
     }
 }

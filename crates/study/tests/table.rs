@@ -178,7 +178,11 @@ fn rows_that_are_given_by_columns_are_the_same_as_one_by_one() {
         let mut table = TableWriter::create(&many, format, &columns).unwrap();
         table.row(&[x[0].into(), vehicles[0].into(), classes[0].into()]).unwrap();
         for part in [1..2, 2..2, 2..16_000, 16_000..20_000] {
-            let columns = [Cells::F64(&x[part.clone()]), Cells::I64(&vehicles[part.clone()]), Cells::Text(&classes[part])];
+            let columns = [
+                Cells::F64(&x[part.clone()]),
+                Cells::I64(&vehicles[part.clone()]),
+                Cells::Text(&classes[part]),
+            ];
             table.rows(&columns).unwrap();
         }
         let wrong = table.rows(&[Cells::F64(&x), Cells::I64(&vehicles[1..]), Cells::Text(&classes)]);
@@ -190,7 +194,8 @@ fn rows_that_are_given_by_columns_are_the_same_as_one_by_one() {
         }
         let [one, many] = [one, many].map(|it| {
             let reader = SerializedFileReader::new(File::open(it).unwrap()).unwrap();
-            let rows: Vec<String> = reader.get_row_iter(None).unwrap().map(|it| it.unwrap().to_string()).collect();
+            let rows: Vec<String> =
+                reader.get_row_iter(None).unwrap().map(|it| it.unwrap().to_string()).collect();
             rows
         });
         assert_eq!((one.len(), one), (20_000, many));

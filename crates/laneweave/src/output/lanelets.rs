@@ -96,7 +96,9 @@ impl Traffic {
                 // Who has just entered has not driven yet.
                 let all = motions.iter().zip(cars).zip(scene.minds(at));
                 let drove = all.filter(|((_, car), mind)| !car.is_shadow && mind.entered < clock.step);
-                drove.for_each(|((motion, _), mind)| self.drive(network, clock, at, mind.trail.known(), motion));
+                drove.for_each(|((motion, _), mind)| {
+                    self.drive(network, clock, at, mind.trail.known(), motion)
+                });
             } else if !motions.is_empty() {
                 self.drive_all(world, at, chain, (motions, cars));
             }
@@ -104,7 +106,13 @@ impl Traffic {
     }
 
     /// Adds what all on a chain did in the last step: most stayed on one lanelet.
-    fn drive_all(&mut self, world: &World, at: ChainIndex, chain: &Chain, (motions, cars): (&[Motion], &[Car])) {
+    fn drive_all(
+        &mut self,
+        world: &World,
+        at: ChainIndex,
+        chain: &Chain,
+        (motions, cars): (&[Motion], &[Car]),
+    ) {
         let (network, clock) = (world.network(), world.clock());
         let mut ahead = chain.starts[1..].iter().chain([&f64::INFINITY]);
         let mut lanelets = chain.lanelets.iter();
@@ -283,7 +291,14 @@ impl Writer for FlowTable {
         let [from, to] = traffic.during;
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
             let id = names.network.lanelets[place].id;
-            self.table.row(&[from.into(), to.into(), id.into(), flow.into(), density.into(), speed.into()])?;
+            self.table.row(&[
+                from.into(),
+                to.into(),
+                id.into(),
+                flow.into(),
+                density.into(),
+                speed.into(),
+            ])?;
         }
         Ok(())
     }

@@ -65,8 +65,7 @@ pub fn observers(
     prepared: &Prepared,
     provenance: &Provenance,
 ) -> Result<Vec<Box<dyn Observer>>, Fault> {
-    let folder =
-        Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
+    let folder = Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
     folder.make()?;
     let world = &prepared.world;
     let [begin, duration] =

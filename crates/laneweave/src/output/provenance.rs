@@ -23,10 +23,7 @@ impl Provenance {
     ///
     /// # Errors
     /// If the scenario cannot be written as TOML, which is a bug.
-    pub fn of(
-        scenario: &Scenario,
-        arguments: impl IntoIterator<Item = String>,
-    ) -> Result<Provenance, Fault> {
+    pub fn of(scenario: &Scenario, arguments: impl IntoIterator<Item = String>) -> Result<Provenance, Fault> {
         let command: Vec<String> =
             ["laneweave".into()].into_iter().chain(arguments.into_iter().map(quoted)).collect();
         let toml = toml::to_string(scenario)

@@ -83,7 +83,8 @@ impl Scribe {
         for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
             let (pages, received) = sync_channel(WAITING);
             let pen = Pen { pages, fault: Arc::clone(&fault) };
-            let stage = Stage { next: next.replace(pen), names: Arc::clone(&names), written: written.clone() };
+            let stage =
+                Stage { next: next.replace(pen), names: Arc::clone(&names), written: written.clone() };
             let fault = Arc::clone(&fault);
             let work = move || {
                 let outcome = stage.write(&received, writers);

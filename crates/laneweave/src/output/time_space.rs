@@ -35,7 +35,13 @@ pub(super) struct TimeSpace {
 impl TimeSpace {
     /// For the figure in `dir`, over at most `duration` [s] from the time `begin` [s] on; `origins`, each with its
     /// demand [veh/h], tell the busiest entrance.
-    pub(super) fn new(dir: &Path, world: &World, origins: &[(Place, f64)], begin: f64, duration: f64) -> TimeSpace {
+    pub(super) fn new(
+        dir: &Path,
+        world: &World,
+        origins: &[(Place, f64)],
+        begin: f64,
+        duration: f64,
+    ) -> TimeSpace {
         let network = world.network();
         let busiest = origins.iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let start = busiest.and_then(|(place, _)| match place {

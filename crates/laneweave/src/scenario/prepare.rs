@@ -69,7 +69,11 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
     if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
         let what = "fcd.xml is sampled at output.record_s, which is 0";
-        return Err(Fault::new(origin.place(&["output", "sumo"]), what, "leave fcd out, or set record_s = 1"));
+        return Err(Fault::new(
+            origin.place(&["output", "sumo"]),
+            what,
+            "leave fcd out, or set record_s = 1",
+        ));
     }
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;

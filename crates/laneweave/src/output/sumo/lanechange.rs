@@ -52,7 +52,11 @@ impl LaneChangeOutput {
 
 /// A gap [m], if there is anybody.
 fn known(file: &mut XmlFile, gap: f64) {
-    if gap.is_finite() { file.number(gap) } else { file.raw("None") };
+    if gap.is_finite() {
+        file.number(gap)
+    } else {
+        file.raw("None")
+    };
 }
 
 /// SUMO's word for why lanes are changed.
