@@ -13,8 +13,8 @@ use laneweave_sim::{LaneChange, World};
 
 use super::Observer;
 use super::frame::Frame;
-use super::lanelets::Traffic;
 use super::names::Names;
+use super::traffic::Traffic;
 use super::trips::Trip;
 use crate::fault::Fault;
 
