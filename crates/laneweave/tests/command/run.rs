@@ -241,8 +241,7 @@ fn every_file_is_the_same_on_any_number_of_threads() {
     let folder = Folder::new();
     let run = |threads: u32| {
         let out = format!("out{threads}");
-        let line =
-            format!("MAPS/town.osm --duration 100 --demand 6000 --flows 30 --sumo fcd,tripinfo,lanechange");
+        let line = "MAPS/town.osm --duration 100 --demand 6000 --flows 30 --sumo fcd,tripinfo,lanechange";
         folder.summary(&format!("{line} --format csv --threads {threads} --out {out}"));
         let names = ["trajectories.csv", "lane_changes.csv", "trips.csv", "lanelets.csv", "flows.csv"];
         let xml = ["fcd.xml", "tripinfo.xml", "lanechanges.xml"];
