@@ -21,7 +21,7 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     let provenance = Provenance::of(&scenario, String::new(), []).expect("it can be done");
     let mut prepared = prepare(&scenario, &Origin::default()).expect("it can be done");
     let mut observers = observers(&scenario, &prepared, &provenance).expect("it can be done");
-    simulate(&mut prepared, &mut observers, |_| true, || ()).expect("it can be done");
+    simulate(&mut prepared, &mut observers, None, None, |_| true, || ()).expect("it can be done");
     let world = &prepared.world;
     for observer in observers {
         observer.finish(world).expect("it can be done");

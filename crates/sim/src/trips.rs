@@ -115,7 +115,7 @@ pub(crate) fn free_time(
         if end <= here.length {
             return Some(time);
         }
-        (chain, x) = if last_place < here.length {
+        (chain, x) = if last_place <= here.length {
             let beside = Side::BOTH.into_iter().filter_map(|side| here.beside(side, until));
             let changes_from = |it: ChainIndex| navigator.waypoint(destination, it).changes;
             let best = beside

@@ -73,6 +73,9 @@ pub struct Body {
 }
 
 impl Class {
+    /// All of them, in their order.
+    pub const ALL: [Class; 4] = [Class::Car, Class::Truck, Class::Bus, Class::Motorcycle];
+
     /// What its vehicles have in common.
     #[inline]
     pub fn body(self) -> &'static Body {

@@ -148,8 +148,8 @@ pub enum Cells<'a> {
     F64(&'a [f64]),
     /// Integers.
     I64(&'a [i64]),
-    /// Texts.
-    Text(&'a [&'a str]),
+    /// For each row the place of its text in a list.
+    Text(&'a [u32], &'a [&'a str]),
 }
 
 impl<'a> Cells<'a> {
@@ -157,7 +157,7 @@ impl<'a> Cells<'a> {
         match self {
             Cells::F64(values) => values.len(),
             Cells::I64(values) => values.len(),
-            Cells::Text(values) => values.len(),
+            Cells::Text(places, _) => places.len(),
         }
     }
 
@@ -166,7 +166,7 @@ impl<'a> Cells<'a> {
         match self {
             Cells::F64(values) => values[row].into(),
             Cells::I64(values) => values[row].into(),
-            Cells::Text(values) => values[row].into(),
+            Cells::Text(places, texts) => texts[places[row] as usize].into(),
         }
     }
 }
@@ -233,7 +233,7 @@ pub struct TableWriter {
 
 enum Sink {
     Csv(CsvSink),
-    Parquet(ParquetSink),
+    Parquet(Box<ParquetSink>),
 }
 
 impl TableWriter {
@@ -259,7 +259,7 @@ impl TableWriter {
             .map_err(|source| TableError::Create { path: path.to_owned(), source })?;
         let sink = match format {
             Format::Csv => Ok(Sink::Csv(CsvSink::new(output, columns))),
-            Format::Parquet => ParquetSink::new(output, columns, notes).map(Sink::Parquet),
+            Format::Parquet => ParquetSink::new(output, columns, notes).map(|it| Sink::Parquet(Box::new(it))),
         };
         let sink = sink.map_err(|source| TableError::Write { path: path.to_owned(), source })?;
         Ok(TableWriter { columns: columns.to_vec(), sink, file })

@@ -167,25 +167,27 @@ fn rows_that_are_given_by_columns_are_the_same_as_one_by_one() {
     let folder = folder("columns");
     let x: Vec<f64> = (0..20_000).map(|it| if it % 700 == 3 { f64::NAN } else { f64::from(it) }).collect();
     let vehicles: Vec<i64> = (0..20_000).map(|it| it % 90).collect();
-    let classes: Vec<&str> = (0..20_000).map(|it| ["car", "", "truck"][it % 3]).collect();
+    const CLASSES: [&str; 3] = ["car", "", "truck"];
+    let classes: Vec<u32> = (0..20_000).map(|it| it % 3).collect();
     for (format, name) in [(Format::Csv, "csv"), (Format::Parquet, "parquet")] {
         let [one, many] = ["one", "many"].map(|it| folder.join(format!("{it}.{name}")));
         let mut table = TableWriter::create(&one, format, &columns).unwrap();
         for row in 0..x.len() {
-            table.row(&[x[row].into(), vehicles[row].into(), classes[row].into()]).unwrap();
+            table.row(&[x[row].into(), vehicles[row].into(), CLASSES[row % 3].into()]).unwrap();
         }
         table.finish().unwrap();
         let mut table = TableWriter::create(&many, format, &columns).unwrap();
-        table.row(&[x[0].into(), vehicles[0].into(), classes[0].into()]).unwrap();
+        table.row(&[x[0].into(), vehicles[0].into(), CLASSES[0].into()]).unwrap();
         for part in [1..2, 2..2, 2..16_000, 16_000..20_000] {
             let columns = [
                 Cells::F64(&x[part.clone()]),
                 Cells::I64(&vehicles[part.clone()]),
-                Cells::Text(&classes[part]),
+                Cells::Text(&classes[part], &CLASSES),
             ];
             table.rows(&columns).unwrap();
         }
-        let wrong = table.rows(&[Cells::F64(&x), Cells::I64(&vehicles[1..]), Cells::Text(&classes)]);
+        let wrong =
+            table.rows(&[Cells::F64(&x), Cells::I64(&vehicles[1..]), Cells::Text(&classes, &CLASSES)]);
         assert!(matches!(wrong, Err(TableError::Width { cells: 2, columns: 3, .. })));
         table.finish().unwrap();
         if format == Format::Csv {

@@ -71,6 +71,9 @@ pub(super) struct Body {
 impl Frame {
     /// Adds all vehicles of `world`.
     fn sample(&mut self, world: &World) {
+        if self.seen.capacity() == 0 {
+            self.seen.reserve_exact(PAGE + world.on_road());
+        }
         let Frame { instants, seen, across, .. } = self;
         world.vehicles().for_each(|vehicle| {
             let (motion, car) = (*vehicle.motion, vehicle.car);
@@ -92,6 +95,7 @@ impl Frame {
         if bodies.len() == seen.len() {
             return;
         }
+        bodies.reserve_exact(seen.len());
         let mut across = across.iter().peekable();
         bodies.extend(seen.iter().enumerate().map(|(place, it)| {
             let (lanelet, along) = names.network.chain(it.chain).lanelet(it.motion.x);

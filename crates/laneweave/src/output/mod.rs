@@ -14,6 +14,7 @@ mod scribe;
 mod summary;
 mod sumo;
 mod time_space;
+mod traffic;
 mod trajectories;
 mod trips;
 

@@ -48,6 +48,11 @@ impl Names {
         &self.characters[character as usize].0
     }
 
+    /// The styles of all characters.
+    pub(super) fn styles(&self) -> impl Iterator<Item = &str> {
+        self.characters.iter().map(|(style, _)| style.as_str())
+    }
+
     /// Factor of a character on the speed limit.
     pub(super) fn speed_factor(&self, character: u32) -> f64 {
         self.characters[character as usize].1

@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Observer;
 use super::frame::Frame;
-use super::lanelets::Traffic;
 use super::log::{PageLog, pages};
 use super::names::Names;
+use super::traffic::Traffic;
 use super::trips::Trip;
 use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;

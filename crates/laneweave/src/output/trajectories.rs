@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use laneweave_sim::Phase;
+use laneweave_sim::{Class, Phase};
 use laneweave_study::{Cells, Column, TableWriter};
 
 use super::Folder;
@@ -30,6 +30,11 @@ const COLUMNS: [Column; 16] = [
     Column::text("state"),
 ];
 
+/// What the phases are called, in their order.
+const STATES: [&str; 4] = ["cruises", "wants", "changes", "aborts"];
+
+const _: () = assert!(Phase::Wants as u32 == 1 && Phase::Changes as u32 == 2 && Phase::Aborts as u32 == 3);
+
 /// Writes a row for each vehicle at each instant.
 pub(super) struct Trajectories {
     table: TableWriter,
@@ -37,13 +42,16 @@ pub(super) struct Trajectories {
     /// Room for the columns of numbers and of integers.
     numbers: [Vec<f64>; 11],
     integers: [Vec<i64>; 2],
+    /// And for those of texts, by their places in lists.
+    places: [Vec<u32>; 3],
 }
 
 impl Trajectories {
     /// Begins the table in `folder`.
     pub(super) fn create(folder: &Folder) -> Result<Trajectories, Fault> {
         let (table, path) = folder.table("trajectories", &COLUMNS)?;
-        Ok(Trajectories { table, path, numbers: Default::default(), integers: Default::default() })
+        let (numbers, integers, places) = Default::default();
+        Ok(Trajectories { table, path, numbers, integers, places })
     }
 }
 
@@ -51,8 +59,8 @@ impl Writer for Trajectories {
     fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
         let Page::Frame(frame) = page else { return Ok(()) };
         let (seen, bodies) = (frame.seen(), frame.bodies());
-        let Trajectories { table, numbers, integers, .. } = self;
-        numbers.iter_mut().for_each(Vec::clear);
+        let Trajectories { table, numbers, integers, places, .. } = self;
+        numbers.iter_mut().for_each(|it| empty(it, seen.len()));
         let [time, along, offset, x, y, z, heading, speed, acceleration, length, width] = numbers;
         for (step, here, _) in frame.instants() {
             time.resize(time.len() + here.len(), f64::from(step) * names.step_s);
@@ -67,18 +75,22 @@ impl Writer for Trajectories {
         acceleration.extend(seen.iter().map(|it| f64::from(it.motion.acceleration)));
         length.extend(seen.iter().map(|it| it.class.body().length));
         width.extend(seen.iter().map(|it| it.class.body().width));
-        integers.iter_mut().for_each(Vec::clear);
+        integers.iter_mut().for_each(|it| empty(it, seen.len()));
         let [vehicle, lanelet] = integers;
         vehicle.extend(seen.iter().map(|it| i64::from(it.motion.id)));
         lanelet.extend(bodies.iter().map(|it| names.network.lanelets[it.lanelet.at()].id));
-        let class: Vec<&str> = seen.iter().map(|it| it.class.body().name).collect();
-        let style: Vec<&str> = seen.iter().map(|it| names.style(it.character)).collect();
-        let state: Vec<&str> = seen.iter().map(|it| state(it.phase)).collect();
+        places.iter_mut().for_each(|it| empty(it, seen.len()));
+        let [class, style, state] = places;
+        class.extend(seen.iter().map(|it| it.class as u32));
+        style.extend(seen.iter().map(|it| it.character));
+        state.extend(seen.iter().map(|it| it.phase as u32));
+        let styles: Vec<&str> = names.styles().collect();
+        let classes = Class::ALL.map(|it| it.body().name);
         table.rows(&[
             Cells::F64(time),
             Cells::I64(vehicle),
-            Cells::Text(&class),
-            Cells::Text(&style),
+            Cells::Text(class, &classes),
+            Cells::Text(style, &styles),
             Cells::I64(lanelet),
             Cells::F64(along),
             Cells::F64(offset),
@@ -90,7 +102,7 @@ impl Writer for Trajectories {
             Cells::F64(acceleration),
             Cells::F64(length),
             Cells::F64(width),
-            Cells::Text(&state),
+            Cells::Text(state, &STATES),
         ])?;
         Ok(())
     }
@@ -101,11 +113,8 @@ impl Writer for Trajectories {
     }
 }
 
-fn state(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Cruises => "cruises",
-        Phase::Wants => "wants",
-        Phase::Changes => "changes",
-        Phase::Aborts => "aborts",
-    }
+/// Empties `values`, and makes room for so many.
+fn empty<T>(values: &mut Vec<T>, room: usize) {
+    values.clear();
+    values.reserve_exact(room);
 }

@@ -20,9 +20,7 @@ fn a_trip_is_told_from_its_beginning_with_every_change_of_the_table() {
     let text = told.text();
     assert!(text.lines().next().is_some_and(|it| it.contains("enters on lanelet")), "{text}");
     assert!(text.contains("wants to change to the"), "{text}");
-    let across = text
-        .lines()
-        .find(|it| it.contains("is across") && it.ends_with(&format!("at {time:.1} s")));
+    let across = text.lines().find(|it| it.contains("is across") && it.ends_with(&format!("at {time:.1} s")));
     assert!(across.is_some(), "{time}: {text}");
 }
 

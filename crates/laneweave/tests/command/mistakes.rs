@@ -74,6 +74,10 @@ fn options_out_of_range() {
              choose a multiple of the step, such as 60.1 s",
         ),
         (
+            "--record 0 --sumo tripinfo,fcd",
+            "--sumo: fcd.xml is sampled at output.record_s, which is 0; leave fcd out, or set record_s = 1",
+        ),
+        (
             "--style aggressive=-1",
             "--style: the style \"aggressive\" has the weight -1; give it a finite weight of 0 or more",
         ),
@@ -90,6 +94,10 @@ fn options_out_of_range() {
 fn options_that_are_no_numbers_or_unknown() {
     let folder = Folder::new();
     assert!(refusal(&folder, "run MAPS/ramps.osm --demand many").contains("'--demand <VEH_PER_H>'"));
+    assert!(
+        refusal(&folder, "run MAPS/ramps.osm --sumo fcd,trips")
+            .contains("choose of fcd, tripinfo and lanechange")
+    );
     assert!(refusal(&folder, "run MAPS/ramps.osm --style fast").contains("write NAME=WEIGHT"));
     assert!(
         refusal(&folder, "run MAPS/ramps.osm --demnd 5").contains("a similar argument exists: '--demand'")
@@ -120,6 +128,10 @@ fn keys_of_a_scenario_that_are_unknown() {
     assert_eq!(
         scenario("[output]\nformat = \"parket\"\n"),
         "s.toml:3:10: unknown value \"parket\"; did you mean \"parquet\"?"
+    );
+    assert_eq!(
+        scenario("[output]\nsumo = [\"fcd\", \"tripinfos\"]\n"),
+        "s.toml:3:16: unknown value \"tripinfos\"; did you mean \"tripinfo\"?"
     );
 }
 

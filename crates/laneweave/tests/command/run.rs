@@ -1,5 +1,7 @@
 //! Runs that succeed.
 
+use std::collections::HashMap;
+
 use serde_json::Value;
 
 use crate::program::Folder;
@@ -18,6 +20,12 @@ const LANE_CHANGES: &str = "time_s,started_s,duration_s,vehicle,style,class,from
     courtesy_yield,courtesy_weight,urgency_yield,urgency_weight,g,theta,gap_ahead_m,gap_behind_m,ttc_ahead_s,\
     ttc_behind_s,outcome";
 
+const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,left_s,\
+    waiting_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,route_changes,missed_turns";
+
+const LANELETS: &str = "lanelet,sumo_lane,length_m,vehicles,flow_veh_h,density_veh_km,speed_mps,standing_s,entered,\
+    left,changes_to_left,changes_to_right,changes_from_left,changes_from_right";
+
 fn number(summary: &Value, field: &str) -> f64 {
     summary[field].as_f64().unwrap_or_else(|| panic!("{field}: {}", summary[field]))
 }
@@ -27,7 +35,8 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
     let folder = Folder::new();
     let run = folder.laneweave("run MAPS/ramps.osm --duration 60");
     assert_eq!((run.code(), run.errors().as_str()), (0, ""));
-    for file in ["trajectories.parquet", "lane_changes.parquet", "summary.json"] {
+    let tables = ["trajectories", "lane_changes", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
+    for file in tables.iter().map(String::as_str).chain(["summary.json"]) {
         assert!(folder.holds(&format!("out/{file}")), "{file}");
         assert!(run.text().contains(&format!("out/{file}")), "{}", run.text());
     }
@@ -122,6 +131,146 @@ fn tables_have_the_columns_that_everybody_shares() {
     let lane_changes = folder.read("results/first/lane_changes.csv");
     assert_eq!(lane_changes.lines().next(), Some(LANE_CHANGES));
     assert!(lane_changes.lines().skip(1).all(|it| it.ends_with(",completed") || it.ends_with(",aborted")));
+}
+
+/// The rows of a CSV table, each as its cells by their columns.
+fn rows(table: &str) -> Vec<HashMap<String, String>> {
+    let mut lines = table.lines().map(|line| line.split(','));
+    let names: Vec<&str> = lines.next().unwrap().collect();
+    let row =
+        |cells| names.iter().zip(cells).map(|(name, cell): (&&str, &str)| ((*name).into(), cell.into()));
+    lines.map(|cells| row(cells.collect::<Vec<_>>()).collect()).collect()
+}
+
+#[test]
+fn trips_have_a_row_each_also_those_that_began_before_the_measured_time_and_those_that_go_on() {
+    let folder = Folder::new();
+    let line = "MAPS/ramps.osm --duration 120 --warmup 60 --record 0 --format csv";
+    let summary = folder.summary(line);
+    let table = folder.read("out/trips.csv");
+    assert_eq!(table.lines().next(), Some(TRIPS));
+    let trips = rows(&table);
+    let count = |summary: &Value, field: &str| summary[field].as_u64().unwrap() as usize;
+    assert_eq!(trips.len(), count(&summary, "entered"));
+    let of = |trip: &HashMap<String, String>, name: &str| trip[name].parse::<f64>();
+    let (ended, on_road) = trips.split_at(count(&summary, "left"));
+    let durations: Vec<f64> = ended.iter().map(|it| of(it, "duration_s").unwrap()).collect();
+    let mean = durations.iter().sum::<f64>() / durations.len() as f64;
+    assert!((mean - number(&summary, "mean_trip_duration_s")).abs() < 1e-9);
+    let delay = ended.iter().map(|it| of(it, "delay_s").unwrap()).sum::<f64>() / ended.len() as f64;
+    assert!((delay - number(&summary, "mean_delay_s")).abs() < 0.05, "{delay}");
+    for trip in ended {
+        let [entered, left, duration] = ["entered_s", "left_s", "duration_s"].map(|it| of(trip, it).unwrap());
+        assert!((left - entered - duration).abs() < 1e-9 && left > 60.0);
+        // Nobody is faster than on a free road by more than changes of the limit and of the lane make out.
+        assert!(
+            of(trip, "delay_s").unwrap() > -5.0 && of(trip, "delay_s").unwrap() < 0.7 * duration,
+            "{trip:?}"
+        );
+        assert!((1000.0..5100.0).contains(&of(trip, "length_m").unwrap()), "{trip:?}");
+        assert!(!trip["origin"].is_empty() && !trip["to_lanelet"].is_empty());
+    }
+    assert!(ended.iter().any(|it| of(it, "entered_s").unwrap() < 60.0));
+    for trip in on_road {
+        let open = ["to_lanelet", "left_s", "duration_s", "delay_s"].map(|it| trip[it].as_str());
+        assert_eq!(open, [""; 4]);
+    }
+    assert!(on_road.is_sorted_by_key(|it| it["vehicle"].parse::<u32>().unwrap()));
+}
+
+#[test]
+fn who_drives_onto_a_lanelet_drives_off_it_or_is_still_there() {
+    let folder = Folder::new();
+    let line = "MAPS/motorway_2_lanes.osm --duration 301 --demand 3000 --format csv";
+    let summary = folder.summary(line);
+    let table = folder.read("out/lanelets.csv");
+    assert_eq!(table.lines().next(), Some(LANELETS));
+    let lanelets = rows(&table);
+    let count = |lanelet: &HashMap<String, String>, name: &str| lanelet[name].parse::<i64>().unwrap();
+    let total = |name: &str| lanelets.iter().map(|it| count(it, name)).sum::<i64>();
+    assert_eq!(
+        [total("entered"), total("left")].map(|it| it as u64),
+        ["entered", "left"].map(|it| summary[it].as_u64().unwrap())
+    );
+    let (away, onto) = (["changes_to_left", "changes_to_right"], ["changes_from_left", "changes_from_right"]);
+    let changes =
+        folder.read("out/lane_changes.csv").lines().filter(|it| it.ends_with(",completed")).count() as i64;
+    assert_eq!([away, onto].map(|it| it.map(total).iter().sum::<i64>()), [changes; 2]);
+    // The road is two rows of lanelets, numbered row by row: whatever is between two of its ends entered and has not passed.
+    let trajectories = rows(&folder.read("out/trajectories.csv"));
+    let last: Vec<&HashMap<String, String>> =
+        trajectories.iter().filter(|it| it["time_s"] == "301.0").collect();
+    for row in lanelets.chunks(2) {
+        let beyond: i64 = count(&row[1], "lanelet");
+        let here = last.iter().filter(|it| it["lanelet"].parse::<i64>().unwrap() <= beyond).count() as i64;
+        assert_eq!(
+            total("entered") - row.iter().map(|it| count(it, "vehicles")).sum::<i64>(),
+            here,
+            "{row:?}"
+        );
+    }
+    assert_eq!(last.len() as u64, summary["on_road"].as_u64().unwrap());
+}
+
+#[test]
+fn files_as_sumo_writes_them_are_left_where_they_are_asked_for() {
+    let maps = crate::program::maps();
+    let scenario = format!(
+        "map = \"{}/ramps.osm\"\n[run]\nduration_s = 60\n[output]\nsumo = [\"tripinfo\", \"fcd\"]\n",
+        maps.display()
+    );
+    let folder = Folder::new().with("own.toml", &scenario);
+    let summary = folder.summary("own.toml");
+    let [fcd, trips] = ["fcd", "tripinfo"].map(|it| folder.read(&format!("out/{it}.xml")));
+    assert!(fcd.contains("seed: 1\n") && fcd.contains("command: laneweave run own.toml <doubleminus>json\n"));
+    assert!(
+        fcd.contains("    <timestep time=\"60.00\">\n        <vehicle id=\"")
+            && fcd.ends_with("</fcd-export>\n")
+    );
+    assert_eq!(trips.matches("<tripinfo id=").count() as u64, summary["left"].as_u64().unwrap());
+    assert!(!folder.holds("out/lanechanges.xml"));
+    folder.summary("own.toml --out other --sumo lanechange --record 0");
+    assert!(folder.holds("other/lanechanges.xml") && !folder.holds("other/fcd.xml"));
+    let changes = folder.read("other/lanechanges.xml");
+    let completed = changes.matches("<change id=").count();
+    assert!(completed > 0 && changes.contains("dir=\"1\"") && changes.ends_with("</lanechanges>\n"));
+}
+
+#[test]
+fn every_file_is_the_same_on_any_number_of_threads() {
+    let folder = Folder::new();
+    let run = |threads: u32| {
+        let out = format!("out{threads}");
+        let line = "MAPS/town.osm --duration 100 --demand 6000 --flows 30 --sumo fcd,tripinfo,lanechange";
+        folder.summary(&format!("{line} --format csv --threads {threads} --out {out}"));
+        let names = ["trajectories.csv", "lane_changes.csv", "trips.csv", "lanelets.csv", "flows.csv"];
+        let xml = ["fcd.xml", "tripinfo.xml", "lanechanges.xml"];
+        let after_comment =
+            |text: String| text.split_once("-->").map_or(text.clone(), |(_, rest)| rest.into());
+        let read = |name| after_comment(folder.read(&format!("{out}/{name}")));
+        names.into_iter().chain(xml).map(read).collect::<Vec<String>>()
+    };
+    let one = run(1);
+    assert!(one.iter().all(|it| it.len() > 1000));
+    assert!([2, 3].map(run).iter().all(|it| *it == one));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_that_cannot_write_says_so_and_leaves_no_half_a_file() {
+    let folder = Folder::new();
+    std::fs::create_dir_all(folder.path().join("out")).unwrap();
+    // Whatever is written there finds no room.
+    std::os::unix::fs::symlink("/dev/full", folder.path().join("out/fcd.xml.partial")).unwrap();
+    let run = folder.laneweave("run MAPS/ramps.osm --demand 6000 --duration 200 --sumo fcd");
+    assert_eq!(run.code(), 2);
+    assert!(
+        run.errors().contains("out/fcd.xml: cannot be written: no space left on device"),
+        "{}",
+        run.errors()
+    );
+    let left: Vec<_> = std::fs::read_dir(folder.path().join("out")).unwrap().flatten().collect();
+    assert!(left.iter().all(|it| it.path().extension().is_some_and(|it| it == "svg")), "{left:?}");
 }
 
 #[test]

@@ -16,6 +16,8 @@ use super::{Cell, Cells, Column, Kind};
 
 /// Rows held in memory and written together.
 const ROW_GROUP: usize = 1 << 14;
+/// Values in a page: encoded pages grow to their size, and small ones find their memory where the last ones had it.
+const PAGE: usize = 1 << 12;
 /// A column with more distinct values in a group than this holds goes on without a dictionary [bytes].
 const DICTIONARY_SIZE: usize = 1 << 16;
 /// Definition levels of an optional column: the value is there, or null.
@@ -43,8 +45,27 @@ struct Buffer {
 enum Values {
     F64(Vec<f64>),
     I64(Vec<i64>),
-    /// All texts one after the other, and where each ends.
-    Text(Vec<u8>, Vec<usize>),
+    Text(Vec<ByteArray>, Texts),
+}
+
+/// Texts that have come, so that one that comes again takes no memory of its own.
+#[derive(Default)]
+struct Texts(Vec<ByteArray>);
+
+impl Texts {
+    /// More are not remembered: to look for one would take too long.
+    const MOST: usize = 32;
+
+    fn get(&mut self, text: &str) -> ByteArray {
+        if let Some(known) = self.0.iter().find(|it| it.data() == text.as_bytes()) {
+            return known.clone();
+        }
+        let new = ByteArray::from(text);
+        if self.0.len() < Texts::MOST {
+            self.0.push(new.clone());
+        }
+        new
+    }
 }
 
 impl ParquetSink {
@@ -106,6 +127,7 @@ fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
     let properties = WriterProperties::builder()
         .set_dictionary_page_size_limit(DICTIONARY_SIZE)
         .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_data_page_row_count_limit(PAGE)
         .set_key_value_metadata(Some(notes.collect()));
     let plain = columns.iter().filter(|it| !it.repeats);
     let properties = plain.fold(properties, |it, column| {
@@ -130,12 +152,28 @@ fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
         .map(Arc::new)
 }
 
+impl Values {
+    /// Makes room for many, at once for a group and as many more: to grow step by step would leave memory behind.
+    fn reserve(&mut self, more: usize) {
+        fn make_room<T>(values: &mut Vec<T>, more: usize) {
+            if values.capacity() < values.len() + more {
+                values.reserve_exact(ROW_GROUP + more);
+            }
+        }
+        match self {
+            Values::F64(values) => make_room(values, more),
+            Values::I64(values) => make_room(values, more),
+            Values::Text(values, _) => make_room(values, more),
+        }
+    }
+}
+
 impl Buffer {
     fn new(kind: Kind) -> Buffer {
         let values = match kind {
             Kind::F64 => Values::F64(Vec::new()),
             Kind::I64 => Values::I64(Vec::new()),
-            Kind::Text => Values::Text(Vec::new(), Vec::new()),
+            Kind::Text => Values::Text(Vec::new(), Texts::default()),
         };
         Buffer { levels: Vec::new(), rows: 0, values }
     }
@@ -150,9 +188,8 @@ impl Buffer {
                 values.push(*value);
                 true
             }
-            (Values::Text(bytes, ends), Cell::Text(value)) => {
-                bytes.extend(value.as_bytes());
-                ends.push(bytes.len());
+            (Values::Text(values, texts), Cell::Text(value)) => {
+                values.push(texts.get(value));
                 true
             }
             _ => false,
@@ -167,15 +204,14 @@ impl Buffer {
     }
 
     fn extend(&mut self, cells: Cells<'_>) {
+        self.values.reserve(cells.len());
         let misses_nothing = |values: &[f64]| values.iter().all(|it| !it.is_nan());
         match (&mut self.values, cells) {
             (Values::F64(all), Cells::F64(values)) if misses_nothing(values) => all.extend_from_slice(values),
             (Values::I64(all), Cells::I64(values)) => all.extend_from_slice(values),
-            (Values::Text(bytes, ends), Cells::Text(values)) => {
-                for value in values {
-                    bytes.extend_from_slice(value.as_bytes());
-                    ends.push(bytes.len());
-                }
+            (Values::Text(values, known), Cells::Text(places, texts)) => {
+                let texts: Vec<ByteArray> = texts.iter().map(|it| known.get(it)).collect();
+                values.extend(places.iter().map(|it| texts[*it as usize].clone()));
             }
             _ => return (0..cells.len()).for_each(|it| self.push(&cells.get(it))),
         }
@@ -201,13 +237,9 @@ impl Buffer {
                 write_column::<Int64Type>(group, values, levels)?;
                 values.clear();
             }
-            Values::Text(bytes, ends) => {
-                let all = ByteArray::from(std::mem::take(bytes));
-                let begins = std::iter::once(0).chain(ends.iter().copied());
-                let values: Vec<ByteArray> =
-                    begins.zip(ends.iter()).map(|(begin, end)| all.slice(begin, end - begin)).collect();
-                write_column::<ByteArrayType>(group, &values, levels)?;
-                ends.clear();
+            Values::Text(values, _) => {
+                write_column::<ByteArrayType>(group, values, levels)?;
+                values.clear();
             }
         }
         self.levels.clear();
