@@ -7,13 +7,20 @@ mod generate;
 #[cfg(test)]
 mod golden;
 #[cfg(test)]
+mod help;
+#[cfg(test)]
 mod mistakes;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
 mod run;
 #[cfg(test)]
+mod scenario;
+#[cfg(test)]
 mod schema;
+#[cfg(test)]
+mod shell;
+#[cfg(test)]
 mod signals;
 #[cfg(test)]
 mod styles;
