@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recording, picture, tracks};
 use laneweave::output::write_whole;
-use laneweave::scenario::{MapOptions, open_map};
+use laneweave::scenario::{Law, MapOptions, open_map};
 use serde::Serialize;
 
 use super::say;
@@ -15,10 +16,10 @@ use super::say;
 pub(crate) struct Arguments {
     /// A map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz), or with --map a recording (INTERACTION: .csv,
     /// CommonRoad: .xml).
-    #[arg(value_name = "MAP|RECORDING")]
+    #[arg(value_name = "MAP|RECORDING", value_hint = ValueHint::FilePath)]
     file: PathBuf,
     /// The map of the recording.
-    #[arg(long, value_name = "MAP", conflicts_with_all = ["graph", "svg"])]
+    #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath, conflicts_with_all = ["graph", "svg"])]
     map: Option<PathBuf>,
     #[command(flatten)]
     options: Reading,
@@ -26,10 +27,10 @@ pub(crate) struct Arguments {
     #[arg(long)]
     json: bool,
     /// Write the routing graph here, as one JSON object keyed by the ids of the lanelets.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     graph: Option<PathBuf>,
     /// Write a picture of the map here.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
 }
 
@@ -40,8 +41,8 @@ pub(crate) struct Reading {
     #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
     origin: Option<[f64; 2]>,
     /// Whose speed limits hold where the map gives none [default: germany].
-    #[arg(long, value_name = "germany|usa", value_parser = law)]
-    law: Option<laneweave::scenario::Law>,
+    #[arg(long, value_parser = law())]
+    law: Option<Law>,
 }
 
 impl Reading {
@@ -56,12 +57,8 @@ fn place(text: &str) -> Result<[f64; 2], String> {
     Ok([degrees(latitude)?, degrees(longitude)?])
 }
 
-fn law(text: &str) -> Result<laneweave::scenario::Law, String> {
-    match text {
-        "germany" => Ok(laneweave::scenario::Law::Germany),
-        "usa" => Ok(laneweave::scenario::Law::Usa),
-        _ => Err("choose germany or usa".into()),
-    }
+fn law() -> impl TypedValueParser<Value = Law> {
+    PossibleValuesParser::new(["germany", "usa"]).map(|it| if it == "usa" { Law::Usa } else { Law::Germany })
 }
 
 impl Arguments {

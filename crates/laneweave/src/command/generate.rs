@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
 use laneweave::maps::generate::{
     Arterial, Control, GenerateError, Grid, Motorway, approach, arterial, grid, motorway, roundabout, town,
@@ -11,21 +11,30 @@ use laneweave::maps::{Drawing, FORMATS, lanelet2};
 use laneweave::network::DrivingSide;
 use laneweave::output::write_whole;
 
+use super::examples;
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Kind {
     /// A straight motorway, with ramps and a lane drop if you like.
+    #[command(after_help = examples::MOTORWAY)]
     Motorway(MotorwayArguments),
     /// A straight motorway on which an on-ramp is followed by an off-ramp, with a lane between them.
+    #[command(after_help = examples::WEAVING)]
     Weaving(WeavingArguments),
     /// Streets that cross at right angles.
+    #[command(after_help = examples::GRID)]
     Grid(GridArguments),
     /// A main street of two lanes in each direction, and streets of one lane that cross it at lights.
+    #[command(after_help = examples::ARTERIAL)]
     Arterial(ArterialArguments),
     /// A roundabout of one lane with four arms.
+    #[command(after_help = examples::ROUNDABOUT)]
     Roundabout(Plain),
     /// Three lanes before a junction: A leads left, B left and straight on, C straight on.
+    #[command(after_help = examples::APPROACH)]
     Approach(Plain),
     /// A town with junctions of all kinds, and a motorway through it.
+    #[command(after_help = examples::TOWN)]
     Town(Plain),
 }
 
@@ -114,6 +123,7 @@ pub(crate) struct Plain {
     #[arg(long, value_name = "SIDE", value_enum, default_value_t = Driving::Right)]
     driving_side: Driving,
     /// The map file to write (.osm); one that is there is replaced.
+    #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
 }
 

@@ -2,17 +2,20 @@
 
 mod branch;
 mod check;
+mod examples;
 mod explain;
 mod generate;
 mod progress;
 mod routes;
 mod run;
+mod scenario;
+mod shell;
 mod styles;
 
 use std::io::{self, Write};
 use std::time::Instant;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use laneweave::Fault;
 use laneweave::scenario::{Origin, Scenario};
 
@@ -20,7 +23,7 @@ use laneweave::scenario::{Origin, Scenario};
 ///
 /// Without a command it runs the demo scenario, ten minutes of a town with a motorway through it, and writes into out/.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100)]
+#[command(version, max_term_width = 100, after_help = examples::LANEWEAVE)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -29,23 +32,38 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Simulate a scenario, or a bare map.
+    #[command(after_help = examples::RUN)]
     Run(run::Arguments),
     /// Say why a driver of a run changed lanes, waited, or stayed.
+    #[command(after_help = examples::EXPLAIN)]
     Explain(explain::Arguments),
     /// Repeat a run, and from a time on with something otherwise: say and write what differs.
+    #[command(after_help = examples::BRANCH)]
     Branch(branch::Arguments),
     /// Say what a map or a recording holds, and what is wrong with it.
+    #[command(after_help = examples::CHECK)]
     Check(check::Arguments),
     /// Name the sensible ways from one lanelet of a map to another.
+    #[command(after_help = examples::ROUTES)]
     Routes(routes::Arguments),
+    /// Begin to write a scenario.
+    #[command(subcommand, after_help = examples::SCENARIO)]
+    Scenario(scenario::Deed),
     /// Make a map.
-    #[command(subcommand)]
+    #[command(subcommand, after_help = examples::GENERATE)]
     Generate(generate::Kind),
     /// See, or begin to write, styles of drivers.
-    #[command(subcommand)]
+    #[command(subcommand, after_help = examples::STYLES)]
     Styles(styles::Deed),
     /// Print the JSON schema of scenario files.
+    #[command(after_help = examples::SCHEMA)]
     Schema,
+    /// Print what a shell needs to complete commands, options and names.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(shell::Completions),
+    /// Write manual pages, one for each command.
+    #[command(after_help = examples::MAN)]
+    Man(shell::Pages),
 }
 
 impl Cli {
@@ -61,12 +79,18 @@ impl Cli {
             Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
+            Some(Command::Scenario(deed)) => deed.execute(),
             Some(Command::Generate(kind)) => kind.execute(),
             Some(Command::Styles(deed)) => deed.execute(),
             Some(Command::Schema) => {
                 say(&format!("{:#}\n", Scenario::schema().to_value()));
                 Ok(())
             }
+            Some(Command::Completions(arguments)) => {
+                arguments.execute(Cli::command());
+                Ok(())
+            }
+            Some(Command::Man(arguments)) => arguments.execute(Cli::command()),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::maps::{By, Map, NodeIndex, Route, Sense, routes};
 use laneweave::network::LaneletIndex;
@@ -15,7 +15,8 @@ use super::say;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The map file.
+    /// The map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
+    #[arg(value_hint = ValueHint::FilePath)]
     map: PathBuf,
     /// Id of the lanelet at whose beginning the ways begin.
     #[arg(allow_negative_numbers = true)]

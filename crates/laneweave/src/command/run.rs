@@ -8,10 +8,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
-use laneweave::did_you_mean;
 use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
 use laneweave::record;
 use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
@@ -30,8 +30,9 @@ const LISTED_PROBLEMS: usize = 3;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// With --resume the folder of results of a run that broke off. Otherwise a scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
-    #[arg(value_name = "SCENARIO.toml|MAP|OUT")]
+    /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz); with --resume the folder of results
+    /// of a run that broke off.
+    #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
     /// evenly over its lanelets), whatever the scenario says of them [default for a map: 1000 a lane, or 200 a kilometre].
@@ -49,7 +50,7 @@ pub(crate) struct Arguments {
     style: Vec<(String, f64)>,
     /// One lane-change model for all drivers, in place of those of their styles: mcdm, mobil, lmrs, mobil-lanes or lmrs-lanes
     /// (never leave the lanes of their route), null (no incentives), constant-hazard (no reasons at all).
-    #[arg(long, value_name = "MODEL", value_parser = model)]
+    #[arg(long, value_parser = model())]
     model: Option<Model>,
     /// Seed of all random draws [default: 1].
     #[arg(long, value_name = "N")]
@@ -64,7 +65,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     trucks: Option<f64>,
     /// Folder of all results [default: out].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
     /// Seconds between two samples of a trajectory; 0: no trajectories [default: 1].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
@@ -73,7 +74,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     flows: Option<f64>,
     /// Format of the tables [default: parquet].
-    #[arg(long, value_name = "parquet|csv", value_parser = format)]
+    #[arg(long, value_parser = format())]
     format: Option<TableFormat>,
     /// Files that are written as SUMO writes them, separated by commas: fcd, tripinfo, lanechange [default: none].
     #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
@@ -106,17 +107,16 @@ fn weighted(text: &str) -> Result<(String, f64), String> {
 }
 
 /// A lane-change model by its name.
-fn model(text: &str) -> Result<Model, String> {
-    let found = Model::ALL.into_iter().find(|it| it.name() == text);
-    found.ok_or_else(|| did_you_mean(text, Model::ALL.map(Model::name)))
+fn model() -> impl TypedValueParser<Value = Model> {
+    PossibleValuesParser::new(Model::ALL.map(Model::name)).try_map(|text| {
+        let found = Model::ALL.into_iter().find(|it| it.name() == text);
+        found.ok_or("unknown model")
+    })
 }
 
-fn format(text: &str) -> Result<TableFormat, String> {
-    match text {
-        "parquet" => Ok(TableFormat::Parquet),
-        "csv" => Ok(TableFormat::Csv),
-        _ => Err("choose parquet or csv".into()),
-    }
+fn format() -> impl TypedValueParser<Value = TableFormat> {
+    PossibleValuesParser::new(["parquet", "csv"])
+        .map(|it| if it == "csv" { TableFormat::Csv } else { TableFormat::Parquet })
 }
 
 fn sumo_file(text: &str) -> Result<SumoFile, String> {

@@ -8,18 +8,21 @@ use clap::Subcommand;
 use laneweave::style::{BUILT_IN, StyleTemplate, copy, find};
 use laneweave::{Fault, Source};
 
-use super::say;
+use super::{examples, say};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Deed {
     /// List the styles that come with the program, each with a sentence about it.
+    #[command(after_help = examples::STYLES_LIST)]
     List,
     /// Print a style file.
+    #[command(after_help = examples::STYLES_SHOW)]
     Show {
         /// Name of a built-in style, or path of a style file (.toml).
         name: String,
     },
     /// Write a style file to edit.
+    #[command(after_help = examples::STYLES_NEW)]
     New {
         /// Name of the new style.
         name: String,

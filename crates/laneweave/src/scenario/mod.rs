@@ -7,6 +7,7 @@ mod origin;
 mod prepare;
 mod signals;
 mod turns;
+mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
@@ -23,6 +24,7 @@ pub(crate) use prepare::driven;
 pub use prepare::{Prepared, open_map, prepare};
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
+pub use written::write;
 
 /// A scenario of laneweave: a map, who drives on it, and what is recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -58,6 +58,8 @@ pub struct Prepared {
     pub threads: usize,
     /// What in the map could not be used as it stands.
     pub problems: Vec<Problem>,
+    /// Latitude and longitude of the map's (0, 0) [°], if it was projected.
+    pub origin: Option<(f64, f64)>,
 }
 
 /// Reads the map and the styles of `scenario`, and makes its world.
@@ -124,6 +126,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
         problems: map.problems,
+        origin: map.origin,
         world,
     })
 }

@@ -198,6 +198,21 @@ fn fork_after(id: i64, network: &Network, sections: &Sections) -> Result<usize, 
     Err((format!("the lanelet {id} leads to no junction"), "leave it out"))
 }
 
+/// The roads of `network` that fork, each with shares by the number of lanes.
+pub(super) fn forks(network: &Network) -> Vec<Turns> {
+    let sections = Sections::of(network);
+    let forks = sections.all().iter().filter(|it| it.following.len() > 1);
+    let named = forks.filter_map(|it| {
+        let lanes = |way: Way| -> f64 {
+            it.following.iter().filter(|it| Way::of(it) == way).map(|it| it.lanes as f64).sum()
+        };
+        let [left, straight, right] = Way::ALL.map(lanes);
+        let from = it.lanelets.iter().map(|it| network.lanelets[it.at()].id).min()?;
+        Some(Turns { from, left, straight, right })
+    });
+    named.collect()
+}
+
 /// Which way somebody turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {

@@ -9,6 +9,8 @@ mod generate;
 #[cfg(test)]
 mod golden;
 #[cfg(test)]
+mod help;
+#[cfg(test)]
 mod mistakes;
 #[cfg(test)]
 mod program;
@@ -17,7 +19,12 @@ mod resume;
 #[cfg(test)]
 mod run;
 #[cfg(test)]
+mod scenario;
+#[cfg(test)]
 mod schema;
+#[cfg(test)]
+mod shell;
+#[cfg(test)]
 mod signals;
 #[cfg(test)]
 mod styles;

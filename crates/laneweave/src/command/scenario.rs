@@ -1,0 +1,110 @@
+//! `laneweave scenario`.
+
+use std::ffi::OsStr;
+use std::path::{Component, Path, PathBuf};
+
+use clap::{Args, Subcommand, ValueHint};
+use laneweave::Fault;
+use laneweave::output::write_whole;
+use laneweave::scenario::{Origin, Scenario, prepare, write};
+
+use super::check::Reading;
+use super::{examples, say};
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Deed {
+    /// Write a scenario for a map, every key with its meaning and its default, to edit.
+    #[command(after_help = examples::SCENARIO_NEW)]
+    New(New),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct New {
+    /// The map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
+    #[arg(value_hint = ValueHint::FilePath)]
+    map: PathBuf,
+    /// The file to write (.toml) [default: the name of the map, in this folder].
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    out: Option<PathBuf>,
+    /// Replace the file if it is there.
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+impl Deed {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        match self {
+            Deed::New(new) => new.execute(),
+        }
+    }
+}
+
+impl New {
+    fn execute(self) -> Result<(), Fault> {
+        if self.map.extension() == Some(OsStr::new("toml")) {
+            let what = "this is a scenario, where its map is wanted";
+            return Err(Fault::new(self.map.display(), what, "give the map, or copy the file"));
+        }
+        let file = self.out.clone().unwrap_or_else(|| named_after(&self.map));
+        self.check(&file)?;
+        let mut scenario =
+            Scenario { map_options: self.reading.options(), ..Scenario::of_map(self.map.clone()) };
+        let mut origin = Origin::default();
+        origin.replaced("map_options.origin", "--origin");
+        let prepared = prepare(&scenario, &origin)?;
+        scenario.map = from_folder_of(&file, &self.map);
+        write_whole(&file, &write(&scenario, &prepared)?)?;
+        say(&format!("{0} is written; edit it, then: laneweave run {0}\n", file.display()));
+        Ok(())
+    }
+
+    /// Whether `file` may be written.
+    fn check(&self, file: &Path) -> Result<(), Fault> {
+        if file.extension() != Some(OsStr::new("toml")) {
+            return Err(Fault::new(
+                file.display(),
+                "this is no name of a scenario file",
+                "let it end in .toml",
+            ));
+        }
+        if file.exists() && !self.force {
+            let remedy = "choose another name with --out, or replace it with --force";
+            return Err(Fault::new(file.display(), "this file is there already", remedy));
+        }
+        Ok(())
+    }
+}
+
+/// The name of a scenario file like that of `map`.
+fn named_after(map: &Path) -> PathBuf {
+    let name = map.file_name().unwrap_or_default().to_string_lossy();
+    let name = name.strip_suffix(".gz").unwrap_or(&name);
+    PathBuf::from(name).with_extension("toml")
+}
+
+/// The path of `map` from the folder of `file` on; `map` itself where there is none.
+fn from_folder_of(file: &Path, map: &Path) -> PathBuf {
+    let folder = file.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (Ok(folder), Ok(whole)) = (folder.canonicalize(), map.canonicalize()) else { return map.to_owned() };
+    let [from, to] = [&folder, &whole].map(|it| it.components().collect::<Vec<Component>>());
+    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    // On another drive nothing is in common.
+    if common == 0 {
+        return whole;
+    }
+    let up = from[common..].iter().map(|_| Component::ParentDir);
+    up.chain(to[common..].iter().copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scenario_is_called_like_its_map() {
+        assert_eq!(named_after(Path::new("maps/town.osm.gz")), Path::new("town.toml"));
+        assert_eq!(named_after(Path::new("a.xml")), Path::new("a.toml"));
+    }
+}

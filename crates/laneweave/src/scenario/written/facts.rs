@@ -1,0 +1,242 @@
+//! What the map at hand says of the keys of a scenario.
+
+use std::collections::BTreeMap;
+
+use laneweave_network::{DrivingSide, LightIndex, SignalPlan};
+use laneweave_sim::Place;
+use serde_json::{Value, json};
+
+use super::super::Prepared;
+use super::super::turns::forks;
+use crate::style::BUILT_IN;
+
+/// Places of a map that are named one by one.
+const LISTED: usize = 24;
+/// Forks that are named, as examples.
+const LISTED_FORKS: usize = 3;
+/// Of what a map bears this flows with room to spare. Ours.
+const COMFORTABLE: f64 = 0.8;
+
+/// Values and rows by the paths of their keys.
+pub(super) struct Facts {
+    pub(super) values: BTreeMap<&'static str, Fact>,
+    pub(super) rows: BTreeMap<&'static str, Rows>,
+}
+
+/// A value on this map.
+pub(super) struct Fact {
+    pub(super) value: Value,
+    /// What to know about it.
+    pub(super) note: Option<String>,
+}
+
+/// What a table of names, or a list of tables, can hold on this map.
+pub(super) struct Rows {
+    pub(super) note: String,
+    pub(super) rows: Vec<Row>,
+    /// How many more there are.
+    pub(super) omitted: usize,
+}
+
+/// A line of a table, or one with keys of its own.
+pub(super) enum Row {
+    Entry { name: String, value: f64, what: String },
+    Table { header: &'static str, keys: Vec<(&'static str, Value)> },
+}
+
+impl Facts {
+    pub(super) fn of(prepared: &Prepared) -> Facts {
+        let side = match prepared.world.network().driving_side {
+            DrivingSide::Left => "left",
+            DrivingSide::Right => "right",
+        };
+        let values = [
+            ("map_options.driving_side", json!(side), Some("On this map:".into())),
+            ("map_options.origin", origin(prepared), Some(origin_note(prepared).into())),
+            ("demand.vehicles_per_hour", json!(tenths(prepared.demand_veh_h)), Some(demand_note(prepared))),
+            (
+                "demand.profile",
+                json!([[0.0, 1.0], [900.0, 1.5]]),
+                Some("For example, half as many again after a quarter of an hour:".into()),
+            ),
+            ("model", json!("mcdm"), Some("For example:".into())),
+            ("run.threads", json!(prepared.threads), Some("On this machine:".into())),
+        ];
+        let rows = [
+            ("demand.entrances", entrances(prepared)),
+            ("demand.exits", exits(prepared)),
+            ("demand.od", od(prepared)),
+            ("turns", turns(prepared)),
+            ("signals", signals(prepared)),
+            ("styles", styles()),
+        ];
+        Facts {
+            values: values.into_iter().map(|(path, value, note)| (path, Fact { value, note })).collect(),
+            rows: rows.into_iter().collect(),
+        }
+    }
+}
+
+fn origin(prepared: &Prepared) -> Value {
+    prepared.origin.map_or(json!([49.0, 8.4]), |(latitude, longitude)| json!([latitude, longitude]))
+}
+
+fn origin_note(prepared: &Prepared) -> &'static str {
+    match prepared.origin {
+        Some(_) => "On this map:",
+        None => "Of no effect on this map, whose coordinates are metres already. For example:",
+    }
+}
+
+/// How much comes where nothing is said, and how much the map bears.
+fn demand_note(prepared: &Prepared) -> String {
+    let (demand, capacity) = (prepared.demand_veh_h, prepared.capacity.veh_h);
+    let Some(bottleneck) = prepared.capacity.bottleneck else { return "On this map:".into() };
+    let bears = format!("This map bears about {capacity:.0} veh/h, then {bottleneck} is full.");
+    let comfortable = two_digits(COMFORTABLE * capacity);
+    if demand <= comfortable {
+        return format!("{bears} Where nothing is said, this many come:");
+    }
+    format!("{bears} {comfortable} would leave room to drive; where nothing is said, this many come:")
+}
+
+fn entrances(prepared: &Prepared) -> Rows {
+    let row = |(place, rate): &(Place, f64)| Row::Entry {
+        name: place.id().to_string(),
+        value: tenths(*rate),
+        what: lanes(place),
+    };
+    let note = if is_closed(prepared) {
+        "This map has no edge: trips start along its lanelets."
+    } else {
+        "Those of this map, with what comes where nothing is said:"
+    };
+    let all = &prepared.origins;
+    Rows { note: note.into(), rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
+}
+
+fn exits(prepared: &Prepared) -> Rows {
+    let all = &prepared.world.demand().destinations;
+    let row = |place: &Place| Row::Entry { name: place.id().to_string(), value: 1.0, what: lanes(place) };
+    let note = "Those of this map:".into();
+    Rows { note, rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
+}
+
+/// As an example, the first entrance with the first exit to which a way leads.
+fn od(prepared: &Prepared) -> Rows {
+    let world = &prepared.world;
+    let exits = &world.demand().destinations;
+    let pair = prepared.origins.iter().enumerate().find_map(|(from, (place, rate))| {
+        let to = (0..exits.len()).find(|to| world.leads(from, *to))?;
+        Some((place.id(), exits[to].id(), *rate))
+    });
+    let row = pair.map(|(from, to, rate)| Row::Table {
+        header: "[[demand.od]]",
+        keys: vec![
+            ("from", json!(from.to_string())),
+            ("to", json!(to.to_string())),
+            ("vehicles_per_hour", json!(tenths(rate))),
+        ],
+    });
+    Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
+}
+
+/// The junctions with shares by the number of lanes, as they are where no row says anything.
+fn turns(prepared: &Prepared) -> Rows {
+    if is_closed(prepared) {
+        let note = "None on this map, on which every lanelet is a destination. Elsewhere:".into();
+        let keys =
+            vec![("from", json!(1)), ("left", json!(1.0)), ("straight", json!(2.0)), ("right", json!(1.0))];
+        return Rows { note, rows: vec![Row::Table { header: "[[turns]]", keys }], omitted: 0 };
+    }
+    let all = forks(prepared.world.network());
+    let row = |it: &super::super::Turns| Row::Table {
+        header: "[[turns]]",
+        keys: vec![
+            ("from", json!(it.from)),
+            ("left", json!(it.left)),
+            ("straight", json!(it.straight)),
+            ("right", json!(it.right)),
+        ],
+    };
+    let note = if all.is_empty() {
+        "No road of this map leads to a fork.".into()
+    } else {
+        "For example, where the roads of this map fork, by the number of lanes:".into()
+    };
+    let omitted = all.len().saturating_sub(LISTED_FORKS);
+    Rows { note, rows: all.iter().take(LISTED_FORKS).map(row).collect(), omitted }
+}
+
+/// The programs that were made for the lights of the map.
+fn signals(prepared: &Prepared) -> Rows {
+    let junctions = &prepared.world.network().junctions;
+    let name = |light: &LightIndex| junctions.lights[light.at()].id;
+    let rows = |plan: &SignalPlan| -> Vec<Row> {
+        let program = Row::Table { header: "[[signals]]", keys: vec![("offset_s", json!(plan.offset))] };
+        let phases = plan.turns.iter().map(|turn| Row::Table {
+            header: "[[signals.phases]]",
+            keys: vec![
+                ("green", turn.lights.iter().map(name).collect()),
+                ("green_s", json!(turn.green)),
+                ("yellow_s", json!(turn.yellow)),
+                ("all_red_s", json!(turn.all_red)),
+            ],
+        });
+        std::iter::once(program).chain(phases).collect()
+    };
+    let all = &junctions.made;
+    let note = match all.len() {
+        0 => "This map has no lights.",
+        _ => "Those that the lights of this map are given:",
+    };
+    Rows {
+        note: note.into(),
+        rows: all.iter().take(LISTED).flat_map(rows).collect(),
+        omitted: beyond(all.len()),
+    }
+}
+
+/// The styles beside those that drive already.
+fn styles() -> Rows {
+    let names: Vec<&str> = BUILT_IN.iter().map(|it| it.name).collect();
+    let note = format!("There are {}. See them with: laneweave styles list", names.join(", "));
+    Rows { note, rows: Vec::new(), omitted: 0 }
+}
+
+/// Trips start and end along lanes.
+fn is_closed(prepared: &Prepared) -> bool {
+    prepared.origins.iter().all(|(place, _)| matches!(place, Place::Kerb(_)))
+}
+
+fn lanes(place: &Place) -> String {
+    match (place, place.chains().len()) {
+        (Place::Kerb(_), _) => "along the lanelet".into(),
+        (Place::Gate(_), 1) => "1 lane".into(),
+        (Place::Gate(_), count) => format!("{count} lanes"),
+    }
+}
+
+fn beyond(count: usize) -> usize {
+    count.saturating_sub(LISTED)
+}
+
+fn tenths(number: f64) -> f64 {
+    (10.0 * number).round() / 10.0
+}
+
+/// `number` with its first two digits, the others 0; not more than it is.
+fn two_digits(number: f64) -> f64 {
+    let unit = 10f64.powi(number.max(1.0).log10().floor() as i32 - 1).max(1.0);
+    (number / unit).floor() * unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_keeps_two_digits() {
+        assert_eq!([4889.0, 999.9, 57.3, 4.0].map(two_digits), [4800.0, 990.0, 57.0, 4.0]);
+    }
+}
