@@ -52,7 +52,7 @@ fn any_driver() -> impl Strategy<Value = Driver<'static>> {
 }
 
 fn any_ahead() -> impl Strategy<Value = Ahead> {
-    (0.5..200.0_f64, 0.0..40.0_f64).prop_map(|(gap, speed)| Ahead { gap, speed })
+    (0.5..200.0_f64, 0.0..40.0_f64).prop_map(|(gap, speed)| Ahead::steady(gap, speed))
 }
 
 fn any_behind() -> impl Strategy<Value = Behind<'static>> {
@@ -144,9 +144,9 @@ proptest! {
         model in any_model(), mut situation in any_situation(), merging in any_merging(), gap in 0.5..30.0_f64,
         speed in 0.0..40.0_f64, share in 0.0..1.0_f64,
     ) {
-        situation.merging[0] = Some(Merging { freed: Some(Ahead { gap, speed }), ..merging });
+        situation.merging[0] = Some(Merging { freed: Some(Ahead::steady(gap, speed)), ..merging });
         let before = model.appraise(&situation).gain;
-        situation.merging[0] = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
+        situation.merging[0] = Some(Merging { freed: Some(Ahead::steady(share * gap, speed)), ..merging });
         prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
     }
 
@@ -189,7 +189,7 @@ fn any_extreme_length() -> impl Strategy<Value = f64> {
 }
 
 fn any_extreme_ahead() -> impl Strategy<Value = Option<Ahead>> {
-    option::of((any_extreme_length(), any_extreme_speed()).prop_map(|(gap, speed)| Ahead { gap, speed }))
+    option::of((any_extreme_length(), any_extreme_speed()).prop_map(|(gap, speed)| Ahead::steady(gap, speed)))
 }
 
 fn any_extreme_lane() -> impl Strategy<Value = LaneView<'static>> {

@@ -103,10 +103,10 @@ fn ten_minutes(plan: &Motorway, total: f64) {
 }
 
 /// Every car-following model, with its defaults, and in the literal reading where there is one.
-fn all_models() -> [FollowingModel; 12] {
+fn all_models() -> Vec<FollowingModel> {
     let reading = Reading::Literal;
     let jiang = Gfm { form: GfmForm::Jiang, ..Gfm::default() };
-    [
+    vec![
         FollowingModel::Idm(Idm::default()),
         FollowingModel::Acc(Acc::default()),
         FollowingModel::Fvdm(Fvdm::default()),
