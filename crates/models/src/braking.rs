@@ -51,7 +51,7 @@ mod tests {
             dt in 0.02..0.5_f64, harshness in 0.0..1.0_f64,
         ) {
             let lead = ((speed * speed - leader * leader) / (2.0 * HARDEST_BRAKING)).max(0.0);
-            let ahead = Ahead { gap: lead + speed * dt + spare, speed: leader };
+            let ahead = Ahead::steady(lead + speed * dt + spare, leader);
             prop_assert!(is_secure(speed, ahead, dt));
             let next = secure_speed(speed, ahead, dt);
             let leader_next = (leader - harshness * HARDEST_BRAKING * dt).max(0.0);
@@ -75,7 +75,7 @@ mod tests {
             speed in 0.0..60.0_f64, leader in 4.0..60.0_f64, spare in 0.0..50.0_f64, dt in 0.02..0.5_f64,
         ) {
             let lead = ((speed * speed - leader * leader) / 16.0).max(0.0);
-            let ahead = Ahead { gap: lead + speed * dt + spare, speed: leader };
+            let ahead = Ahead::steady(lead + speed * dt + spare, leader);
             let next = secure_speed(speed, ahead, dt);
             prop_assert!(stays_secure(speed, next - 1e-6, ahead, dt));
             prop_assert!(!stays_secure(speed, next + 1e-6, ahead, dt));
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn an_empty_road_does_not_bind() {
-        assert!(stays_secure(30.0, 30.0, Ahead { gap: 200.0, speed: 30.0 }, 0.1));
+        assert!(stays_secure(30.0, 30.0, Ahead::steady(200.0, 30.0), 0.1));
         assert!(!stays_secure(30.0, 30.0, Ahead::standing(58.0), 0.1));
     }
 }

@@ -45,7 +45,7 @@ fn worked_case() -> Situation<'static> {
     const SECTION: f64 = 200.0;
     // The inverse of the literal optimal velocity.
     let leader_allowing =
-        |speed: f64| Some(Ahead { gap: (((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, speed: 5.0 });
+        |speed: f64| Some(Ahead::steady((((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, 5.0));
     let flow = |headway: f64| Flow { spacing: 10.0 * headway, speed: 10.0, length: LENGTH };
     let mut situation = empty_road(driver(&LITERAL_FVDM, 8.0, 14.0));
     situation.section = SECTION;
@@ -175,7 +175,7 @@ fn equal_lanes(
     let gap = follow.equilibrium_gap(Pace::new(speed, desired));
     let spacing = gap + LENGTH;
     let lane = |gap_ahead: f64, gap_behind: f64| LaneView {
-        ahead: Some(Ahead { gap: gap_ahead, speed }),
+        ahead: Some(Ahead::steady(gap_ahead, speed)),
         behind: behind(gap_behind, vehicle),
         flow: Flow { spacing, speed, length: LENGTH },
         prospect: speed,

@@ -156,7 +156,7 @@ proptest! {
     ) {
         situation.merging[0] = Some(Merging { freed: Some(Ahead::steady(gap, speed)), ..merging });
         let before = model.appraise(&situation).gain;
-        situation.merging[0] = Some(Merging { freed: Some(Ahead { gap: share * gap, speed }), ..merging });
+        situation.merging[0] = Some(Merging { freed: Some(Ahead::steady(share * gap, speed)), ..merging });
         prop_assert!(model.appraise(&situation).gain <= before + ROUNDING);
     }
 

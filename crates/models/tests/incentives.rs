@@ -196,7 +196,7 @@ fn a_symmetric_change_earns_of_the_route_only_its_speed_part() {
         situation.here.prospect = 8.0;
         assert_near(route.earning(&situation, chances(1.0)), 10.0 / 60.0, 1e-12);
         let literal = Route { reading: Literal, ..route };
-        situation.here.ahead = Some(Ahead { gap: 20.0, speed: 8.0 });
+        situation.here.ahead = Some(Ahead::steady(20.0, 8.0));
         assert_eq!(literal.earning(&situation, chances(1.0)), 0.0);
     }
 }
@@ -221,7 +221,7 @@ static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
 
 /// A leader behind whom the literal optimal velocity is `speed` [m/s].
 fn leader_allowing(speed: f64) -> Option<Ahead> {
-    Some(Ahead { gap: (((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, speed: 5.0 })
+    Some(Ahead::steady((((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, 5.0))
 }
 
 #[test]
@@ -247,11 +247,11 @@ fn a_repaired_speed_yield_is_divided_by_the_desired_speed() {
 #[test]
 fn the_anticipated_speed_of_a_lane() {
     let desired = 50.0 / 3.6;
-    assert_near(anticipated_speed(Ahead { gap: 60.0, speed: 8.0 }, desired), 9.197740, 1e-6);
-    assert_eq!(anticipated_speed(Ahead { gap: 0.0, speed: 8.0 }, desired), 8.0);
-    assert_eq!(anticipated_speed(Ahead { gap: -1.0, speed: 8.0 }, desired), 8.0);
-    assert_eq!(anticipated_speed(Ahead { gap: 295.0, speed: 8.0 }, desired), desired);
-    assert_eq!(anticipated_speed(Ahead { gap: 60.0, speed: 20.0 }, desired), desired);
+    assert_near(anticipated_speed(Ahead::steady(60.0, 8.0), desired), 9.197740, 1e-6);
+    assert_eq!(anticipated_speed(Ahead::steady(0.0, 8.0), desired), 8.0);
+    assert_eq!(anticipated_speed(Ahead::steady(-1.0, 8.0), desired), 8.0);
+    assert_eq!(anticipated_speed(Ahead::steady(295.0, 8.0), desired), desired);
+    assert_eq!(anticipated_speed(Ahead::steady(60.0, 20.0), desired), desired);
 }
 
 // Courtesy.
@@ -290,8 +290,8 @@ fn courtesy_is_nothing_where_nobody_is_concerned() {
 /// Where the driver, 10 m/s, leaves an old follower for a new one; all would like 14 m/s.
 fn between_followers() -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 10.0, 14.0));
-    situation.here.ahead = Some(Ahead { gap: 30.0, speed: 9.0 });
-    situation.there.ahead = Some(Ahead { gap: 25.0, speed: 11.0 });
+    situation.here.ahead = Some(Ahead::steady(30.0, 9.0));
+    situation.there.ahead = Some(Ahead::steady(25.0, 11.0));
     situation.here.behind = behind(8.0, driver(&IDM, 10.0, 14.0));
     situation.there.behind = behind(12.0, driver(&IDM, 11.0, 14.0));
     situation
@@ -310,7 +310,7 @@ fn share_of(courtesy: &Courtesy, speed: f64, now: Ahead, then: Ahead) -> f64 {
 fn courtesy_adds_the_old_and_the_new_follower() {
     for courtesy in READINGS {
         let mut situation = between_followers();
-        let ahead = |gap, speed| Ahead { gap, speed };
+        let ahead = |gap, speed| Ahead::steady(gap, speed);
         let relief = share_of(&courtesy, 10.0, ahead(8.0, 10.0), ahead(8.0 + 5.0 + 30.0, 9.0));
         let harm = share_of(&courtesy, 11.0, ahead(12.0 + 5.0 + 25.0, 11.0), ahead(12.0, 10.0));
         assert!(relief > 0.0 && harm < 0.0);
@@ -331,7 +331,7 @@ fn courtesy_makes_room_for_a_merging_vehicle_the_more_the_closer_its_lane_ends()
         let mut situation = between_followers();
         situation.here.flow.speed = 10.0;
         let harm = courtesy.earning(&situation, chances(1.0));
-        let (blocked, freed) = (Ahead { gap: 12.0, speed: 4.0 }, Ahead { gap: 40.0, speed: 12.0 });
+        let (blocked, freed) = (Ahead::steady(12.0, 4.0), Ahead::steady(40.0, 12.0));
         let relief = share_of(&courtesy, 8.0, blocked, freed);
         for urgency in [0.0, 0.4, 1.0] {
             let driver = driver(&IDM, 8.0, 14.0);

@@ -85,7 +85,7 @@ fn v44_in_european_traffic_only_the_follower_on_the_fast_lane_counts() {
 
 #[test]
 fn v44_above_60_kmh_nobody_gains_by_passing_on_the_slow_side() {
-    let slower = |speed| Some(Ahead { gap: 40.0, speed });
+    let slower = |speed| Some(Ahead::steady(40.0, speed));
     let gain =
         |model: Mobil, toward, here, there| model.appraise(&between(toward, here, there)).rows[0].earning;
     // Back to the slow lane, past a slower leader on the fast one.

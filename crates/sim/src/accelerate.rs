@@ -68,7 +68,8 @@ impl OpenRoad {
     }
 }
 
-/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it. `None` if it is not.
+/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it with room to spare. `None` if it
+/// is not.
 // The most frequent call of a motorway.
 #[inline(always)]
 pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
@@ -78,7 +79,8 @@ pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion,
     let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
     let next = motion.speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
-    (ahead.gap >= 0.0 && stays_secure(motion.speed, next, ahead, dt)).then_some(acceleration)
+    let clear = ahead.nearer(FollowingModel::LARGEST_CLEARANCE);
+    (ahead.gap >= 0.0 && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
 }
 
 /// Every case. A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
@@ -115,9 +117,10 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Ch
     let junction = junction::look(scene, spot);
     let (wish, stop) = heed_junction(motion, car, follow, &junction, wish, clock.dt);
     let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
-    let behind_leader = bound(motion.speed, wish, leader, clock.dt);
+    let clear = |it: Ahead| it.nearer(follow.clearance());
+    let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
     let before_the_end = bound(motion.speed, behind_leader, lane_end, clock.dt);
-    let behind_others = bound(motion.speed, before_the_end, junction.leader, clock.dt);
+    let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
     Chosen {
         acceleration,

@@ -225,6 +225,42 @@ fn v9_rings_of_ten_densities_flow_as_the_fundamental_diagram_says() {
     }
 }
 
+#[test]
+fn v15_a_jam_moves_upstream_with_fifteen_kilometres_per_hour() {
+    const SLOW: f64 = 3.0;
+    const SPEED: f64 = 10.0;
+    const CARS: u32 = 100;
+    let gap = t2000().follow.equilibrium_gap(Pace::new(SPEED, t2000().desired));
+    let around = f64::from(CARS) * (gap + LENGTH);
+    let mut world = one_lane(&[t2000()], around, true, 0.1);
+    for number in 0..CARS {
+        let out_of_place = if number == 0 { 1.0 } else { 0.0 };
+        place(&mut world, (f64::from(number) + 0.5) * around / f64::from(CARS) + out_of_place, SPEED, 0);
+    }
+    (0..12_000).for_each(|_| world.step());
+    // When and where each car comes into a jam.
+    let mut stops = vec![Vec::new(); CARS as usize];
+    for _ in 0..3_000 {
+        let before: Vec<_> = (0..CARS).map(|id| car(&world, id).speed).collect();
+        world.step();
+        for (id, before) in (0..CARS).zip(before) {
+            let now = car(&world, id);
+            if before >= SLOW && now.speed < SLOW {
+                stops[id as usize].push((world.clock().time(), now.x));
+            }
+        }
+    }
+    // One jam, from car to car: those behind come into it later, and the way between them leads back.
+    let (begin, mut time, mut back) = (stops[99][0], stops[99][0].0, 0.0);
+    let mut place = begin.1;
+    for stops in stops[40..99].iter().rev() {
+        let next = stops.iter().find(|it| it.0 > time).expect("there is a jam");
+        back += (place - next.1).rem_euclid(world.network().chain(ChainIndex(0)).length);
+        (time, place) = *next;
+    }
+    assert_near(3.6 * back / (time - begin.0), 15.0, 5.0);
+}
+
 /// What became of a follower.
 struct Stop {
     shortest_gap: f64,

@@ -85,8 +85,8 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     // Who is recommended no other way keeps its own.
     assert_eq!(band, f64::INFINITY);
     assert_eq!((me.pace.speed, me.pace.desired, me.pace.tightness, me.length), (20.0, 30.0, 1.0, CAR));
-    assert_eq!(here.ahead, Some(Ahead { gap: 60.0 - CAR, speed: 18.0 }));
-    assert_eq!(there.ahead, Some(Ahead { gap: 200.0 - TRUCK, speed: 22.0 }));
+    assert_eq!(here.ahead, Some(Ahead::steady(60.0 - CAR, 18.0)));
+    assert_eq!(there.ahead, Some(Ahead::steady(200.0 - TRUCK, 22.0)));
     let behind = here.behind.unwrap();
     assert_eq!((behind.gap, behind.driver.pace.speed), (40.0 - CAR, 22.0));
     let behind = there.behind.unwrap();
@@ -134,8 +134,8 @@ fn leaders_and_followers_are_seen_across_the_ends_of_chains() {
     car(&mut world, next_left, 60.0, 25.0);
     let scene = world.scene();
     let back = look(&scene, &world, before, Side::Left);
-    assert_eq!(back.here.ahead, Some(Ahead { gap: 80.0 - CAR, speed: 16.0 }));
-    assert_eq!(back.there.ahead, Some(Ahead { gap: 110.0 - CAR, speed: 25.0 }));
+    assert_eq!(back.here.ahead, Some(Ahead::steady(80.0 - CAR, 16.0)));
+    assert_eq!(back.there.ahead, Some(Ahead::steady(110.0 - CAR, 25.0)));
     assert_near(back.here.prospect, anticipated(80.0 - CAR, 16.0));
     assert_eq!((back.here.flow.spacing, back.here.flow.speed), (300.0, 16.0));
     let front = look(&scene, &world, beyond, Side::Left);
@@ -166,7 +166,7 @@ fn the_end_of_a_lane_stands_in_the_way_like_a_vehicle() {
     assert_near(section, 100.0);
     // The neighbour sees the end, too, behind the one who is nearer.
     let view = look(&scene, &world, beside, Side::Right).there;
-    assert_eq!(view.ahead, Some(Ahead { gap: 100.0 - CAR, speed: 20.0 }));
+    assert_eq!(view.ahead, Some(Ahead::steady(100.0 - CAR, 20.0)));
     assert_near(view.prospect, anticipated(200.0, 0.0));
     assert_near(view.route.remaining, 200.0);
 }
@@ -214,8 +214,10 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
         let at = spot(&world, changer);
         let (front, phase) = (scene.motion(at), scene.car(at).phase);
         let [own, left] = [slow, fast].map(|id| (scene.motion(spot(&world, id)), spot(&world, id)));
-        let gap_to =
-            |it: &laneweave_sim::Motion| Some(Ahead { gap: front.rear() - it.x, speed: front.speed });
+        let acceleration = f64::from(front.acceleration);
+        let gap_to = |it: &laneweave_sim::Motion| {
+            Some(Ahead { gap: front.rear() - it.x, speed: front.speed, acceleration })
+        };
         let from_slow = look(&scene, &world, slow, Side::Left);
         let from_fast = look(&scene, &world, fast, Side::Right);
         if phase == Phase::Changes {
@@ -274,7 +276,8 @@ impl Waiting {
     fn ahead(&self, id: u32) -> Option<Ahead> {
         let scene = self.world.scene();
         let [from, to] = [self.waiting, id].map(|it| scene.motion(spot(&self.world, it)));
-        Some(Ahead { gap: to.rear() - from.x, speed: to.speed })
+        let acceleration = f64::from(to.acceleration);
+        Some(Ahead { gap: to.rear() - from.x, speed: to.speed, acceleration })
     }
 }
 
@@ -337,7 +340,7 @@ fn who_waits_at_the_end_of_its_lane_has_that_ahead_and_its_urgency() {
     }
     let scene = world.scene();
     let seen = look(&scene, &world, me, Side::Left).merging[0].expect("it is seen");
-    let end = Ahead { gap: 2500.0 - scene.motion(spot(&world, merging)).x, speed: 0.0 };
+    let end = Ahead::steady(2500.0 - scene.motion(spot(&world, merging)).x, 0.0);
     assert_ahead(seen.blocked, Some(end));
     // At once, 100 m before the end at 20 m/s.
     assert!((seen.urgency - 0.883721).abs() < 1e-6, "{}", seen.urgency);

@@ -5,8 +5,9 @@ mod roads;
 use std::collections::BTreeMap;
 
 use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_models::Reading;
 use laneweave_models::Style;
-use laneweave_models::follow::{FollowingModel, Idm};
+use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm};
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, NewVehicle, Setup, World};
 use proptest::prelude::*;
@@ -98,6 +99,48 @@ fn ten_minutes(plan: &Motorway, total: f64) {
         assert!(tally.missed_turns as f64 <= 0.02 * counts.entered as f64, "{} missed", tally.missed_turns);
         let emergencies = tally.emergency_brakings as f64 / hundreds_of_km;
         assert!(emergencies <= 1.0, "{emergencies} emergencies on 100 veh-km");
+    }
+}
+
+/// Every car-following model, with its defaults, and in the literal reading where there is one.
+fn all_models() -> Vec<FollowingModel> {
+    let reading = Reading::Literal;
+    let jiang = Gfm { form: GfmForm::Jiang, ..Gfm::default() };
+    vec![
+        FollowingModel::Idm(Idm::default()),
+        FollowingModel::Acc(Acc::default()),
+        FollowingModel::Fvdm(Fvdm::default()),
+        FollowingModel::Fvdm(Fvdm { reading, ..Fvdm::default() }),
+        FollowingModel::Ovm(Ovm { jam_gap: 1.5, ..Ovm::default() }),
+        FollowingModel::Ovm(Ovm { reading, ..Ovm::default() }),
+        FollowingModel::Gfm(Gfm::default()),
+        FollowingModel::Gfm(jiang),
+        FollowingModel::Gfm(Gfm { reading, ..jiang }),
+        FollowingModel::Krauss(Krauss::default()),
+        FollowingModel::Gipps(Gipps::default()),
+        FollowingModel::Newell(Newell::default()),
+    ]
+}
+
+#[test]
+fn whatever_model_they_follow_by_nobody_is_harmed_where_lanes_merge() {
+    let plan = Motorway {
+        length_m: 3000.0,
+        on_ramp_at: vec![1000.0],
+        lane_drop_at: Some(2200.0),
+        ..Motorway::default()
+    };
+    for follow in all_models() {
+        let network =
+            motorway(&plan).expect("the motorway is possible").build().expect("the drawing is sound").network;
+        let demand = drivers::demand(&network, 4000.0, 0.1, &[1.0]);
+        let styles = vec![Style { follow, ..drivers::conservative() }];
+        let setup = Setup { step: 0.1, seed: 1, threads: 1 };
+        let mut world = World::new(network, styles, demand, setup).expect("the set-up makes sense");
+        (0..4000).for_each(|_| world.step());
+        let tally = world.tally();
+        assert_eq!((tally.collisions, tally.overlaps, tally.stuck), (0, 0, 0), "{follow:?}");
+        assert!(world.counts().left > 50 && world.counts().route_changes > 10, "{follow:?}");
     }
 }
 

@@ -70,6 +70,12 @@ impl Ahead {
         Ahead::steady(gap, 0.0)
     }
 
+    /// The same, `by` metres nearer.
+    #[inline]
+    pub fn nearer(self, by: f64) -> Ahead {
+        Ahead { gap: self.gap - by, ..self }
+    }
+
     /// A vehicle `gap` metres ahead that keeps its `speed` [m/s].
     #[inline]
     pub fn steady(gap: f64, speed: f64) -> Ahead {
@@ -154,6 +160,9 @@ impl CarFollowing for FollowingModel {
 }
 
 impl FollowingModel {
+    /// What two vehicles need to turn one behind the other [m].
+    pub const LARGEST_CLEARANCE: f64 = 0.5;
+
     /// The acceleration of any model. It gets numbers, since structs would be written to memory for the others as well;
     /// without a leader the gap is infinite.
     #[inline(never)]
@@ -186,6 +195,16 @@ impl FollowingModel {
             if balance(middle) <= 0.0 { short = middle } else { long = middle }
         }
         0.5 * (short + long)
+    }
+
+    /// Gap [m] that emergency braking keeps behind another vehicle for who follows by this model, at most
+    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; others may come up to the bumper ahead,
+    /// where there is no room to turn into another lane.
+    pub fn clearance(&self) -> f64 {
+        match self {
+            FollowingModel::Idm(_) | FollowingModel::Fvdm(_) => 0.0,
+            _ => FollowingModel::LARGEST_CLEARANCE,
+        }
     }
 
     /// Largest flow [veh/s] of one lane of identical vehicles of `length` [m] in equilibrium.

@@ -113,6 +113,7 @@ fn v17_fvdm_survives_from_its_own_equilibrium() {
 }
 
 #[test]
+#[expect(clippy::approx_constant, reason = "a speed")]
 fn v17_ovm_crashes_even_from_its_own_equilibrium() {
     for (speed, impact) in [(10.0, 1.469), (13.0, 3.142)] {
         let stop = from_equilibrium(literal_ovm(), 50.0, speed, 0.01);

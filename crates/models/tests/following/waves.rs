@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use laneweave_models::follow::FollowingModel;
+use laneweave_models::follow::{FollowingModel, Krauss, Newell};
 
 use crate::assert_near;
 use crate::cars::{Car, LENGTH, runge_kutta};
@@ -115,6 +115,20 @@ fn v13_one_car_out_of_place_starts_waves_between_the_neutral_gaps_only() {
             (after > 2.0 * before) == grows && (after < 0.8 * before) != grows,
             "{gap} m: {before}, {after}"
         );
+    }
+}
+
+#[test]
+fn long_waves_grow_with_krauss_and_neither_grow_nor_fade_with_newell() {
+    let [krauss, newell] =
+        [FollowingModel::Krauss(Krauss::default()), FollowingModel::Newell(Newell::default())];
+    for speed in [3.0, 10.0, 20.0, 30.0] {
+        let (_, growth) = Equilibrium::at_speed(krauss, 120.0 / 3.6, speed).fastest();
+        assert!(growth > 1e-3, "{growth} at {speed} m/s");
+        // All that fades is of a higher order than usual, k⁴ instead of k²: halving k leaves a sixteenth.
+        let at = |cars| Equilibrium::at_speed(newell, 120.0 / 3.6, speed).of(cars).rate(1).re;
+        assert!(at(100) < 0.0);
+        assert_near(at(100) / at(50), 1.0 / 16.0, 1e-3);
     }
 }
 
