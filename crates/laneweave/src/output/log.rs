@@ -87,7 +87,7 @@ pub(super) fn pages(path: &Path, length: u64) -> Result<impl Iterator<Item = Res
         return Err(damaged(format!("{size} bytes of {length} that the checkpoint needs")));
     }
     let mut reader = io::BufReader::new(file.take(length));
-    let mut read = move || -> Option<Result<Page, Fault>> {
+    let read = move || -> Option<Result<Page, Fault>> {
         let mut head = [0; 4];
         match reader.read_exact(&mut head) {
             Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return None,
@@ -104,5 +104,5 @@ pub(super) fn pages(path: &Path, length: u64) -> Result<impl Iterator<Item = Res
         }
         Some(postcard::from_bytes(&bytes).map_err(|error| damaged(error.to_string())))
     };
-    Ok(std::iter::from_fn(move || read()))
+    Ok(std::iter::from_fn(read))
 }

@@ -295,9 +295,9 @@ impl<'a> Twin<'a> {
                 (gap < needed).then_some(Refusal::Insecure)
             }
         };
-        let ahead = there.0.and_then(|(it, gap)| check(&pressed, gap + otherwise.gaps[0], it.speed + leader));
+        let ahead = there[0].and_then(|(it, gap)| check(&pressed, gap + otherwise.gaps[0], it.speed + leader));
         let behind = || {
-            there.1.and_then(|(it, gap)| {
+            there[1].and_then(|(it, gap)| {
                 let it = Body { speed: it.speed + follower, ..it };
                 check(&it, gap + otherwise.gaps[1], me.speed)
             })
@@ -306,16 +306,16 @@ impl<'a> Twin<'a> {
     }
 
     /// The next ahead and behind, however far away.
-    fn around_far(&self, me: &Body, lane: u32) -> (Option<(Body, f64)>, Option<(Body, f64)>) {
+    fn around_far(&self, me: &Body, lane: u32) -> [Option<(Body, f64)>; 2] {
         let ahead = self
             .others(me, lane)
             .filter(|it| it.x > me.x)
             .min_by(|a, b| (a.x - a.length).total_cmp(&(b.x - b.length)));
         let behind = self.others(me, lane).filter(|it| it.x <= me.x).max_by(|a, b| a.x.total_cmp(&b.x));
-        (
+        [
             ahead.map(|it| (*it, it.x - it.length - me.x)),
             behind.filter(|it| me.x - it.x < 250.0).map(|it| (*it, me.x - it.x - me.length)),
-        )
+        ]
     }
 
     /// Road left to the end [m].
