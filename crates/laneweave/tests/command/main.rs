@@ -13,6 +13,8 @@ mod mistakes;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod remarks;
+#[cfg(test)]
 mod run;
 #[cfg(test)]
 mod scenario;
