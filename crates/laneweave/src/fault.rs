@@ -27,6 +27,8 @@ impl Fault {
             io::ErrorKind::NotFound => "check the path",
             io::ErrorKind::PermissionDenied => "check the permissions, or choose another place",
             io::ErrorKind::AlreadyExists => "choose another name, or remove it first",
+            io::ErrorKind::IsADirectory => "name a file, not a folder",
+            io::ErrorKind::InvalidData => "give a file of text in UTF-8",
             _ => "choose another place",
         };
         Fault::new(path.display(), format!("cannot be {deed}: {}", plain(error)), remedy)

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use clap::Parser;
 
-use command::Cli;
+use command::{Cli, with_tip};
 
 /// With a million vehicles an update costs a tenth less than with the allocator of glibc: arrays of one size lie side by
 /// side, in fewer pages.
@@ -19,7 +19,8 @@ const MISTAKE: u8 = 2;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    match Cli::parse().execute(started) {
+    let cli = Cli::try_parse().unwrap_or_else(|error| with_tip(error).exit());
+    match cli.execute(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(fault) => {
             eprintln!("error: {fault}");

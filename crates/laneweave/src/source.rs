@@ -58,6 +58,11 @@ impl Source {
         found.map_or(self.path.display().to_string(), |span| self.at(span.start))
     }
 
+    /// Whether it has this key beside its tables.
+    pub(crate) fn has_key(&self, name: &str) -> bool {
+        DeTable::parse(&self.text).is_ok_and(|root| entry(root.get_ref(), name).is_some())
+    }
+
     /// Where `text` stands as a value, if it does.
     pub(crate) fn place_of_value(&self, text: &str) -> Option<String> {
         fn find(table: &DeTable, text: &str) -> Option<Range<usize>> {
@@ -96,7 +101,8 @@ impl Source {
             return Fault::new(place, format!("unknown value {name:?}"), did_you_mean(name, known));
         }
         if message.starts_with("missing field") {
-            return Fault::new(place, format!("the key {name:?} is missing"), "add it");
+            let remedy = if name == "map" { "add it, such as map = \"road.osm\"" } else { "add it" };
+            return Fault::new(place, format!("the key {name:?} is missing"), remedy);
         }
         let what = message.replace('\n', ", ");
         if message.starts_with("invalid type") || message.starts_with("invalid value") {

@@ -17,6 +17,9 @@ pub enum MapError {
     /// It is a folder.
     #[error("this is a folder; name a map file inside it")]
     Folder,
+    /// There is nothing in it.
+    #[error("the file is empty; get the map again, or choose another file")]
+    Empty,
     /// The system refuses to read it.
     #[error("the file cannot be read: {0}; check its permissions")]
     Unreadable(io::Error),

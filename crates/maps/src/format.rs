@@ -108,6 +108,9 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     if bytes.len() as u64 > MAXIMUM_SIZE {
         return Err(too_large(bytes.len() as u64));
     }
+    if bytes.is_empty() {
+        return Err(MapError::Empty);
+    }
     (format.read)(&bytes, options)
 }
 

@@ -116,6 +116,15 @@ fn content(path: &Path) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     let read = File::open(path).and_then(|it| it.take(MOST).read_to_end(&mut bytes));
     read.map_err(|error| Fault::refused(path, "read", &error))?;
+    if bytes.is_empty() {
+        let remedy = "get the recording again, or choose another file";
+        return Err(Fault::new(path.display(), "the file is empty", remedy));
+    }
+    // What is no text would be shown as it is where it is complained of.
+    if bytes.contains(&0) {
+        let what = "this is no text, so no recording";
+        return Err(Fault::new(path.display(), what, "choose another file, or unpack it first"));
+    }
     Ok(bytes)
 }
 

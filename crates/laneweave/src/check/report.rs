@@ -8,6 +8,7 @@ use laneweave_network::{ChainIndex, DrivingSide, Network, Sign};
 use laneweave_sim::{Place, Places};
 use serde::Serialize;
 
+use super::remarks::{Remark, remarks};
 use crate::scenario::driven;
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
@@ -53,6 +54,8 @@ pub struct Report {
     pub rules: BTreeMap<String, usize>,
     /// What could not be used as it stands, or is suspicious.
     pub problems: Vec<Problem>,
+    /// What to know before one looks at traffic on the map.
+    pub remarks: Vec<Remark>,
 }
 
 /// An entrance or an exit.
@@ -78,7 +81,9 @@ impl Report {
     pub fn of(map: &Map) -> Report {
         let Map { network, graph, rules, contents, problems, origin } = map;
         let Network { lanelets, chains, lane_drops, driving_side, .. } = network;
-        let (driven, Places { origins, destinations }) = driven(map);
+        let (driven, places) = driven(map);
+        let remarks = remarks(map, &driven, &places);
+        let Places { origins, destinations } = places;
         let gates = |places: &[Place]| places.iter().filter_map(opening).collect::<Vec<_>>();
         let (entrances, exits) = (gates(&origins), gates(&destinations));
         let limits = lanelets.iter().map(|it| it.speed_limit * KMH_PER_MPS);
@@ -118,6 +123,7 @@ impl Report {
                 .map(|it| lanelets[it.at()].id)
                 .collect(),
             rules: kinds,
+            remarks,
             problems: sorted(problems.iter().cloned().chain(check(network)).collect()),
         }
     }
@@ -171,6 +177,10 @@ impl Report {
             "rules                  {}",
             if rules.is_empty() { "none".into() } else { rules.join(", ") }
         )?;
+        if !self.remarks.is_empty() {
+            writeln!(out, "\nWhat to expect of traffic:")?;
+            self.remarks.iter().try_for_each(|it| writeln!(out, "  {it}"))?;
+        }
         if self.problems.is_empty() {
             return writeln!(out, "\nNo problems.");
         }

@@ -12,6 +12,7 @@ use laneweave::network::DrivingSide;
 use laneweave::output::write_whole;
 
 use super::examples;
+use super::numbers::number;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Kind {
@@ -40,23 +41,23 @@ pub(crate) enum Kind {
 
 #[derive(Debug, Args)]
 pub(crate) struct MotorwayArguments {
-    /// Number of lanes.
+    /// Number of lanes, 1 to 12.
     #[arg(long, value_name = "N", default_value_t = 3)]
     lanes: usize,
     /// Length [m].
-    #[arg(long, value_name = "M", default_value_t = 5000.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = 5000.0, allow_negative_numbers = true, value_parser = number)]
     length: f64,
-    /// Where an on-ramp meets the road [m]; may be repeated.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    /// Where an on-ramp meets the road [m from its start]; may be repeated.
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     on_ramp_at: Vec<f64>,
-    /// Where an off-ramp leaves it [m]; may be repeated.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    /// Where an off-ramp leaves the road [m from its start]; may be repeated.
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     off_ramp_at: Vec<f64>,
-    /// Where the slow lane ends [m].
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    /// Where the slow lane ends [m from the start of the road].
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     lane_drop_at: Option<f64>,
-    /// Speed limit [km/h].
-    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true)]
+    /// Speed limit [km/h], 5 to 300.
+    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true, value_parser = number)]
     speed_limit: f64,
     #[command(flatten)]
     plain: Plain,
@@ -64,14 +65,14 @@ pub(crate) struct MotorwayArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct WeavingArguments {
-    /// Number of lanes, without the one between the ramps.
+    /// Number of lanes, 1 to 12, without the one between the ramps.
     #[arg(long, value_name = "N", default_value_t = 2)]
     lanes: usize,
-    /// From the on-ramp to the off-ramp [m].
-    #[arg(long, value_name = "M", default_value_t = 450.0, allow_negative_numbers = true)]
+    /// From the on-ramp to the off-ramp [m], 100 to 1000.
+    #[arg(long, value_name = "M", default_value_t = 450.0, allow_negative_numbers = true, value_parser = number)]
     length: f64,
-    /// Speed limit [km/h].
-    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true)]
+    /// Speed limit [km/h], 5 to 300.
+    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true, value_parser = number)]
     speed_limit: f64,
     #[command(flatten)]
     plain: Plain,
@@ -79,20 +80,20 @@ pub(crate) struct WeavingArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct GridArguments {
-    /// Streets that run east and west.
+    /// Streets that run east and west, 1 to 50.
     #[arg(long, value_name = "R")]
     rows: usize,
-    /// Streets that run north and south.
+    /// Streets that run north and south, 1 to 50.
     #[arg(long, value_name = "C")]
     columns: usize,
-    /// From one junction to the next [m].
-    #[arg(long, value_name = "M", default_value_t = 150.0, allow_negative_numbers = true)]
+    /// From one junction to the next [m], 80 to 1000.
+    #[arg(long, value_name = "M", default_value_t = 150.0, allow_negative_numbers = true, value_parser = number)]
     block_length: f64,
-    /// Number of lanes in each direction.
+    /// Number of lanes in each direction, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 2)]
     lanes: usize,
-    /// Speed limit [km/h].
-    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true)]
+    /// Speed limit [km/h], 5 to 130.
+    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true, value_parser = number)]
     speed_limit: f64,
     /// What orders the traffic of the junctions; with priority the streets that run east and west go first.
     #[arg(long, value_enum, default_value_t = Order::Signals)]
@@ -103,14 +104,14 @@ pub(crate) struct GridArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct ArterialArguments {
-    /// Number of junctions.
+    /// Number of junctions, 1 to 50.
     #[arg(long, value_name = "N")]
     junctions: usize,
-    /// From one junction to the next [m].
-    #[arg(long, value_name = "M", default_value_t = 300.0, allow_negative_numbers = true)]
+    /// From one junction to the next [m], 80 to 1000.
+    #[arg(long, value_name = "M", default_value_t = 300.0, allow_negative_numbers = true, value_parser = number)]
     block_length: f64,
-    /// Speed limit [km/h].
-    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true)]
+    /// Speed limit [km/h], 5 to 130.
+    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true, value_parser = number)]
     speed_limit: f64,
     #[command(flatten)]
     plain: Plain,

@@ -5,12 +5,14 @@ mod check;
 mod examples;
 mod explain;
 mod generate;
+mod numbers;
 mod progress;
 mod routes;
 mod run;
 mod scenario;
 mod shell;
 mod styles;
+mod tips;
 
 use std::io::{self, Write};
 use std::time::Instant;
@@ -18,6 +20,8 @@ use std::time::Instant;
 use clap::{CommandFactory, Parser, Subcommand};
 use laneweave::Fault;
 use laneweave::scenario::{Origin, Scenario};
+
+pub(crate) use tips::with_tip;
 
 /// Microscopic traffic whose drivers change lanes for human reasons.
 ///

@@ -11,6 +11,7 @@ use laneweave::scenario::open_map;
 use serde::Serialize;
 
 use super::check::{Reading, json};
+use super::numbers::{id, number};
 use super::say;
 
 #[derive(Debug, Args)]
@@ -19,10 +20,10 @@ pub(crate) struct Arguments {
     #[arg(value_hint = ValueHint::FilePath)]
     map: PathBuf,
     /// Id of the lanelet at whose beginning the ways begin.
-    #[arg(allow_negative_numbers = true)]
+    #[arg(allow_negative_numbers = true, value_parser = id)]
     from: i64,
     /// Id of the lanelet at whose end they end.
-    #[arg(allow_negative_numbers = true)]
+    #[arg(allow_negative_numbers = true, value_parser = id)]
     to: i64,
     #[command(flatten)]
     reading: Reading,
@@ -30,7 +31,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = Sense::default().most)]
     most: usize,
     /// They take at most so many times as long as the fastest one.
-    #[arg(long, value_name = "TIMES", default_value_t = Sense::default().longest)]
+    #[arg(long, value_name = "TIMES", allow_negative_numbers = true, value_parser = number, default_value_t = Sense::default().longest)]
     longest: f64,
     /// Print one JSON object.
     #[arg(long)]

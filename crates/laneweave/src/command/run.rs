@@ -18,6 +18,7 @@ use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, pre
 use laneweave::simulation::simulate;
 use laneweave::style::Model;
 
+use super::numbers::{number, seed, threads};
 use super::progress::Progress;
 use super::say;
 
@@ -36,42 +37,42 @@ pub(crate) struct Arguments {
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
     /// evenly over its lanelets), whatever the scenario says of them [default for a map: 1000 a lane, or 200 a kilometre].
-    #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     duration: Option<f64>,
     /// Length of a step in seconds, 0.01 to 1 [default: 0.1].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     step: Option<f64>,
     /// A style of drivers, or the path of a style file (.toml), and its weight; may be repeated, and goes in place of
     /// all styles of the scenario [default: aggressive=1 conservative=7.4].
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weighted)]
     style: Vec<(String, f64)>,
-    /// One lane-change model for all drivers, in place of those of their styles: mcdm, mobil, lmrs, mobil-lanes or lmrs-lanes
-    /// (never leave the lanes of their route), null (no incentives), constant-hazard (no reasons at all).
+    /// One lane-change model for all drivers, in place of those of their styles; with mobil-lanes and lmrs-lanes nobody leaves
+    /// the lanes of its route, null is mcdm without incentives, and constant-hazard changes without any reason.
     #[arg(long, value_parser = model())]
     model: Option<Model>,
     /// Seed of all random draws [default: 1].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// Number of threads; results do not depend on it [default: the machine's, at most 2].
-    #[arg(long, value_name = "N")]
+    /// Number of threads, 1 to 256; results do not depend on it [default: the machine's, at most 2].
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     threads: Option<NonZero<usize>>,
     /// Simulated seconds before anything is measured or recorded [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     warmup: Option<f64>,
     /// Share of trucks, 0 to 1 [default: 0.1].
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number)]
     trucks: Option<f64>,
     /// Folder of all results [default: out].
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
-    /// Seconds between two samples of a trajectory; 0: no trajectories [default: 1].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    /// Seconds between two samples of a trajectory, a multiple of the step; 0: no trajectories [default: 1].
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     record: Option<f64>,
-    /// Seconds over which flow, density and speed of every lanelet are measured; 0: they are not [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    /// Seconds over which flow, density and speed of every lanelet are measured, a multiple of the step; 0: they are not [default: 0].
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     flows: Option<f64>,
     /// Format of the tables [default: parquet].
     #[arg(long, value_parser = format())]
@@ -92,7 +93,7 @@ pub(crate) struct Arguments {
 /// What appears on screen.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct Screen {
-    /// Print nothing but errors.
+    /// Print nothing but errors, no warnings either.
     #[arg(long)]
     quiet: bool,
     /// Print the summary as one JSON object.
@@ -306,7 +307,7 @@ fn drive(
     Ok(())
 }
 
-/// Lists what in the map could not be used as it stands.
+/// Lists what in the map could not be used as it stands, and what makes traffic on it look odd.
 fn warn(prepared: &Prepared) {
     let problems = &prepared.problems;
     for problem in problems.iter().take(LISTED_PROBLEMS) {
@@ -314,6 +315,9 @@ fn warn(prepared: &Prepared) {
     }
     if problems.len() > LISTED_PROBLEMS {
         eprintln!("warning: map: {} more problems like these", problems.len() - LISTED_PROBLEMS);
+    }
+    for remark in &prepared.remarks {
+        eprintln!("warning: map: {remark}");
     }
 }
 

@@ -31,6 +31,11 @@ impl Origin {
             return Ok((Scenario::of_map(path.to_owned()), Origin::default()));
         }
         let source = Source::read(path)?;
+        if source.has_key("follow") && !source.has_key("map") {
+            let what = "this is a style of drivers, where a scenario or a map is wanted";
+            let remedy = format!("run a map with it: laneweave run MAP --style {}=1", path.display());
+            return Err(Fault::new(path.display(), what, remedy));
+        }
         let mut scenario: Scenario = source.parse()?;
         scenario.map = source.folder().join(&scenario.map);
         Ok((scenario, Origin { source: Some(source), ..Origin::default() }))

@@ -14,6 +14,7 @@ use super::signals::plans;
 use super::turns::check_arrivals;
 use super::{MapOptions, Origin, Scenario, SumoFile};
 use crate::capacity::Capacity;
+use crate::check::{Remark, remarks};
 use crate::fault::Fault;
 use crate::style::Population;
 
@@ -58,6 +59,8 @@ pub struct Prepared {
     pub threads: usize,
     /// What in the map could not be used as it stands.
     pub problems: Vec<Problem>,
+    /// What to know of the map before one looks at traffic on it.
+    pub remarks: Vec<Remark>,
     /// Latitude and longitude of the map's (0, 0) [°], if it was projected.
     pub origin: Option<(f64, f64)>,
 }
@@ -85,6 +88,8 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
     let (network, places) = driven(&map);
+    // Nobody can mend the map that comes with the program.
+    let remarks = if origin.map.is_some() { Vec::new() } else { remarks(&map, &network, &places) };
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
     if places.origins.is_empty() {
@@ -126,6 +131,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
         problems: map.problems,
+        remarks,
         origin: map.origin,
         world,
     })
@@ -230,7 +236,13 @@ fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
 pub fn open_map(path: &Path, options: &MapOptions) -> Result<Map, Fault> {
     let mut origin = Origin::default();
     origin.replaced("map_options.origin", "--origin");
-    load(path, &ReadOptions::from(options)).map_err(|error| map_fault(&error, path, &origin))
+    load(path, &ReadOptions::from(options)).map_err(|error| match error {
+        MapError::UnknownFormat { found, .. } if found == "toml" => {
+            let what = "this is no map, but by its name a scenario or a style";
+            Fault::new(path.display(), what, "give the map itself, which a scenario names in its key map")
+        }
+        _ => map_fault(&error, path, &origin),
+    })
 }
 
 impl From<&MapOptions> for ReadOptions {

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use laneweave_maps::FORMATS;
+
 use super::template::StyleTemplate;
 use crate::fault::{Fault, did_you_mean};
 use crate::source::Source;
@@ -55,9 +57,19 @@ pub fn find(name: &str, folder: &Path, place: impl Fn() -> String) -> Result<Sou
     }
     if name.ends_with(".toml") {
         let path = folder.join(name);
-        return Source::read(&path).map_err(|Fault { place: file, what, remedy }| {
+        let source = Source::read(&path).map_err(|Fault { place: file, what, remedy }| {
             Fault::new(place(), format!("style file {file}: {what}"), remedy)
-        });
+        })?;
+        if source.has_key("map") && !source.has_key("follow") {
+            let what = format!("{name} is a scenario, where a style is wanted");
+            return Err(Fault::new(place(), what, format!("run it: laneweave run {name}")));
+        }
+        return Ok(source);
+    }
+    let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy();
+    if FORMATS.iter().any(|it| it.extensions.contains(&extension.as_ref())) {
+        let what = format!("{name} is a map, where a style is wanted");
+        return Err(Fault::new(place(), what, "see those there are: laneweave styles list"));
     }
     let names = BUILT_IN.iter().map(|it| it.name);
     let remedy = format!("{} (or give the path of a style file, FILE.toml)", did_you_mean(name, names));

@@ -15,6 +15,8 @@ mod mistakes;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod remarks;
+#[cfg(test)]
 mod resume;
 #[cfg(test)]
 mod run;

@@ -213,3 +213,118 @@ fn a_folder_that_cannot_be_made() {
     assert_eq!(run.code(), 2);
     assert!(run.errors().starts_with("error: taken/results: cannot be made the folder of the results"));
 }
+
+/// Runs a command that must fail; returns the message.
+fn answer(folder: &Folder, line: &str) -> String {
+    let run = folder.laneweave(line);
+    assert_eq!((run.code(), run.text().as_str()), (2, ""), "{line}: {}", run.errors());
+    run.errors()["error: ".len()..].trim_end().to_owned()
+}
+
+#[test]
+fn folders_where_files_are_wanted() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path().join("s.toml")).unwrap();
+    assert_eq!(
+        refusal(&folder, "run s.toml"),
+        "s.toml: cannot be read: is a directory; name a file, not a folder"
+    );
+    assert!(answer(&folder, "styles show s.toml").ends_with("is a directory; name a file, not a folder"));
+}
+
+#[test]
+fn files_that_are_empty_or_no_text() {
+    let folder = Folder::new().with("e.osm", "").with("e.xml", "").with("e.csv", "").with("e.toml", "");
+    let empty = "the file is empty; get the map again, or choose another file";
+    assert_eq!(refusal(&folder, "run e.osm"), format!("e.osm: {empty}"));
+    assert_eq!(answer(&folder, "check e.xml"), format!("e.xml: {empty}"));
+    assert_eq!(
+        answer(&folder, "check e.csv --map MAPS/ramps.osm"),
+        "e.csv: the file is empty; get the recording again, or choose another file"
+    );
+    assert_eq!(
+        refusal(&folder, "run e.toml"),
+        "e.toml:1:1: the key \"map\" is missing; add it, such as map = \"road.osm\""
+    );
+    for name in ["b.toml", "b.csv"] {
+        std::fs::write(folder.path().join(name), b"\x7fELF\x00\xff\xfe\n\x01").unwrap();
+    }
+    assert_eq!(
+        refusal(&folder, "run b.toml"),
+        "b.toml: cannot be read: stream did not contain valid utf-8; give a file of text in UTF-8"
+    );
+    assert_eq!(
+        answer(&folder, "check b.csv --map MAPS/ramps.osm"),
+        "b.csv: this is no text, so no recording; choose another file, or unpack it first"
+    );
+}
+
+#[test]
+fn scenarios_styles_and_maps_in_place_of_each_other() {
+    let text = format!("map = \"{}/ramps.osm\"\n", maps().display());
+    let folder = Folder::new().with("s.toml", &text);
+    assert_eq!(folder.laneweave("styles new mine").code(), 0);
+    assert_eq!(
+        refusal(&folder, "run mine.toml"),
+        "mine.toml: this is a style of drivers, where a scenario or a map is wanted; run a map with it: laneweave run MAP \
+         --style mine.toml=1"
+    );
+    assert_eq!(
+        refusal(&folder, "run MAPS/ramps.osm --style s.toml=1"),
+        "--style: s.toml is a scenario, where a style is wanted; run it: laneweave run s.toml"
+    );
+    for line in ["styles show s.toml", "styles new other --from s.toml"] {
+        assert!(answer(&folder, line).contains("s.toml is a scenario, where a style is wanted"), "{line}");
+    }
+    assert!(
+        answer(&folder, "styles show road.osm").ends_with(
+            "road.osm is a map, where a style is wanted; see those there are: laneweave styles list"
+        )
+    );
+    for line in ["check s.toml", "routes s.toml 1 2"] {
+        assert_eq!(
+            answer(&folder, line),
+            "s.toml: this is no map, but by its name a scenario or a style; give the map itself, which a scenario names in \
+             its key map"
+        );
+    }
+}
+
+#[test]
+fn numbers_with_units_separators_or_out_of_range() {
+    let folder = Folder::new();
+    for (option, message) in [
+        ("--duration 10m", "write a plain number, such as 600 or 0.5, without unit, % or separators"),
+        ("--demand 4,000", "write a plain number"),
+        ("--trucks 10%", "write a plain number"),
+        ("--step 100ms", "write a plain number"),
+        ("--seed -1", "'--seed <N>': choose a whole number, 0 to 18446744073709551615"),
+        ("--threads 0", "'--threads <N>': choose 1 to 256, or leave it out"),
+    ] {
+        let refused = refusal(&folder, &format!("run MAPS/ramps.osm {option}"));
+        assert!(refused.contains(message), "{option}: {refused}");
+    }
+    assert!(
+        answer(&folder, "routes MAPS/ramps.osm 1 lane").contains("an id is a whole number; laneweave check")
+    );
+    assert!(answer(&folder, "generate motorway --length 5km m.osm").contains("write a plain number"));
+    assert!(scenario("[run]\nstep_s = 100\n").starts_with("s.toml:3:1: a step of 100 s; choose 0.01 to 1 s"));
+}
+
+#[test]
+fn files_and_styles_where_a_command_is_wanted() {
+    let folder = Folder::new();
+    for (line, tip) in [
+        ("road.osm", "run road.osm"),
+        ("mine.toml --duration 5", "run mine.toml"),
+        ("styles aggressive", "styles show aggressive"),
+        ("scenario road.osm.gz", "scenario new road.osm.gz"),
+        ("demo", "(without a command, it runs the demo)"),
+    ] {
+        let refused = answer(&folder, line);
+        assert!(refused.contains(&format!("tip: did you mean: laneweave {tip}\n")), "{line}: {refused}");
+    }
+    assert!(
+        answer(&folder, "generate moterway m.osm").contains("tip: a similar subcommand exists: 'motorway'")
+    );
+}

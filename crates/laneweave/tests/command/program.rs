@@ -63,6 +63,30 @@ pub(crate) fn maps() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps")
 }
 
+/// A map of a ring of four lanelets: nobody comes onto it or leaves it.
+pub(crate) fn closed() -> String {
+    let mut map = String::from("<osm>");
+    for (id, x, y) in [(1, 0, 0), (2, 90, 0), (3, 90, 90), (4, 0, 90)] {
+        let (inner_x, inner_y) = (if x == 0 { 4 } else { x - 4 }, if y == 0 { 4 } else { y - 4 });
+        map +=
+            &format!("<node id='{id}' x='{x}' y='{y}'/><node id='{}' x='{inner_x}' y='{inner_y}'/>", id + 10);
+    }
+    for (id, next) in [(1, 2), (2, 3), (3, 4), (4, 1)] {
+        map += &format!(
+            "<way id='{0}'><nd ref='{id}'/><nd ref='{next}'/></way>\
+             <way id='{1}'><nd ref='{2}'/><nd ref='{3}'/></way>\
+             <relation id='{4}'><member type='way' ref='{1}' role='left'/><member type='way' ref='{0}' role='right'/>\
+             <tag k='type' v='lanelet'/><tag k='subtype' v='road'/><tag k='speed_limit' v='50'/></relation>",
+            id + 20,
+            id + 30,
+            id + 10,
+            next + 10,
+            id + 40
+        );
+    }
+    map + "</osm>"
+}
+
 /// What a run of the program left.
 pub(crate) struct Run(Output);
 

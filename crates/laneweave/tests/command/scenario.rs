@@ -6,7 +6,7 @@ use std::fs;
 use laneweave::scenario::Scenario;
 use serde_json::Value;
 
-use crate::program::{Folder, maps};
+use crate::program::{Folder, closed, maps};
 
 /// Maps on which the files are tried: with lights, with a table of forks, closed, driven on the left.
 fn tried(folder: &Folder) -> Vec<String> {
@@ -14,30 +14,6 @@ fn tried(folder: &Folder) -> Vec<String> {
     assert_eq!(folder.laneweave("generate weaving --driving-side left left.osm").code(), 0);
     let own = ["ramps", "town", "roundabout"].map(|it| format!("{}/{it}.osm", maps().display()));
     own.into_iter().chain(["closed.osm".into(), "left.osm".into()]).collect()
-}
-
-/// A ring of two lanes of one lanelet each side: nobody comes onto it or leaves it.
-fn closed() -> String {
-    let mut map = String::from("<osm>");
-    for (id, x, y) in [(1, 0, 0), (2, 90, 0), (3, 90, 90), (4, 0, 90)] {
-        let (inner_x, inner_y) = (if x == 0 { 4 } else { x - 4 }, if y == 0 { 4 } else { y - 4 });
-        map +=
-            &format!("<node id='{id}' x='{x}' y='{y}'/><node id='{}' x='{inner_x}' y='{inner_y}'/>", id + 10);
-    }
-    for (id, next) in [(1, 2), (2, 3), (3, 4), (4, 1)] {
-        map += &format!(
-            "<way id='{0}'><nd ref='{id}'/><nd ref='{next}'/></way>\
-             <way id='{1}'><nd ref='{2}'/><nd ref='{3}'/></way>\
-             <relation id='{4}'><member type='way' ref='{1}' role='left'/><member type='way' ref='{0}' role='right'/>\
-             <tag k='type' v='lanelet'/><tag k='subtype' v='road'/><tag k='speed_limit' v='50'/></relation>",
-            id + 20,
-            id + 30,
-            id + 10,
-            next + 10,
-            id + 40
-        );
-    }
-    map + "</osm>"
 }
 
 #[test]

@@ -295,7 +295,8 @@ impl<'a> Twin<'a> {
                 (gap < needed).then_some(Refusal::Insecure)
             }
         };
-        let ahead = there[0].and_then(|(it, gap)| check(&pressed, gap + otherwise.gaps[0], it.speed + leader));
+        let ahead =
+            there[0].and_then(|(it, gap)| check(&pressed, gap + otherwise.gaps[0], it.speed + leader));
         let behind = || {
             there[1].and_then(|(it, gap)| {
                 let it = Body { speed: it.speed + follower, ..it };

@@ -46,7 +46,9 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     }
     let mut problems = Vec::new();
     let document = document::parse(bytes, &mut problems)?;
-    let (elements, places, mut lanelets) = shaped(&document, options.law, &mut problems);
+    let mut contents = Contents::default();
+    let (elements, places, mut lanelets) =
+        shaped(&document, options.law, &mut contents.limits_of_law, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);
     if lanelets.is_empty() {
         let remedy = "give lanelets two bounds and a laneletType for cars, such as urban";
@@ -56,14 +58,14 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     problems.extend(heaps);
     problems.sort_by_key(|it| it.line);
     let network = Network::new(lanelets, options.driving_side.unwrap_or_default())?;
-    let (rules, contents) = (Vec::new(), Contents::default());
-    Ok(Map { network, graph, rules, contents, problems, origin: None })
+    Ok(Map { network, graph, rules: Vec::new(), contents, problems, origin: None })
 }
 
 /// The lanelets that cars may use and that have a shape, with nothing around them yet; where all ids stand.
 fn shaped<'a>(
     document: &'a Document,
     law: Law,
+    of_law: &mut Vec<f64>,
     problems: &mut Vec<Problem>,
 ) -> (Vec<&'a LaneletElement>, Places, Vec<Lanelet>) {
     let signs = SpeedSigns::of(&document.signs, problems);
@@ -78,7 +80,7 @@ fn shaped<'a>(
         let lanelet = if rules::is_for_cars(element) { bare(element, problems) } else { None };
         place.insert(lanelet.as_ref().map(|_| LaneletIndex(lanelets.len() as u32)));
         let Some(mut lanelet) = lanelet else { continue };
-        lanelet.speed_limit = speed::limit(element, &signs, law, of_scenario, problems);
+        lanelet.speed_limit = speed::limit(element, &signs, law, of_scenario, of_law, problems);
         elements.push(element);
         lanelets.push(lanelet);
         if rules::is_two_way(element) {

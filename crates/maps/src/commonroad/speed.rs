@@ -55,13 +55,14 @@ fn is_limit(speed: f64) -> bool {
 /// The limit of a lanelet [m/s].
 ///
 /// Its own element `speedLimit` comes first, then the lowest limit on its signs, then what the law says for
-/// its types. For a lanelet without types, or with nothing but `urban`, the one `of_scenario` counts, that for the
+/// its types, which goes into `of_law` [km/h]. For a lanelet without types, or with nothing but `urban`, the one `of_scenario` counts, that for the
 /// scenario's tags [km/h]: version 2020a demands a type, and files made from older ones say `urban` even on a motorway.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
     law: Law,
     of_scenario: f64,
+    of_law: &mut Vec<f64>,
     problems: &mut Vec<Problem>,
 ) -> f64 {
     let says_little = lanelet.types.iter().all(|it| it == "urban");
@@ -84,7 +85,10 @@ pub(super) fn limit(
         problems.push(lanelet.problem(what, "add the sign, or take out the reference"));
     }
     let shown = lanelet.signs.iter().filter_map(|it| *signs.0.get(it)?);
-    shown.reduce(f64::min).unwrap_or(default / KMH_PER_MPS)
+    shown.reduce(f64::min).unwrap_or_else(|| {
+        of_law.push(default);
+        default / KMH_PER_MPS
+    })
 }
 
 /// The limit where none is given [km/h]: that of the law for a road in town, a motorway, or another road out of town; where
@@ -119,7 +123,9 @@ mod tests {
         let tags: Vec<String> = tags.iter().map(|it| it.to_string()).collect();
         let mut problems = Vec::new();
         let signs = SpeedSigns::of(signs, &mut problems);
-        let limit = limit(&lanelet, &signs, Law::Germany, default(Law::Germany, &tags), &mut problems);
+        let of_law = &mut Vec::new();
+        let limit =
+            limit(&lanelet, &signs, Law::Germany, default(Law::Germany, &tags), of_law, &mut problems);
         ((limit * KMH_PER_MPS).round(), problems.iter().map(Problem::to_string).collect())
     }
 

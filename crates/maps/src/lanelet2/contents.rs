@@ -41,7 +41,11 @@ pub(super) fn contents(document: &Document, lookup: &Lookup, problems: &mut Vec<
     };
     let elements = [("node", document.nodes.len()), ("way", document.ways.len())];
     let elements = elements.map(|(kind, count)| (kind.to_owned(), count));
-    Contents { counts: counts.into_iter().map(named).chain(elements).collect(), crosswalks }
+    Contents {
+        counts: counts.into_iter().map(named).chain(elements).collect(),
+        crosswalks,
+        ..Contents::default()
+    }
 }
 
 /// The places of the left and the right border of a lanelet, if both are there.

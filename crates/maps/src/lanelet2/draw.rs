@@ -10,6 +10,7 @@ use super::regulation::rules;
 use super::rules;
 use super::sharing::{MAXIMUM_SHARING, Sharing};
 use super::speed::SpeedRules;
+use crate::contents::Contents;
 use crate::drawing::{Border, Drawing, Edge, Lane};
 use crate::format::ReadOptions;
 use crate::problem::Problem;
@@ -22,6 +23,7 @@ pub(super) fn draw(
     document: &Document,
     lookup: Lookup,
     options: &ReadOptions,
+    contents: &mut Contents,
     problems: &mut Vec<Problem>,
 ) -> Drawing {
     let driving_side = options.driving_side.or(document.driving_side).unwrap_or_default();
@@ -55,7 +57,8 @@ pub(super) fn draw(
         }
         match edges.and_then(|edges| ends.admit(&draft.drawing, edges)) {
             Ok([left, right]) => {
-                let limit_kmh = speed_rules.limit(relation, options.law, problems);
+                let limit_kmh =
+                    speed_rules.limit(relation, options.law, &mut contents.limits_of_law, problems);
                 let line = Some(relation.line as usize);
                 let (id, surroundings) = (relation.id, rules::surroundings(document.tags(relation.tags)));
                 let lane = Lane { id, line, left, right, is_two_way, surroundings, limit_kmh };

@@ -60,8 +60,8 @@ impl<'a> Document<'a> {
     /// If it holds no lanelet that cars may use.
     pub fn map(self, mut problems: Vec<Problem>, options: &ReadOptions) -> Result<Map, MapError> {
         let (lookup, origin) = Lookup::new(&self, options.origin, &mut problems)?;
-        let contents = contents::contents(&self, &lookup, &mut problems);
-        let drawing = draw::draw(&self, lookup, options, &mut problems);
+        let mut contents = contents::contents(&self, &lookup, &mut problems);
+        let drawing = draw::draw(&self, lookup, options, &mut contents, &mut problems);
         let lanelets = self.relations_of_type("lanelet").count();
         // Its memory serves the network.
         drop(self);

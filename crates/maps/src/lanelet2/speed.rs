@@ -46,8 +46,15 @@ impl<'d> SpeedRules<'d> {
 
     /// The limit of a lanelet [km/h].
     ///
-    /// Its first rule that can be understood comes first, then its tags, then what the law of the land says.
-    pub(super) fn limit(&self, lanelet: &Relation, law: Law, problems: &mut Vec<Problem>) -> f64 {
+    /// Its first rule that can be understood comes first, then its tags, then what the law of the land says, which goes into
+    /// `of_law`.
+    pub(super) fn limit(
+        &self,
+        lanelet: &Relation,
+        law: Law,
+        of_law: &mut Vec<f64>,
+        problems: &mut Vec<Problem>,
+    ) -> f64 {
         const KEYS: [&str; 3] = ["speed_limit:vehicle:car", "speed_limit:vehicle", "speed_limit"];
         let tags = self.document.tags(lanelet.tags);
         let rules = self.document.members(lanelet, "relation", "regulatory_element");
@@ -68,6 +75,7 @@ impl<'d> SpeedRules<'d> {
                 ),
             });
         }
+        of_law.push(default);
         default
     }
 }
@@ -133,6 +141,12 @@ mod tests {
 
     /// The limit of a lanelet with these tags, whose rule has those; the rule refers to a sign of 60 km/h.
     fn limit_of(lanelet: &str, rule: &str) -> (f64, Vec<Problem>) {
+        let (limit, _, problems) = limit_and_law(lanelet, rule);
+        (limit, problems)
+    }
+
+    /// The same, with what the law gave.
+    fn limit_and_law(lanelet: &str, rule: &str) -> (f64, Vec<f64>, Vec<Problem>) {
         let text = format!(
             "<osm><node id='1' x='0' y='0'/><way id='4'><tag k='subtype' v='de274-60'/></way>\n\n\n\n\
              <relation id='8'><member type='relation' ref='2' role='regulatory_element'/>{lanelet}</relation>\
@@ -142,8 +156,9 @@ mod tests {
         let document = parse(text.as_bytes(), &mut problems).unwrap();
         let (lookup, _) = Lookup::new(&document, None, &mut problems).unwrap();
         let rules = SpeedRules::of(&document, &lookup);
-        let limit = rules.limit(&document.relations[0], Law::Germany, &mut problems);
-        (limit, problems)
+        let mut of_law = Vec::new();
+        let limit = rules.limit(&document.relations[0], Law::Germany, &mut of_law, &mut problems);
+        (limit, of_law, problems)
     }
 
     #[test]
@@ -155,6 +170,15 @@ mod tests {
         let miles = format!("{rule}<tag k='max_speed' v='20 mph'/>");
         assert_eq!(limit_of(tag, &miles), (20.0 * 1.609344, vec![]));
         assert_eq!(limit_of(tag, "<tag k='subtype' v='traffic_light'/>"), (70.0, vec![]));
+    }
+
+    #[test]
+    fn a_limit_that_only_the_law_gives_is_noted() {
+        let tag = "<tag k='speed_limit' v='70'/>";
+        let highway = "<tag k='subtype' v='highway'/>";
+        assert_eq!(limit_and_law(tag, "").1, []);
+        assert_eq!(limit_and_law(highway, "").1, [130.0]);
+        assert_eq!(limit_and_law("<tag k='speed_limit' v='-3'/>", "").1, [50.0]);
     }
 
     #[test]

@@ -1,0 +1,145 @@
+//! What `check` and `run` say of maps on which traffic looks odd.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::program::{Folder, closed};
+
+/// The remarks of `check` on the map that `generate` makes, with some of its text replaced.
+fn remarks(generate: &str, replaced: &[(&str, &str)]) -> Vec<String> {
+    let folder = Folder::new();
+    assert_eq!(folder.laneweave(&format!("generate {generate} m.osm")).code(), 0, "{generate}");
+    let text = replaced.iter().fold(folder.read("m.osm"), |text, (from, to)| {
+        assert!(text.contains(from), "{generate}: {from}");
+        text.replace(from, to)
+    });
+    fs::write(folder.path().join("m.osm"), text).unwrap();
+    of(&folder)
+}
+
+/// The remarks on the map `m.osm`; a run says the same, unless it is to be quiet.
+fn of(folder: &Folder) -> Vec<String> {
+    let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
+    let words = |it: &Value| format!("{}; {}", it["what"].as_str().unwrap(), it["remedy"].as_str().unwrap());
+    let found: Vec<String> = report["remarks"].as_array().unwrap().iter().map(words).collect();
+    let text = folder.laneweave("check m.osm").text();
+    let run = folder.laneweave("run m.osm --duration 1 --record 0");
+    assert_eq!(run.code(), 0, "{}", run.errors());
+    for remark in &found {
+        assert!(text.contains(&format!("\n  {remark}\n")), "{text}");
+        assert!(run.errors().contains(&format!("warning: map: {remark}\n")), "{}", run.errors());
+    }
+    assert_eq!(run.errors().lines().count(), found.len(), "{}", run.errors());
+    assert_eq!(folder.laneweave("run m.osm --duration 1 --record 0 --quiet").errors(), "");
+    found
+}
+
+const LIMIT: &str = "k=\"speed_limit\" v=\"120\"";
+
+#[test]
+fn nothing_is_said_of_a_motorway() {
+    assert_eq!(remarks("motorway --length 2000", &[]), [""; 0]);
+}
+
+#[test]
+fn limits_that_only_the_law_gives_are_counted() {
+    let found = remarks("motorway --length 400 --lanes 2", &[("k=\"speed_limit\"", "k=\"note\"")]);
+    assert_eq!(
+        found,
+        [
+            "8 of 8 lanelets give no speed limit: that of the law holds (130 km/h on 8); add speed_limit to them, or choose the \
+             law (--law, in a scenario map_options.law)"
+        ]
+    );
+}
+
+#[test]
+fn limits_that_are_hardly_meant_are_named() {
+    for (limit, shown) in [("8", "8 km/h"), ("250", "250 km/h")] {
+        let found = remarks("motorway --length 800", &[(LIMIT, &format!("k=\"speed_limit\" v=\"{limit}\""))]);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let expected =
+            format!("have a limit up to 10 or above 200 km/h (lanelet 1: {shown}), and drivers keep to it");
+        assert!(found[0].contains(&expected), "{found:?}");
+    }
+}
+
+#[test]
+fn limits_that_jump_are_counted() {
+    // At the on-ramp 80 km/h meets the limit of the road.
+    assert_eq!(remarks("motorway --length 3000 --on-ramp-at 1000", &[]), [""; 0]);
+    let slow = ("k=\"speed_limit\" v=\"80\"", "k=\"speed_limit\" v=\"50\"");
+    let found = remarks("motorway --length 3000 --on-ramp-at 1000", &[slow]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0].starts_with("in 1 places the limit changes by more than half at once (lanelet "),
+        "{found:?}"
+    );
+    assert!(found[0].contains(": 50 km/h to 120 km/h): traffic bunches or spreads there; "), "{found:?}");
+}
+
+#[test]
+fn a_lane_alone_has_nothing_to_change_to() {
+    let found = remarks("motorway --lanes 1 --length 1000", &[]);
+    assert_eq!(
+        found,
+        [
+            "no lane has another beside it to change to: styles differ in how they follow only; mark lines as dashed where they \
+             may be crossed, or choose another map"
+        ]
+    );
+}
+
+#[test]
+fn lanes_that_are_too_short_for_a_change_are_measured() {
+    // 150 m at 33.3 m/s.
+    let found = remarks("motorway --lanes 2 --length 150", &[]);
+    assert_eq!(
+        found,
+        [
+            "300 m of lane have another beside them, 150 m (4.5 s) at a stretch: hardly anybody changes lanes by choice; choose a \
+             map with longer lanes to look at lane changes"
+        ]
+    );
+    // At 90 km/h it takes 6 s.
+    let slower = (LIMIT, "k=\"speed_limit\" v=\"90\"");
+    assert_eq!(remarks("motorway --lanes 2 --length 150", &[slower]), [""; 0]);
+}
+
+#[test]
+fn bends_are_held_against_the_limit() {
+    // A turn to the right has a radius of 10 m: (50/3.6)²/10 = 19.3 m/s².
+    let found = remarks("grid --rows 1 --columns 1", &[]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0]
+            .starts_with("8 of 64 lanelets bend so that the limit means above 4 m/s² to the side (lanelet ")
+    );
+    assert!(
+        found[0].ends_with(": 19 at 50 km/h): nobody slows for bends; lower speed_limit there if it matters")
+    );
+    assert_eq!(remarks("grid --rows 1 --columns 1 --speed-limit 20", &[]), [""; 0]);
+}
+
+#[test]
+fn entrances_before_a_stop_are_held_against_the_braking_way() {
+    // From 130 km/h it takes (130/3.6)²/(2 × 2 m/s²) = 326 m to stop; the arms of a junction are 80 m long.
+    let found = remarks("grid --rows 1 --columns 1 --block-length 80 --speed-limit 130", &[]);
+    let said = found.iter().find(|it| it.starts_with("entrance ")).unwrap_or_else(|| panic!("{found:?}"));
+    assert!(
+        said.contains(" (as 3 more) is ") && said.contains(" at a limit of 130 km/h: they come more slowly"),
+        "{said}"
+    );
+    assert!(!remarks("grid --rows 1 --columns 1", &[]).iter().any(|it| it.starts_with("entrance ")));
+}
+
+#[test]
+fn a_closed_map_is_called_so() {
+    let found = of(&Folder::new().with("m.osm", &closed()));
+    assert_eq!(
+        found[0],
+        "a closed map: trips start from rest and end along 4 lanelets; for traffic that passes through, let roads begin and end \
+         with 10 m of lane or more"
+    );
+}
