@@ -7,6 +7,7 @@ pub mod branch;
 mod capacity;
 pub mod check;
 pub mod checkpoint;
+pub mod compare;
 pub mod explain;
 mod fault;
 pub mod output;

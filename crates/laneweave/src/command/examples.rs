@@ -45,6 +45,16 @@ Examples:
   # The aggressive ones follow more closely, the others let nobody in
   laneweave branch out --at 60 --set aggressive.follow.jam_gap=1 --set conservative.manner.yield_deceleration=0";
 
+pub(super) const COMPARE: &str = "\
+Drivers, their wishes and all draws are the same for each model; what differs is how they decide on lane changes. The means \
+are those over the seeds, with 95 % intervals of Student's t.
+
+Examples:
+  # The paper's model, MOBIL, LMRS and two controls on a motorway and in a town
+  laneweave compare maps/motorway_3_lanes.osm maps/town.osm --seeds 3 --duration 120
+  # Two ways to follow a route
+  laneweave compare maps/ramps.osm --model mobil --model mobil-lanes --seeds 3 --duration 120";
+
 pub(super) const CHECK: &str = "\
 Problems of a map are no mistakes of the command: it ends with 0.
 

@@ -2,6 +2,7 @@
 
 mod branch;
 mod check;
+mod compare;
 mod examples;
 mod explain;
 mod generate;
@@ -44,6 +45,9 @@ enum Command {
     /// Repeat a run, and from a time on with something otherwise: say and write what differs.
     #[command(after_help = examples::BRANCH)]
     Branch(branch::Arguments),
+    /// Drive scenarios with several lane-change models, and say how they differ.
+    #[command(after_help = examples::COMPARE)]
+    Compare(compare::Arguments),
     /// Say what a map or a recording holds, and what is wrong with it.
     #[command(after_help = examples::CHECK)]
     Check(check::Arguments),
@@ -81,6 +85,7 @@ impl Cli {
             Some(Command::Run(arguments)) => arguments.execute(started),
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(),
+            Some(Command::Compare(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Scenario(deed)) => deed.execute(),

@@ -108,7 +108,7 @@ fn weighted(text: &str) -> Result<(String, f64), String> {
 }
 
 /// A lane-change model by its name.
-fn model() -> impl TypedValueParser<Value = Model> {
+pub(super) fn model() -> impl TypedValueParser<Value = Model> {
     PossibleValuesParser::new(Model::ALL.map(Model::name)).try_map(|text| {
         let found = Model::ALL.into_iter().find(|it| it.name() == text);
         found.ok_or("unknown model")

@@ -1,0 +1,102 @@
+//! `laneweave compare`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
+
+use clap::{Args, ValueHint};
+use laneweave::Fault;
+use laneweave::compare::{Comparison, MEASURES, compare};
+use laneweave::scenario::Origin;
+use laneweave::study::{Cell, Column, Format, TableWriter};
+use laneweave::style::Model;
+
+use super::run::model;
+use super::say;
+
+/// Models that are compared where nothing is said: the paper's, two others, and the two controls.
+const USUAL: [Model; 5] = [Model::Mcdm, Model::Mobil, Model::Lmrs, Model::Null, Model::ConstantHazard];
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scenario files (.toml), or maps.
+    #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::FilePath, required = true)]
+    inputs: Vec<PathBuf>,
+    /// A lane-change model for all drivers; may be repeated [default: mcdm, mobil, lmrs, null, constant-hazard].
+    #[arg(long = "model", value_parser = model())]
+    models: Vec<Model>,
+    /// How many seeds each model is driven with, from that of the scenario on.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    seeds: u64,
+    /// Vehicles per hour in total, whatever the scenarios say of them.
+    #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true)]
+    demand: Option<f64>,
+    /// Simulated and measured seconds, after the warm-up [default: 600].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Simulated seconds before anything is measured [default: 0].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    warmup: Option<f64>,
+    /// Folder of the table of all runs.
+    #[arg(long, value_name = "DIR", default_value = "comparison")]
+    out: PathBuf,
+}
+
+impl Arguments {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        let Arguments { inputs, models, seeds, demand, duration, warmup, out } = self;
+        let models = if models.is_empty() { USUAL.to_vec() } else { models };
+        let threads = available_parallelism().map_or(1, |it| it.get());
+        let mut done = Vec::new();
+        for input in &inputs {
+            let (mut scenario, mut origin) = Origin::open(input)?;
+            if let Some(demand) = demand {
+                scenario.demand.entrances.clear();
+                scenario.demand.od.clear();
+                scenario.demand.vehicles_per_hour = Some(demand);
+                origin.replaced("demand.vehicles_per_hour", "--demand");
+            }
+            if let Some(duration) = duration {
+                scenario.run.duration_s = duration;
+                origin.replaced("run.duration_s", "--duration");
+            }
+            if let Some(warmup) = warmup {
+                scenario.run.warmup_s = warmup;
+                origin.replaced("run.warmup_s", "--warmup");
+            }
+            let first = scenario.run.seed;
+            let seeds: Vec<u64> = (first..first + seeds).collect();
+            let comparison = compare(&scenario, &origin, &models, &seeds, threads)?;
+            say(&format!(
+                "{}, {} s, {} seeds: means with 95 % intervals\n{}\n",
+                input.display(),
+                scenario.run.duration_s,
+                seeds.len(),
+                comparison.to_text()
+            ));
+            done.push((input.display().to_string(), comparison));
+        }
+        let path = table(&out, &done)?;
+        say(&format!("all runs: {}\n", path.display()));
+        Ok(())
+    }
+}
+
+/// Writes a row for each run.
+fn table(dir: &Path, comparisons: &[(String, Comparison)]) -> Result<PathBuf, Fault> {
+    fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made", &error))?;
+    let path = dir.join("runs.csv");
+    let named = [Column::text("input"), Column::text("model"), Column::integer("seed")];
+    let columns: Vec<Column> =
+        named.into_iter().chain(MEASURES.iter().map(|it| Column::real(it.column))).collect();
+    let mut table = TableWriter::create(&path, Format::Csv, &columns)?;
+    for (input, comparison) in comparisons {
+        for trial in &comparison.trials {
+            let named = [input.as_str().into(), trial.model.name().into(), (trial.seed as i64).into()];
+            let measured = MEASURES.iter().map(|it| (it.of)(&trial.outcome).into());
+            table.row(&named.into_iter().chain(measured).collect::<Vec<Cell>>())?;
+        }
+    }
+    table.finish()?;
+    Ok(path)
+}

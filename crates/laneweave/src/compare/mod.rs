@@ -1,0 +1,112 @@
+//! Lane-change models side by side: the same traffic for each of them, over several seeds.
+
+mod outcome;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use laneweave_study::{Estimate, mean};
+
+use crate::fault::Fault;
+use crate::scenario::{Origin, Scenario, prepare};
+use crate::style::Model;
+
+pub use outcome::{MEASURES, Measure, Outcome};
+
+/// One run of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Who decides on lane changes.
+    pub model: Model,
+    /// Seed of all draws.
+    pub seed: u64,
+    /// What came out.
+    pub outcome: Outcome,
+}
+
+/// All runs of one scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The models in the order in which they were asked for.
+    pub models: Vec<Model>,
+    /// By model, and by seed.
+    pub trials: Vec<Trial>,
+}
+
+/// Drives `scenario` with each of the `models` and each of the `seeds`, so many runs at once as there are `threads`.
+///
+/// # Errors
+/// If the scenario cannot be driven.
+pub fn compare(
+    scenario: &Scenario,
+    origin: &Origin,
+    models: &[Model],
+    seeds: &[u64],
+    threads: usize,
+) -> Result<Comparison, Fault> {
+    let jobs: Vec<(Model, u64)> =
+        models.iter().flat_map(|model| seeds.iter().map(|seed| (*model, *seed))).collect();
+    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        while let Some((model, seed)) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let outcome = trial(scenario, origin, *model, *seed);
+            let ended = outcome.map(|outcome| Trial { model: *model, seed: *seed, outcome });
+            done.lock().unwrap_or_else(PoisonError::into_inner).push(ended);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 1..threads {
+            scope.spawn(work);
+        }
+        work();
+    });
+    let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut trials = done.into_iter().collect::<Result<Vec<Trial>, Fault>>()?;
+    let place = |model: Model| models.iter().position(|it| *it == model);
+    trials.sort_by_key(|it| (place(it.model), it.seed));
+    Ok(Comparison { models: models.to_vec(), trials })
+}
+
+/// One run without any output.
+fn trial(scenario: &Scenario, origin: &Origin, model: Model, seed: u64) -> Result<Outcome, Fault> {
+    let mut scenario = Scenario { model: Some(model), ..scenario.clone() };
+    scenario.run.seed = seed;
+    scenario.run.threads = std::num::NonZero::new(1);
+    let mut prepared = prepare(&scenario, origin)?;
+    Ok(Outcome::of(&mut prepared))
+}
+
+impl Comparison {
+    /// A measure over the seeds of `model`: those in which there is something to measure.
+    pub fn estimate(&self, model: Model, measure: &Measure) -> Option<Estimate> {
+        let of = self.trials.iter().filter(|it| it.model == model);
+        let values: Vec<f64> = of.filter_map(|it| (measure.of)(&it.outcome)).collect();
+        mean(&values)
+    }
+
+    /// A table of all measures by model, each a mean with its 95 % interval over the seeds.
+    pub fn to_text(&self) -> String {
+        const NAME: usize = 44;
+        const CELL: usize = 18;
+        let mut text = format!("{:NAME$}", "");
+        self.models.iter().for_each(|it| text += &format!("{:>CELL$}", it.name()));
+        for measure in &MEASURES {
+            text += &format!("\n{:NAME$}", measure.title);
+            for model in &self.models {
+                let cell = self.estimate(*model, measure).map_or("-".into(), |it| cell(&it, measure.digits));
+                text += &format!("{cell:>CELL$}");
+            }
+        }
+        text + "\n"
+    }
+}
+
+fn cell(estimate: &Estimate, digits: usize) -> String {
+    let Estimate { mean, half_width, .. } = estimate;
+    if half_width.is_finite() {
+        format!("{mean:.digits$} ± {half_width:.digits$}")
+    } else {
+        format!("{mean:.digits$}")
+    }
+}

@@ -1,0 +1,128 @@
+//! What comes out of a run, as far as lane-change models can be told apart by it.
+
+use std::collections::BTreeMap;
+
+use laneweave_network::Side;
+use laneweave_sim::{Event, Kind, VehicleId};
+
+use crate::scenario::Prepared;
+use crate::units::{KMH_PER_MPS, METRES_PER_KM};
+
+/// Who changes to the other side within this time [s] goes back.
+const BACK_WITHIN: f64 = 30.0;
+
+/// What came out of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Lane changes between lanes of equal worth for the route, and all others, per vehicle-kilometre.
+    pub per_veh_km: [f64; 2],
+    /// Share of the former that gain anticipated speed; and that go back within 30 s.
+    pub gaining: Option<f64>,
+    /// The share that goes back within 30 s.
+    pub going_back: Option<f64>,
+    /// How many times as likely a driver who is held up beside a free lane is to want a change as one on a free road.
+    pub held_up_ratio: Option<f64>,
+    /// Mean speed [m/s].
+    pub speed_mps: Option<f64>,
+    /// Mean delay of those who left [s].
+    pub delay_s: Option<f64>,
+    /// Missed turns for each vehicle that entered.
+    pub missed_turns: f64,
+    /// Emergency brakings per vehicle-kilometre.
+    pub emergencies: f64,
+    /// Vehicles that were stuck.
+    pub stuck: f64,
+    /// Vehicles that left.
+    pub left: f64,
+    /// Vehicles that wait to enter at the end.
+    pub waiting: f64,
+}
+
+/// Something that is measured in every run.
+#[derive(Clone, Copy)]
+pub struct Measure {
+    /// Its column in tables.
+    pub column: &'static str,
+    /// Its name, with the unit.
+    pub title: &'static str,
+    /// Digits worth showing.
+    pub digits: usize,
+    /// What it is of.
+    pub of: fn(&Outcome) -> Option<f64>,
+}
+
+const fn measure(
+    column: &'static str,
+    title: &'static str,
+    digits: usize,
+    of: fn(&Outcome) -> Option<f64>,
+) -> Measure {
+    Measure { column, title, digits, of }
+}
+
+/// What is measured.
+pub const MEASURES: [Measure; 12] = [
+    measure("discretionary_per_veh_km", "changes by choice [1/veh-km]", 3, |it| Some(it.per_veh_km[0])),
+    measure("route_per_veh_km", "changes for the route [1/veh-km]", 3, |it| Some(it.per_veh_km[1])),
+    measure("gaining", "by choice, gaining anticipated speed [%]", 1, |it| it.gaining.map(|it| 100.0 * it)),
+    measure("going_back", "by choice, going back within 30 s [%]", 1, |it| {
+        it.going_back.map(|it| 100.0 * it)
+    }),
+    measure("held_up_ratio", "desire when held up ÷ on a free road", 1, |it| it.held_up_ratio),
+    measure("mean_speed_kmh", "mean speed [km/h]", 1, |it| it.speed_mps.map(|it| it * KMH_PER_MPS)),
+    measure("mean_delay_s", "mean delay [s]", 1, |it| it.delay_s),
+    measure("missed_turns", "missed turns [% of vehicles]", 2, |it| Some(100.0 * it.missed_turns)),
+    measure("emergencies", "emergency brakings [1/100 veh-km]", 2, |it| Some(100.0 * it.emergencies)),
+    measure("stuck", "stuck vehicles", 1, |it| Some(it.stuck)),
+    measure("left", "vehicles that left", 0, |it| Some(it.left)),
+    measure("waiting", "vehicles waiting at the end", 0, |it| Some(it.waiting)),
+];
+
+impl Outcome {
+    /// Drives `prepared` to its end.
+    pub(super) fn of(prepared: &mut Prepared) -> Outcome {
+        let Prepared { world, warmup_steps, steps, .. } = prepared;
+        (0..*warmup_steps).for_each(|_| world.step());
+        world.reset_counts();
+        let begin = world.clock().time();
+        let (mut changes, mut gaining, mut going_back) = (0, 0, 0);
+        let mut last: BTreeMap<VehicleId, (f64, Side)> = BTreeMap::new();
+        for _ in 0..*steps {
+            world.step();
+            for event in world.events() {
+                let Event::LaneChange(it) = event else { continue };
+                if !it.is_completed || it.time < begin {
+                    continue;
+                }
+                let before = last.insert(it.vehicle, (it.time, it.side));
+                if it.kind == Kind::Discretionary {
+                    changes += 1;
+                    gaining += u32::from(it.speed_gain > 0.0);
+                    let goes_back = |(time, side)| side != it.side && it.time - time <= BACK_WITHIN;
+                    going_back += u32::from(before.is_some_and(goes_back));
+                }
+            }
+        }
+        let (tally, counts) = (world.tally(), world.counts());
+        let veh_km = tally.distance / METRES_PER_KM;
+        let share = |part: u32| (changes > 0).then(|| f64::from(part) / f64::from(changes));
+        let per = |count: u64, of: f64| if of > 0.0 { count as f64 / of } else { 0.0 };
+        let chance = |desires: u64, all: u64| (all > 0).then(|| desires as f64 / all as f64);
+        let free = chance(tally.free_desires, tally.free_considerations).filter(|it| *it > 0.0);
+        let held_up = chance(tally.held_up_desires, tally.held_up_considerations);
+        let dt = world.clock().dt;
+        Outcome {
+            per_veh_km: [counts.discretionary_changes, counts.route_changes].map(|it| per(it, veh_km)),
+            gaining: share(gaining),
+            going_back: share(going_back),
+            held_up_ratio: held_up.zip(free).map(|(held_up, free)| held_up / free),
+            speed_mps: (tally.updates > 0).then(|| tally.distance / (tally.updates as f64 * dt)),
+            delay_s: (counts.planned > 0).then(|| counts.delay / counts.planned as f64),
+            missed_turns: per(tally.missed_turns, counts.entered as f64),
+            emergencies: per(tally.emergency_brakings, veh_km),
+            stuck: tally.stuck as f64,
+            left: counts.left as f64,
+            waiting: world.waiting() as f64,
+        }
+    }
+}
