@@ -70,6 +70,6 @@ fn collect(command: &Command, folder: &Path, pages: &mut Vec<(PathBuf, String)>)
     let mut text = Vec::new();
     page.render(&mut text).map_err(|error| Fault::refused(&path, "written", &error))?;
     pages.push((path, String::from_utf8_lossy(&text).into_owned()));
-    let subcommands = command.get_subcommands().filter(|it| it.get_name() != "help");
-    subcommands.map(|it| collect(it, folder, pages)).collect()
+    let mut subcommands = command.get_subcommands().filter(|it| it.get_name() != "help");
+    subcommands.try_for_each(|it| collect(it, folder, pages))
 }
