@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::FilePath, required = true)]
     inputs: Vec<PathBuf>,
     /// A lane-change model for all drivers; may be repeated [default: mcdm, mobil, lmrs, null, constant-hazard].
-    #[arg(long = "model", value_parser = model())]
+    #[arg(long = "model", value_name = "MODEL", value_parser = model())]
     models: Vec<Model>,
     /// How many seeds each model is driven with, from that of the scenario on.
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]

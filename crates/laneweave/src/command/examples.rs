@@ -42,8 +42,8 @@ Examples:
   laneweave run maps/ramps.osm --duration 120
   # All drivers gain more from speed, from one minute on
   laneweave branch out --at 60 --set style.speed.weight=2
-  # The aggressive ones follow more closely, the others let nobody in
-  laneweave branch out --at 60 --set aggressive.follow.jam_gap=1 --set conservative.manner.yield_deceleration=0";
+  # The aggressive ones stop further behind others
+  laneweave branch out --at 60 --set aggressive.follow.jam_gap=3 --into further";
 
 pub(super) const COMPARE: &str = "\
 Drivers, their wishes and all draws are the same for each model; what differs is how they decide on lane changes. The means \

@@ -270,7 +270,9 @@ fn a_run_that_cannot_write_says_so_and_leaves_no_half_a_file() {
         run.errors()
     );
     let left: Vec<_> = std::fs::read_dir(folder.path().join("out")).unwrap().flatten().collect();
-    assert!(left.iter().all(|it| it.path().extension().is_some_and(|it| it == "svg")), "{left:?}");
+    let is_whole =
+        |it: &std::fs::DirEntry| it.path().extension().is_some_and(|it| it == "svg" || it == "toml");
+    assert!(left.iter().all(is_whole), "{left:?}");
 }
 
 #[test]
