@@ -207,6 +207,7 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
     })?;
     scenario.output.dir = dir.into();
     if let Some(summary) = ended(&dir.join(SUMMARY))? {
+        tidy(dir)?;
         if !screen.quiet {
             eprintln!("{}: the run has ended already", dir.display());
         }
@@ -233,6 +234,12 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
     };
     checkpoint::remove(&dir.join(SUMMARY))?;
     drive(&scenario, prepared, provenance, kept, screen, started)
+}
+
+/// There is nothing to resume any more.
+fn tidy(dir: &Path) -> Result<(), Fault> {
+    checkpoint::remove(&dir.join(checkpoint::FILE))?;
+    checkpoint::remove(&dir.join(checkpoint::LOG))
 }
 
 /// The summary of a run that was not interrupted, if there is one.
@@ -295,9 +302,7 @@ fn drive(
     write_whole(&path, &json)?;
     files.push(path);
     if !ending.is_interrupted {
-        // There is nothing to resume any more.
-        checkpoint::remove(&dir.join(checkpoint::FILE))?;
-        checkpoint::remove(&dir.join(checkpoint::LOG))?;
+        tidy(dir)?;
     }
     match screen {
         Screen { json: true, .. } => say(&json),
