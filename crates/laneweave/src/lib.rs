@@ -7,6 +7,7 @@ mod capacity;
 pub mod check;
 mod fault;
 pub mod output;
+pub mod report;
 pub mod scenario;
 pub mod simulation;
 mod source;

@@ -16,6 +16,10 @@ pub enum Event {
         vehicle: VehicleId,
         /// Its time on the map [s].
         duration: f64,
+        /// Of it, beyond the time on a free road [s]; `None` where it had nowhere to go.
+        delay: Option<f64>,
+        /// Its character's place in the table.
+        character: u32,
         /// Its last chain.
         chain: ChainIndex,
         /// How it moved in its last step, which may have ended beyond the chain.

@@ -309,11 +309,13 @@ impl World {
         self.counts.trip_time += duration;
         let trip = self.trips.end(motion.id);
         self.counts.stops += u64::from(trip.stops());
-        if let Some(delay) = trip.delay(duration) {
+        let delay = trip.delay(duration);
+        if let Some(delay) = delay {
             self.counts.planned += 1;
             self.counts.delay += delay;
         }
-        self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion });
+        let character = car.character;
+        self.events.push(Event::Left { vehicle: motion.id, duration, delay, character, chain: from, motion });
     }
 
     /// Tells the other entry of a vehicle where this one stands now.

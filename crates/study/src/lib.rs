@@ -4,14 +4,19 @@
 
 mod edie;
 mod figures;
+mod histogram;
 mod rate;
 mod signal;
 mod statistics;
 mod table;
 
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
-pub use figures::{Mark, RateSeries, Sample, escaped, rate_density, text_width, time_space};
+pub use figures::{
+    BarRow, Distributed, Estimated, Mark, RateSeries, Sample, Sheet, TimeLine, bars, distribution, escaped,
+    over_time, rate_density, scatter, text_width, time_space,
+};
+pub use histogram::Histogram;
 pub use rate::{RatePoint, rate_by_density};
 pub use signal::{Signal, SignalQueue};
-pub use statistics::{Estimate, Interval, geh, mean, poisson_interval, required_replications};
+pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
 pub use table::{Cell, Column, Format, Kind, TableError, TableWriter};

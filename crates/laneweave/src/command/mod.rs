@@ -47,7 +47,8 @@ impl Cli {
     pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
         match self.command {
             None => {
-                let (scenario, origin) = Origin::demo()?;
+                let (scenario, mut origin) = Origin::demo()?;
+                origin.command = Some(given());
                 run::run(&scenario, &origin, run::Screen::default(), started)
             }
             Some(Command::Run(arguments)) => arguments.execute(started),
@@ -67,4 +68,18 @@ impl Cli {
 fn say(text: &str) {
     let mut out = io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// The command as it was given, in the words of a shell.
+fn given() -> String {
+    let quoted = |word: String| {
+        let is_plain = |it: char| it.is_alphanumeric() || "-_./=:,+@%".contains(it);
+        if !word.is_empty() && word.chars().all(is_plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    };
+    let words = std::env::args_os().skip(1).map(|it| quoted(it.to_string_lossy().into_owned()));
+    ["laneweave".into()].into_iter().chain(words).collect::<Vec<String>>().join(" ")
 }

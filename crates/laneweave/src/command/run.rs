@@ -95,6 +95,7 @@ fn format(text: &str) -> Result<TableFormat, String> {
 impl Arguments {
     pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
         let (mut scenario, mut origin) = Origin::open(&self.input)?;
+        origin.command = Some(super::given());
         let screen = self.screen;
         self.replace(&mut scenario, &mut origin);
         run(&scenario, &origin, screen, started)
@@ -160,12 +161,14 @@ pub(crate) fn run(
         || load_s = started.elapsed().as_secs_f64(),
     )?;
     progress.clear();
-    let mut files = Vec::new();
-    for observer in observers {
-        files.push(observer.finish(&prepared.world)?);
-    }
     let wall_s = started.elapsed().as_secs_f64();
     let summary = Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s });
+    let mut files = Vec::new();
+    for mut observer in observers {
+        observer.conclude(&summary);
+        files.push(observer.finish(&prepared.world)?);
+    }
+    let summary = summary.after(started.elapsed().as_secs_f64());
     let json = serde_json::to_string_pretty(&summary)
         .map_err(|error| Fault::new("summary.json", error, "report this as a bug"))?
         + "\n";

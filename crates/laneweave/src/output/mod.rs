@@ -1,14 +1,20 @@
 //! What a run leaves behind: tables, figures and a summary, each made by an observer that reads the world and never
 //! writes it.
 
+mod boxes;
+mod driving;
 mod flows;
 mod lane_change_rate;
 mod lane_changes;
 mod queues;
+mod reasons;
+mod report;
 mod road;
 mod summary;
 mod time_space;
+mod traces;
 mod trajectories;
+mod trip_times;
 
 use std::fs;
 use std::io;
@@ -20,13 +26,19 @@ use laneweave_study::{Format, TableError};
 use crate::fault::Fault;
 use crate::scenario::{Prepared, Scenario, TableFormat};
 
+pub use boxes::Boxes;
+pub use driving::{Driving, StyleDriving};
 pub use flows::Flows;
 pub use lane_change_rate::LaneChangeRate;
 pub use lane_changes::LaneChanges;
 pub use queues::{HeldFor, Queue, Queues};
+pub use reasons::Reasons;
+pub use report::{Record, Report};
 pub use summary::{Inputs, Summary};
 pub use time_space::TimeSpace;
+pub use traces::Traces;
 pub use trajectories::Trajectories;
+pub use trip_times::{Crowd, TripTimes};
 
 /// Something that watches a run and leaves a file.
 pub trait Observer {
@@ -35,6 +47,9 @@ pub trait Observer {
     /// # Errors
     /// If what it sees cannot be written.
     fn observe(&mut self, world: &World) -> Result<(), Fault>;
+
+    /// Is told what the run amounts to, before it completes its file.
+    fn conclude(&mut self, _summary: &Summary) {}
 
     /// Completes its file, and names it.
     ///
@@ -64,6 +79,7 @@ pub fn observers(scenario: &Scenario, prepared: &Prepared) -> Result<Vec<Box<dyn
     let duration = f64::from(prepared.steps) * scenario.run.step_s;
     observers.push(Box::new(LaneChangeRate::new(dir, &prepared.world, begin, duration)));
     observers.push(Box::new(TimeSpace::new(dir, &prepared.world, &prepared.origins, begin, duration)));
+    observers.push(Box::new(Report::new(dir, scenario, prepared)));
     Ok(observers)
 }
 

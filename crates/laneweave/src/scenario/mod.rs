@@ -20,7 +20,7 @@ use crate::style::DEFAULT_MIXTURE;
 pub use headways::Headways;
 pub use origin::Origin;
 pub(crate) use prepare::driven;
-pub use prepare::{Prepared, open_map, prepare};
+pub use prepare::{Prepared, Provenance, open_map, prepare};
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
 

@@ -15,6 +15,8 @@ const DEMO_MAP: &str = include_str!("../../../../maps/town.osm");
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
     source: Option<Source>,
+    /// The command that was given, if one was.
+    pub command: Option<String>,
     /// The map's text, if it comes with the program.
     pub(super) map: Option<&'static str>,
     /// Options by the key that they replace.
@@ -56,6 +58,11 @@ impl Origin {
     pub fn place(&self, path: &[&str]) -> String {
         let option = (1..=path.len()).find_map(|n| self.options.get(path[..n].join(".").as_str()));
         option.map(|it| (*it).into()).or_else(|| self.in_file(path)).unwrap_or(path.join("."))
+    }
+
+    /// The scenario's file, if there is one.
+    pub fn file(&self) -> Option<&Path> {
+        self.source.as_ref().map(|it| it.path.as_path())
     }
 
     /// The place of the key at `path` in the scenario file, if there is one.

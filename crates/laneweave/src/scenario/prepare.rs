@@ -1,6 +1,6 @@
 //! From a scenario to a world that can run: everything is checked before anything is written.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, lanelet2, load, regulations};
@@ -31,6 +31,15 @@ const LONGEST: f64 = 1e7;
 const RECORDING: &str = "a recording interval";
 const FLOWS: &str = "an interval of flows";
 
+/// Where a run comes from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Provenance {
+    /// The scenario's file, if there is one.
+    pub scenario: Option<PathBuf>,
+    /// The command that was given, if one was.
+    pub command: Option<String>,
+}
+
 /// A scenario that is ready to run.
 pub struct Prepared {
     /// The world at its start.
@@ -55,6 +64,8 @@ pub struct Prepared {
     pub threads: usize,
     /// What in the map could not be used as it stands.
     pub problems: Vec<Problem>,
+    /// Where the run comes from.
+    pub provenance: Provenance,
 }
 
 /// Reads the map and the styles of `scenario`, and makes its world.
@@ -110,6 +121,10 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
         threads,
         problems: map.problems,
+        provenance: Provenance {
+            scenario: origin.file().map(Path::to_owned),
+            command: origin.command.clone(),
+        },
         world,
     })
 }

@@ -1,13 +1,10 @@
 //! Linear axes with round ticks.
 
-/// Ticks aimed at along an axis.
-const TICKS: f64 = 10.0;
-
 /// A range of values with its round steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     /// What it shows, with its unit.
-    pub(super) label: &'static str,
+    pub(super) label: String,
     /// First value.
     pub(super) from: f64,
     /// Last value.
@@ -17,16 +14,16 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// From `low` to `high`; the ticks lie within.
-    pub(super) fn spanning(label: &'static str, low: f64, high: f64) -> Axis {
+    /// From `low` to `high` with at most so many steps; the ticks lie within.
+    pub(super) fn spanning(label: &str, low: f64, high: f64, steps: f64) -> Axis {
         let is_range = low.is_finite() && high.is_finite() && low < high;
         let (from, to) = if is_range { (low, high) } else { (0.0, 1.0) };
-        Axis { label, from, to, step: round_step((to - from) / TICKS) }
+        Axis { label: label.into(), from, to, step: round_step((to - from) / steps) }
     }
 
-    /// From zero to the first tick at or beyond `high`.
-    pub(super) fn from_zero(label: &'static str, high: f64) -> Axis {
-        let tight = Axis::spanning(label, 0.0, high);
+    /// From zero to the first tick at or beyond `high`, with at most so many steps up to there.
+    pub(super) fn from_zero(label: &str, high: f64, steps: f64) -> Axis {
+        let tight = Axis::spanning(label, 0.0, high, steps);
         let steps = (tight.to / tight.step - 1e-9).ceil();
         Axis { to: steps * tight.step, ..tight }
     }
@@ -71,14 +68,14 @@ mod tests {
 
     #[test]
     fn an_axis_from_zero_ends_at_a_tick() {
-        let axis = Axis::from_zero("density [veh/km]", 43.0);
+        let axis = Axis::from_zero("density [veh/km]", 43.0, 10.0);
         assert_eq!((axis.from, axis.to), (0.0, 45.0));
         assert_eq!(texts(&axis), ["0", "5", "10", "15", "20", "25", "30", "35", "40", "45"]);
     }
 
     #[test]
     fn a_spanning_axis_ends_with_the_data_and_has_its_ticks_within() {
-        let axis = Axis::spanning("position [km]", 0.13, 1.37);
+        let axis = Axis::spanning("position [km]", 0.13, 1.37, 10.0);
         assert_eq!((axis.share(0.13), axis.share(1.37)), (0.0, 1.0));
         assert_eq!(texts(&axis), ["0.2", "0.4", "0.6", "0.8", "1.0", "1.2"]);
     }
@@ -86,7 +83,7 @@ mod tests {
     #[test]
     fn an_axis_without_data_goes_from_zero_to_one() {
         for (low, high) in [(f64::INFINITY, f64::NEG_INFINITY), (3.0, 3.0), (f64::NAN, 1.0)] {
-            let axis = Axis::spanning("time [s]", low, high);
+            let axis = Axis::spanning("time [s]", low, high, 10.0);
             assert_eq!((axis.from, axis.to), (0.0, 1.0));
         }
     }

@@ -1,0 +1,113 @@
+//! The vehicles of one lane, from an entrance on: their trajectories and lane changes.
+
+use std::collections::BTreeMap;
+
+use laneweave_network::{ChainIndex, Gate, Network};
+use laneweave_sim::{Event, Place, VehicleId, World};
+use laneweave_study::{Mark, Sample};
+
+use super::road::Road;
+
+/// Longest road that is drawn [m].
+const LONGEST_ROAD: f64 = 10_000.0;
+/// Longest time that is drawn [s]; of longer runs the end is left out.
+const LONGEST_TIME: f64 = 3600.0;
+/// Time between two samples [s].
+const SAMPLING: f64 = 1.0;
+
+/// Collects the vehicles of one lane.
+#[derive(Debug)]
+pub struct Traces {
+    /// The lanelet with which the lane begins.
+    pub lanelet: i64,
+    road: Road,
+    begin: f64,
+    end: f64,
+    /// The trajectories of the vehicles that are on the lane now.
+    current: BTreeMap<VehicleId, Vec<Sample>>,
+    /// Those of vehicles that left it.
+    past: Vec<Vec<Sample>>,
+    /// The changes onto and off it.
+    pub changes: Vec<Mark>,
+}
+
+impl Traces {
+    /// Of the lanes from the `number` busiest of the `origins`, each with its demand [veh/h], over at most `duration` [s] from
+    /// the time `begin` [s] on; the busiest first.
+    pub fn busiest(
+        number: usize,
+        world: &World,
+        origins: &[(Place, f64)],
+        begin: f64,
+        duration: f64,
+    ) -> Vec<Traces> {
+        let mut order: Vec<&(Place, f64)> = origins.iter().collect();
+        // Of origins with equal demands the last comes first.
+        order.reverse();
+        order.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let network = world.network();
+        let start = |(place, _): &&(Place, f64)| match place {
+            Place::Gate(gate) => slow_lane(network, gate),
+            Place::Kerb(kerb) => Some(kerb.chain),
+        };
+        let of = |chain: ChainIndex| Traces {
+            lanelet: network.lanelet_at(chain, 0.0).0.id,
+            road: Road::from(network, chain, LONGEST_ROAD),
+            begin,
+            end: begin + duration.min(LONGEST_TIME),
+            current: BTreeMap::new(),
+            past: Vec::new(),
+            changes: Vec::new(),
+        };
+        order.iter().take(number).filter_map(start).map(of).collect()
+    }
+
+    /// Looks at the world after a step.
+    pub fn observe(&mut self, world: &World) {
+        let clock = world.clock();
+        for event in world.events() {
+            if let Event::LaneChange(change) = event
+                && change.is_completed
+                && (self.begin..=self.end).contains(&change.time)
+            {
+                let places = [change.from, change.to].map(|(chain, x)| self.road.position(chain, x));
+                let mark = |position_m| Mark { time_s: change.time, position_m };
+                self.changes.extend(places.into_iter().flatten().take(1).map(mark));
+            }
+        }
+        if clock.step.is_multiple_of(clock.steps(SAMPLING)) && clock.time() <= self.end {
+            self.sample(world);
+        }
+    }
+
+    fn sample(&mut self, world: &World) {
+        let time_s = world.clock().time();
+        let mut before = std::mem::take(&mut self.current);
+        let scene = world.scene();
+        for (chain, from, offset) in self.road.pieces() {
+            let entries = scene.motions(chain).iter().zip(scene.cars(chain));
+            for (it, _) in entries.filter(|(it, car)| !car.is_shadow && it.x >= from) {
+                let mut trajectory = before.remove(&it.id).unwrap_or_default();
+                trajectory.push(Sample { time_s, position_m: offset + it.x, speed_mps: it.speed });
+                self.current.insert(it.id, trajectory);
+            }
+        }
+        self.past.extend(before.into_values());
+    }
+
+    /// All trajectories so far, those that are over first.
+    pub fn trajectories(&self) -> impl Iterator<Item = &Vec<Sample>> {
+        self.past.iter().chain(self.current.values())
+    }
+}
+
+/// The gate's lane on the slow side; not one that ends, as long as there is another.
+fn slow_lane(network: &Network, gate: &Gate) -> Option<ChainIndex> {
+    let slow = network.driving_side.overtaking().opposite();
+    let goes_on = |chain: ChainIndex| !network.chain(chain).is_lane_drop;
+    let is_slowest = |chain: ChainIndex| {
+        network.chain(chain).beside(slow, 0.0).is_none_or(|beside| !goes_on(beside.chain))
+    };
+    let mut lanes = gate.chains.iter().copied();
+    lanes.find(|it| goes_on(*it) && is_slowest(*it)).or(gate.chains.first().copied())
+}

@@ -1,0 +1,73 @@
+//! Key numbers.
+
+use laneweave_study::{Interval, poisson_interval};
+
+use super::RunReport;
+use crate::output::Summary;
+use crate::report::{Section, Tile, number, with_interval};
+use crate::units::KMH_PER_MPS;
+
+pub(super) fn section(run: &RunReport, summary: &Summary) -> Section {
+    let tile = |value: String, name: &str, more: String| Tile { value, name: name.into(), more };
+    let per_km = |count: u64| rate_per(count, summary.veh_km);
+    let speed = summary.mean_speed_mps.map_or("–".into(), |it| format!("{:.1} km/h", it * KMH_PER_MPS));
+    let delay = run.record.trips.delay.estimate();
+    let interval = delay.map_or(String::new(), |it| {
+        let Interval { lower, upper } = it.interval();
+        format!("95 %: {} to {} s; n = {} trips", number(lower, 3), number(upper, 3), it.replications)
+    });
+    let Summary { entered, left, on_road, waiting, .. } = summary;
+    let tiles = vec![
+        tile(
+            per_km(summary.lane_changes),
+            "lane changes per veh-km",
+            format!("95 %; n = {} over {} veh-km", summary.lane_changes, number(summary.veh_km, 4)),
+        ),
+        tile(
+            summary.lane_changes_discretionary.to_string(),
+            "discretionary changes",
+            per_km(summary.lane_changes_discretionary) + " per veh-km",
+        ),
+        tile(
+            summary.lane_changes_route.to_string(),
+            "changes for the route",
+            per_km(summary.lane_changes_route) + " per veh-km",
+        ),
+        tile(speed, "mean speed", "way over time, all vehicles".into()),
+        tile(
+            summary.mean_delay_s.map_or("–".into(), |it| format!("{it:.1} s")),
+            "mean delay of a trip",
+            interval,
+        ),
+        tile(
+            summary.mean_trip_duration_s.map_or("–".into(), |it| format!("{it:.1} s")),
+            "mean time of a trip",
+            summary.mean_stops.map_or(String::new(), |it| format!("with {it:.2} stops")),
+        ),
+        tile(entered.to_string(), "vehicles entered", format!("= {left} left + {on_road} on the road")),
+        tile(waiting.to_string(), "wait at the entrances", "at the end".into()),
+        tile(summary.collisions.to_string(), "collisions", "a vehicle touches its leader".into()),
+        tile(summary.overlaps.to_string(), "overlaps", "of any two vehicles, seen once a second".into()),
+        tile(
+            summary.emergency_brakings.to_string(),
+            "emergency brakings",
+            "decided by kinematics, not by the model".into(),
+        ),
+        tile(summary.stuck.to_string(), "vehicles stuck", "stood for 300 s".into()),
+        tile(summary.missed_turns.to_string(), "missed turns", "drivers who had to take another way".into()),
+        tile(summary.route_changes.to_string(), "routes left for a better one", "by choice".into()),
+    ];
+    Section::new("numbers", "Key numbers").tiles(tiles).note(
+        "Counts of lane changes are of crossings: the centre of the vehicle crosses the line. Their intervals are exact Poisson \
+         95 % intervals of the count, as if changes came independently of each other. Delay is time beyond that on a free road \
+         at the speeds the driver desires; its interval is Student's over trips, which share the same traffic and are not \
+         quite independent. One run says nothing of how runs differ: repeat it with other seeds.",
+    )
+}
+
+/// A count per unit of exposure with its exact Poisson interval, as text.
+pub(super) fn rate_per(count: u64, exposure: f64) -> String {
+    let Interval { lower, upper } = poisson_interval(count);
+    let interval = Interval { lower: lower / exposure, upper: upper / exposure };
+    with_interval(count as f64 / exposure, interval, 3)
+}
