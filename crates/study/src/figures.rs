@@ -12,11 +12,11 @@ mod sheet;
 mod time_space;
 
 pub use bars::{BarRow, bars};
-pub use distribution::{Distributed, distribution};
+pub use distribution::{Distributed, Upwards, distribution};
 pub use drawing::{escaped, text_width};
 pub use over_time::{TimeLine, over_time};
 pub use rate_density::{RateSeries, rate_density};
-pub use scatter::scatter;
+pub use scatter::{Scattered, scatter};
 pub use series::Estimated;
 pub use sheet::Sheet;
 pub use time_space::{Mark, Sample, time_space};

@@ -73,11 +73,20 @@ impl Histogram {
         self.bins.iter().map(move |it| *it as f64 / total)
     }
 
-    /// The histogram without the empty bins at its end; at least one is left.
-    pub fn trimmed(&self) -> Histogram {
-        let used = self.bins.iter().rposition(|it| *it > 0).map_or(1, |it| it + 1);
-        let bins = if self.outside[1] == 0 { self.bins[..used].to_vec() } else { self.bins.clone() };
-        Histogram { bins, ..*self }
+    /// The histogram without its empty bins at either end, as far as `others` have none there either, and nobody lies beyond;
+    /// from a first bin at zero on none are left out. The bins are all the same.
+    pub fn trimmed(&self, others: &[&Histogram]) -> Histogram {
+        let all = || others.iter().copied().chain([self]);
+        let is_used = |bin: &usize| all().any(|it| it.bins.get(*bin).is_some_and(|count| *count > 0));
+        let bins = 0..self.bins.len();
+        let first = bins.clone().find(is_used).filter(|_| self.from != 0.0).unwrap_or(0);
+        let last = bins.clone().rev().find(is_used).unwrap_or(first);
+        let [first, last] = [
+            if all().any(|it| it.outside[0] > 0) { 0 } else { first },
+            if all().any(|it| it.outside[1] > 0) { bins.end - 1 } else { last },
+        ];
+        let from = self.from + first as f64 * self.width;
+        Histogram { from, bins: self.bins[first..=last].to_vec(), ..*self }
     }
 
     /// The value below which a `share` of all lies, within its bin as if they were spread evenly; `None` without any value,
@@ -132,7 +141,18 @@ mod tests {
         histogram.add(9.0);
         assert_eq!((histogram.width(), histogram.range()), (4.0, [0.0, 16.0]));
         assert_eq!(histogram.shares().collect::<Vec<_>>(), [0.75, 0.0, 0.25, 0.0]);
-        assert_eq!(histogram.trimmed().range(), [0.0, 12.0]);
+        assert_eq!(histogram.trimmed(&[]).range(), [0.0, 12.0]);
+    }
+
+    #[test]
+    fn bins_that_are_empty_everywhere_are_left_out() {
+        let [mut a, mut b] = [(); 2].map(|()| Histogram::new(-4.0, 1.0, 8));
+        a.add(-1.5);
+        b.add(0.5);
+        assert_eq!(a.trimmed(&[]).range(), [-2.0, -1.0]);
+        assert_eq!(a.trimmed(&[&b]).range(), [-2.0, 1.0]);
+        b.add(9.0);
+        assert_eq!(a.trimmed(&[&b]).range(), [-2.0, 4.0]);
     }
 
     proptest! {

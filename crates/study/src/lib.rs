@@ -12,8 +12,8 @@ mod table;
 
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
 pub use figures::{
-    BarRow, Distributed, Estimated, Mark, RateSeries, Sample, Sheet, TimeLine, bars, distribution, escaped,
-    over_time, rate_density, scatter, text_width, time_space,
+    BarRow, Distributed, Estimated, Mark, RateSeries, Sample, Scattered, Sheet, TimeLine, Upwards, bars,
+    distribution, escaped, over_time, rate_density, scatter, text_width, time_space,
 };
 pub use histogram::Histogram;
 pub use rate::{RatePoint, rate_by_density};

@@ -10,7 +10,7 @@ const INTERVAL: f64 = 60.0;
 /// Time between two looks at the traffic [s].
 const SAMPLING: f64 = 1.0;
 /// Width of a class of density [veh/km].
-pub(crate) const BIN: f64 = 2.0;
+const BIN: f64 = 2.0;
 
 /// Collects densities, flows and lane changes.
 #[derive(Debug)]
@@ -59,6 +59,11 @@ impl Boxes {
     /// The boxes that were over by `end` [s].
     pub fn rows(&self, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
         complete(self.grid.as_ref(), self.window, end)
+    }
+
+    /// Mean speed limit in a section [m/s].
+    pub fn limit(&self, section: usize) -> f64 {
+        self.sections.limits[section]
     }
 
     /// A curve of the changes that are `chosen`, from the boxes that were over by `end` [s].

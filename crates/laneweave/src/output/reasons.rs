@@ -9,6 +9,8 @@ use super::driving::{names, styles_of};
 /// Bins of gaps [m], and of times to collision [s]: their width and number.
 const GAPS: (f64, usize) = (5.0, 30);
 const TIMES_TO_COLLISION: (f64, usize) = (1.0, 20);
+/// Bins of gains of speed [m/s]: the first, their width and number.
+const GAINS: (f64, f64, usize) = (-20.0, 1.0, 60);
 
 /// Counts the lane changes that are over.
 #[derive(Clone, Debug)]
@@ -25,6 +27,8 @@ pub struct Reasons {
     pub gaps: [Histogram; 2],
     /// Times to collision there, where somebody closes in [s].
     pub times_to_collision: [Histogram; 2],
+    /// Gains of speed that were anticipated when the desire came, by kind [m/s].
+    pub gains: [Histogram; 2],
 }
 
 impl Reasons {
@@ -40,6 +44,7 @@ impl Reasons {
             aborted: 0,
             gaps: histograms(GAPS),
             times_to_collision: histograms(TIMES_TO_COLLISION),
+            gains: [(); 2].map(|()| Histogram::new(GAINS.0, GAINS.1, GAINS.2)),
         }
     }
 
@@ -61,6 +66,7 @@ impl Reasons {
         }
         let style = usize::from(self.style_of[change.character as usize]);
         self.completed[style][place(change.kind)][leading(&change.appraisal)] += 1;
+        self.gains[place(change.kind)].add(change.speed_gain);
         let add = |histogram: &mut Histogram, value: f64| {
             if value.is_finite() {
                 histogram.add(value);

@@ -31,7 +31,7 @@ pub struct Report {
 pub struct Record {
     /// Density, flow, speed and lane changes in boxes.
     pub boxes: Boxes,
-    /// The busiest lanes.
+    /// The lanes on which most way is driven.
     pub roads: Vec<Traces>,
     /// How drivers follow.
     pub driving: Driving,
@@ -50,11 +50,11 @@ impl Report {
         let [begin, duration] = [*warmup_steps, *steps].map(|it| f64::from(it) * scenario.run.step_s);
         let record = Record {
             boxes: Boxes::new(world, begin, duration),
-            roads: Traces::busiest(ROADS, world, origins, begin, duration),
+            roads: Traces::most_driven(ROADS, world, origins, begin, duration),
             driving: Driving::of(world),
             reasons: Reasons::new(world, begin),
             trips: TripTimes::of(world),
-            crowd: Crowd::new(),
+            crowd: Crowd::default(),
         };
         let about = About::of(scenario, prepared);
         Report { path: dir.join("report.html"), about, record, summary: None }

@@ -20,7 +20,7 @@ impl TimeSpace {
     /// For the figure in `dir`, over at most `duration` [s] from the time `begin` [s] on; `origins`, each with its
     /// demand [veh/h], tell the busiest entrance.
     pub fn new(dir: &Path, world: &World, origins: &[(Place, f64)], begin: f64, duration: f64) -> TimeSpace {
-        let traces = Traces::busiest(1, world, origins, begin, duration).pop();
+        let traces = Traces::busiest(world, origins, begin, duration);
         TimeSpace { path: dir.join("time_space.svg"), traces }
     }
 }

@@ -32,34 +32,48 @@ pub struct Traces {
 }
 
 impl Traces {
-    /// Of the lanes from the `number` busiest of the `origins`, each with its demand [veh/h], over at most `duration` [s] from
-    /// the time `begin` [s] on; the busiest first.
-    pub fn busiest(
+    /// Of the slow lane from the busiest of the `origins`, each with its demand [veh/h], over at most `duration` [s] from the time
+    /// `begin` [s] on.
+    pub fn busiest(world: &World, origins: &[(Place, f64)], begin: f64, duration: f64) -> Option<Traces> {
+        let (place, _) = origins.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(Traces::on(Course::from(world, place)?, begin, duration))
+    }
+
+    /// Of up to `number` slow lanes from the `origins` that have no part in common, those with the most way to be driven first.
+    pub fn most_driven(
         number: usize,
         world: &World,
         origins: &[(Place, f64)],
         begin: f64,
         duration: f64,
     ) -> Vec<Traces> {
-        let mut order: Vec<&(Place, f64)> = origins.iter().collect();
-        // Of origins with equal demands the last comes first.
-        order.reverse();
-        order.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let network = world.network();
-        let start = |(place, _): &&(Place, f64)| match place {
-            Place::Gate(gate) => slow_lane(network, gate),
-            Place::Kerb(kerb) => Some(kerb.chain),
-        };
-        let of = |chain: ChainIndex| Traces {
-            lanelet: network.lanelet_at(chain, 0.0).0.id,
-            road: Road::from(network, chain, LONGEST_ROAD),
+        /// Of more origins only those with the largest demand are looked at.
+        const LOOKED_AT: usize = 100;
+        let mut origins: Vec<&(Place, f64)> = origins.iter().collect();
+        origins.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let course = |(place, rate): &&(Place, f64)| Some((Course::from(world, place)?, *rate));
+        let mut courses: Vec<(Course, f64)> = origins.iter().take(LOOKED_AT).filter_map(course).collect();
+        let way = |(course, rate): &(Course, f64)| rate * course.road.length(world.network());
+        courses.sort_by(|a, b| way(b).total_cmp(&way(a)));
+        let mut chosen: Vec<Course> = Vec::new();
+        for (course, _) in courses {
+            if chosen.len() < number && chosen.iter().all(|it| !it.road.meets(&course.road)) {
+                chosen.push(course);
+            }
+        }
+        chosen.into_iter().map(|it| Traces::on(it, begin, duration)).collect()
+    }
+
+    fn on(Course { lanelet, road }: Course, begin: f64, duration: f64) -> Traces {
+        Traces {
+            lanelet,
+            road,
             begin,
             end: begin + duration.min(LONGEST_TIME),
             current: BTreeMap::new(),
             past: Vec::new(),
             changes: Vec::new(),
-        };
-        order.iter().take(number).filter_map(start).map(of).collect()
+        }
     }
 
     /// Looks at the world after a step.
@@ -98,6 +112,24 @@ impl Traces {
     /// All trajectories so far, those that are over first.
     pub fn trajectories(&self) -> impl Iterator<Item = &Vec<Sample>> {
         self.past.iter().chain(self.current.values())
+    }
+}
+
+/// A lane from an origin on.
+struct Course {
+    lanelet: i64,
+    road: Road,
+}
+
+impl Course {
+    fn from(world: &World, place: &Place) -> Option<Course> {
+        let network = world.network();
+        let chain = match place {
+            Place::Gate(gate) => slow_lane(network, gate)?,
+            Place::Kerb(kerb) => kerb.chain,
+        };
+        let lanelet = network.lanelet_at(chain, 0.0).0.id;
+        Some(Course { lanelet, road: Road::from(network, chain, LONGEST_ROAD) })
     }
 }
 

@@ -67,19 +67,25 @@ pub struct Crowd {
     pub counts: Vec<(f64, usize, usize)>,
 }
 
-impl Crowd {
+impl Default for Crowd {
     /// None counted yet.
-    pub fn new() -> Crowd {
+    fn default() -> Crowd {
         Crowd { every: COUNTING, counts: Vec::new() }
     }
+}
 
+impl Crowd {
     /// Looks at the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
         if !clock.step.is_multiple_of(clock.steps(self.every)) {
             return;
         }
-        self.counts.push((clock.time(), world.on_road(), world.waiting()));
+        self.count((clock.time(), world.on_road(), world.waiting()));
+    }
+
+    fn count(&mut self, count: (f64, usize, usize)) {
+        self.counts.push(count);
         if self.counts.len() > MOST_COUNTS {
             self.every *= 2.0;
             let mut number = 0;
@@ -88,5 +94,19 @@ impl Crowd {
                 number % 2 == 0
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_too_many_counts_every_second_one_is_kept_and_fewer_follow() {
+        let mut crowd = Crowd::default();
+        (1..=MOST_COUNTS + 1).for_each(|it| crowd.count((COUNTING * it as f64, it, 0)));
+        assert_eq!(crowd.every, 2.0 * COUNTING);
+        let kept: Vec<usize> = crowd.counts.iter().map(|it| it.1).collect();
+        assert_eq!((kept.len(), kept[0], kept[kept.len() - 1]), (MOST_COUNTS / 2, 2, MOST_COUNTS));
     }
 }

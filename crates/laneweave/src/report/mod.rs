@@ -7,7 +7,7 @@ mod page;
 mod run;
 mod table;
 
-pub use numbers::{number, percent, with_interval};
+pub use numbers::{counted, number, percent, with_interval};
 pub use page::{Figure, Page, Section, Tile};
 pub use run::{About, RunReport};
 pub use table::{Align, Table};

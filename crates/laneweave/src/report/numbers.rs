@@ -16,6 +16,21 @@ pub fn number(value: f64, digits: usize) -> String {
     text.replacen('-', "−", 1)
 }
 
+/// A count, with its digits in groups of three.
+pub fn counted(count: u64) -> String {
+    /// A narrow space at which no line is broken.
+    const BETWEEN: char = '\u{202f}';
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (place, digit) in digits.char_indices() {
+        if place > 0 && digits.len() > 4 && (digits.len() - place).is_multiple_of(3) {
+            text.push(BETWEEN);
+        }
+        text.push(digit);
+    }
+    text
+}
+
 /// A share in per cent.
 pub fn percent(share: f64) -> String {
     number(100.0 * share, if share < 0.1 { 2 } else { 3 }) + " %"
@@ -41,6 +56,12 @@ mod tests {
         let texts = [0.0, 0.014_2, 3.0, 1234.5, -2.5e-7].map(|it| number(it, 3));
         assert_eq!(texts, ["0", "0.0142", "3.00", "1234", "−0.000000250"]);
         assert_eq!([number(f64::NAN, 3), percent(0.0213), percent(0.5)], ["–", "2.1 %", "50.0 %"]);
+    }
+
+    #[test]
+    fn large_counts_are_grouped() {
+        let texts = [0, 999, 1234, 12_345, 1_234_567].map(counted);
+        assert_eq!(texts, ["0", "999", "1234", "12\u{202f}345", "1\u{202f}234\u{202f}567"]);
     }
 
     #[test]

@@ -130,10 +130,14 @@ impl Section {
         self.with(Part::Table(table))
     }
 
-    /// A table, or, where it has no rows, a paragraph that says so.
+    /// A table, or, where it has no rows, a paragraph that says so, if it says anything.
     #[must_use]
     pub fn table_unless_empty(self, table: Table, otherwise: &str) -> Section {
-        if table.is_empty() { self.text(otherwise) } else { self.table(table) }
+        match (table.is_empty(), otherwise) {
+            (false, _) => self.table(table),
+            (true, "") => self,
+            (true, otherwise) => self.text(otherwise),
+        }
     }
 
     /// Figures side by side, as far as there is room.

@@ -38,6 +38,11 @@ impl Table {
         self.rows.is_empty()
     }
 
+    /// The name of a column, as an attribute holds it.
+    fn name(&self, column: usize) -> String {
+        self.columns.get(column).map_or(String::new(), |(name, _)| escaped(name).replace('"', "&quot;"))
+    }
+
     pub(super) fn write(&self, html: &mut String) {
         let class = |column: usize| match self.columns.get(column) {
             Some((_, Align::Numbers)) => " class=\"number\"",
@@ -56,8 +61,10 @@ impl Table {
         for row in &self.rows {
             *html += "<tr>";
             for (column, cell) in row.iter().enumerate() {
+                let (class, cell, name) = (class(column), escaped(cell), self.name(column));
                 let (tag, scope) = if column == 0 { ("th", " scope=\"row\"") } else { ("td", "") };
-                let _ = write!(html, "<{tag}{scope}{}>{}</{tag}>", class(column), escaped(cell));
+                // On a narrow screen cells stand one below the other, each with the name of its column.
+                let _ = write!(html, "<{tag}{scope} data-name=\"{name}\"{class}>{cell}</{tag}>");
             }
             *html += "</tr>\n";
         }

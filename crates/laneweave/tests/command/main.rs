@@ -11,6 +11,7 @@ mod mistakes;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod report;
 mod run;
 #[cfg(test)]
 mod schema;

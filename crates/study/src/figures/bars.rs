@@ -8,6 +8,8 @@ use super::sheet::Sheet;
 /// Height of a bar with its margin, and margin between rows [px].
 const PITCH: f64 = 18.0;
 const BETWEEN: f64 = 14.0;
+/// Least height of a plot, so that the label of its rows has room [px].
+const LEAST_HEIGHT: f64 = 150.0;
 /// Height of a bar [px].
 const HEIGHT: f64 = 9.0;
 
@@ -46,8 +48,7 @@ pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -
             Vec::new()
         },
         names: Some(longest),
-        // Two rows are so high at least that the label beside them has room.
-        height: Some(pitch * rows.len().max(2) as f64),
+        height: Some(LEAST_HEIGHT.max(pitch * rows.len() as f64)),
         ..Around::default()
     };
     let mut drawing = Drawing::new(sheet, around);
@@ -94,12 +95,12 @@ mod tests {
 
     #[test]
     fn a_bar_ends_at_its_value_between_the_ends_of_its_interval() {
-        // Names of 4 characters: the plot from 14 + 28 + 29.12 = 71.12 px to 466 px; 0 … 4; rows of 32 px from 12 px on.
+        // Names of 4 characters: the plot from 14 + 28 + 29.12 = 71.12 px to 466 px; 0 … 4; two rows of 75 px from 14 px on.
         let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a & b", 3.0), row("c", 1.0)]);
         assert!(svg.contains(">a &amp; b</text>") && svg.contains(">style [name]</text>"), "{svg}");
-        let rect = "<rect x=\"78.4\" y=\"23.5\" width=\"290.7\" height=\"9\"";
+        let rect = "<rect x=\"78.4\" y=\"47.0\" width=\"290.7\" height=\"9\"";
         assert!(svg.contains(rect), "{svg}");
-        assert!(svg.contains("d=\"M272.2 28.0H466.0M272.2 24.0v8M466.0 24.0v8\""), "{svg}");
+        assert!(svg.contains("d=\"M272.2 51.5H466.0M272.2 47.5v8M466.0 47.5v8\""), "{svg}");
     }
 
     #[test]

@@ -106,12 +106,17 @@ impl Drawing {
         let top = layout.top + lines;
         let bottom = top + height.unwrap_or(layout.plot[1]);
         let (height, size) = (bottom + layout.foot, layout.text);
+        // Within HTML an SVG element needs no namespace.
+        let namespace = match sheet {
+            Sheet::Page => " xmlns=\"http://www.w3.org/2000/svg\"",
+            Sheet::Column => " role=\"img\"",
+        };
         let mut page = Drawing {
             plot: Plot { left, top, right, bottom },
             layout,
             svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" \
-                 height=\"{height:.0}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{size}\">\n\
+                "<svg{namespace} viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
+                 font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{size}\">\n\
                  <rect width=\"100%\" height=\"100%\" fill=\"white\" class=\"sheet\"/>\n"
             ),
         };
@@ -205,9 +210,9 @@ fn beside(edge: f64, keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
     (0..keys.len()).map(|it| [edge + 24.0, layout.top + PITCH[0] * (it as f64 + 0.5)]).collect()
 }
 
-/// Places of the marks of a legend above a plot, from left to right in lines that end at `edge`.
+/// Places of the marks of a legend above a plot, from its usual left edge on in lines that end at `edge`.
 fn above(edge: f64, keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
-    let first = layout.upright + 0.5 * MARK;
+    let first = layout.left + 0.5 * MARK;
     let (mut x, mut y) = (first, 0.5 * PITCH[1] + 4.0);
     let place = |key: &Key| {
         let needed = MARK + width(&key.text, layout.text);
@@ -262,10 +267,10 @@ mod tests {
     #[test]
     fn a_column_has_its_legend_above_the_plot_in_as_many_lines_as_it_needs() {
         let plot = |keys: Vec<Key>| Drawing::new(Sheet::Column, Around { keys, ..Around::default() }).plot;
-        assert_eq!(plot(vec![]), Plot { left: 62.0, top: 12.0, right: 466.0, bottom: 242.0 });
+        assert_eq!(plot(vec![]), Plot { left: 62.0, top: 14.0, right: 466.0, bottom: 244.0 });
         // Two entries of 18 + 161 px fit beside each other, a third does not.
         let twenty = || key("twenty characters so");
-        assert_eq!(plot(vec![twenty(), twenty()]).top, 25.5);
-        assert_eq!(plot(vec![twenty(), twenty(), twenty()]).top, 44.5);
+        assert_eq!(plot(vec![twenty(), twenty()]).top, 27.5);
+        assert_eq!(plot(vec![twenty(), twenty(), twenty()]).top, 46.5);
     }
 }

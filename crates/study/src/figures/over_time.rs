@@ -49,11 +49,11 @@ mod tests {
 
     #[test]
     fn a_line_goes_from_value_to_value() {
-        // The plot from (62, 25.5) to (466, 255.5) px; 100 … 200 s, 0 … 50 vehicles.
+        // The plot from (62, 27.5) to (466, 257.5) px; 100 … 200 s, 0 … 50 vehicles.
         let points = vec![[100.0, 0.0], [150.0, f64::NAN], [150.0, 25.0], [200.0, 50.0]];
         let svg =
             over_time(Sheet::Column, "vehicles [1]", &[TimeLine { name: "on the road".into(), points }]);
-        assert!(svg.contains("d=\"M62.0 255.5L264.0 140.5L466.0 25.5\""), "{svg}");
+        assert!(svg.contains("d=\"M62.0 257.5L264.0 142.5L466.0 27.5\""), "{svg}");
         for text in ["time [s]", "vehicles [1]", "on the road"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }

@@ -80,10 +80,10 @@ mod tests {
 
     #[test]
     fn in_a_column_there_is_no_title_and_the_legend_stands_above_the_plot() {
-        // The plot from (62, 25.5) to (466, 255.5) px; at most six steps up to 121.6: 0 … 150 per km and hour.
+        // The plot from (62, 27.5) to (466, 257.5) px; at most six steps up to 121.6: 0 … 150 per km and hour.
         let svg = rate_density(Sheet::Column, "title", &[series()]);
-        assert!(!svg.contains("title") && svg.contains("<text x=\"41.0\" y=\"18.1\""), "{svg}");
-        assert!(svg.contains("<path d=\"M264.0 178.8L466.0 102.2\""), "{svg}");
+        assert!(!svg.contains("title") && svg.contains("<text x=\"89.0\" y=\"18.1\""), "{svg}");
+        assert!(svg.contains("<path d=\"M264.0 180.8L466.0 104.2\""), "{svg}");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 pub enum Sheet {
     /// A file of its own: with a title, its legend beside the plot.
     Page,
-    /// A column of a document, whose caption says what it shows: narrow, without a title, its legend above the plot.
+    /// A column of an HTML document, whose caption says what it shows: narrow, without a title, its legend above the plot.
     Column,
 }
 
@@ -45,7 +45,7 @@ impl Sheet {
             },
             Sheet::Column => Layout {
                 left: 62.0,
-                top: 12.0,
+                top: 14.0,
                 plot: [404.0, 230.0],
                 foot: 46.0,
                 upright: 14.0,

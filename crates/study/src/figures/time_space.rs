@@ -113,7 +113,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// Number of speed classes: one between any two ticks of the colour bar.
 fn classes(speeds: &Axis) -> usize {
-    (speeds.to / speeds.step).round() as usize
+    (speeds.to / speeds.step()).round() as usize
 }
 
 /// Mixed from the ramp's neighbouring colours.
@@ -133,7 +133,7 @@ fn paths(trajectories: &[Vec<Sample>], plot: &Plot, [x, y, speeds]: [&Axis; 3]) 
         let samples: Vec<&Sample> = trajectory.iter().filter(|it| it.is_finite()).collect();
         let class = |pair: &[&Sample]| {
             let speed = 0.5 * (pair[0].speed_mps + pair[1].speed_mps) * KMH_PER_MPS;
-            ((speed / speeds.step) as usize).min(last)
+            ((speed / speeds.step()) as usize).min(last)
         };
         let point = |it: &Sample| (plot.across(x, it.time_s), plot.down(y, it.position_m / METRES_PER_KM));
         let mut begin = 0;

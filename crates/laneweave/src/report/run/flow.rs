@@ -2,67 +2,73 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_study::{EdieRow, Estimated, Moments, Sheet, TimeLine, over_time, scatter};
+use laneweave_study::{EdieRow, Estimated, Interval, Moments, Scattered, Sheet, scatter};
 
 use super::{NOBODY, RunReport};
-use crate::report::{Figure, Section};
+use crate::report::{Figure, Section, counted};
 use crate::units::KMH_PER_MPS;
 
 /// Width of the classes of density over which means are taken [veh/km].
 const CLASS: f64 = 5.0;
 /// A mean of fewer boxes is not drawn.
 const LEAST_BOXES: usize = 3;
+/// Speed limits up to which roads are alike [km/h]: streets, main roads, motorways; ours.
+const LIMITS: [(f64, &str); 3] =
+    [(40.0, "limit up to 40 km/h"), (75.0, "limit 40 to 75 km/h"), (f64::INFINITY, "limit above 75 km/h")];
 
 pub(super) fn section(run: &RunReport) -> Section {
     let section = Section::new("flow", "Density, flow and speed");
-    let rows: Vec<EdieRow> =
-        run.record.boxes.rows(run.end).filter(|it| it.density_veh_per_km > 0.0).collect();
-    let mut figures = Vec::new();
-    if !rows.is_empty() {
-        figures.extend([flow(&rows), speed(&rows)]);
-    }
-    if run.record.crowd.counts.iter().any(|(_, on_road, waiting)| on_road + waiting > 0) {
-        figures.push(crowd(run));
-    }
-    if figures.is_empty() {
+    let boxes = &run.record.boxes;
+    let rows: Vec<EdieRow> = boxes.rows(run.end).filter(|it| it.density_veh_per_km > 0.0).collect();
+    if rows.is_empty() {
         return section.text(NOBODY);
     }
-    section.figures(figures)
-}
-
-fn flow(rows: &[EdieRow]) -> Figure {
-    let labels = ["density [veh/km per lane]", "flow [veh/h per lane]"];
-    let points: Vec<[f64; 2]> = rows.iter().map(|it| [it.density_veh_per_km, it.flow_veh_per_h]).collect();
-    Figure {
-        svg: scatter(Sheet::Column, labels, (BOXES, &points), (MEANS, &means(&points))),
-        title: "Fundamental diagram: flow against density".into(),
-        caption: caption(
-            rows.len(),
+    let figure = |label: &str, title: &str, definition: &str, value: &dyn Fn(&EdieRow) -> f64| {
+        let point = |it: &EdieRow| [it.density_veh_per_km, value(it)];
+        let groups = grouped(rows.iter().map(|it| (KMH_PER_MPS * boxes.limit(it.section), point(it))));
+        let svg = scatter(Sheet::Column, ["density [veh/km per lane]", label], &groups);
+        Figure { svg, title: title.into(), caption: caption(&groups, definition) }
+    };
+    section.figures(vec![
+        figure(
+            "flow [veh/h per lane]",
+            "Fundamental diagram: flow against density",
             "k = Σt/(LT), q = Σd/(LT), with the times t and ways d of all vehicles in a box of L metres of lane and T seconds",
+            &|it| it.flow_veh_per_h,
         ),
-    }
+        figure("speed [km/h]", "Speed against density", "v = Σd/Σt, the space-mean speed", &|it| {
+            it.speed_mps.map_or(f64::NAN, |it| it * KMH_PER_MPS)
+        }),
+    ])
 }
 
-fn speed(rows: &[EdieRow]) -> Figure {
-    let labels = ["density [veh/km per lane]", "speed [km/h]"];
-    let place = |it: &EdieRow| Some([it.density_veh_per_km, it.speed_mps? * KMH_PER_MPS]);
-    let points: Vec<[f64; 2]> = rows.iter().filter_map(place).collect();
-    Figure {
-        svg: scatter(Sheet::Column, labels, (BOXES, &points), (MEANS, &means(&points))),
-        title: "Speed against density".into(),
-        caption: caption(points.len(), "v = Σd/Σt, the space-mean speed"),
+/// Points by the speed limits of their roads [km/h], as far as there are any.
+fn grouped(points: impl Iterator<Item = (f64, [f64; 2])>) -> Vec<Scattered> {
+    let mut groups = LIMITS.map(|(_, name)| Scattered { name: name.into(), points: vec![], means: vec![] });
+    for (limit, point) in points {
+        let group = LIMITS.iter().position(|(most, _)| limit <= *most).unwrap_or(LIMITS.len() - 1);
+        groups[group].points.push(point);
     }
+    for group in &mut groups {
+        group.means = means(&group.points);
+    }
+    groups.into_iter().filter(|it| !it.points.is_empty()).collect()
 }
 
-const BOXES: &str = "boxes";
-const MEANS: &str = "means";
-
-fn caption(boxes: usize, definition: &str) -> String {
+fn caption(groups: &[Scattered], definition: &str) -> String {
+    let number = |it: &Scattered| (it.name.clone(), counted(it.points.len() as u64));
+    let boxes: Vec<String> = match groups {
+        [only] => vec![format!("{} boxes", number(only).1)],
+        several => {
+            several.iter().map(number).map(|(name, count)| format!("{count} boxes with {name}")).collect()
+        }
+    };
     format!(
-        "Edie's definitions in boxes of about 500 m of all parallel lanes and 60 s: {definition}; seen once a second. n = {boxes} \
-         boxes with anybody in them; those at the same point are darker. Means over classes of {CLASS} veh/km with Student's \
-         95 % intervals over boxes, from {LEAST_BOXES} boxes on; neighbouring boxes are alike, so the intervals are rather \
-         too narrow. Sections of different roads, limits and lights are mixed."
+        "Edie's definitions in boxes of about 500 m of all parallel lanes and 60 s: {definition}; vehicles are seen once a second. \
+         Small points are the boxes with anybody in them, darker where several coincide: n = {}. Large ones are means over classes \
+         of {CLASS} veh/km with Student's 95 % intervals over boxes, from {LEAST_BOXES} boxes on; neighbouring boxes are alike, so the \
+         intervals are rather too narrow.",
+        boxes.join(", ")
     )
 }
 
@@ -75,30 +81,23 @@ fn means(points: &[[f64; 2]]) -> Vec<Estimated> {
     }
     let estimates = classes.into_values().filter_map(|it| Some((it[0].estimate()?, it[1].estimate()?)));
     let enough = estimates.filter(|(_, it)| it.replications >= LEAST_BOXES);
-    enough.map(|(at, it)| Estimated { at: at.mean, value: it.mean, interval: it.interval() }).collect()
-}
-
-fn crowd(run: &RunReport) -> Figure {
-    let counts = &run.record.crowd.counts;
-    let line = |name: &str, count: fn(&(f64, usize, usize)) -> usize| TimeLine {
-        name: name.into(),
-        points: counts.iter().map(|it| [it.0, count(it) as f64]).collect(),
-    };
-    let lines = [line("on the road", |it| it.1), line("waiting at the entrances", |it| it.2)];
-    Figure {
-        svg: over_time(Sheet::Column, "vehicles [number]", &lines),
-        title: "Vehicles in the course of time".into(),
-        caption: format!(
-            "Vehicles on the road, and those that have arrived and find no room yet, at {} times. While the numbers still grow, \
-             means over the run are those of no steady traffic.",
-            counts.len()
-        ),
-    }
+    // Neither flow nor speed is below zero, and so is no plausible value of their mean.
+    let positive = |it: Interval| Interval { lower: it.lower.max(0.0), ..it };
+    enough
+        .map(|(at, it)| Estimated { at: at.mean, value: it.mean, interval: positive(it.interval()) })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn roads_are_grouped_by_their_limits() {
+        let groups = grouped([(30.0, [1.0, 1.0]), (120.0, [2.0, 2.0]), (40.0, [3.0, 3.0])].into_iter());
+        let sizes: Vec<(&str, usize)> = groups.iter().map(|it| (it.name.as_str(), it.points.len())).collect();
+        assert_eq!(sizes, [(LIMITS[0].1, 2), (LIMITS[2].1, 1)]);
+    }
 
     #[test]
     fn means_are_taken_over_classes_with_enough_boxes() {
@@ -108,5 +107,6 @@ mod tests {
         assert_eq!((means[0].at, means[0].value), (2.0, 20.0));
         // t₂ s/√3 = 4.302653 · 10/1.732051
         assert!((means[0].interval.upper - 44.841377).abs() < 1e-6);
+        assert_eq!(means[0].interval.lower, 0.0);
     }
 }

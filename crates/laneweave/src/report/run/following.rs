@@ -1,17 +1,17 @@
-//! How drivers follow: time gaps, times to collision, accelerations.
+//! How drivers drive and follow: speeds, time gaps, times to collision, accelerations.
 
-use laneweave_study::{Distributed, Histogram, Sheet, distribution};
+use laneweave_study::{Distributed, Histogram, Sheet, Upwards, distribution};
 
 use super::{NOBODY, RunReport};
 use crate::output::StyleDriving;
-use crate::report::{Align, Figure, Section, Table, number, percent};
+use crate::report::{Align, Figure, Section, Table, counted, number, percent};
 
 /// Styles that are drawn: the most frequent ones.
 const MOST_STYLES: usize = 4;
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
 pub(super) fn section(run: &RunReport) -> Section {
-    let section = Section::new("following", "Following: gaps, times to collision, accelerations");
+    let section = Section::new("following", "Speeds, gaps, accelerations");
     let mut styles: Vec<&StyleDriving> =
         run.record.driving.styles.iter().filter(|it| it.samples > 0).collect();
     if styles.is_empty() {
@@ -19,43 +19,54 @@ pub(super) fn section(run: &RunReport) -> Section {
     }
     styles.sort_by_key(|it| std::cmp::Reverse(it.samples));
     let drawn = &styles[..styles.len().min(MOST_STYLES)];
-    let of = |histogram: fn(&StyleDriving) -> &Histogram, labels: [&str; 2]| {
+    let of = |histogram: fn(&StyleDriving) -> &Histogram, upwards: Upwards, labels: [&str; 2]| {
+        let all: Vec<&Histogram> = drawn.iter().map(|it| histogram(it)).collect();
+        let trimmed: Vec<Histogram> = all.iter().map(|it| it.trimmed(&all)).collect();
+        let named = drawn.iter().zip(&trimmed);
         let all: Vec<Distributed> =
-            drawn.iter().map(|it| Distributed { name: &it.name, histogram: histogram(it) }).collect();
-        distribution(Sheet::Column, labels, &all)
+            named.map(|(it, histogram)| Distributed { name: &it.name, histogram }).collect();
+        distribution(Sheet::Column, labels, upwards, &all)
     };
     let sum = |count: fn(&StyleDriving) -> u64| drawn.iter().map(|it| count(it)).sum::<u64>();
-    let mut figures = Vec::new();
+    let mut figures = vec![Figure {
+        svg: of(|it| &it.speeds, Upwards::Linear, ["speed [km/h]", "share of samples [% per 5 km/h]"]),
+        title: "Speeds".into(),
+        caption: format!(
+            "Speeds of all vehicles on all roads of the map; those that stand are in the first bin. n = {} samples.",
+            counted(sum(|it| it.samples))
+        ),
+    }];
     if sum(|it| it.time_gaps.total()) > 0 {
         figures.push(Figure {
-            svg: of(|it| &it.time_gaps, ["time gap to the leader [s]", "share of samples [% per 0.25 s]"]),
+            svg: of(|it| &it.time_gaps, Upwards::Linear, ["time gap to the leader [s]", "share of samples [% per 0.25 s]"]),
             title: "Time gaps".into(),
             caption: format!(
                 "Net gap to the leader over the own speed, of vehicles faster than 2 m/s with a leader within 295 m. n = {} samples, \
                  {} of them beyond the axis.",
-                sum(|it| it.time_gaps.total()),
-                sum(|it| it.time_gaps.beyond())
+                counted(sum(|it| it.time_gaps.total())),
+                counted(sum(|it| it.time_gaps.beyond()))
             ),
         });
     }
     if sum(|it| it.times_to_collision.total()) > 0 {
         figures.push(Figure {
-            svg: of(|it| &it.times_to_collision, ["time to collision [s]", "share of closing samples [% per 0.5 s]"]),
+            svg: of(|it| &it.times_to_collision, Upwards::Linear, ["time to collision [s]", "share of closing samples [% per 0.5 s]"]),
             title: "Times to collision".into(),
             caption: format!(
                 "Gap over closing speed, of vehicles that close in on a leader within 295 m. n = {} samples, {} of them beyond the \
-                 axis, with all the time in the world.",
-                sum(|it| it.times_to_collision.total()),
-                sum(|it| it.times_to_collision.beyond())
+                 axis.",
+                counted(sum(|it| it.times_to_collision.total())),
+                counted(sum(|it| it.times_to_collision.beyond()))
             ),
         });
     }
     figures.push(Figure {
-        svg: of(|it| &it.accelerations, ["acceleration [m/s²]", "share of samples [% per 0.25 m/s²]"]),
+        svg: of(|it| &it.accelerations, Upwards::Logarithmic, ["acceleration [m/s²]", "share of samples [% per 0.25 m/s²]"]),
         title: "Accelerations".into(),
         caption: format!(
-            "Accelerations of all vehicles; negative ones brake, standing vehicles are those at 0. n = {} samples.",
-            sum(|it| it.samples)
+            "Accelerations of all vehicles, negative where they brake; those that stand are among those at 0. The axis upwards is \
+             logarithmic, so that hard braking is seen though it is rare. n = {} samples.",
+            counted(sum(|it| it.samples))
         ),
     });
     section

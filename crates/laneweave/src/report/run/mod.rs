@@ -9,6 +9,8 @@ mod problems;
 mod roads;
 mod trips;
 
+use std::path::Path;
+
 use super::Page;
 use crate::output::{Record, Summary};
 
@@ -35,7 +37,10 @@ impl RunReport<'_> {
              nothing depends on the machine.",
             env!("CARGO_PKG_VERSION")
         );
-        let page = Page::new(format!("Traffic on {}", self.about.map), lead).section(about::section(self));
+        let map = Path::new(&self.about.map)
+            .file_name()
+            .map_or(self.about.map.as_str().into(), |it| it.to_string_lossy());
+        let page = Page::new(format!("Traffic on {map}"), lead).section(about::section(self));
         let page = match self.summary {
             Some(summary) => page.section(numbers::section(self, summary)),
             None => page,

@@ -4,12 +4,16 @@ use laneweave_study::{Interval, poisson_interval};
 
 use super::RunReport;
 use crate::output::Summary;
-use crate::report::{Section, Tile, number, with_interval};
+use crate::report::{Section, Tile, counted, number, with_interval};
 use crate::units::KMH_PER_MPS;
 
 pub(super) fn section(run: &RunReport, summary: &Summary) -> Section {
     let tile = |value: String, name: &str, more: String| Tile { value, name: name.into(), more };
     let per_km = |count: u64| rate_per(count, summary.veh_km);
+    let within = |count: u64| {
+        let Interval { lower, upper } = poisson_interval(count);
+        format!("95 %: {} to {}", number(lower / summary.veh_km, 3), number(upper / summary.veh_km, 3))
+    };
     let speed = summary.mean_speed_mps.map_or("–".into(), |it| format!("{:.1} km/h", it * KMH_PER_MPS));
     let delay = run.record.trips.delay.estimate();
     let interval = delay.map_or(String::new(), |it| {
@@ -19,19 +23,24 @@ pub(super) fn section(run: &RunReport, summary: &Summary) -> Section {
     let Summary { entered, left, on_road, waiting, .. } = summary;
     let tiles = vec![
         tile(
-            per_km(summary.lane_changes),
-            "lane changes per veh-km",
-            format!("95 %; n = {} over {} veh-km", summary.lane_changes, number(summary.veh_km, 4)),
+            summary.lane_changes_per_veh_km.map_or("–".into(), |it| number(it, 3)),
+            "lane changes per veh\u{2011}km",
+            format!(
+                "{}; n = {}, {} veh\u{2011}km",
+                within(summary.lane_changes),
+                counted(summary.lane_changes),
+                number(summary.veh_km, 4)
+            ),
         ),
         tile(
-            summary.lane_changes_discretionary.to_string(),
+            counted(summary.lane_changes_discretionary),
             "discretionary changes",
-            per_km(summary.lane_changes_discretionary) + " per veh-km",
+            per_km(summary.lane_changes_discretionary) + " per veh\u{2011}km",
         ),
         tile(
-            summary.lane_changes_route.to_string(),
+            counted(summary.lane_changes_route),
             "changes for the route",
-            per_km(summary.lane_changes_route) + " per veh-km",
+            per_km(summary.lane_changes_route) + " per veh\u{2011}km",
         ),
         tile(speed, "mean speed", "way over time, all vehicles".into()),
         tile(
@@ -44,18 +53,22 @@ pub(super) fn section(run: &RunReport, summary: &Summary) -> Section {
             "mean time of a trip",
             summary.mean_stops.map_or(String::new(), |it| format!("with {it:.2} stops")),
         ),
-        tile(entered.to_string(), "vehicles entered", format!("= {left} left + {on_road} on the road")),
-        tile(waiting.to_string(), "wait at the entrances", "at the end".into()),
-        tile(summary.collisions.to_string(), "collisions", "a vehicle touches its leader".into()),
-        tile(summary.overlaps.to_string(), "overlaps", "of any two vehicles, seen once a second".into()),
         tile(
-            summary.emergency_brakings.to_string(),
+            counted(*entered),
+            "vehicles entered",
+            format!("= {} left + {} on the road", counted(*left), counted(*on_road)),
+        ),
+        tile(counted(*waiting), "wait at the entrances", "at the end".into()),
+        tile(counted(summary.collisions), "collisions", "a vehicle touches its leader".into()),
+        tile(counted(summary.overlaps), "overlaps", "of any two vehicles, seen once a second".into()),
+        tile(
+            counted(summary.emergency_brakings),
             "emergency brakings",
             "decided by kinematics, not by the model".into(),
         ),
-        tile(summary.stuck.to_string(), "vehicles stuck", "stood for 300 s".into()),
-        tile(summary.missed_turns.to_string(), "missed turns", "drivers who had to take another way".into()),
-        tile(summary.route_changes.to_string(), "routes left for a better one", "by choice".into()),
+        tile(counted(summary.stuck), "vehicles stuck", "stood for 300 s".into()),
+        tile(counted(summary.missed_turns), "missed turns", "drivers who had to take another way".into()),
+        tile(counted(summary.route_changes), "routes left for a better one", "by choice".into()),
     ];
     Section::new("numbers", "Key numbers").tiles(tiles).note(
         "Counts of lane changes are of crossings: the centre of the vehicle crosses the line. Their intervals are exact Poisson \

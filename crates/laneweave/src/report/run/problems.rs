@@ -4,7 +4,7 @@ use laneweave_maps::Problem;
 
 use super::RunReport;
 use crate::output::Summary;
-use crate::report::{Align, Section, Table};
+use crate::report::{Align, Section, Table, counted};
 
 /// Problems of the map that are listed.
 const MOST_PROBLEMS: usize = 15;
@@ -44,7 +44,7 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
             found.push((what, count, remedy));
         }
     };
-    let counted = [
+    let counts = [
         (
             summary.collisions,
             "Collisions",
@@ -76,8 +76,8 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
             "the entrances take less than the demand: see the queues above for what holds them, and lower the demand or mend that",
         ),
     ];
-    for (count, what, remedy) in counted {
-        note(count > 0, what, count.to_string(), remedy);
+    for (count, what, remedy) in counts {
+        note(count > 0, what, counted(count), remedy);
     }
     let demand_is_higher = summary.demand_veh_h > summary.entrance_capacity;
     let share = format!("{:.0} of {:.0} veh/h", summary.demand_veh_h, summary.entrance_capacity);
