@@ -96,17 +96,16 @@ impl Traces {
 
     fn sample(&mut self, world: &World) {
         let time_s = world.clock().time();
-        let mut before = std::mem::take(&mut self.current);
         let scene = world.scene();
         for (chain, from, offset) in self.road.pieces() {
             let entries = scene.motions(chain).iter().zip(scene.cars(chain));
             for (it, _) in entries.filter(|(it, car)| !car.is_shadow && it.x >= from) {
-                let mut trajectory = before.remove(&it.id).unwrap_or_default();
-                trajectory.push(Sample { time_s, position_m: offset + it.x, speed_mps: it.speed });
-                self.current.insert(it.id, trajectory);
+                let sample = Sample { time_s, position_m: offset + it.x, speed_mps: it.speed };
+                self.current.entry(it.id).or_default().push(sample);
             }
         }
-        self.past.extend(before.into_values());
+        let has_left = |samples: &Vec<Sample>| samples.last().is_none_or(|it| it.time_s < time_s);
+        self.past.extend(self.current.extract_if(.., |_, it| has_left(it)).map(|(_, samples)| samples));
     }
 
     /// All trajectories so far, those that are over first.

@@ -9,38 +9,41 @@ use crate::units::KMH_PER_MPS;
 
 pub(super) fn section(run: &RunReport, summary: &Summary) -> Section {
     let tile = |value: String, name: &str, more: String| Tile { value, name: name.into(), more };
-    let per_km = |count: u64| rate_per(count, summary.veh_km);
-    let within = |count: u64| {
-        let Interval { lower, upper } = poisson_interval(count);
-        format!("95 %: {} to {}", number(lower / summary.veh_km, 3), number(upper / summary.veh_km, 3))
+    let is_driven = summary.lane_changes_per_veh_km.is_some();
+    let per_km = |count: u64| rate_per(count, summary.veh_km) + " per veh\u{2011}km";
+    let if_driven = |text: String| if is_driven { text } else { "nobody drove".into() };
+    let within = {
+        let Interval { lower, upper } = poisson_interval(summary.lane_changes);
+        let [lower, upper] = [lower, upper].map(|it| number(it / summary.veh_km, 3));
+        let way = number(summary.veh_km, 4);
+        format!("95 %: {lower} to {upper}; n = {}, {way} veh\u{2011}km", counted(summary.lane_changes))
     };
     let speed = summary.mean_speed_mps.map_or("–".into(), |it| format!("{:.1} km/h", it * KMH_PER_MPS));
     let delay = run.record.trips.delay.estimate();
     let interval = delay.map_or(String::new(), |it| {
         let Interval { lower, upper } = it.interval();
-        format!("95 %: {} to {} s; n = {} trips", number(lower, 3), number(upper, 3), it.replications)
+        let trips = counted(it.replications as u64);
+        match it.half_width.is_finite() {
+            true => format!("95 %: {} to {} s; n = {trips} trips", number(lower, 3), number(upper, 3)),
+            false => format!("n = {trips} trip"),
+        }
     });
     let Summary { entered, left, on_road, waiting, .. } = summary;
     let tiles = vec![
         tile(
             summary.lane_changes_per_veh_km.map_or("–".into(), |it| number(it, 3)),
             "lane changes per veh\u{2011}km",
-            format!(
-                "{}; n = {}, {} veh\u{2011}km",
-                within(summary.lane_changes),
-                counted(summary.lane_changes),
-                number(summary.veh_km, 4)
-            ),
+            if_driven(within),
         ),
         tile(
             counted(summary.lane_changes_discretionary),
             "discretionary changes",
-            per_km(summary.lane_changes_discretionary) + " per veh\u{2011}km",
+            if_driven(per_km(summary.lane_changes_discretionary)),
         ),
         tile(
             counted(summary.lane_changes_route),
             "changes for the route",
-            per_km(summary.lane_changes_route) + " per veh\u{2011}km",
+            if_driven(per_km(summary.lane_changes_route)),
         ),
         tile(speed, "mean speed", "way over time, all vehicles".into()),
         tile(

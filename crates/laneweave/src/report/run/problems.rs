@@ -1,13 +1,15 @@
 //! What went wrong, or may mislead, with the remedy where there is one; and how things were measured.
 
+use std::collections::HashMap;
+
 use laneweave_maps::Problem;
 
 use super::RunReport;
 use crate::output::Summary;
 use crate::report::{Align, Section, Table, counted};
 
-/// Problems of the map that are listed.
-const MOST_PROBLEMS: usize = 15;
+/// Kinds of problems of the map that are listed.
+const MOST_KINDS: usize = 15;
 /// A run shorter than this has no complete box [s].
 const BOX: f64 = 60.0;
 
@@ -20,21 +22,38 @@ pub(super) fn section(run: &RunReport) -> Section {
             of_run.row([what.to_owned(), count, remedy.to_owned()]);
         }
     }
-    let problems = &run.about.problems;
-    let caption = match problems.len() {
-        0..=MOST_PROBLEMS => "Of the map: elements that could not be used as they stand.".into(),
+    let kinds = kinds(&run.about.problems);
+    let total = counted(run.about.problems.len() as u64);
+    let caption = match kinds.len() {
+        0..=MOST_KINDS => format!("Of the map: {total} elements that could not be used as they stand."),
         more => format!(
-            "Of the map: {MOST_PROBLEMS} of {more} elements that could not be used as they stand; laneweave check lists them all."
+            "Of the map: {total} elements that could not be used as they stand; {MOST_KINDS} of {more} kinds, laneweave check lists all."
         ),
     };
-    let mut of_map = Table::new(caption, &[("element", Words), ("what", Words), ("remedy", Words)]);
-    for Problem { element, line, what, remedy } in problems.iter().take(MOST_PROBLEMS) {
+    let mut of_map =
+        Table::new(caption, &[("what", Words), ("how many", Numbers), ("such as", Words), ("remedy", Words)]);
+    for (first, count) in kinds.into_iter().take(MOST_KINDS) {
+        let Problem { element, line, what, remedy } = first;
         let place = line.map_or(element.clone(), |line| format!("{element} (line {line})"));
-        of_map.row([place, what.clone(), remedy.clone()]);
+        of_map.row([what.clone(), counted(count), place, remedy.clone()]);
     }
     Section::new("problems", "Problems and remedies")
         .table_unless_empty(of_run, "The run had none.")
         .table_unless_empty(of_map, "The map has none that reading it found; laneweave check looks closer.")
+}
+
+/// The first problem of each kind, with their number, in the order in which they came up.
+fn kinds(problems: &[Problem]) -> Vec<(&Problem, u64)> {
+    let mut kinds: Vec<(&Problem, u64)> = Vec::new();
+    let mut places: HashMap<(&str, &str), usize> = HashMap::new();
+    for it in problems {
+        let place = *places.entry((&it.what, &it.remedy)).or_insert(kinds.len());
+        match kinds.get_mut(place) {
+            Some((_, count)) => *count += 1,
+            None => kinds.push((it, 1)),
+        }
+    }
+    kinds
 }
 
 fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String, &'static str)> {
@@ -80,7 +99,7 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
         note(count > 0, what, counted(count), remedy);
     }
     let demand_is_higher = summary.demand_veh_h > summary.entrance_capacity;
-    let share = format!("{:.0} of {:.0} veh/h", summary.demand_veh_h, summary.entrance_capacity);
+    let share = format!("{:.0} against {:.0} veh/h", summary.demand_veh_h, summary.entrance_capacity);
     note(
         demand_is_higher,
         "Demand above what the map bears by estimate",
@@ -126,4 +145,23 @@ pub(super) fn method() -> Section {
             "All counts are of the measured time after the warm-up. The same map, scenario, seed and version give the same report, bit \
              for bit, on any number of threads.",
         )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn problems_of_a_kind_are_one_row() {
+        let problem = |element: &str, what: &str| Problem {
+            element: element.into(),
+            line: None,
+            what: what.into(),
+            remedy: "mend it".into(),
+        };
+        let problems = [problem("a", "bent"), problem("b", "broken"), problem("c", "bent")];
+        let kinds: Vec<(&str, u64)> =
+            kinds(&problems).into_iter().map(|(it, count)| (it.element.as_str(), count)).collect();
+        assert_eq!(kinds, [("a", 2), ("b", 1)]);
+    }
 }
