@@ -17,8 +17,6 @@ use crate::output::Queues;
 pub struct Checkpoint {
     /// Hash of all that the run depends on.
     pub fingerprint: String,
-    /// The command line that began it.
-    pub command: String,
     /// Simulated time at which measuring began [s].
     pub measured_from_s: f64,
     /// Steps that were measured.
@@ -40,8 +38,6 @@ pub struct Keeper {
     pub every: u32,
     /// See [`Checkpoint::fingerprint`].
     pub fingerprint: String,
-    /// See [`Checkpoint::command`].
-    pub command: String,
 }
 
 /// The name of the file among the results.

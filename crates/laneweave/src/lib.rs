@@ -12,6 +12,7 @@ pub mod explain;
 mod fault;
 pub mod output;
 pub mod record;
+pub mod report;
 pub mod scenario;
 pub mod simulation;
 mod source;

@@ -43,12 +43,12 @@ pub struct End {
     pub warmup_s: f64,
 }
 
-/// Writes `scenario` into the folder of its results, `dir`, with its style files: run from there it is the same. Returns the path of the
-/// scenario.
+/// Writes `scenario` into the folder of its results, `dir`, with its style files and the `command` that gave it: run from there it is
+/// the same. Returns the text that was written.
 ///
 /// # Errors
 /// If a file cannot be read or written.
-pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<PathBuf, Fault> {
+pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> Result<String, Fault> {
     let styles = keep_styles(scenario, origin, dir)?;
     let map = match origin.built_in_map() {
         Some(text) => {
@@ -59,9 +59,9 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<PathBuf,
     };
     let kept = Scenario { map, styles, ..scenario.clone() };
     let toml = toml::to_string(&kept).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
-    let path = dir.join(SCENARIO);
-    write_whole(&path, &toml)?;
-    Ok(path)
+    let text = format!("# {command}\n\n{toml}");
+    write_whole(&dir.join(SCENARIO), &text)?;
+    Ok(text)
 }
 
 /// The styles of `scenario`, whose files are copied.

@@ -113,6 +113,13 @@ impl EdieGrid {
             return;
         }
         let first = begin.max(0.0) as usize;
+        if begin >= 0.0 && end <= (first + 1) as f64 && first < self.window.intervals {
+            // As nearly all do, it lies within one interval.
+            let totals = self.totals(section, first);
+            totals.time_s += duration_s;
+            totals.distance_m += distance_m;
+            return;
+        }
         let beyond = end.min(self.window.intervals as f64).ceil() as usize;
         for interval in first..beyond {
             let share = (end.min((interval + 1) as f64) - begin.max(interval as f64)) / (end - begin);

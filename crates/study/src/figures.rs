@@ -1,10 +1,22 @@
 //! Figures as SVG text: the same data give the same text, on every system.
 
 mod axes;
+mod bars;
+mod distribution;
 mod drawing;
+mod over_time;
 mod rate_density;
+mod scatter;
+mod series;
+mod sheet;
 mod time_space;
 
+pub use bars::{BarRow, bars};
+pub use distribution::{Distributed, Upwards, distribution};
 pub use drawing::{escaped, text_width};
+pub use over_time::{TimeLine, over_time};
 pub use rate_density::{RateSeries, rate_density};
+pub use scatter::{Scattered, scatter};
+pub use series::Estimated;
+pub use sheet::Sheet;
 pub use time_space::{Mark, Sample, time_space};

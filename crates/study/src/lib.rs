@@ -4,6 +4,7 @@
 
 mod edie;
 mod figures;
+mod histogram;
 mod rate;
 mod returning;
 mod signal;
@@ -11,9 +12,13 @@ mod statistics;
 mod table;
 
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
-pub use figures::{Mark, RateSeries, Sample, escaped, rate_density, text_width, time_space};
+pub use figures::{
+    BarRow, Distributed, Estimated, Mark, RateSeries, Sample, Scattered, Sheet, TimeLine, Upwards, bars,
+    distribution, escaped, over_time, rate_density, scatter, text_width, time_space,
+};
+pub use histogram::Histogram;
 pub use rate::{RatePoint, rate_by_density};
 pub use returning::{Attempt, returning_rate};
 pub use signal::{Signal, SignalQueue};
-pub use statistics::{Estimate, Interval, geh, mean, poisson_interval, required_replications};
+pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
 pub use table::{Cell, Cells, Column, Format, Kind, PartialFile, TableError, TableWriter};

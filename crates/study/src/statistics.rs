@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
+use serde::{Deserialize, Serialize};
+
 /// Probability that an interval holds the true value.
 const CONFIDENCE: f64 = 0.95;
 /// Two-sided quantile of the normal distribution at 95 %.
@@ -38,19 +40,48 @@ impl Estimate {
 
 /// The mean of one measure over independent `replications`; `None` without any.
 pub fn mean(replications: &[f64]) -> Option<Estimate> {
-    let n = replications.len();
-    if n == 0 {
-        return None;
+    let mut moments = Moments::default();
+    replications.iter().for_each(|it| moments.add(*it));
+    moments.estimate()
+}
+
+/// What is kept of values for their mean and spread (Welford, 1962).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Moments {
+    count: usize,
+    mean: f64,
+    /// Σ (x − mean)²
+    squares: f64,
+}
+
+impl Moments {
+    /// Adds a value.
+    pub fn add(&mut self, value: f64) {
+        self.count += 1;
+        let off = value - self.mean;
+        self.mean += off / self.count as f64;
+        self.squares += off * (value - self.mean);
     }
-    let mean = replications.iter().sum::<f64>() / n as f64;
-    if n == 1 {
-        let unknown = f64::INFINITY;
-        return Some(Estimate { replications: n, mean, standard_deviation: unknown, half_width: unknown });
+
+    /// The mean of what was added, if it is independent; `None` without any.
+    pub fn estimate(&self) -> Option<Estimate> {
+        let Moments { count: n, mean, squares } = *self;
+        if n == 0 {
+            return None;
+        }
+        if n == 1 {
+            let unknown = f64::INFINITY;
+            return Some(Estimate {
+                replications: n,
+                mean,
+                standard_deviation: unknown,
+                half_width: unknown,
+            });
+        }
+        let standard_deviation = (squares / (n - 1) as f64).sqrt();
+        let half_width = student_quantile(n - 1) * standard_deviation / (n as f64).sqrt();
+        Some(Estimate { replications: n, mean, standard_deviation, half_width })
     }
-    let squares: f64 = replications.iter().map(|it| (it - mean) * (it - mean)).sum();
-    let standard_deviation = (squares / (n - 1) as f64).sqrt();
-    let half_width = student_quantile(n - 1) * standard_deviation / (n as f64).sqrt();
-    Some(Estimate { replications: n, mean, standard_deviation, half_width })
 }
 
 /// Replications needed so that the mean's 95 % interval is ± `relative_error` of the mean, for a measure whose

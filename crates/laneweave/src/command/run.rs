@@ -12,7 +12,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
-use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
+use laneweave::output::{Inputs, Provenance, Summary, command_line, observers, write_whole};
 use laneweave::record;
 use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
 use laneweave::simulation::simulate;
@@ -187,15 +187,16 @@ pub(crate) fn run(
     started: Instant,
 ) -> Result<(), Fault> {
     let prepared = prepare(scenario, origin)?;
-    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
-    let provenance = Provenance::of(scenario, record::fingerprint(scenario, origin)?, arguments)?;
+    let fingerprint = record::fingerprint(scenario, origin)?;
     let dir = &scenario.output.dir;
     fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made the folder of the results", &error))?;
     // What a former run left is no part of this one.
     for name in [SUMMARY, record::SCENARIO, checkpoint::FILE, checkpoint::LOG] {
         checkpoint::remove(&dir.join(name))?;
     }
-    record::keep(scenario, origin, dir)?;
+    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
+    let kept = record::keep(scenario, origin, dir, &command_line(arguments))?;
+    let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
     drive(scenario, prepared, provenance, None, screen, started)
 }
 
@@ -223,15 +224,9 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
         return Err(Fault::new(dir.display(), what, "run it again from the beginning"));
     }
     let prepared = prepare(&scenario, &origin)?;
-    let provenance = match &kept {
-        Some(kept) => {
-            Provenance { command: kept.command.clone(), ..Provenance::of(&scenario, fingerprint, [])? }
-        }
-        None => {
-            let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
-            Provenance::of(&scenario, fingerprint, arguments)?
-        }
-    };
+    let path = dir.join(record::SCENARIO);
+    let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
+    let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
     checkpoint::remove(&dir.join(SUMMARY))?;
     drive(&scenario, prepared, provenance, kept, screen, started)
 }
@@ -271,7 +266,6 @@ fn drive(
         path: dir.join(checkpoint::FILE),
         every,
         fingerprint: provenance.fingerprint.clone(),
-        command: provenance.command.clone(),
     });
     let stop = stop_by_keyboard()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
@@ -288,13 +282,14 @@ fn drive(
         || load_s = started.elapsed().as_secs_f64(),
     )?;
     progress.clear();
-    let mut files = vec![dir.join(record::SCENARIO)];
-    for observer in observers {
-        files.extend(observer.finish(&prepared.world)?);
-    }
     let wall_s = started.elapsed().as_secs_f64();
     let summary =
         Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s, provenance: &provenance });
+    let mut files = vec![dir.join(record::SCENARIO)];
+    for observer in observers {
+        files.extend(observer.finish(&prepared.world, &summary)?);
+    }
+    let summary = summary.after(started.elapsed().as_secs_f64());
     let json = serde_json::to_string_pretty(&summary)
         .map_err(|error| Fault::new(SUMMARY, error, "report this as a bug"))?
         + "\n";

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use laneweave_models::change::Appraisal;
 use laneweave_sim::{Act, Event, Phase, Spot, World};
 
 use super::words::reason;
@@ -45,7 +44,7 @@ impl Commonest {
             {
                 let style = &world.characters()[change.character as usize];
                 let names = style.change.row_names();
-                let row = leading(&change.appraisal).map(|row| names[row]).filter(|it| !it.is_empty());
+                let row = change.appraisal.leading().map(|row| names[row]).filter(|it| !it.is_empty());
                 let key = (style.name.clone(), row.unwrap_or("nothing").to_string());
                 *self.changes.entry(key).or_default() += 1;
             }
@@ -79,11 +78,4 @@ impl Commonest {
 
 fn percent(part: u64, all: u64) -> f64 {
     if all == 0 { 0.0 } else { 100.0 * part as f64 / all as f64 }
-}
-
-/// The row that spoke most for a change, if any did.
-fn leading(appraisal: &Appraisal) -> Option<usize> {
-    let products = appraisal.rows.iter().map(|it| it.weight * it.earning).enumerate();
-    let best = products.max_by(|a, b| a.1.total_cmp(&b.1));
-    best.filter(|(_, product)| *product > 0.0).map(|(row, _)| row)
 }

@@ -127,10 +127,8 @@ fn leading(account: &Account, side: Side) -> String {
         return String::new();
     };
     let names = account.change.row_names();
-    let rows = wanted.appraisal.rows.iter().enumerate();
-    let best = rows.max_by(|a, b| product(a.1).total_cmp(&product(b.1)));
-    match best {
-        Some((index, row)) if product(row) > 0.0 && !names[index].is_empty() => {
+    match wanted.appraisal.leading() {
+        Some(index) if !names[index].is_empty() => {
             let speeds = [wanted.situation.here.prospect, wanted.situation.there.prospect];
             let [here, there] = speeds.map(|it| it * KMH_PER_MPS);
             let seen = if names[index] == "speed" {
@@ -138,7 +136,7 @@ fn leading(account: &Account, side: Side) -> String {
             } else {
                 String::new()
             };
-            format!("most for it is {} ({:.3}{seen})", names[index], product(row))
+            format!("most for it is {} ({:.3}{seen})", names[index], product(&wanted.appraisal.rows[index]))
         }
         _ => "by chance, without a reason".into(),
     }

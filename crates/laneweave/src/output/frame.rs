@@ -12,9 +12,9 @@ use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
 use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_between};
 use serde::{Deserialize, Serialize};
 
-use super::Observer;
 use super::names::Names;
 use super::scribe::{Page, Pen, THREADS};
+use super::{Observer, Summary};
 use crate::fault::Fault;
 
 /// Vehicles in a page, or a few more: those of one instant are not parted. As many as fill a group of rows of the table.
@@ -194,7 +194,7 @@ impl Observer for Samples {
         if self.frame.seen.len() >= PAGE { self.hand_over(world) } else { Ok(()) }
     }
 
-    fn finish(mut self: Box<Self>, world: &World) -> Result<Vec<PathBuf>, Fault> {
+    fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         self.hand_over(world)?;
         Ok(Vec::new())
     }

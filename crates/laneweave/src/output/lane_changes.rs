@@ -7,9 +7,9 @@ use laneweave_network::{Point, Side};
 use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter};
 
-use super::Observer;
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
+use super::{Observer, Summary};
 use crate::fault::Fault;
 
 /// Columns before those of the incentives.
@@ -92,7 +92,7 @@ impl Observer for LaneChanges {
         self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))
     }
 
-    fn finish(self: Box<Self>, _world: &World) -> Result<Vec<PathBuf>, Fault> {
+    fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         self.pen.hand_over(Page::LaneChanges(self.ended))?;
         Ok(Vec::new())
     }

@@ -9,7 +9,7 @@ use laneweave_study::{Column, TableWriter};
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
 use super::traffic::Traffic;
-use super::{Folder, Observer};
+use super::{Folder, Observer, Summary};
 use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 
@@ -62,7 +62,7 @@ impl Observer for Lanelets {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>, _world: &World) -> Result<Vec<PathBuf>, Fault> {
+    fn finish(mut self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         self.past.add(&self.interval);
         self.pen.hand_over(Page::Lanelets(self.past))?;
         Ok(Vec::new())

@@ -1,21 +1,25 @@
-//! What a run leaves behind: tables, figures and a summary, each made by an observer that reads the world and never
-//! writes it.
+//! What a run leaves behind: tables, figures, a report and a summary, each made by an observer that reads the world and
+//! never writes it.
 
+mod boxes;
+mod driving;
 mod frame;
-mod lane_change_rate;
 mod lane_changes;
 mod lanelets;
 mod log;
 mod names;
 mod provenance;
 mod queues;
+mod reasons;
+mod report;
 mod road;
 mod scribe;
 mod summary;
 mod sumo;
-mod time_space;
+mod traces;
 mod traffic;
 mod trajectories;
+mod trip_times;
 mod trips;
 
 use std::fs;
@@ -26,22 +30,27 @@ use laneweave_sim::World;
 use laneweave_study::{Column, Format, TableError, TableWriter};
 
 use self::frame::Samples;
-use self::lane_change_rate::LaneChangeRate;
 use self::lane_changes::{LaneChangeTable, LaneChanges};
 use self::lanelets::{FlowTable, LaneletTable, Lanelets};
 use self::names::Names;
+use self::report::Report;
 use self::scribe::{Scribe, Writer};
 use self::sumo::{Fcd, LaneChangeOutput, TripInfo};
-use self::time_space::TimeSpace;
 use self::trajectories::Trajectories;
 use self::trips::{TripTable, Trips};
 use crate::checkpoint;
 use crate::fault::Fault;
 use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
 
-pub use provenance::Provenance;
+pub use boxes::Boxes;
+pub use driving::{Driving, StyleDriving};
+pub use provenance::{Provenance, command_line};
 pub use queues::{HeldFor, Queue, Queues};
+pub use reasons::Reasons;
+pub use report::Record;
 pub use summary::{Inputs, Summary};
+pub use traces::Traces;
+pub use trip_times::{Crowd, TripTimes};
 
 /// Something that watches a run and leaves files.
 pub trait Observer {
@@ -63,11 +72,11 @@ pub trait Observer {
     /// If it is not what it kept.
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault>;
 
-    /// Completes its files, and names them.
+    /// Completes its files after a run that amounts to `summary`, and names them.
     ///
     /// # Errors
     /// If a file cannot be written.
-    fn finish(self: Box<Self>, world: &World) -> Result<Vec<PathBuf>, Fault>;
+    fn finish(self: Box<Self>, world: &World, summary: &Summary) -> Result<Vec<PathBuf>, Fault>;
 }
 
 /// The observers of `scenario`; makes the folder of its results. The last of them completes what the others began, and finishes
@@ -83,8 +92,7 @@ pub fn observers(
     let folder = Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
     folder.make()?;
     let world = &prepared.world;
-    let [begin, duration] =
-        [prepared.warmup_steps, prepared.steps].map(|it| f64::from(it) * scenario.run.step_s);
+    let begin = f64::from(prepared.warmup_steps) * scenario.run.step_s;
     let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
     let log = prepared.checkpoint_steps.map(|_| folder.file(checkpoint::LOG));
     let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
@@ -97,8 +105,7 @@ pub fn observers(
     observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
     observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
     observers.push(Box::new(Trips::new(pen)));
-    observers.push(Box::new(LaneChangeRate::new(folder.dir, world, begin, duration)));
-    observers.push(Box::new(TimeSpace::new(folder.dir, world, &prepared.origins, begin, duration)));
+    observers.push(Box::new(Report::new(&folder, scenario, prepared)));
     observers.push(Box::new(scribe));
     Ok(observers)
 }

@@ -2,9 +2,6 @@
 
 use serde::Serialize;
 
-use crate::fault::Fault;
-use crate::scenario::Scenario;
-
 /// What was run, so that a file can be made again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Provenance {
@@ -16,31 +13,22 @@ pub struct Provenance {
     pub seed: u64,
     /// Hash of all that the run depends on.
     pub fingerprint: String,
-    /// The scenario with all defaults and options, as TOML.
+    /// The scenario with all defaults and options, as TOML, as it was kept with the results.
     pub scenario: String,
 }
 
 impl Provenance {
-    /// Of `scenario`, as `arguments` of the command line made it, with its [fingerprint](crate::record::fingerprint).
-    ///
-    /// # Errors
-    /// If the scenario cannot be written as TOML, which is a bug.
-    pub fn of(
-        scenario: &Scenario,
-        fingerprint: String,
-        arguments: impl IntoIterator<Item = String>,
-    ) -> Result<Provenance, Fault> {
-        let command: Vec<String> =
-            ["laneweave".into()].into_iter().chain(arguments.into_iter().map(quoted)).collect();
-        let toml = toml::to_string(scenario)
-            .map_err(|error| Fault::new("the scenario", error, "report this as a bug"))?;
-        Ok(Provenance {
+    /// Of the run whose scenario was [kept](crate::record::keep) as `scenario`, with its seed and its
+    /// [fingerprint](crate::record::fingerprint).
+    pub fn of(scenario: String, seed: u64, fingerprint: String) -> Provenance {
+        let command = scenario.lines().next().and_then(|it| it.strip_prefix("# ")).unwrap_or_default();
+        Provenance {
             version: env!("CARGO_PKG_VERSION").into(),
-            command: command.join(" "),
-            seed: scenario.run.seed,
+            command: command.into(),
+            seed,
             fingerprint,
-            scenario: toml,
-        })
+            scenario,
+        }
     }
 
     /// Keys and values for the files.
@@ -53,6 +41,12 @@ impl Provenance {
             ("laneweave.scenario", scenario.clone()),
         ]
     }
+}
+
+/// The command line with these arguments, on one line, as a shell takes it.
+pub fn command_line(arguments: impl IntoIterator<Item = String>) -> String {
+    let words = ["laneweave".into()].into_iter().chain(arguments.into_iter().map(quoted));
+    words.collect::<Vec<String>>().join(" ").replace(char::is_control, " ")
 }
 
 /// An argument as a shell takes it for one.
@@ -69,13 +63,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_command_can_be_given_to_a_shell_and_the_scenario_read_again() {
-        let mut scenario = Scenario::of_map("my maps/a.osm".into());
-        scenario.run.seed = 7;
-        let arguments = ["run", "my maps/a.osm", "--seed", "7", "--out", "it's"].map(String::from);
-        let provenance = Provenance::of(&scenario, String::new(), arguments).unwrap();
-        assert_eq!(provenance.command, "laneweave run 'my maps/a.osm' --seed 7 --out 'it'\\''s'");
-        assert_eq!(provenance.seed, 7);
-        assert_eq!(toml::from_str(&provenance.scenario), Ok(scenario));
+    fn the_command_can_be_given_to_a_shell_and_is_one_line() {
+        let arguments = ["run", "my maps/a.osm", "--seed", "7", "--out", "it's\nhere"].map(String::from);
+        let command = command_line(arguments);
+        assert_eq!(command, "laneweave run 'my maps/a.osm' --seed 7 --out 'it'\\''s here'");
+        let provenance = Provenance::of(format!("# {command}\n\nmap = \"a.osm\"\n"), 7, String::new());
+        assert_eq!((provenance.command, provenance.seed), (command, 7));
     }
 }

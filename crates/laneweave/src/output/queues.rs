@@ -57,6 +57,15 @@ impl HeldFor {
         }
     }
 
+    /// The reasons in words with their shares of the time, the longest first.
+    pub fn to_text(&self) -> String {
+        let reasons = self.reasons();
+        let total: f64 = reasons.iter().map(|(_, time)| time).sum();
+        let shares: Vec<String> =
+            reasons.iter().map(|(what, time)| format!("{what} {:.0} %", 100.0 * time / total)).collect();
+        shares.join(", ")
+    }
+
     /// The reasons in words with their times, the longest first.
     fn reasons(&self) -> Vec<(&'static str, f64)> {
         let HeldFor { traffic, queue, red_light, priority, room, full_map } = *self;
@@ -127,10 +136,6 @@ impl Queue {
         } else {
             format!("lanelet {lanelet} of entrance {entrance}")
         };
-        let reasons = held_s.reasons();
-        let total: f64 = reasons.iter().map(|(_, time)| time).sum();
-        let shares: Vec<String> =
-            reasons.iter().map(|(what, time)| format!("{what} {:.0} %", 100.0 * time / total)).collect();
-        format!("{waiting} at {place}; held by: {}", shares.join(", "))
+        format!("{waiting} at {place}; held by: {}", held_s.to_text())
     }
 }

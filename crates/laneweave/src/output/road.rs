@@ -1,6 +1,7 @@
 //! A network seen lengthwise: lanes side by side share their sections, and one lane after the other makes a road.
 
 use laneweave_network::{ChainIndex, Network, Side};
+use serde::{Deserialize, Serialize};
 
 /// Length of a section, about [m].
 const SECTION: f64 = 500.0;
@@ -8,10 +9,12 @@ const SECTION: f64 = 500.0;
 const LEAST_LANE: f64 = 200.0;
 
 /// A network cut across into sections, each with all its parallel lanes.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Sections {
     /// Length of all lanes of each section together [m].
     pub(super) lane_lengths: Vec<f64>,
+    /// Mean speed limit on them [m/s].
+    pub(super) limits: Vec<f64>,
     /// For each chain its place along its carriageway.
     places: Vec<Place>,
     /// For each carriageway its cells.
@@ -19,7 +22,7 @@ pub(super) struct Sections {
 }
 
 /// Where a chain lies along its carriageway.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Place {
     carriageway: usize,
     /// Where it begins [m].
@@ -27,7 +30,7 @@ struct Place {
 }
 
 /// Chains that are joined by lane changes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Carriageway {
     from: f64,
     to: f64,
@@ -49,26 +52,31 @@ impl Carriageway {
 impl Sections {
     pub(super) fn of(network: &Network) -> Sections {
         let (places, mut carriageways) = lay_out(network);
-        let mut lane_lengths = Vec::new();
+        let (mut lane_lengths, mut limits) = (Vec::new(), Vec::new());
         for (index, carriageway) in carriageways.iter_mut().enumerate() {
-            let mut lengths = vec![0.0; carriageway.sections.len()];
+            // Of each cell the length of its lanes, and over them the sum of the limits.
+            let mut lengths = vec![[0.0; 2]; carriageway.sections.len()];
             for (place, chain) in places.iter().zip(&network.chains).filter(|(it, _)| it.carriageway == index)
             {
-                for (cell, length) in lengths.iter_mut().enumerate() {
+                for (cell, [length, limits]) in lengths.iter_mut().enumerate() {
                     let begin = carriageway.from + cell as f64 * carriageway.cell_length();
                     let end = begin + carriageway.cell_length();
-                    let overlap = end.min(place.offset + chain.length) - begin.max(place.offset);
-                    *length += overlap.max(0.0);
+                    let [from, to] = [begin.max(place.offset), end.min(place.offset + chain.length)];
+                    if from < to {
+                        *length += to - from;
+                        *limits += (to - from) * chain.limit(0.5 * (from + to) - place.offset);
+                    }
                 }
             }
-            for (section, length) in carriageway.sections.iter_mut().zip(lengths) {
+            for (section, [length, limit]) in carriageway.sections.iter_mut().zip(lengths) {
                 if length >= LEAST_LANE {
                     *section = Some(lane_lengths.len());
                     lane_lengths.push(length);
+                    limits.push(limit / length);
                 }
             }
         }
-        Sections { lane_lengths, places, carriageways }
+        Sections { lane_lengths, limits, places, carriageways }
     }
 
     /// The section at `x` [m] of `chain`, if it is not left out.
@@ -113,13 +121,13 @@ fn lay_out(network: &Network) -> (Vec<Place>, Vec<Carriageway>) {
 }
 
 /// One lane after the other, as somebody drives who changes lanes only where a lane ends.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Road {
     pieces: Vec<Piece>,
 }
 
 /// A chain of a road, from one station to another.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Piece {
     chain: ChainIndex,
     from: f64,
@@ -143,6 +151,16 @@ impl Road {
     /// Its chains, each with the station from which it belongs to the road, and the position there of station 0 [m].
     pub(super) fn pieces(&self) -> impl Iterator<Item = (ChainIndex, f64, f64)> + '_ {
         self.pieces.iter().map(|it| (it.chain, it.from, it.offset))
+    }
+
+    /// Its length [m].
+    pub(super) fn length(&self, network: &Network) -> f64 {
+        self.pieces.last().map_or(0.0, |it| it.offset + network.chain(it.chain).length)
+    }
+
+    /// Whether a chain belongs to both.
+    pub(super) fn meets(&self, other: &Road) -> bool {
+        self.pieces.iter().any(|it| other.pieces.iter().any(|other| other.chain == it.chain))
     }
 
     /// The position along the road of `x` [m] on `chain`, if that belongs to it.
@@ -182,6 +200,8 @@ mod tests {
         let network = network(&Motorway { lanes: 3, length_m: 3000.0, ..Motorway::default() });
         let sections = Sections::of(&network);
         assert_eq!(sections.lane_lengths, [1500.0; 6]);
+        let limit = network.chains[0].limit(0.0);
+        assert!(sections.limits.iter().all(|it| (it - limit).abs() < 1e-9), "{:?}", sections.limits);
         let of = |x: f64| (0..3).map(|i| sections.at(ChainIndex(i), x)).collect::<Vec<_>>();
         assert_eq!(of(499.0), [Some(0); 3]);
         assert_eq!(of(501.0), [Some(1); 3]);
@@ -217,5 +237,7 @@ mod tests {
         let other = network.chain(drop).beside(Side::Left, 999.0).unwrap().chain;
         assert_eq!(road.position(other, 999.0), None);
         assert_eq!(road.position(other, 2000.0), Some(2000.0));
+        assert!((road.length(&network) - 3000.0).abs() < 1e-6);
+        assert!(road.meets(&Road::from(&network, other, 1e5)));
     }
 }

@@ -12,12 +12,12 @@ use std::thread::{self, JoinHandle};
 use laneweave_sim::{LaneChange, World};
 use serde::{Deserialize, Serialize};
 
-use super::Observer;
 use super::frame::Frame;
 use super::log::{PageLog, pages};
 use super::names::Names;
 use super::traffic::Traffic;
 use super::trips::Trip;
+use super::{Observer, Summary};
 use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 
@@ -159,7 +159,7 @@ impl Observer for Scribe {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>, _world: &World) -> Result<Vec<PathBuf>, Fault> {
+    fn finish(mut self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         let ended = self.pen.hand_over(Page::End);
         let files = Scribe::join(std::mem::take(&mut self.threads));
         ended.and(files)

@@ -167,6 +167,15 @@ impl Summary {
         }
     }
 
+    /// The same summary after so much wall time of the process [s].
+    #[must_use]
+    pub fn after(mut self, wall_s: f64) -> Summary {
+        self.wall_s = wall_s;
+        self.updates_per_s = ratio(self.updates as f64, wall_s - self.load_s).unwrap_or(0.0);
+        self.peak_rss_mb = peak_rss_mb();
+        self
+    }
+
     /// The summary for the screen, with the files that the run left.
     pub fn to_text(&self, styles: &[(String, f64)], files: &[PathBuf]) -> String {
         let mut text = String::new();

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
-use super::{Folder, Observer};
+use super::{Folder, Observer, Summary};
 use crate::fault::Fault;
 
 /// A trip that ended, or goes on when the run ends.
@@ -90,7 +90,7 @@ impl Observer for Trips {
     }
 
     /// Those on the road come last, in the order of their ids.
-    fn finish(mut self: Box<Self>, world: &World) -> Result<Vec<PathBuf>, Fault> {
+    fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         let on_road = world.vehicles().filter_map(|vehicle| {
             let mut record = *world.trip(vehicle.id())?;
             record.stood += f64::from(vehicle.car.standing);

@@ -19,6 +19,8 @@ mod program;
 #[cfg(test)]
 mod remarks;
 #[cfg(test)]
+mod report;
+#[cfg(test)]
 mod resume;
 #[cfg(test)]
 mod run;

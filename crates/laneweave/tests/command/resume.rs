@@ -10,7 +10,7 @@ use crate::program::{Folder, maps};
 const RUN: &str =
     "MAPS/ramps.osm --demand 5000 --duration 500 --warmup 20 --checkpoint 20 --format csv --flows 100";
 /// The files that are compared to the last byte.
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
     "trajectories.csv",
     "lane_changes.csv",
     "trips.csv",
@@ -18,6 +18,7 @@ const FILES: [&str; 8] = [
     "flows.csv",
     "lane_change_rate.svg",
     "time_space.svg",
+    "report.html",
     "scenario.toml",
 ];
 
@@ -74,7 +75,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         let has_ended = out.join("summary.json").exists();
         window = window.mul_f64(if has_ended { 0.85 } else { 1.02 });
         // What has its name is whole.
-        for file in &FILES[..7] {
+        for file in &FILES[..8] {
             if out.join(file).exists() {
                 assert_eq!(read(&folder, file), read(&undisturbed, file), "{file} after kill {number}");
             }

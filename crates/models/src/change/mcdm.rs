@@ -83,6 +83,14 @@ pub struct Appraisal {
     pub theta: f64,
 }
 
+impl Appraisal {
+    /// The place of the row that speaks most for the change, the one with the largest μY, if any is above 0; of equal ones the first.
+    pub fn leading(&self) -> Option<usize> {
+        let products = self.rows.iter().map(|it| it.weight * it.earning).enumerate();
+        products.filter(|(_, it)| *it > 0.0).reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(row, _)| row)
+    }
+}
+
 impl Mcdm {
     /// The incentives, in the order of the rows.
     pub const NAMES: [&str; INCENTIVES] = ["speed", "route", "comfort", "courtesy", "urgency"];

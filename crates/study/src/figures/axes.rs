@@ -1,50 +1,90 @@
-//! Linear axes with round ticks.
-
-/// Ticks aimed at along an axis.
-const TICKS: f64 = 10.0;
+//! Axes with round ticks.
 
 /// A range of values with its round steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     /// What it shows, with its unit.
-    pub(super) label: &'static str,
+    pub(super) label: String,
     /// First value.
     pub(super) from: f64,
     /// Last value.
     pub(super) to: f64,
-    /// Distance of its ticks.
-    pub(super) step: f64,
+    /// How its ticks follow on each other.
+    pub(super) ticks: Ticks,
+}
+
+/// How the ticks of an axis follow on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ticks {
+    /// At equal distances in value.
+    Every(f64),
+    /// At the powers of ten, at equal distances on the page.
+    Decades,
 }
 
 impl Axis {
-    /// From `low` to `high`; the ticks lie within.
-    pub(super) fn spanning(label: &'static str, low: f64, high: f64) -> Axis {
+    /// From `low` to `high` with at most so many steps; the ticks lie within.
+    pub(super) fn spanning(label: &str, low: f64, high: f64, steps: f64) -> Axis {
         let is_range = low.is_finite() && high.is_finite() && low < high;
         let (from, to) = if is_range { (low, high) } else { (0.0, 1.0) };
-        Axis { label, from, to, step: round_step((to - from) / TICKS) }
+        Axis { label: label.into(), from, to, ticks: Ticks::Every(round_step((to - from) / steps)) }
     }
 
-    /// From zero to the first tick at or beyond `high`.
-    pub(super) fn from_zero(label: &'static str, high: f64) -> Axis {
-        let tight = Axis::spanning(label, 0.0, high);
-        let steps = (tight.to / tight.step - 1e-9).ceil();
-        Axis { to: steps * tight.step, ..tight }
+    /// From zero to the first tick at or beyond `high`, with at most so many steps up to there.
+    pub(super) fn from_zero(label: &str, high: f64, steps: f64) -> Axis {
+        let tight = Axis::spanning(label, 0.0, high, steps);
+        let step = tight.step();
+        Axis { to: (tight.to / step - 1e-9).ceil() * step, ..tight }
+    }
+
+    /// From the power of ten at or below `low` to that at or above `high`.
+    pub(super) fn decades(label: &str, low: f64, high: f64) -> Axis {
+        let is_range = low > 0.0 && high.is_finite() && low <= high;
+        let [low, high] = if is_range { [low, high].map(libm::log10) } else { [0.0, 1.0] };
+        let first = (low + 1e-9).floor();
+        let last = (high - 1e-9).ceil().max(first + 1.0);
+        let [from, to] = [first, last].map(|it| libm::pow(10.0, it));
+        Axis { label: label.into(), from, to, ticks: Ticks::Decades }
+    }
+
+    /// Distance of ticks that are equally far from each other; of decades the whole.
+    pub(super) fn step(&self) -> f64 {
+        match self.ticks {
+            Ticks::Every(step) => step,
+            Ticks::Decades => self.to - self.from,
+        }
     }
 
     /// Where `value` lies between the ends: 0 to 1.
     pub(super) fn share(&self, value: f64) -> f64 {
-        (value - self.from) / (self.to - self.from)
+        match self.ticks {
+            Ticks::Every(_) => (value - self.from) / (self.to - self.from),
+            // What is below stands at the end.
+            Ticks::Decades if value <= self.from => 0.0,
+            Ticks::Decades => libm::log10(value / self.from) / libm::log10(self.to / self.from),
+        }
     }
 
     /// The round values along the axis, each with its text.
-    pub(super) fn ticks(&self) -> impl Iterator<Item = (f64, String)> + '_ {
-        let first = (self.from / self.step - 1e-9).ceil() as i64;
-        let last = (self.to / self.step + 1e-9).floor() as i64;
-        let decimals = (-libm::log10(self.step) - 1e-9).ceil().max(0.0) as usize;
-        (first..=last).map(move |tick| {
-            let value = tick as f64 * self.step;
+    pub(super) fn ticks(&self) -> Vec<(f64, String)> {
+        let shown = |value: f64, unit: f64| {
+            let decimals = (-libm::log10(unit) - 1e-9).ceil().max(0.0) as usize;
             (value, format!("{value:.decimals$}"))
-        })
+        };
+        let between = |unit: f64, from: f64, to: f64| {
+            ((from / unit - 1e-9).ceil() as i64, (to / unit + 1e-9).floor() as i64)
+        };
+        match self.ticks {
+            Ticks::Every(step) => {
+                let (first, last) = between(step, self.from, self.to);
+                (first..=last).map(|tick| shown(tick as f64 * step, step)).collect()
+            }
+            Ticks::Decades => {
+                let (first, last) = between(1.0, libm::log10(self.from), libm::log10(self.to));
+                let powers = (first..=last).map(|tick| libm::pow(10.0, tick as f64));
+                powers.map(|it| shown(it, it)).collect()
+            }
+        }
     }
 }
 
@@ -60,7 +100,7 @@ mod tests {
     use super::*;
 
     fn texts(axis: &Axis) -> Vec<String> {
-        axis.ticks().map(|(_, text)| text).collect()
+        axis.ticks().into_iter().map(|(_, text)| text).collect()
     }
 
     #[test]
@@ -71,22 +111,32 @@ mod tests {
 
     #[test]
     fn an_axis_from_zero_ends_at_a_tick() {
-        let axis = Axis::from_zero("density [veh/km]", 43.0);
+        let axis = Axis::from_zero("density [veh/km]", 43.0, 10.0);
         assert_eq!((axis.from, axis.to), (0.0, 45.0));
         assert_eq!(texts(&axis), ["0", "5", "10", "15", "20", "25", "30", "35", "40", "45"]);
     }
 
     #[test]
     fn a_spanning_axis_ends_with_the_data_and_has_its_ticks_within() {
-        let axis = Axis::spanning("position [km]", 0.13, 1.37);
+        let axis = Axis::spanning("position [km]", 0.13, 1.37, 10.0);
         assert_eq!((axis.share(0.13), axis.share(1.37)), (0.0, 1.0));
         assert_eq!(texts(&axis), ["0.2", "0.4", "0.6", "0.8", "1.0", "1.2"]);
     }
 
     #[test]
+    fn decades_are_equally_high() {
+        let axis = Axis::decades("share [%]", 0.02, 43.0);
+        assert_eq!(texts(&axis), ["0.01", "0.1", "1", "10", "100"]);
+        assert!((axis.share(1.0) - 0.5).abs() < 1e-12);
+        assert_eq!((axis.share(0.0), axis.share(0.001)), (0.0, 0.0));
+        assert_eq!(texts(&Axis::decades("", 0.0, 0.0)), ["1", "10"]);
+        assert_eq!(texts(&Axis::decades("", 10.0, 10.0)), ["10", "100"]);
+    }
+
+    #[test]
     fn an_axis_without_data_goes_from_zero_to_one() {
         for (low, high) in [(f64::INFINITY, f64::NEG_INFINITY), (3.0, 3.0), (f64::NAN, 1.0)] {
-            let axis = Axis::spanning("time [s]", low, high);
+            let axis = Axis::spanning("time [s]", low, high, 10.0);
             assert_eq!((axis.from, axis.to), (0.0, 1.0));
         }
     }

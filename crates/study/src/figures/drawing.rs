@@ -1,21 +1,23 @@
-//! An SVG page with a title, a frame, a grid and labelled axes.
+//! An SVG page with a title, a frame, a grid, labelled axes and a legend.
+//!
+//! Colours stand in the elements, for a file of its own; classes beside them let the style sheet of a document have its
+//! own way with the same elements: `sheet`, `grid`, `frame`, and those of the parts that figures add.
 
 use super::axes::Axis;
+use super::sheet::{Layout, Sheet};
 
-/// Edges of the plot [px].
-pub(super) const LEFT: f64 = 84.0;
-pub(super) const TOP: f64 = 56.0;
-pub(super) const RIGHT: f64 = 804.0;
-pub(super) const BOTTOM: f64 = 496.0;
-/// Height of the page [px].
-const HEIGHT: f64 = 560.0;
-
+/// Size of a title [px].
 const TITLE_SIZE: f64 = 18.0;
-const TEXT_SIZE: f64 = 14.0;
 /// From the middle of a text to its base line, in text sizes.
 const MIDDLE_TO_BASE: f64 = 0.35;
 /// Width of a character, in text sizes: an upper estimate of the mean.
 const CHARACTER_WIDTH: f64 = 0.62;
+/// Right margin of a column [px].
+const MARGIN: f64 = 14.0;
+/// Line pitch of a legend beside and above the plot, room of a mark, and between two entries above it [px].
+const PITCH: [f64; 2] = [24.0, 19.0];
+const MARK: f64 = 18.0;
+const BETWEEN: f64 = 16.0;
 
 /// Where a text stands relative to its point.
 #[derive(Clone, Copy)]
@@ -25,70 +27,149 @@ pub(super) enum Anchor {
     End,
 }
 
+/// An entry of a legend: a mark around (0, 0) as SVG, and what it stands for.
+pub(super) struct Key {
+    pub(super) mark: String,
+    pub(super) text: String,
+}
+
+/// What stands around a plot.
+#[derive(Default)]
+pub(super) struct Around<'a> {
+    /// The title; a column has none.
+    pub(super) title: &'a str,
+    /// The legend.
+    pub(super) keys: Vec<Key>,
+    /// Room for more to the right of the plot [px].
+    pub(super) right: f64,
+    /// Width of names to the left of the plot, in place of numbers [px].
+    pub(super) names: Option<f64>,
+    /// Height of the plot, where it is not the usual one [px].
+    pub(super) height: Option<f64>,
+}
+
+/// Edges of a plot [px].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Plot {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+impl Plot {
+    /// Horizontal place of a value [px].
+    pub(super) fn across(&self, axis: &Axis, value: f64) -> f64 {
+        self.left + axis.share(value) * (self.right - self.left)
+    }
+
+    /// Vertical place of a value [px].
+    pub(super) fn down(&self, axis: &Axis, value: f64) -> f64 {
+        self.bottom - axis.share(value) * (self.bottom - self.top)
+    }
+}
+
 /// A page under construction.
 pub(super) struct Drawing {
+    pub(super) plot: Plot,
+    layout: Layout,
     svg: String,
 }
 
 /// Width that a text of the usual size needs in a figure, about [px].
 pub fn text_width(text: &str) -> f64 {
-    text.chars().count() as f64 * CHARACTER_WIDTH * TEXT_SIZE
+    width(text, Sheet::Page.layout().text)
 }
 
-/// Horizontal place of a value on the page [px].
-pub(super) fn across(axis: &Axis, value: f64) -> f64 {
-    LEFT + axis.share(value) * (RIGHT - LEFT)
-}
-
-/// Vertical place of a value on the page [px].
-pub(super) fn down(axis: &Axis, value: f64) -> f64 {
-    BOTTOM - axis.share(value) * (BOTTOM - TOP)
+fn width(text: &str, size: f64) -> f64 {
+    text.chars().count() as f64 * CHARACTER_WIDTH * size
 }
 
 impl Drawing {
-    /// A page with its title, and `margin` [px] to the right of the plot.
-    pub(super) fn new(title: &str, margin: f64) -> Drawing {
-        let width = RIGHT + margin;
+    pub(super) fn new(sheet: Sheet, around: Around) -> Drawing {
+        let layout = sheet.layout();
+        let Around { title, keys, right, names, height } = around;
+        let left = names.map_or(layout.left, |it| it + layout.upright + 2.0 * MARGIN);
+        let whole = layout.left + layout.plot[0];
+        let (width, right, places) = match sheet {
+            Sheet::Page => {
+                let edge = left + layout.plot[0];
+                let longest = keys.iter().map(|it| text_width(&it.text) + 60.0).fold(0.0, f64::max);
+                (edge + right.max(longest), edge, beside(edge, &keys, layout))
+            }
+            Sheet::Column => (whole + MARGIN, whole - right, above(whole, &keys, layout)),
+        };
+        let lines = match (sheet, places.last()) {
+            (Sheet::Column, Some(last)) => last[1],
+            _ => 0.0,
+        };
+        let top = layout.top + lines;
+        let bottom = top + height.unwrap_or(layout.plot[1]);
+        let (height, size) = (bottom + layout.foot, layout.text);
+        // Within HTML an SVG element needs no namespace.
+        let namespace = match sheet {
+            Sheet::Page => " xmlns=\"http://www.w3.org/2000/svg\"",
+            Sheet::Column => " role=\"img\"",
+        };
         let mut page = Drawing {
+            plot: Plot { left, top, right, bottom },
+            layout,
             svg: format!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {HEIGHT}\" width=\"{width:.0}\" \
-                 height=\"{HEIGHT}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{TEXT_SIZE}\">\n\
-                 <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+                "<svg{namespace} viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
+                 font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{size}\">\n\
+                 <rect width=\"100%\" height=\"100%\" fill=\"white\" class=\"sheet\"/>\n"
             ),
         };
-        // A long title is set smaller rather than cut off.
-        let characters = title.chars().count().max(1) as f64;
-        let size = TITLE_SIZE.min((RIGHT + margin - LEFT) / (characters * CHARACTER_WIDTH));
-        let text = escaped(title);
-        page.add(&format!("<text x=\"{LEFT}\" y=\"34\" font-size=\"{size:.1}\">{text}</text>"));
+        if sheet == Sheet::Page {
+            // A long title is set smaller rather than cut off.
+            let characters = title.chars().count().max(1) as f64;
+            let size = TITLE_SIZE.min((width - left) / (characters * CHARACTER_WIDTH));
+            let text = escaped(title);
+            page.add(&format!("<text x=\"{left}\" y=\"34\" font-size=\"{size:.1}\">{text}</text>"));
+        }
+        for (Key { mark, text }, [x, y]) in keys.iter().zip(places) {
+            page.add(&format!("<g transform=\"translate({x:.1} {y:.1})\">{mark}</g>"));
+            page.text(x + MARK, y, Anchor::Start, text);
+        }
         page
     }
 
     /// Grid, frame, ticks and labels of both axes.
     pub(super) fn axes(&mut self, x: &Axis, y: &Axis) {
+        let Plot { left, right, .. } = self.plot;
         let mut grid = String::new();
-        for (value, _) in x.ticks() {
-            grid += &format!("M{:.1} {TOP}V{BOTTOM}", across(x, value));
-        }
         for (value, _) in y.ticks() {
-            grid += &format!("M{LEFT} {:.1}H{RIGHT}", down(y, value));
+            grid += &format!("M{left} {:.1}H{right}", self.plot.down(y, value));
         }
-        self.add(&format!("<path d=\"{grid}\" stroke=\"#e2e2e2\" fill=\"none\"/>"));
-        for (value, text) in x.ticks() {
-            self.text(across(x, value), BOTTOM + 18.0, Anchor::Middle, &text);
-        }
+        self.across_only(x, grid);
         for (value, text) in y.ticks() {
-            self.text(LEFT - 8.0, down(y, value), Anchor::End, &text);
+            let at = self.plot.down(y, value);
+            self.text(left - 8.0, at, Anchor::End, &text);
         }
-        self.text((LEFT + RIGHT) / 2.0, BOTTOM + 44.0, Anchor::Middle, x.label);
-        self.upright_text(24.0, y.label);
+        self.upright_text(self.layout.upright, &y.label);
+    }
+
+    /// Grid, ticks and label of the axis across, and more of a grid.
+    pub(super) fn across_only(&mut self, x: &Axis, mut grid: String) {
+        let Plot { left, top, right, bottom } = self.plot;
+        for (value, _) in x.ticks() {
+            grid += &format!("M{:.1} {top}V{bottom}", self.plot.across(x, value));
+        }
+        self.add(&format!("<path d=\"{grid}\" stroke=\"#e2e2e2\" fill=\"none\" class=\"grid\"/>"));
+        let [ticks, label] = self.layout.below;
+        for (value, text) in x.ticks() {
+            self.text(self.plot.across(x, value), bottom + ticks, Anchor::Middle, &text);
+        }
+        self.text((left + right) / 2.0, bottom + label, Anchor::Middle, &x.label);
     }
 
     /// The frame, to be drawn over the data.
     pub(super) fn frame(&mut self) {
-        let (width, height) = (RIGHT - LEFT, BOTTOM - TOP);
+        let Plot { left, top, right, bottom } = self.plot;
+        let (width, height) = (right - left, bottom - top);
         self.add(&format!(
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#404040\"/>"
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#404040\" \
+             class=\"frame\"/>"
         ));
     }
 
@@ -99,13 +180,13 @@ impl Drawing {
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (y, text) = (y + MIDDLE_TO_BASE * TEXT_SIZE, escaped(text));
+        let (y, text) = (y + MIDDLE_TO_BASE * self.layout.text, escaped(text));
         self.add(&format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>"));
     }
 
     /// A text that reads upwards, in the middle of the plot's height.
     pub(super) fn upright_text(&mut self, x: f64, text: &str) {
-        let (y, text) = ((TOP + BOTTOM) / 2.0, escaped(text));
+        let (y, text) = ((self.plot.top + self.plot.bottom) / 2.0, escaped(text));
         self.add(&format!(
             "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\">{text}</text>"
         ));
@@ -122,6 +203,27 @@ impl Drawing {
         self.svg += "</svg>\n";
         self.svg
     }
+}
+
+/// Places of the marks of a legend to the right of a plot's edge, one below the other.
+fn beside(edge: f64, keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
+    (0..keys.len()).map(|it| [edge + 24.0, layout.top + PITCH[0] * (it as f64 + 0.5)]).collect()
+}
+
+/// Places of the marks of a legend above a plot, from its usual left edge on in lines that end at `edge`.
+fn above(edge: f64, keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
+    let first = layout.left + 0.5 * MARK;
+    let (mut x, mut y) = (first, 0.5 * PITCH[1] + 4.0);
+    let place = |key: &Key| {
+        let needed = MARK + width(&key.text, layout.text);
+        if x > first && x + needed > edge {
+            (x, y) = (first, y + PITCH[1]);
+        }
+        let here = [x, y];
+        x += needed + BETWEEN;
+        here
+    };
+    keys.iter().map(place).collect()
 }
 
 /// Text as XML holds it; control characters, which it cannot hold, become spaces.
@@ -143,16 +245,32 @@ pub fn escaped(text: &str) -> String {
 mod tests {
     use super::*;
 
+    fn key(text: &str) -> Key {
+        Key { mark: String::new(), text: text.into() }
+    }
+
     #[test]
     fn no_title_breaks_the_markup() {
-        let svg = Drawing::new("a < b & \u{0}c > d", 20.0).finish();
+        let around = Around { title: "a < b & \u{0}c > d", right: 20.0, ..Around::default() };
+        let svg = Drawing::new(Sheet::Page, around).finish();
         assert!(svg.contains(">a &lt; b &amp;  c &gt; d</text>"));
     }
 
     #[test]
     fn the_corners_of_the_plot_are_the_ends_of_the_axes() {
-        let axis = Axis::spanning("time [s]", 100.0, 200.0);
-        assert_eq!((across(&axis, 100.0), across(&axis, 200.0)), (LEFT, RIGHT));
-        assert_eq!((down(&axis, 100.0), down(&axis, 200.0)), (BOTTOM, TOP));
+        let axis = Axis::spanning("time [s]", 100.0, 200.0, 10.0);
+        let plot = Drawing::new(Sheet::Page, Around::default()).plot;
+        assert_eq!((plot.across(&axis, 100.0), plot.across(&axis, 200.0)), (84.0, 804.0));
+        assert_eq!((plot.down(&axis, 100.0), plot.down(&axis, 200.0)), (496.0, 56.0));
+    }
+
+    #[test]
+    fn a_column_has_its_legend_above_the_plot_in_as_many_lines_as_it_needs() {
+        let plot = |keys: Vec<Key>| Drawing::new(Sheet::Column, Around { keys, ..Around::default() }).plot;
+        assert_eq!(plot(vec![]), Plot { left: 62.0, top: 14.0, right: 466.0, bottom: 244.0 });
+        // Two entries of 18 + 161 px fit beside each other, a third does not.
+        let twenty = || key("twenty characters so");
+        assert_eq!(plot(vec![twenty(), twenty()]).top, 27.5);
+        assert_eq!(plot(vec![twenty(), twenty(), twenty()]).top, 46.5);
     }
 }

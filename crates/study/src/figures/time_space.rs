@@ -1,8 +1,10 @@
 //! Time–space diagram: trajectories coloured by speed, lane changes marked.
 
-use super::axes::Axis;
-use super::drawing::{Anchor, BOTTOM, Drawing, LEFT, RIGHT, TOP, across, down, text_width};
 use serde::{Deserialize, Serialize};
+
+use super::axes::Axis;
+use super::drawing::{Anchor, Around, Drawing, Key, Plot, text_width};
+use super::sheet::Sheet;
 
 const METRES_PER_KM: f64 = 1000.0;
 const KMH_PER_MPS: f64 = 3.6;
@@ -12,9 +14,13 @@ const UNITS_PER_PX: f64 = 10.0;
 const TOLERANCE: f64 = 0.3;
 /// Half the size of the cross that marks a lane change [px].
 const CROSS: f64 = 2.5;
-/// Edges of the colour bar [px].
-const BAR_LEFT: f64 = RIGHT + 24.0;
-const BAR_WIDTH: f64 = 18.0;
+/// The colour bar: room for it, from the plot to it, its width, and from the plot to its label [px].
+const BARS: [Bar; 2] = [
+    Bar { room: 112.0, gap: 24.0, width: 18.0, label: 98.0 },
+    Bar { room: 66.0, gap: 10.0, width: 12.0, label: 63.0 },
+];
+/// What a cross stands for.
+const KEY: &str = "lane change";
 /// Colours from standstill to the highest speed.
 const RAMP: [[f64; 3]; 5] = [
     [140.0, 0.0, 26.0],
@@ -23,6 +29,14 @@ const RAMP: [[f64; 3]; 5] = [
     [66.0, 152.0, 128.0],
     [36.0, 70.0, 150.0],
 ];
+
+/// Where a colour bar stands.
+struct Bar {
+    room: f64,
+    gap: f64,
+    width: f64,
+    label: f64,
+}
 
 /// A vehicle at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,32 +67,50 @@ pub struct Mark {
 /// Draws `trajectories`, each the samples of one vehicle in order of time, coloured by speed [km/h], and a cross at
 /// each of the `changes` that lies within their time and road. What a vehicle that leaves the lane and comes back
 /// does there are two trajectories. Samples that are not finite are left out.
-pub fn time_space(title: &str, trajectories: &[Vec<Sample>], changes: &[Mark]) -> String {
-    let samples = || trajectories.iter().flatten().filter(|it| it.is_finite());
+pub fn time_space(
+    sheet: Sheet,
+    title: &str,
+    trajectories: &[impl AsRef<[Sample]>],
+    changes: &[Mark],
+) -> String {
+    let samples = || trajectories.iter().flat_map(AsRef::as_ref).filter(|it| it.is_finite());
     let (from_s, to_s) = range(samples().map(|it| it.time_s));
     let (from_km, to_km) = range(samples().map(|it| it.position_m / METRES_PER_KM));
-    let x = Axis::spanning("time [s]", from_s, to_s);
-    let y = Axis::spanning("position [km]", from_km, to_km);
+    let [across, upwards] = sheet.layout().steps;
+    let x = Axis::spanning("time [s]", from_s, to_s, across);
+    let y = Axis::spanning("position [km]", from_km, to_km, upwards);
     let fastest = samples().map(|it| it.speed_mps * KMH_PER_MPS).fold(0.0, f64::max);
-    let speeds = Axis::from_zero("speed [km/h]", fastest);
+    let speeds = Axis::from_zero("speed [km/h]", fastest, 10.0);
+    let is_inside = |it: &&Mark| {
+        let within = |axis: &Axis, value: f64| (0.0..=1.0).contains(&axis.share(value));
+        within(&x, it.time_s) && within(&y, it.position_m / METRES_PER_KM)
+    };
+    let changes: Vec<&Mark> = changes.iter().filter(is_inside).collect();
 
-    let mut drawing = Drawing::new(title, 112.0);
+    let bar = &BARS[usize::from(sheet == Sheet::Column)];
+    let has_key = sheet == Sheet::Column && !changes.is_empty();
+    let keys =
+        if has_key { vec![Key { mark: crosses_of(&cross(0.0, 0.0)), text: KEY.into() }] } else { vec![] };
+    let mut drawing = Drawing::new(sheet, Around { title, keys, right: bar.room, ..Around::default() });
+    let plot = drawing.plot;
     drawing.axes(&x, &y);
     // Fast vehicles first, so that a jam lies on top.
-    for (class, path) in paths(trajectories, &x, &y, &speeds).iter().enumerate().rev() {
+    for (class, path) in paths(trajectories, &plot, [&x, &y, &speeds]).iter().enumerate().rev() {
         if !path.is_empty() {
-            drawing.add(&in_units(path, &colour(class, classes(&speeds)), 0.9));
+            drawing.add(&in_units(path, &colour(class, classes(&speeds)), 0.9, "speed"));
         }
     }
-    let crosses = crosses(changes, &x, &y);
+    let place = |it: &&Mark| cross(plot.across(&x, it.time_s), plot.down(&y, it.position_m / METRES_PER_KM));
+    let crosses: String = changes.iter().map(place).collect();
     if !crosses.is_empty() {
-        drawing.add(&in_units(&crosses, "black", 1.2));
-        let text = "lane change";
-        drawing.add(&in_units(&cross(RIGHT - text_width(text) - 8.0, TOP - 12.0), "black", 1.2));
-        drawing.text(RIGHT, TOP - 12.0, Anchor::End, text);
+        drawing.add(&crosses_of(&crosses));
+        if sheet == Sheet::Page {
+            drawing.add(&crosses_of(&cross(plot.right - text_width(KEY) - 8.0, plot.top - 12.0)));
+            drawing.text(plot.right, plot.top - 12.0, Anchor::End, KEY);
+        }
     }
     drawing.frame();
-    colour_bar(&mut drawing, &speeds);
+    colour_bar(&mut drawing, &speeds, bar);
     drawing.finish()
 }
 
@@ -88,7 +120,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// Number of speed classes: one between any two ticks of the colour bar.
 fn classes(speeds: &Axis) -> usize {
-    (speeds.to / speeds.step).round() as usize
+    (speeds.to / speeds.step()).round() as usize
 }
 
 /// Mixed from the ramp's neighbouring colours.
@@ -101,16 +133,16 @@ fn colour(class: usize, classes: usize) -> String {
 }
 
 /// One path for each class of speed, of all that was driven in it.
-fn paths(trajectories: &[Vec<Sample>], x: &Axis, y: &Axis, speeds: &Axis) -> Vec<String> {
+fn paths(trajectories: &[impl AsRef<[Sample]>], plot: &Plot, [x, y, speeds]: [&Axis; 3]) -> Vec<String> {
     let mut paths = vec![String::new(); classes(speeds)];
     let last = paths.len() - 1;
-    for trajectory in trajectories {
+    for trajectory in trajectories.iter().map(AsRef::as_ref) {
         let samples: Vec<&Sample> = trajectory.iter().filter(|it| it.is_finite()).collect();
         let class = |pair: &[&Sample]| {
             let speed = 0.5 * (pair[0].speed_mps + pair[1].speed_mps) * KMH_PER_MPS;
-            ((speed / speeds.step) as usize).min(last)
+            ((speed / speeds.step()) as usize).min(last)
         };
-        let point = |it: &Sample| (across(x, it.time_s), down(y, it.position_m / METRES_PER_KM));
+        let point = |it: &Sample| (plot.across(x, it.time_s), plot.down(y, it.position_m / METRES_PER_KM));
         let mut begin = 0;
         while begin + 1 < samples.len() {
             let here = class(&samples[begin..begin + 2]);
@@ -162,10 +194,9 @@ fn append(path: &mut String, line: &[(f64, f64)]) {
     }
 }
 
-fn crosses(changes: &[Mark], x: &Axis, y: &Axis) -> String {
-    let place = |it: &Mark| (across(x, it.time_s), down(y, it.position_m / METRES_PER_KM));
-    let is_inside = |(x, y): &(f64, f64)| (LEFT..=RIGHT).contains(x) && (TOP..=BOTTOM).contains(y);
-    changes.iter().map(place).filter(is_inside).map(|(x, y)| cross(x, y)).collect()
+/// Crosses as they look.
+fn crosses_of(path: &str) -> String {
+    in_units(path, "black", 1.2, "mark")
 }
 
 /// A cross around (x, y) [px], in units.
@@ -177,28 +208,31 @@ fn cross(x: f64, y: f64) -> String {
 }
 
 /// A path of whole units, `width` [px] wide.
-fn in_units(path: &str, colour: &str, width: f64) -> String {
+fn in_units(path: &str, colour: &str, width: f64, class: &str) -> String {
     format!(
         "<path transform=\"scale({})\" d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{:.0}\" \
-         stroke-linejoin=\"round\"/>",
+         stroke-linejoin=\"round\" class=\"{class}\"/>",
         1.0 / UNITS_PER_PX,
         width * UNITS_PER_PX
     )
 }
 
-fn colour_bar(drawing: &mut Drawing, speeds: &Axis) {
+fn colour_bar(drawing: &mut Drawing, speeds: &Axis, bar: &Bar) {
+    let Plot { top, right, bottom, .. } = drawing.plot;
     let classes = classes(speeds);
-    let height = (BOTTOM - TOP) / classes as f64;
+    let (left, width, height) = (right + bar.gap, bar.width, (bottom - top) / classes as f64);
     for class in 0..classes {
-        let (y, fill) = (BOTTOM - (class + 1) as f64 * height, colour(class, classes));
+        let (y, fill) = (bottom - (class + 1) as f64 * height, colour(class, classes));
         drawing.add(&format!(
-            "<rect x=\"{BAR_LEFT}\" y=\"{y:.1}\" width=\"{BAR_WIDTH}\" height=\"{height:.1}\" fill=\"{fill}\"/>"
+            "<rect x=\"{left}\" y=\"{y:.1}\" width=\"{width}\" height=\"{height:.1}\" fill=\"{fill}\" \
+             class=\"speed\"/>"
         ));
     }
     for (speed, text) in speeds.ticks() {
-        drawing.text(BAR_LEFT + BAR_WIDTH + 6.0, down(speeds, speed), Anchor::Start, &text);
+        let at = drawing.plot.down(speeds, speed);
+        drawing.text(left + width + 6.0, at, Anchor::Start, &text);
     }
-    drawing.upright_text(RIGHT + 98.0, speeds.label);
+    drawing.upright_text(right + bar.label, &speeds.label);
 }
 
 #[cfg(test)]
@@ -214,7 +248,7 @@ mod tests {
     #[test]
     fn a_steady_drive_is_one_straight_line() {
         // From corner to corner: (84, 496) px to (804, 56) px.
-        let svg = time_space("", &[cruise(0.0, 100, 20.0)], &[]);
+        let svg = time_space(Sheet::Page, "", &[cruise(0.0, 100, 20.0)], &[]);
         assert!(svg.contains("d=\"M840 4960l7200-4400\""), "{svg}");
     }
 
@@ -222,7 +256,7 @@ mod tests {
     fn a_vehicle_that_slows_down_changes_its_colour_without_a_gap() {
         let sample = |(time_s, position_m, speed_mps)| Sample { time_s, position_m, speed_mps };
         let halt = [(0.0, 0.0, 30.0), (10.0, 300.0, 30.0), (11.0, 315.0, 0.0), (20.0, 315.0, 0.0)];
-        let svg = time_space("", &[halt.map(sample).to_vec()], &[]);
+        let svg = time_space(Sheet::Page, "", &[halt.map(sample).to_vec()], &[]);
         let lines: Vec<&str> = svg.lines().filter(|it| it.contains("scale(0.1)")).collect();
         assert_eq!(lines.len(), 3);
         assert!(lines[0].contains("M840 4960l3600-4190") && lines[0].contains("#244696"), "{}", lines[0]);
@@ -232,7 +266,7 @@ mod tests {
 
     #[test]
     fn every_axis_and_the_colour_bar_name_their_unit() {
-        let svg = time_space("lane 3", &[cruise(0.0, 100, 20.0)], &[]);
+        let svg = time_space(Sheet::Page, "lane 3", &[cruise(0.0, 100, 20.0)], &[]);
         for text in ["lane 3", "time [s]", "position [km]", "speed [km/h]"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
@@ -241,8 +275,8 @@ mod tests {
     #[test]
     fn changes_are_marked_inside_the_diagram_only() {
         let mark = |time_s| Mark { time_s, position_m: 1000.0 };
-        let without = time_space("", &[cruise(0.0, 100, 20.0)], &[mark(101.0)]);
-        let with = time_space("", &[cruise(0.0, 100, 20.0)], &[mark(101.0), mark(50.0)]);
+        let without = time_space(Sheet::Page, "", &[cruise(0.0, 100, 20.0)], &[mark(101.0)]);
+        let with = time_space(Sheet::Page, "", &[cruise(0.0, 100, 20.0)], &[mark(101.0), mark(50.0)]);
         assert!(!without.contains("lane change"));
         assert!(with.contains("lane change") && with.contains("M4415 2735l50 50M4415 2785l50-50"), "{with}");
     }
@@ -260,14 +294,17 @@ mod tests {
             (0..300).map(sample).collect()
         };
         let trajectories: Vec<Vec<Sample>> = (0..3000).map(drive).collect();
-        let bytes = time_space("", &trajectories, &[]).len();
+        let bytes = time_space(Sheet::Page, "", &trajectories, &[]).len();
         assert!((100_000..3_000_000).contains(&bytes), "{bytes}");
     }
 
     #[test]
     fn nothing_to_draw_is_an_empty_diagram() {
         let nowhere = Sample { time_s: f64::NAN, position_m: 0.0, speed_mps: 0.0 };
-        assert_eq!(time_space("", &[vec![nowhere]], &[]), time_space("", &[], &[]));
+        assert_eq!(
+            time_space(Sheet::Page, "", &[vec![nowhere]], &[]),
+            time_space(Sheet::Page, "", &[Vec::new()], &[])
+        );
     }
 
     proptest! {

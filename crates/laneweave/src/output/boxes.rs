@@ -1,0 +1,86 @@
+//! Traffic in boxes of about 500 m of road and a minute, by Edie's definitions, with the lane changes in them.
+
+use laneweave_sim::{Event, Kind, World};
+use laneweave_study::{EdieGrid, EdieRow, RateSeries, Window, rate_by_density};
+use serde::{Deserialize, Serialize};
+
+use super::road::Sections;
+
+/// Duration of a box [s].
+const INTERVAL: f64 = 60.0;
+/// Time between two looks at the traffic [s].
+const SAMPLING: f64 = 1.0;
+/// Width of a class of density [veh/km].
+const BIN: f64 = 2.0;
+
+/// Collects densities, flows and lane changes.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Boxes {
+    sections: Sections,
+    window: Window,
+    grid: Option<EdieGrid>,
+    /// Section, time and kind of each change.
+    changes: Vec<(usize, f64, Kind)>,
+}
+
+impl Boxes {
+    /// Over `duration` [s] from the time `begin` [s] on.
+    pub fn new(world: &World, begin: f64, duration: f64) -> Boxes {
+        let sections = Sections::of(world.network());
+        let intervals = ((duration / INTERVAL) as usize).max(1);
+        let window = Window { from_s: begin, interval_s: INTERVAL.min(duration), intervals };
+        // No section at all, or a duration of nothing, is a figure without points.
+        let grid = EdieGrid::new(sections.lane_lengths.clone(), window).ok();
+        Boxes { sections, window, grid, changes: Vec::new() }
+    }
+
+    /// Looks at the world after a step.
+    pub fn observe(&mut self, world: &World) {
+        for event in world.events() {
+            if let Event::LaneChange(change) = event
+                && change.is_completed
+                && let Some(section) = self.sections.at(change.from.0, change.from.1)
+            {
+                self.changes.push((section, change.time, change.kind));
+            }
+        }
+        let clock = world.clock();
+        if let Some(grid) = &mut self.grid
+            && clock.step.is_multiple_of(clock.steps(SAMPLING))
+        {
+            let duration = f64::from(clock.steps(SAMPLING)) * clock.dt;
+            for vehicle in world.vehicles() {
+                if let Some(section) = self.sections.at(vehicle.spot.chain, vehicle.x()) {
+                    grid.add(section, clock.time() - duration, duration, vehicle.speed() * duration);
+                }
+            }
+        }
+    }
+
+    /// The boxes that were over by `end` [s].
+    pub fn rows(&self, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
+        complete(self.grid.as_ref(), self.window, end)
+    }
+
+    /// Mean speed limit in a section [m/s].
+    pub fn limit(&self, section: usize) -> f64 {
+        self.sections.limits[section]
+    }
+
+    /// A curve of the changes that are `chosen`, from the boxes that were over by `end` [s].
+    pub fn series(&self, name: &str, end: f64, chosen: impl Fn(Kind) -> bool) -> RateSeries {
+        let mut grid = self.grid.clone();
+        for (section, time, _) in self.changes.iter().filter(|(_, _, kind)| chosen(*kind)) {
+            if let Some(grid) = &mut grid {
+                grid.change(*section, *time);
+            }
+        }
+        let points = rate_by_density(complete(grid.as_ref(), self.window, end), BIN);
+        RateSeries { name: name.into(), points }
+    }
+}
+
+fn complete(grid: Option<&EdieGrid>, window: Window, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
+    let rows = grid.into_iter().flat_map(|it| it.rows());
+    rows.filter(move |row| row.from_s + window.interval_s <= end + 1e-6)
+}

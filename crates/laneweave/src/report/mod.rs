@@ -1,0 +1,13 @@
+//! Reports as single HTML files: parts of a page that any report is made of, and the report of a run.
+//!
+//! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the page.
+
+mod numbers;
+mod page;
+mod run;
+mod table;
+
+pub use numbers::{counted, number, percent, with_interval};
+pub use page::{Figure, Page, Section, Tile};
+pub use run::{About, RunReport};
+pub use table::{Align, Table};

@@ -1,0 +1,135 @@
+//! What ran.
+
+use laneweave_maps::Problem;
+use laneweave_network::Network;
+
+use super::RunReport;
+use crate::check::Remark;
+use crate::output::Provenance;
+use crate::report::{Section, number, percent};
+use crate::scenario::{Law, Prepared, Scenario};
+use crate::units::{KMH_PER_MPS, METRES_PER_KM};
+
+/// What ran: plain data, kept from the begin of a run for its report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct About {
+    /// The name of the map's file.
+    pub map: String,
+    /// Number of lanelets, length of all lanes [km], least and greatest speed limit [km/h].
+    pub roads: (usize, f64, [f64; 2]),
+    /// Whose speed limits hold where the map gives none.
+    pub law: Law,
+    /// Where the results come from.
+    pub provenance: Provenance,
+    /// Names and weights of the styles.
+    pub styles: Vec<(String, f64)>,
+    /// Names and shares of the classes of vehicles that there are.
+    pub classes: Vec<(&'static str, f64)>,
+    /// Demand over all origins [veh/h], and their number.
+    pub demand: (f64, usize),
+    /// The largest demand that the map bears [veh/h], and what is full then.
+    pub capacity: (f64, Option<String>),
+    /// Length of a step, of the warm-up, of the time to be measured [s].
+    pub times: [f64; 3],
+    /// What in the map could not be used as it stands.
+    pub problems: Vec<Problem>,
+    /// What in the map makes traffic look odd.
+    pub remarks: Vec<Remark>,
+}
+
+impl About {
+    /// What is about to run.
+    pub fn of(scenario: &Scenario, prepared: &Prepared, provenance: &Provenance) -> About {
+        let shares = prepared.world.demand().fleet.shares();
+        let classes = shares.into_iter().filter(|(_, share)| *share > 0.0);
+        About {
+            map: scenario.map.file_name().map_or(String::new(), |it| it.to_string_lossy().into_owned()),
+            roads: roads(prepared.world.network()),
+            law: scenario.map_options.law,
+            provenance: provenance.clone(),
+            styles: prepared.styles.clone(),
+            classes: classes.map(|(class, share)| (class.body().name, share)).collect(),
+            demand: (prepared.demand_veh_h, prepared.origins.len()),
+            capacity: (prepared.capacity.veh_h, prepared.capacity.bottleneck.map(|it| it.to_string())),
+            times: [scenario.run.step_s, scenario.run.warmup_s, scenario.run.duration_s],
+            problems: prepared.problems.clone(),
+            remarks: prepared.remarks.clone(),
+        }
+    }
+}
+
+fn roads(network: &Network) -> (usize, f64, [f64; 2]) {
+    let lanelets = &network.lanelets;
+    let limits = || lanelets.iter().map(|it| it.speed_limit * KMH_PER_MPS);
+    let range = [limits().fold(f64::INFINITY, f64::min), limits().fold(0.0, f64::max)];
+    (lanelets.len(), lanelets.iter().map(|it| it.length()).sum::<f64>() / METRES_PER_KM, range)
+}
+
+pub(super) fn section(run: &RunReport) -> Section {
+    let About { map, roads, law, provenance, styles, classes, demand, capacity, times, .. } = run.about;
+    let (lanelets, lane_km, [slowest, fastest]) = roads;
+    let law = match law {
+        Law::Germany => "Germany",
+        Law::Usa => "the USA",
+    };
+    let limits = if (slowest.round(), fastest.round()) == (fastest.round(), slowest.round()) {
+        format!("speed limit {slowest:.0} km/h")
+    } else {
+        format!("speed limits {slowest:.0} to {fastest:.0} km/h")
+    };
+    let total: f64 = styles.iter().map(|(_, weight)| weight).sum();
+    let shared = |(name, weight): &(String, f64)| format!("{name} {}", percent(weight / total));
+    let (rate, origins) = demand;
+    let (bears, full) = capacity;
+    let full = full.as_ref().map_or(String::new(), |it| format!("; then {it} is full"));
+    let [step, warmup, duration] = times;
+    let facts = [
+        (
+            "Map",
+            format!(
+                "{map}: {lanelets} lanelets, {} km of lanes, {limits} (where the map gives none, those of {law})",
+                number(*lane_km, 3)
+            ),
+        ),
+        ("Command", provenance.command.clone()),
+        ("Seed", provenance.seed.to_string()),
+        ("Program", format!("laneweave {}", provenance.version)),
+        ("Drivers", styles.iter().map(shared).collect::<Vec<_>>().join(", ")),
+        (
+            "Vehicles",
+            classes
+                .iter()
+                .map(|(name, share)| format!("{name} {}", percent(*share)))
+                .collect::<Vec<_>>()
+                .join(", "),
+        ),
+        (
+            "Demand",
+            format!(
+                "{rate:.0} veh/h at {origins} {}; by estimate the map bears {bears:.0} veh/h{full}",
+                if *origins == 1 { "place" } else { "places" }
+            ),
+        ),
+        ("Time", format!("{duration} s measured after {warmup} s of warm-up, in steps of {step} s")),
+    ];
+    let mut facts: Vec<(String, String)> = facts.map(|(name, value)| (name.into(), value)).into();
+    let summary = run.summary;
+    if summary.interrupted {
+        let what = format!(
+            "the run was stopped after {} s; all numbers are of the time until then",
+            number(summary.duration_s, 4)
+        );
+        facts.push(("Interrupted".into(), what));
+    }
+    let hash =
+        format!("{} (hash of all vehicles at the end; equal inputs give equal hashes)", summary.state_hash);
+    facts.push(("Final state".into(), hash));
+    Section::new("what", "What ran").facts(facts)
+}
+
+/// The scenario with all that was set, so that the run can be repeated from the report alone.
+pub(super) fn scenario(run: &RunReport) -> Section {
+    Section::new("scenario", "The scenario")
+        .note("All that was set, with what was left to its default, as it stands in scenario.toml beside this report: laneweave run runs it again. The paths in it are seen from there.")
+        .listing(run.about.provenance.scenario.clone())
+}

@@ -1,0 +1,112 @@
+//! Density, flow and speed.
+
+use std::collections::BTreeMap;
+
+use laneweave_study::{EdieRow, Estimated, Interval, Moments, Scattered, Sheet, scatter};
+
+use super::{NOBODY, RunReport};
+use crate::report::{Figure, Section, counted};
+use crate::units::KMH_PER_MPS;
+
+/// Width of the classes of density over which means are taken [veh/km].
+const CLASS: f64 = 5.0;
+/// A mean of fewer boxes is not drawn.
+const LEAST_BOXES: usize = 3;
+/// Speed limits up to which roads are alike [km/h]: streets, main roads, motorways; ours.
+const LIMITS: [(f64, &str); 3] =
+    [(40.0, "limit up to 40 km/h"), (75.0, "limit 40 to 75 km/h"), (f64::INFINITY, "limit above 75 km/h")];
+
+pub(super) fn section(run: &RunReport) -> Section {
+    let section = Section::new("flow", "Density, flow and speed");
+    let boxes = &run.record.boxes;
+    let rows: Vec<EdieRow> = boxes.rows(run.end).filter(|it| it.density_veh_per_km > 0.0).collect();
+    if rows.is_empty() {
+        return section.text(NOBODY);
+    }
+    let figure = |label: &str, title: &str, definition: &str, value: &dyn Fn(&EdieRow) -> f64| {
+        let point = |it: &EdieRow| [it.density_veh_per_km, value(it)];
+        let groups = grouped(rows.iter().map(|it| (KMH_PER_MPS * boxes.limit(it.section), point(it))));
+        let svg = scatter(Sheet::Column, ["density [veh/km per lane]", label], &groups);
+        Figure { svg, title: title.into(), caption: caption(&groups, definition) }
+    };
+    section.figures(vec![
+        figure(
+            "flow [veh/h per lane]",
+            "Fundamental diagram: flow against density",
+            "k = Σt/(LT), q = Σd/(LT), with the times t and ways d of all vehicles in a box of L metres of lane and T seconds",
+            &|it| it.flow_veh_per_h,
+        ),
+        figure("speed [km/h]", "Speed against density", "v = Σd/Σt, the space-mean speed", &|it| {
+            it.speed_mps.map_or(f64::NAN, |it| it * KMH_PER_MPS)
+        }),
+    ])
+}
+
+/// Points by the speed limits of their roads [km/h], as far as there are any.
+fn grouped(points: impl Iterator<Item = (f64, [f64; 2])>) -> Vec<Scattered> {
+    let mut groups = LIMITS.map(|(_, name)| Scattered { name: name.into(), points: vec![], means: vec![] });
+    for (limit, point) in points {
+        let group = LIMITS.iter().position(|(most, _)| limit <= *most).unwrap_or(LIMITS.len() - 1);
+        groups[group].points.push(point);
+    }
+    for group in &mut groups {
+        group.means = means(&group.points);
+    }
+    groups.into_iter().filter(|it| !it.points.is_empty()).collect()
+}
+
+fn caption(groups: &[Scattered], definition: &str) -> String {
+    let number = |it: &Scattered| (it.name.clone(), counted(it.points.len() as u64));
+    let boxes: Vec<String> = match groups {
+        [only] => vec![format!("{} boxes", number(only).1)],
+        several => {
+            several.iter().map(number).map(|(name, count)| format!("{count} boxes with {name}")).collect()
+        }
+    };
+    format!(
+        "Edie's definitions in boxes of about 500 m of all parallel lanes and 60 s: {definition}; vehicles are seen once a second. \
+         Small points are the boxes with anybody in them, darker where several coincide: n = {}. Large ones are means over classes \
+         of {CLASS} veh/km with Student's 95 % intervals over boxes, from {LEAST_BOXES} boxes on; neighbouring boxes are alike, so the \
+         intervals are rather too narrow.",
+        boxes.join(", ")
+    )
+}
+
+/// Means of the second values over classes of the first ones.
+fn means(points: &[[f64; 2]]) -> Vec<Estimated> {
+    let mut classes: BTreeMap<u64, [Moments; 2]> = BTreeMap::new();
+    for point in points {
+        let class = classes.entry((point[0] / CLASS) as u64).or_default();
+        class.iter_mut().zip(point).for_each(|(moments, value)| moments.add(*value));
+    }
+    let estimates = classes.into_values().filter_map(|it| Some((it[0].estimate()?, it[1].estimate()?)));
+    let enough = estimates.filter(|(_, it)| it.replications >= LEAST_BOXES);
+    // Neither flow nor speed is below zero, and so is no plausible value of their mean.
+    let positive = |it: Interval| Interval { lower: it.lower.max(0.0), ..it };
+    enough
+        .map(|(at, it)| Estimated { at: at.mean, value: it.mean, interval: positive(it.interval()) })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roads_are_grouped_by_their_limits() {
+        let groups = grouped([(30.0, [1.0, 1.0]), (120.0, [2.0, 2.0]), (40.0, [3.0, 3.0])].into_iter());
+        let sizes: Vec<(&str, usize)> = groups.iter().map(|it| (it.name.as_str(), it.points.len())).collect();
+        assert_eq!(sizes, [(LIMITS[0].1, 2), (LIMITS[2].1, 1)]);
+    }
+
+    #[test]
+    fn means_are_taken_over_classes_with_enough_boxes() {
+        let points = [[1.0, 10.0], [2.0, 20.0], [3.0, 30.0], [6.0, 40.0], [7.0, 50.0]];
+        let means = means(&points);
+        assert_eq!(means.len(), 1);
+        assert_eq!((means[0].at, means[0].value), (2.0, 20.0));
+        // t₂ s/√3 = 4.302653 · 10/1.732051
+        assert!((means[0].interval.upper - 44.841377).abs() < 1e-6);
+        assert_eq!(means[0].interval.lower, 0.0);
+    }
+}

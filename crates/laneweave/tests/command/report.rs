@@ -1,0 +1,164 @@
+//! The report of a run: one file that is well-formed, needs nothing else, and says what the other results say.
+
+use quick_xml::Reader;
+use quick_xml::events::Event;
+
+use crate::program::Folder;
+
+const SECTIONS: [&str; 10] =
+    ["what", "numbers", "changes", "flow", "roads", "following", "trips", "problems", "method", "scenario"];
+
+/// An element's name, and all text in it.
+type Element = (String, String);
+
+/// The names of all elements of a page, each with all text in it; fails if the page is not well-formed.
+fn texts(page: &str) -> Vec<Element> {
+    let mut reader = Reader::from_str(page);
+    let (mut open, mut closed): (Vec<Element>, Vec<Element>) = (Vec::new(), Vec::new());
+    loop {
+        match reader.read_event().unwrap() {
+            Event::Start(element) => {
+                element.attributes().for_each(|it| drop(it.unwrap()));
+                open.push((element.name().as_ref().to_string(), String::new()));
+            }
+            Event::Empty(element) => element.attributes().for_each(|it| drop(it.unwrap())),
+            Event::End(_) => {
+                let element = open.pop().unwrap();
+                if let Some((_, around)) = open.last_mut() {
+                    *around += &element.1;
+                }
+                closed.push(element);
+            }
+            Event::Text(text) => {
+                if let Some((_, around)) = open.last_mut() {
+                    *around += &text;
+                }
+            }
+            Event::Eof => break,
+            _ => {}
+        }
+    }
+    assert!(open.is_empty(), "{open:?} are left open");
+    closed
+}
+
+fn assert_needs_nothing(page: &str) {
+    for reference in ["http", "src=", "@import", "url(", "<script", "<link"] {
+        assert!(!page.contains(reference), "{reference}");
+    }
+}
+
+/// Each `<svg>` of a page.
+fn figures(page: &str) -> Vec<&str> {
+    page.split("<svg").skip(1).map(|it| it.split("</svg>").next().unwrap()).collect()
+}
+
+/// The number of rows of a table in CSV that have these values in these columns.
+fn rows(table: &str, wanted: &[(&str, &str)]) -> usize {
+    let mut lines = table.lines().map(|it| it.split(',').collect::<Vec<&str>>());
+    let columns = lines.next().unwrap();
+    let place = |name: &str| columns.iter().position(|it| *it == name).unwrap();
+    lines.filter(|row| wanted.iter().all(|(column, value)| row[place(column)] == *value)).count()
+}
+
+#[test]
+fn the_report_is_one_well_formed_file_with_every_section_and_labelled_axes() {
+    let folder = Folder::new();
+    let run = folder.laneweave("run MAPS/ramps.osm --demand 4200 --duration 300 --record 0");
+    assert!(run.code() == 0 && run.text().contains("report.html"), "{}", run.errors());
+    let page = folder.read("out/report.html");
+    assert_needs_nothing(&page);
+    let texts = texts(&page);
+    for id in SECTIONS {
+        assert!(page.contains(&format!("<section id=\"{id}\">")), "{id}");
+        assert!(page.contains(&format!("<a href=\"#{id}\">")), "{id}");
+    }
+    let figures = figures(&page);
+    assert!(figures.len() >= 12, "{}", figures.len());
+    for figure in figures {
+        let has_unit = |it: &&str| it.contains(" [") && it.contains("]</text>");
+        assert!(figure.split("<text").filter(has_unit).count() >= 2, "{figure}");
+    }
+    let captions: Vec<&str> =
+        texts.iter().filter(|(name, _)| name == "figcaption").map(|it| it.1.as_str()).collect();
+    assert!(captions.iter().all(|it| it.contains("n = ")), "{captions:?}");
+    assert!(page.len() < 1_000_000, "{}", page.len());
+}
+
+#[test]
+fn the_numbers_of_the_report_are_those_of_the_summary_and_the_table() {
+    let folder = Folder::new();
+    let summary =
+        folder.summary("MAPS/ramps.osm --demand 4200 --duration 300 --record 0 --format csv --seed 7");
+    let page = folder.read("out/report.html");
+    for (field, name) in [
+        ("lane_changes_discretionary", "discretionary changes"),
+        ("lane_changes_route", "changes for the route"),
+        ("entered", "vehicles entered"),
+        ("waiting", "wait at the entrances"),
+        ("collisions", "collisions"),
+        ("emergency_brakings", "emergency brakings"),
+        ("stuck", "vehicles stuck"),
+        ("missed_turns", "missed turns"),
+    ] {
+        let tile = format!("<b>{}</b><span>{name}</span>", summary[field]);
+        assert!(page.contains(&tile), "{tile}");
+    }
+    let speed = 3.6 * summary["mean_speed_mps"].as_f64().unwrap();
+    assert!(page.contains(&format!("<b>{speed:.1} km/h</b>")), "{speed}");
+    assert!(page.contains(&format!("<dt>Final state</dt><dd>{}", summary["state_hash"].as_str().unwrap())));
+    assert!(page.contains("<dt>Seed</dt><dd>7</dd>") && page.contains("--seed 7"));
+
+    let table = folder.read("out/lane_changes.csv");
+    let of = |style: Option<&str>, kind: &str| {
+        let style = style.map(|it| ("style", it));
+        let wanted: Vec<(&str, &str)> =
+            [("outcome", "completed"), ("kind", kind)].into_iter().chain(style).collect();
+        rows(&table, &wanted)
+    };
+    for style in [Some("aggressive"), Some("conservative"), None] {
+        let [discretionary, route] = ["discretionary", "route"].map(|it| of(style, it));
+        let row = format!(
+            "<th scope=\"row\" data-name=\"style\">{}</th><td data-name=\"discretionary\" class=\"number\">{discretionary}</td>\
+             <td data-name=\"for the route\" class=\"number\">{route}</td>",
+            style.unwrap_or("all")
+        );
+        assert!(page.contains(&row), "{row}");
+    }
+    assert!(of(None, "discretionary") > 20 && of(None, "route") > 20);
+}
+
+#[test]
+fn a_run_without_anybody_has_a_report_that_says_so() {
+    let folder = Folder::new();
+    folder.summary("MAPS/lane_drop.osm --demand 0 --duration 90");
+    let page = folder.read("out/report.html");
+    assert_needs_nothing(&page);
+    texts(&page);
+    assert!(SECTIONS.iter().all(|id| page.contains(&format!("<section id=\"{id}\">"))));
+    assert!(figures(&page).is_empty() && !page.contains("NaN") && !page.contains("inf"));
+    for text in ["No lane change was completed", "Nobody drove", "No trip ended", "Nobody entered"] {
+        assert!(page.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn the_same_run_has_the_same_report_on_any_number_of_threads() {
+    let folder = Folder::new();
+    let report = |threads: u32| {
+        folder.summary(&format!("MAPS/ramps.osm --demand 4200 --duration 90 --threads {threads}"));
+        let page = folder.read("out/report.html");
+        // The command, and what it set.
+        page.replace(&format!("--threads {threads}"), "").replace(&format!("threads = {threads}\n"), "")
+    };
+    assert!(report(1) == report(2), "the reports differ");
+}
+
+#[test]
+fn a_long_jam_has_a_small_report() {
+    let folder = Folder::new();
+    folder.summary("MAPS/lane_drop.osm --demand 9000 --duration 900 --record 0");
+    let page = folder.read("out/report.html");
+    assert!(page.len() < 300_000, "{}", page.len());
+    assert!(page.contains("is drawn)") && page.contains("Demand above what the map bears"));
+}

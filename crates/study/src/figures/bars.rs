@@ -1,0 +1,111 @@
+//! Values of named rows with their intervals, lying.
+
+use super::axes::Axis;
+use super::drawing::{Anchor, Around, Drawing};
+use super::series::{Estimated, colour, key, level_bar, marker};
+use super::sheet::Sheet;
+
+/// Height of a bar with its margin, and margin between rows [px].
+const PITCH: f64 = 18.0;
+const BETWEEN: f64 = 14.0;
+/// Least height of a plot, so that the label of its rows has room [px].
+const LEAST_HEIGHT: f64 = 150.0;
+/// Height of a bar [px].
+const HEIGHT: f64 = 9.0;
+
+/// A row: one bar for each series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BarRow {
+    /// Its name.
+    pub name: String,
+    /// One value for each series; what is not finite is left out. Where they stand does not count.
+    pub values: Vec<Estimated>,
+}
+
+/// Draws rows of bars from zero, each with its interval, under each other. `labels` are those of the values and of the rows.
+pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -> String {
+    /// Longer names are shortened.
+    const LONGEST: usize = 20;
+    let short = |it: &BarRow| -> String {
+        let is_long = it.name.chars().count() > LONGEST;
+        it.name
+            .chars()
+            .take(if is_long { LONGEST - 1 } else { LONGEST })
+            .chain(is_long.then_some('…'))
+            .collect()
+    };
+    let names: Vec<String> = rows.iter().map(short).collect();
+    let finite = || rows.iter().flat_map(|it| &it.values).filter(|it| it.is_finite());
+    let layout = sheet.layout();
+    let longest = names.iter().map(|it| it.chars().count()).max().unwrap_or(0) as f64 * layout.text * 0.56;
+    let x =
+        Axis::from_zero(labels[0], finite().map(|it| it.interval.upper).fold(0.0, f64::max), layout.steps[0]);
+    let pitch = BETWEEN + PITCH * series.len() as f64;
+    let around = Around {
+        keys: if series.len() > 1 {
+            series.iter().enumerate().map(|(index, it)| key(it, index)).collect()
+        } else {
+            Vec::new()
+        },
+        names: Some(longest),
+        height: Some(LEAST_HEIGHT.max(pitch * rows.len() as f64)),
+        ..Around::default()
+    };
+    let mut drawing = Drawing::new(sheet, around);
+    let plot = drawing.plot;
+    drawing.across_only(&x, String::new());
+    drawing.upright_text(layout.upright, labels[1]);
+    let pitch = (plot.bottom - plot.top) / rows.len().max(1) as f64;
+    for (number, (row, name)) in rows.iter().zip(&names).enumerate() {
+        let middle = plot.top + pitch * (number as f64 + 0.5);
+        drawing.text(plot.left - 8.0, middle, Anchor::End, name);
+        for (index, it) in row.values.iter().enumerate().filter(|(_, it)| it.is_finite()) {
+            let y = middle + PITCH * (index as f64 - 0.5 * (series.len() as f64 - 1.0));
+            drawing.add(&bar(it, index, plot.left, y, |value| plot.across(&x, value)));
+        }
+    }
+    drawing.frame();
+    drawing.finish()
+}
+
+fn bar(it: &Estimated, index: usize, left: f64, y: f64, across: impl Fn(f64) -> f64) -> String {
+    let end = across(it.value);
+    let (top, width) = (y - 0.5 * HEIGHT, end - left);
+    let whiskers = level_bar(y, [it.interval.lower, it.interval.upper].map(&across));
+    let ((colour, class), dot) = (colour(index), marker(end, y, index));
+    format!(
+        "<g fill=\"none\" stroke=\"{colour}\" class=\"{class}\">\
+         <rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{HEIGHT}\" fill=\"{colour}\" stroke=\"none\" \
+         fill-opacity=\"0.3\" class=\"bar\"/><path d=\"{whiskers}\" stroke-width=\"1.3\"/>\
+         <path d=\"{dot}\" fill=\"{colour}\" stroke=\"white\" class=\"dot\"/></g>"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::Interval;
+
+    const LABELS: [&str; 2] = ["lane changes [1/(veh km)]", "style [name]"];
+
+    fn row(name: &str, value: f64) -> BarRow {
+        let interval = Interval { lower: value - 1.0, upper: value + 1.0 };
+        BarRow { name: name.into(), values: vec![Estimated { at: 0.0, value, interval }] }
+    }
+
+    #[test]
+    fn a_bar_ends_at_its_value_between_the_ends_of_its_interval() {
+        // Names of 4 characters: the plot from 14 + 28 + 29.12 = 71.12 px to 466 px; 0 … 4; two rows of 75 px from 14 px on.
+        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a & b", 3.0), row("c", 1.0)]);
+        assert!(svg.contains(">a &amp; b</text>") && svg.contains(">style [name]</text>"), "{svg}");
+        let rect = "<rect x=\"78.4\" y=\"47.0\" width=\"290.7\" height=\"9\"";
+        assert!(svg.contains(rect), "{svg}");
+        assert!(svg.contains("d=\"M272.2 51.5H466.0M272.2 47.5v8M466.0 47.5v8\""), "{svg}");
+    }
+
+    #[test]
+    fn a_long_name_is_shortened_and_a_value_that_is_not_known_left_out() {
+        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a name that is by far too long", f64::NAN)]);
+        assert!(svg.contains(">a name that is by f…</text>") && !svg.contains("class=\"bar\""), "{svg}");
+    }
+}
