@@ -62,7 +62,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
     for number in 0..kills() {
         let folder = Folder::new();
         let out = folder.path().join("out");
-        killed(folder.path(), &format!("run {RUN}"), window.mul_f64(drawn(2 * number)));
+        killed(folder.path(), &format!("run {RUN} --json"), window.mul_f64(drawn(2 * number)));
         if !out.join("scenario.toml").exists() {
             // Killed before anything was there.
             window = window.mul_f64(1.05);

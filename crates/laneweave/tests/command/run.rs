@@ -45,7 +45,7 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
         assert!(svg.starts_with("<svg") && svg.contains("<path"), "{figure}");
     }
     let left_over = std::fs::read_dir(folder.path().join("out")).unwrap().count();
-    assert_eq!(left_over, 8);
+    assert_eq!(left_over, 9);
 }
 
 #[test]
