@@ -6,7 +6,8 @@ use std::thread::available_parallelism;
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::compare::{Comparison, MEASURES, compare};
+use laneweave::compare::{Comparison, MEASURES, compare, page};
+use laneweave::output::write_whole;
 use laneweave::scenario::Origin;
 use laneweave::study::{Cell, Column, Format, TableWriter};
 use laneweave::style::Model;
@@ -37,7 +38,7 @@ pub(crate) struct Arguments {
     /// Simulated seconds before anything is measured [default: 0].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     warmup: Option<f64>,
-    /// Folder of the table of all runs.
+    /// Folder of the report and the table of all runs.
     #[arg(long, value_name = "DIR", default_value = "comparison")]
     out: PathBuf,
 }
@@ -77,7 +78,9 @@ impl Arguments {
             done.push((input.display().to_string(), comparison));
         }
         let path = table(&out, &done)?;
-        say(&format!("all runs: {}\n", path.display()));
+        let report = out.join("report.html");
+        write_whole(&report, &page(&done, &super::given()).to_html())?;
+        say(&format!("report: {}\nall runs: {}\n", report.display(), path.display()));
         Ok(())
     }
 }

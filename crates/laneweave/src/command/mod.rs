@@ -20,6 +20,7 @@ use std::time::Instant;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use laneweave::Fault;
+use laneweave::output::command_line;
 use laneweave::scenario::{Origin, Scenario};
 
 pub(crate) use tips::with_tip;
@@ -108,4 +109,9 @@ impl Cli {
 fn say(text: &str) {
     let mut out = io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// The command line as it was given.
+fn given() -> String {
+    command_line(std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned()))
 }

@@ -12,7 +12,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
-use laneweave::output::{Inputs, Provenance, Summary, command_line, observers, write_whole};
+use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
 use laneweave::record;
 use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
 use laneweave::simulation::simulate;
@@ -194,8 +194,7 @@ pub(crate) fn run(
     for name in [SUMMARY, record::SCENARIO, checkpoint::FILE, checkpoint::LOG] {
         checkpoint::remove(&dir.join(name))?;
     }
-    let arguments = std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned());
-    let kept = record::keep(scenario, origin, dir, &command_line(arguments))?;
+    let kept = record::keep(scenario, origin, dir, &super::given())?;
     let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
     drive(scenario, prepared, provenance, None, screen, started)
 }

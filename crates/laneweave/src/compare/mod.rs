@@ -1,18 +1,21 @@
 //! Lane-change models side by side: the same traffic for each of them, over several seeds.
 
 mod outcome;
+mod page;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-use laneweave_study::{Estimate, mean};
+use laneweave_study::{EdieRow, Estimate, mean};
 
 use crate::fault::Fault;
+use crate::report::About;
 use crate::scenario::{Origin, Scenario, prepare};
 use crate::style::Model;
 
 pub use outcome::{MEASURES, Measure, Outcome};
+pub use page::page;
 
 /// One run of a comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,11 +26,15 @@ pub struct Trial {
     pub seed: u64,
     /// What came out.
     pub outcome: Outcome,
+    /// The traffic in boxes, with the changes by choice in them.
+    pub boxes: Vec<EdieRow>,
 }
 
 /// All runs of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
+    /// What ran, but for the model and the seed.
+    pub about: About,
     /// The models in the order in which they were asked for.
     pub models: Vec<Model>,
     /// By model, and by seed.
@@ -45,13 +52,13 @@ pub fn compare(
     seeds: &[u64],
     threads: usize,
 ) -> Result<Comparison, Fault> {
+    let about = About::of(scenario, &prepare(scenario, origin)?);
     let jobs: Vec<(Model, u64)> =
         models.iter().flat_map(|model| seeds.iter().map(|seed| (*model, *seed))).collect();
     let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
         while let Some((model, seed)) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let outcome = trial(scenario, origin, *model, *seed);
-            let ended = outcome.map(|outcome| Trial { model: *model, seed: *seed, outcome });
+            let ended = trial(scenario, origin, *model, *seed);
             done.lock().unwrap_or_else(PoisonError::into_inner).push(ended);
         }
     };
@@ -65,16 +72,17 @@ pub fn compare(
     let mut trials = done.into_iter().collect::<Result<Vec<Trial>, Fault>>()?;
     let place = |model: Model| models.iter().position(|it| *it == model);
     trials.sort_by_key(|it| (place(it.model), it.seed));
-    Ok(Comparison { models: models.to_vec(), trials })
+    Ok(Comparison { about, models: models.to_vec(), trials })
 }
 
 /// One run without any output.
-fn trial(scenario: &Scenario, origin: &Origin, model: Model, seed: u64) -> Result<Outcome, Fault> {
+fn trial(scenario: &Scenario, origin: &Origin, model: Model, seed: u64) -> Result<Trial, Fault> {
     let mut scenario = Scenario { model: Some(model), ..scenario.clone() };
     scenario.run.seed = seed;
     scenario.run.threads = std::num::NonZero::new(1);
     let mut prepared = prepare(&scenario, origin)?;
-    Ok(Outcome::of(&mut prepared))
+    let (outcome, boxes) = Outcome::of(&mut prepared);
+    Ok(Trial { model, seed, outcome, boxes })
 }
 
 impl Comparison {
@@ -85,9 +93,19 @@ impl Comparison {
         mean(&values)
     }
 
+    /// How much more of a measure `model` has than `other`, over the seeds in which there is something to measure for both: the
+    /// traffic that is to come is the same for both.
+    pub fn difference(&self, model: Model, other: Model, measure: &Measure) -> Option<Estimate> {
+        let of = |model: Model| self.trials.iter().filter(move |it| it.model == model);
+        let pairs = of(model).zip(of(other)).filter(|(a, b)| a.seed == b.seed);
+        let values: Vec<f64> =
+            pairs.filter_map(|(a, b)| Some((measure.of)(&a.outcome)? - (measure.of)(&b.outcome)?)).collect();
+        mean(&values)
+    }
+
     /// A table of all measures by model, each a mean with its 95 % interval over the seeds.
     pub fn to_text(&self) -> String {
-        const NAME: usize = 44;
+        const NAME: usize = 46;
         const CELL: usize = 18;
         let mut text = format!("{:NAME$}", "");
         self.models.iter().for_each(|it| text += &format!("{:>CELL$}", it.name()));

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use laneweave_network::Side;
 use laneweave_sim::{Event, Kind, VehicleId};
+use laneweave_study::EdieRow;
 
+use crate::output::Boxes;
 use crate::scenario::Prepared;
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
@@ -68,27 +70,29 @@ pub const MEASURES: [Measure; 12] = [
     measure("going_back", "by choice, going back within 30 s [%]", 1, |it| {
         it.going_back.map(|it| 100.0 * it)
     }),
-    measure("held_up_ratio", "desire when held up ÷ on a free road", 1, |it| it.held_up_ratio),
+    measure("held_up_ratio", "desire when held up ÷ on a free road [ratio]", 1, |it| it.held_up_ratio),
     measure("mean_speed_kmh", "mean speed [km/h]", 1, |it| it.speed_mps.map(|it| it * KMH_PER_MPS)),
     measure("mean_delay_s", "mean delay [s]", 1, |it| it.delay_s),
     measure("missed_turns", "missed turns [% of vehicles]", 2, |it| Some(100.0 * it.missed_turns)),
     measure("emergencies", "emergency brakings [1/100 veh-km]", 2, |it| Some(100.0 * it.emergencies)),
-    measure("stuck", "stuck vehicles", 1, |it| Some(it.stuck)),
-    measure("left", "vehicles that left", 0, |it| Some(it.left)),
-    measure("waiting", "vehicles waiting at the end", 0, |it| Some(it.waiting)),
+    measure("stuck", "stuck vehicles [number]", 1, |it| Some(it.stuck)),
+    measure("left", "vehicles that left [number]", 0, |it| Some(it.left)),
+    measure("waiting", "vehicles waiting at the end [number]", 0, |it| Some(it.waiting)),
 ];
 
 impl Outcome {
-    /// Drives `prepared` to its end.
-    pub(super) fn of(prepared: &mut Prepared) -> Outcome {
+    /// Drives `prepared` to its end; also the traffic in boxes, with the changes by choice in them.
+    pub(super) fn of(prepared: &mut Prepared) -> (Outcome, Vec<EdieRow>) {
         let Prepared { world, warmup_steps, steps, .. } = prepared;
         (0..*warmup_steps).for_each(|_| world.step());
         world.reset_counts();
         let begin = world.clock().time();
+        let mut boxes = Boxes::new(world, begin, f64::from(*steps) * world.clock().dt);
         let (mut changes, mut gaining, mut going_back) = (0, 0, 0);
         let mut last: BTreeMap<VehicleId, (f64, Side)> = BTreeMap::new();
         for _ in 0..*steps {
             world.step();
+            boxes.observe(world);
             for event in world.events() {
                 let Event::LaneChange(it) = event else { continue };
                 if !it.is_completed || it.time < begin {
@@ -111,7 +115,7 @@ impl Outcome {
         let free = chance(tally.free_desires, tally.free_considerations).filter(|it| *it > 0.0);
         let held_up = chance(tally.held_up_desires, tally.held_up_considerations);
         let dt = world.clock().dt;
-        Outcome {
+        let outcome = Outcome {
             per_veh_km: [counts.discretionary_changes, counts.route_changes].map(|it| per(it, veh_km)),
             gaining: share(gaining),
             going_back: share(going_back),
@@ -123,6 +127,7 @@ impl Outcome {
             stuck: tally.stuck as f64,
             left: counts.left as f64,
             waiting: world.waiting() as f64,
-        }
+        };
+        (outcome, boxes.with_changes(world.clock().time(), |it| it == Kind::Discretionary))
     }
 }

@@ -1,7 +1,7 @@
 //! Traffic in boxes of about 500 m of road and a minute, by Edie's definitions, with the lane changes in them.
 
 use laneweave_sim::{Event, Kind, World};
-use laneweave_study::{EdieGrid, EdieRow, RateSeries, Window, rate_by_density};
+use laneweave_study::{EdieGrid, EdieRow, RatePoint, RateSeries, Window, rate_by_density};
 use serde::{Deserialize, Serialize};
 
 use super::road::Sections;
@@ -59,7 +59,7 @@ impl Boxes {
 
     /// The boxes that were over by `end` [s].
     pub fn rows(&self, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
-        complete(self.grid.as_ref(), self.window, end)
+        self.grid.iter().flat_map(move |it| complete(it, self.window, end))
     }
 
     /// Mean speed limit in a section [m/s].
@@ -67,20 +67,26 @@ impl Boxes {
         self.sections.limits[section]
     }
 
+    /// The boxes that were over by `end` [s], with the changes that are `chosen`.
+    pub fn with_changes(&self, end: f64, chosen: impl Fn(Kind) -> bool) -> Vec<EdieRow> {
+        let Some(mut grid) = self.grid.clone() else { return Vec::new() };
+        for (section, time, _) in self.changes.iter().filter(|(_, _, kind)| chosen(*kind)) {
+            grid.change(*section, *time);
+        }
+        complete(&grid, self.window, end).collect()
+    }
+
     /// A curve of the changes that are `chosen`, from the boxes that were over by `end` [s].
     pub fn series(&self, name: &str, end: f64, chosen: impl Fn(Kind) -> bool) -> RateSeries {
-        let mut grid = self.grid.clone();
-        for (section, time, _) in self.changes.iter().filter(|(_, _, kind)| chosen(*kind)) {
-            if let Some(grid) = &mut grid {
-                grid.change(*section, *time);
-            }
-        }
-        let points = rate_by_density(complete(grid.as_ref(), self.window, end), BIN);
-        RateSeries { name: name.into(), points }
+        RateSeries { name: name.into(), points: Boxes::pooled(self.with_changes(end, chosen)) }
+    }
+
+    /// Boxes of like density taken together.
+    pub fn pooled(rows: impl IntoIterator<Item = EdieRow>) -> Vec<RatePoint> {
+        rate_by_density(rows, BIN)
     }
 }
 
-fn complete(grid: Option<&EdieGrid>, window: Window, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
-    let rows = grid.into_iter().flat_map(|it| it.rows());
-    rows.filter(move |row| row.from_s + window.interval_s <= end + 1e-6)
+fn complete(grid: &EdieGrid, window: Window, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
+    grid.rows().filter(move |row| row.from_s + window.interval_s <= end + 1e-6)
 }

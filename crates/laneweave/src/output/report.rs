@@ -13,7 +13,7 @@ use super::reasons::Reasons;
 use super::summary::Summary;
 use super::traces::Traces;
 use super::trip_times::{Crowd, TripTimes};
-use super::{Folder, Observer, write_whole};
+use super::{Folder, Observer, Provenance, write_whole};
 use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 use crate::report::{About, RunReport};
@@ -28,6 +28,7 @@ pub(super) struct Report {
     rate: PathBuf,
     time_space: PathBuf,
     about: About,
+    provenance: Provenance,
     record: Record,
 }
 
@@ -65,7 +66,8 @@ impl Report {
             path: folder.file("report.html"),
             rate: folder.file("lane_change_rate.svg"),
             time_space: folder.file("time_space.svg"),
-            about: About::of(scenario, prepared, folder.provenance),
+            about: About::of(scenario, prepared),
+            provenance: folder.provenance.clone(),
             record,
         }
     }
@@ -93,9 +95,9 @@ impl Observer for Report {
     }
 
     fn finish(self: Box<Self>, world: &World, summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        let Report { path, rate, time_space, about, record } = *self;
+        let Report { path, rate, time_space, about, provenance, record } = *self;
         let end = world.clock().time();
-        let report = RunReport { about: &about, summary, record: &record, end };
+        let report = RunReport { about: &about, provenance: &provenance, summary, record: &record, end };
         write_whole(&path, &report.page().to_html())?;
         write_whole(&rate, &record.rate_figure(end))?;
         write_whole(&time_space, &record.time_space_figure())?;

@@ -2,6 +2,7 @@
 //!
 //! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the page.
 
+pub(crate) mod classes;
 mod numbers;
 mod page;
 mod run;

@@ -19,7 +19,7 @@ pub struct Page {
 /// A section of a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    id: &'static str,
+    id: String,
     title: String,
     parts: Vec<Part>,
 }
@@ -97,8 +97,8 @@ impl Page {
 
 impl Section {
     /// An empty section; its id is unique on the page.
-    pub fn new(id: &'static str, title: impl Into<String>) -> Section {
-        Section { id, title: title.into(), parts: Vec::new() }
+    pub fn new(id: impl Into<String>, title: impl Into<String>) -> Section {
+        Section { id: id.into(), title: title.into(), parts: Vec::new() }
     }
 
     /// A paragraph.

@@ -57,6 +57,27 @@ impl Model {
         }
     }
 
+    /// It in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Model::Mcdm => "multi-criteria decision-making (Li et al.): the weights of the styles",
+            Model::Mobil => {
+                "minimizing overall braking (Kesting et al.), symmetric; follows its route by urgency"
+            }
+            Model::MobilLanes => {
+                "minimizing overall braking (Kesting et al.), symmetric; never leaves the lanes of its route"
+            }
+            Model::Lmrs => "relaxation and synchronization (Schakel et al.); follows its route by urgency",
+            Model::LmrsLanes => {
+                "relaxation and synchronization (Schakel et al.); never leaves the lanes of its route"
+            }
+            Model::Null => {
+                "control: multi-criteria decision-making without any weight, only its noise is left"
+            }
+            Model::ConstantHazard => "control: changes at a constant rate, without a reason",
+        }
+    }
+
     /// The style `template`, whose drivers change lanes by this model.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! `laneweave compare`: lane-change models side by side.
 
 use crate::program::Folder;
+use crate::report::{assert_needs_nothing, figures, has_units, texts};
 
 /// The cells of a table, by row, without its header.
 fn rows(table: &str) -> Vec<Vec<&str>> {
@@ -31,6 +32,50 @@ fn every_model_drives_with_every_seed_and_what_comes_out_is_what_a_run_gives() {
     assert!((per_km - expected("lane_changes_per_veh_km")).abs() < 1e-12);
     assert_eq!(found("mean_delay_s"), expected("mean_delay_s"));
     assert_eq!(found("left"), expected("left"));
+}
+
+#[test]
+fn the_report_shows_every_model_on_every_input_with_its_interval() {
+    let folder = Folder::new();
+    let line = "compare MAPS/lane_drop.osm MAPS/town.osm --seeds 3 --duration 120 --demand 2000 --out both \
+                --model mcdm --model lmrs --model constant-hazard";
+    let told = folder.laneweave(line);
+    assert_eq!((told.code(), told.errors().as_str()), (0, ""));
+    let page = folder.read("both/report.html");
+    assert_needs_nothing(&page);
+    texts(&page);
+    for text in
+        ["<section id=\"input-1\">", "Models on town.osm", "<dt>Seeds</dt><dd>3 for each model: 1 to 3"]
+    {
+        assert!(page.contains(text), "{text}");
+    }
+    let figures = figures(&page);
+    assert!(figures.len() >= 16, "{}", figures.len());
+    assert!(figures.iter().all(|it| has_units(it)), "{figures:?}");
+    // Each row that is told is there cell by cell.
+    let rows = told.text();
+    let rows: Vec<(&str, Vec<&str>)> = rows
+        .lines()
+        .filter_map(|row| row.split_once("]"))
+        .map(|(name, cells)| (name, cells_of(cells)))
+        .collect();
+    assert_eq!(rows.len(), 24);
+    for (name, cells) in rows {
+        assert_eq!(cells.len(), 3, "{name}");
+        let numbers: String = ["mcdm", "lmrs", "constant-hazard"]
+            .iter()
+            .zip(&cells)
+            .map(|(model, cell)| {
+                format!("<td data-name=\"{model}\" class=\"number\">{}</td>", cell.replace("-", "–"))
+            })
+            .collect();
+        assert!(page.contains(&format!("{name}]</th>{numbers}")), "{name}: {numbers}");
+    }
+}
+
+/// What stands in columns of text, such as 0.1 ± 0.2.
+fn cells_of(row: &str) -> Vec<&str> {
+    row.split("  ").map(str::trim).filter(|it| !it.is_empty()).collect()
 }
 
 #[test]

@@ -9,10 +9,10 @@ const SECTIONS: [&str; 10] =
     ["what", "numbers", "changes", "flow", "roads", "following", "trips", "problems", "method", "scenario"];
 
 /// An element's name, and all text in it.
-type Element = (String, String);
+pub(crate) type Element = (String, String);
 
 /// The names of all elements of a page, each with all text in it; fails if the page is not well-formed.
-fn texts(page: &str) -> Vec<Element> {
+pub(crate) fn texts(page: &str) -> Vec<Element> {
     let mut reader = Reader::from_str(page);
     let (mut open, mut closed): (Vec<Element>, Vec<Element>) = (Vec::new(), Vec::new());
     loop {
@@ -42,15 +42,21 @@ fn texts(page: &str) -> Vec<Element> {
     closed
 }
 
-fn assert_needs_nothing(page: &str) {
+pub(crate) fn assert_needs_nothing(page: &str) {
     for reference in ["http", "src=", "@import", "url(", "<script", "<link"] {
         assert!(!page.contains(reference), "{reference}");
     }
 }
 
 /// Each `<svg>` of a page.
-fn figures(page: &str) -> Vec<&str> {
+pub(crate) fn figures(page: &str) -> Vec<&str> {
     page.split("<svg").skip(1).map(|it| it.split("</svg>").next().unwrap()).collect()
+}
+
+/// Both axes of a figure have a label with a unit.
+pub(crate) fn has_units(figure: &str) -> bool {
+    let has_unit = |it: &&str| it.contains(" [") && it.contains("]</text>");
+    figure.split("<text").filter(has_unit).count() >= 2
 }
 
 /// The number of rows of a table in CSV that have these values in these columns.
@@ -75,10 +81,7 @@ fn the_report_is_one_well_formed_file_with_every_section_and_labelled_axes() {
     }
     let figures = figures(&page);
     assert!(figures.len() >= 12, "{}", figures.len());
-    for figure in figures {
-        let has_unit = |it: &&str| it.contains(" [") && it.contains("]</text>");
-        assert!(figure.split("<text").filter(has_unit).count() >= 2, "{figure}");
-    }
+    assert!(figures.iter().all(|it| has_units(it)), "{figures:?}");
     let captions: Vec<&str> =
         texts.iter().filter(|(name, _)| name == "figcaption").map(|it| it.1.as_str()).collect();
     assert!(captions.iter().all(|it| it.contains("n = ")), "{captions:?}");

@@ -58,6 +58,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
     // Kills fall within this time, which follows how fast the machine is now.
     let mut window = started.elapsed();
     let read = |folder: &Folder, file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap();
+    let is_same = |folder: &Folder, file: &str| read(folder, file) == read(&undisturbed, file);
     let (mut resumed, mut from_a_checkpoint, mut ended) = (0, 0, 0);
     for number in 0..kills() {
         let folder = Folder::new();
@@ -77,7 +78,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         // What has its name is whole.
         for file in &FILES[..8] {
             if out.join(file).exists() {
-                assert_eq!(read(&folder, file), read(&undisturbed, file), "{file} after kill {number}");
+                assert!(is_same(&folder, file), "{file} after kill {number}");
             }
         }
         resumed += u64::from(!has_ended);
@@ -90,7 +91,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
             assert_eq!(summary[field], expected[field], "{field} after kill {number}");
         }
         for file in FILES {
-            assert_eq!(read(&folder, file), read(&undisturbed, file), "{file} after kill {number}");
+            assert!(is_same(&folder, file), "{file} after kill {number}");
         }
         let left_over: Vec<_> = std::fs::read_dir(&out)
             .unwrap()

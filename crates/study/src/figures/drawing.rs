@@ -82,7 +82,10 @@ pub fn text_width(text: &str) -> f64 {
 }
 
 fn width(text: &str, size: f64) -> f64 {
-    text.chars().count() as f64 * CHARACTER_WIDTH * size
+    /// What is set wider than most, as a multiple of the usual width.
+    const WIDE: f64 = 1.6;
+    let characters = text.chars().map(|it| if "mwMW%".contains(it) { WIDE } else { 1.0 });
+    characters.sum::<f64>() * CHARACTER_WIDTH * size
 }
 
 impl Drawing {

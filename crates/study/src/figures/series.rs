@@ -96,13 +96,15 @@ pub(super) fn dashes(index: usize) -> &'static str {
     }
 }
 
-/// Circle, square, diamond or triangle, in turn.
+/// Circle, square, diamond, triangle, triangle upside down or cross, in turn.
 pub(super) fn marker(x: f64, y: f64, index: usize) -> String {
     let r = RADIUS;
-    match index % 4 {
+    match index % 6 {
         0 => format!("M{:.1} {y:.1}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", x - r, d = 2.0 * r),
         1 => format!("M{:.1} {:.1}h{s}v{s}h-{s}z", x - 4.0, y - 4.0, s = 8),
         2 => format!("M{x:.1} {:.1}l{h} {h}l-{h} {h}l-{h} -{h}z", y - 5.5, h = 5.5),
-        _ => format!("M{x:.1} {:.1}l{r} 8h-{d}z", y - 5.0, d = 2.0 * r),
+        3 => format!("M{x:.1} {:.1}l{r} 8h-{d}z", y - 5.0, d = 2.0 * r),
+        4 => format!("M{x:.1} {:.1}l{r} -8h-{d}z", y + 5.0, d = 2.0 * r),
+        _ => format!("M{:.1} {:.1}h3v3h3v3h-3v3h-3v-3h-3v-3h3z", x - 1.5, y - 4.5),
     }
 }

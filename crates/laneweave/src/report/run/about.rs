@@ -5,7 +5,6 @@ use laneweave_network::Network;
 
 use super::RunReport;
 use crate::check::Remark;
-use crate::output::Provenance;
 use crate::report::{Section, number, percent};
 use crate::scenario::{Law, Prepared, Scenario};
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
@@ -19,8 +18,6 @@ pub struct About {
     pub roads: (usize, f64, [f64; 2]),
     /// Whose speed limits hold where the map gives none.
     pub law: Law,
-    /// Where the results come from.
-    pub provenance: Provenance,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
     /// Names and shares of the classes of vehicles that there are.
@@ -39,14 +36,13 @@ pub struct About {
 
 impl About {
     /// What is about to run.
-    pub fn of(scenario: &Scenario, prepared: &Prepared, provenance: &Provenance) -> About {
+    pub fn of(scenario: &Scenario, prepared: &Prepared) -> About {
         let shares = prepared.world.demand().fleet.shares();
         let classes = shares.into_iter().filter(|(_, share)| *share > 0.0);
         About {
             map: scenario.map.file_name().map_or(String::new(), |it| it.to_string_lossy().into_owned()),
             roads: roads(prepared.world.network()),
             law: scenario.map_options.law,
-            provenance: provenance.clone(),
             styles: prepared.styles.clone(),
             classes: classes.map(|(class, share)| (class.body().name, share)).collect(),
             demand: (prepared.demand_veh_h, prepared.origins.len()),
@@ -65,65 +61,59 @@ fn roads(network: &Network) -> (usize, f64, [f64; 2]) {
     (lanelets.len(), lanelets.iter().map(|it| it.length()).sum::<f64>() / METRES_PER_KM, range)
 }
 
-pub(super) fn section(run: &RunReport) -> Section {
-    let About { map, roads, law, provenance, styles, classes, demand, capacity, times, .. } = run.about;
-    let (lanelets, lane_km, [slowest, fastest]) = roads;
-    let law = match law {
-        Law::Germany => "Germany",
-        Law::Usa => "the USA",
-    };
-    let limits = if (slowest.round(), fastest.round()) == (fastest.round(), slowest.round()) {
-        format!("speed limit {slowest:.0} km/h")
-    } else {
-        format!("speed limits {slowest:.0} to {fastest:.0} km/h")
-    };
-    let total: f64 = styles.iter().map(|(_, weight)| weight).sum();
-    let shared = |(name, weight): &(String, f64)| format!("{name} {}", percent(weight / total));
-    let (rate, origins) = demand;
-    let (bears, full) = capacity;
-    let full = full.as_ref().map_or(String::new(), |it| format!("; then {it} is full"));
-    let [step, warmup, duration] = times;
-    let facts = [
-        (
-            "Map",
-            format!(
-                "{map}: {lanelets} lanelets, {} km of lanes, {limits} (where the map gives none, those of {law})",
-                number(*lane_km, 3)
-            ),
-        ),
-        ("Command", provenance.command.clone()),
-        ("Seed", provenance.seed.to_string()),
-        ("Program", format!("laneweave {}", provenance.version)),
-        ("Drivers", styles.iter().map(shared).collect::<Vec<_>>().join(", ")),
-        (
-            "Vehicles",
-            classes
-                .iter()
-                .map(|(name, share)| format!("{name} {}", percent(*share)))
-                .collect::<Vec<_>>()
-                .join(", "),
-        ),
-        (
-            "Demand",
-            format!(
-                "{rate:.0} veh/h at {origins} {}; by estimate the map bears {bears:.0} veh/h{full}",
-                if *origins == 1 { "place" } else { "places" }
-            ),
-        ),
-        ("Time", format!("{duration} s measured after {warmup} s of warm-up, in steps of {step} s")),
-    ];
-    let mut facts: Vec<(String, String)> = facts.map(|(name, value)| (name.into(), value)).into();
-    let summary = run.summary;
-    if summary.interrupted {
-        let what = format!(
-            "the run was stopped after {} s; all numbers are of the time until then",
-            number(summary.duration_s, 4)
-        );
-        facts.push(("Interrupted".into(), what));
+impl About {
+    /// It in words: names and what they stand for.
+    pub(crate) fn facts(&self) -> Vec<(String, String)> {
+        let About { map, roads, law, styles, classes, demand, capacity, times, .. } = self;
+        let (lanelets, lane_km, [slowest, fastest]) = roads;
+        let law = match law {
+            Law::Germany => "Germany",
+            Law::Usa => "the USA",
+        };
+        let limits = if slowest.round() == fastest.round() {
+            format!("speed limit {slowest:.0} km/h")
+        } else {
+            format!("speed limits {slowest:.0} to {fastest:.0} km/h")
+        };
+        let total: f64 = styles.iter().map(|(_, weight)| weight).sum();
+        let drivers: Vec<String> =
+            styles.iter().map(|(name, weight)| format!("{name} {}", percent(weight / total))).collect();
+        let vehicles: Vec<String> =
+            classes.iter().map(|(name, share)| format!("{name} {}", percent(*share))).collect();
+        let (rate, origins) = demand;
+        let places = if *origins == 1 { "place" } else { "places" };
+        let (bears, full) = capacity;
+        let full = full.as_ref().map_or(String::new(), |it| format!("; then {it} is full"));
+        let [step, warmup, duration] = times;
+        let km = number(*lane_km, 3);
+        [
+            ("Map", format!("{map}: {lanelets} lanelets, {km} km of lanes, {limits} (where the map gives none, those of {law})")),
+            ("Drivers", drivers.join(", ")),
+            ("Vehicles", vehicles.join(", ")),
+            ("Demand", format!("{rate:.0} veh/h at {origins} {places}; by estimate the map bears {bears:.0} veh/h{full}")),
+            ("Time", format!("{duration} s measured after {warmup} s of warm-up, in steps of {step} s")),
+        ]
+        .map(|(name, value)| (name.into(), value))
+        .into()
     }
-    let hash =
-        format!("{} (hash of all vehicles at the end; equal inputs give equal hashes)", summary.state_hash);
-    facts.push(("Final state".into(), hash));
+}
+
+pub(super) fn section(run: &RunReport) -> Section {
+    let RunReport { summary, provenance, .. } = run;
+    let mut facts = run.about.facts();
+    let mut note = |name: &str, value: String| facts.push((name.into(), value));
+    note("Command", provenance.command.clone());
+    note("Program", format!("laneweave {}", provenance.version));
+    note("Seed", provenance.seed.to_string());
+    if summary.interrupted {
+        let until = number(summary.duration_s, 4);
+        note(
+            "Interrupted",
+            format!("the run was stopped after {until} s; all numbers are of the time until then"),
+        );
+    }
+    let hash = &summary.state_hash;
+    note("Final state", format!("{hash} (hash of all vehicles at the end; equal inputs give equal hashes)"));
     Section::new("what", "What ran").facts(facts)
 }
 
@@ -131,5 +121,5 @@ pub(super) fn section(run: &RunReport) -> Section {
 pub(super) fn scenario(run: &RunReport) -> Section {
     Section::new("scenario", "The scenario")
         .note("All that was set, with what was left to its default, as it stands in scenario.toml beside this report: laneweave run runs it again. The paths in it are seen from there.")
-        .listing(run.about.provenance.scenario.clone())
+        .listing(run.provenance.scenario.clone())
 }

@@ -1,17 +1,12 @@
 //! Density, flow and speed.
 
-use std::collections::BTreeMap;
-
-use laneweave_study::{EdieRow, Estimated, Interval, Moments, Scattered, Sheet, scatter};
+use laneweave_study::{EdieRow, Scattered, Sheet, scatter};
 
 use super::{NOBODY, RunReport};
+use crate::report::classes::{CLASS, LEAST_BOXES, means};
 use crate::report::{Figure, Section, counted};
 use crate::units::KMH_PER_MPS;
 
-/// Width of the classes of density over which means are taken [veh/km].
-const CLASS: f64 = 5.0;
-/// A mean of fewer boxes is not drawn.
-const LEAST_BOXES: usize = 3;
 /// Speed limits up to which roads are alike [km/h]: streets, main roads, motorways; ours.
 const LIMITS: [(f64, &str); 3] =
     [(40.0, "limit up to 40 km/h"), (75.0, "limit 40 to 75 km/h"), (f64::INFINITY, "limit above 75 km/h")];
@@ -72,22 +67,6 @@ fn caption(groups: &[Scattered], definition: &str) -> String {
     )
 }
 
-/// Means of the second values over classes of the first ones.
-fn means(points: &[[f64; 2]]) -> Vec<Estimated> {
-    let mut classes: BTreeMap<u64, [Moments; 2]> = BTreeMap::new();
-    for point in points {
-        let class = classes.entry((point[0] / CLASS) as u64).or_default();
-        class.iter_mut().zip(point).for_each(|(moments, value)| moments.add(*value));
-    }
-    let estimates = classes.into_values().filter_map(|it| Some((it[0].estimate()?, it[1].estimate()?)));
-    let enough = estimates.filter(|(_, it)| it.replications >= LEAST_BOXES);
-    // Neither flow nor speed is below zero, and so is no plausible value of their mean.
-    let positive = |it: Interval| Interval { lower: it.lower.max(0.0), ..it };
-    enough
-        .map(|(at, it)| Estimated { at: at.mean, value: it.mean, interval: positive(it.interval()) })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,16 +76,5 @@ mod tests {
         let groups = grouped([(30.0, [1.0, 1.0]), (120.0, [2.0, 2.0]), (40.0, [3.0, 3.0])].into_iter());
         let sizes: Vec<(&str, usize)> = groups.iter().map(|it| (it.name.as_str(), it.points.len())).collect();
         assert_eq!(sizes, [(LIMITS[0].1, 2), (LIMITS[2].1, 1)]);
-    }
-
-    #[test]
-    fn means_are_taken_over_classes_with_enough_boxes() {
-        let points = [[1.0, 10.0], [2.0, 20.0], [3.0, 30.0], [6.0, 40.0], [7.0, 50.0]];
-        let means = means(&points);
-        assert_eq!(means.len(), 1);
-        assert_eq!((means[0].at, means[0].value), (2.0, 20.0));
-        // t₂ s/√3 = 4.302653 · 10/1.732051
-        assert!((means[0].interval.upper - 44.841377).abs() < 1e-6);
-        assert_eq!(means[0].interval.lower, 0.0);
     }
 }

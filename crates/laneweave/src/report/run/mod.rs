@@ -10,7 +10,7 @@ mod roads;
 mod trips;
 
 use super::Page;
-use crate::output::{Record, Summary};
+use crate::output::{Provenance, Record, Summary};
 
 pub use about::About;
 
@@ -19,6 +19,8 @@ pub use about::About;
 pub struct RunReport<'a> {
     /// What ran.
     pub about: &'a About,
+    /// Where its results come from.
+    pub provenance: &'a Provenance,
     /// What it amounts to.
     pub summary: &'a Summary,
     /// What was seen of it.

@@ -1,0 +1,223 @@
+//! The report of comparisons: models side by side, each with its interval over the seeds.
+
+use std::path::Path;
+
+use laneweave_study::{
+    BarRow, EdieRow, Estimate, Estimated, Interval, RateSeries, Scattered, Sheet, bars, rate_density, scatter,
+};
+
+use super::{Comparison, MEASURES, Measure, cell};
+use crate::output::Boxes;
+use crate::report::classes::{CLASS, LEAST_BOXES, means};
+use crate::report::{Align, Figure, Page, Section, Table, counted};
+use crate::style::Model;
+use crate::units::KMH_PER_MPS;
+
+/// The report of all `comparisons`, each of the input of that name, with the `command` that made them.
+pub fn page(comparisons: &[(String, Comparison)], command: &str) -> Page {
+    let lead = format!(
+        "Lane-change models on the same traffic, compared by laneweave {}. Everything here follows from the maps, the scenarios and \
+         the seeds; nothing depends on the machine.",
+        env!("CARGO_PKG_VERSION")
+    );
+    let mut page = Page::new("Lane-change models side by side", lead).section(what(comparisons, command));
+    for (number, (input, comparison)) in comparisons.iter().enumerate() {
+        let name = Path::new(input).file_name().map_or(input.into(), |it| it.to_string_lossy());
+        page = page.section(section(number + 1, &name, comparison));
+    }
+    page.section(method())
+}
+
+fn what(comparisons: &[(String, Comparison)], command: &str) -> Section {
+    let mut facts = vec![
+        ("Command".to_owned(), command.to_owned()),
+        ("Program".to_owned(), format!("laneweave {}", env!("CARGO_PKG_VERSION"))),
+    ];
+    let models = comparisons.first().map_or(&[][..], |(_, it)| &it.models);
+    facts.extend(models.iter().map(|it| (it.name().to_owned(), it.words().to_owned())));
+    Section::new("what", "What was compared").facts(facts)
+}
+
+fn section(number: usize, input: &str, comparison: &Comparison) -> Section {
+    let mut facts = comparison.about.facts();
+    let seeds = comparison.seeds();
+    let [first, last] = [seeds.first(), seeds.last()].map(|it| it.copied().unwrap_or_default());
+    facts.push(("Seeds".into(), format!("{} for each model: {first} to {last}", seeds.len())));
+    let mut figures = vec![rates(comparison)];
+    figures.extend(diagrams(comparison));
+    figures.extend(MEASURES.iter().filter_map(|it| measured(comparison, it)));
+    Section::new(format!("input-{number}"), format!("Models on {input}"))
+        .facts(facts)
+        .table(table(comparison))
+        .figures(figures)
+        .table_unless_empty(differences(comparison), "")
+}
+
+impl Comparison {
+    /// The seeds that each model was driven with.
+    fn seeds(&self) -> Vec<u64> {
+        let first = self.models.first();
+        self.trials.iter().filter(|it| Some(&it.model) == first).map(|it| it.seed).collect()
+    }
+
+    /// The boxes of all runs of a model.
+    fn boxes(&self, model: Model) -> impl Iterator<Item = &EdieRow> {
+        self.trials.iter().filter(move |it| it.model == model).flat_map(|it| &it.boxes)
+    }
+}
+
+fn rates(comparison: &Comparison) -> Figure {
+    let series = |model: &Model| RateSeries {
+        name: model.name().into(),
+        points: Boxes::pooled(comparison.boxes(*model).copied()),
+    };
+    let series: Vec<RateSeries> = comparison.models.iter().map(series).collect();
+    let count =
+        |it: &RateSeries| format!("{} {}", counted(it.points.iter().map(|it| it.changes).sum()), it.name);
+    let counts: Vec<String> = series.iter().map(count).collect();
+    Figure {
+        svg: rate_density(Sheet::Column, "", &series),
+        title: "Lane changes by choice against density".into(),
+        caption: format!(
+            "Changes between lanes of equal worth for the route, per kilometre of lane and hour, in boxes of about 500 m of all \
+             parallel lanes and 60 s; those of like density (2 veh/km) of all seeds are pooled, with exact Poisson 95 % intervals. \
+             n = {} changes.",
+            counts.join(", ")
+        ),
+    }
+}
+
+/// Flow and speed against density.
+fn diagrams(comparison: &Comparison) -> [Figure; 2] {
+    let figure = |label: &str, title: &str, value: fn(&EdieRow) -> f64| {
+        let group = |model: &Model| {
+            let boxes = comparison.boxes(*model).filter(|it| it.density_veh_per_km > 0.0);
+            let points: Vec<[f64; 2]> = boxes.map(|it| [it.density_veh_per_km, value(it)]).collect();
+            let means = means(&points);
+            Scattered { name: model.name().into(), points: Vec::new(), means }
+        };
+        let groups: Vec<Scattered> = comparison.models.iter().map(group).collect();
+        let boxes: usize = comparison.trials.iter().map(|it| it.boxes.len()).sum();
+        Figure {
+            svg: scatter(Sheet::Column, ["density [veh/km per lane]", label], &groups),
+            title: title.into(),
+            caption: format!(
+                "Means over boxes of all seeds in classes of {CLASS} veh/km, from {LEAST_BOXES} boxes on, by Edie's definitions, with \
+                 Student's 95 % intervals over boxes; neighbouring boxes are alike, so the intervals are rather too narrow. \
+                 n = {} boxes.",
+                counted(boxes as u64)
+            ),
+        }
+    };
+    [
+        figure("flow [veh/h per lane]", "Flow against density", |it| it.flow_veh_per_h),
+        figure("speed [km/h]", "Speed against density", |it| {
+            it.speed_mps.map_or(f64::NAN, |it| it * KMH_PER_MPS)
+        }),
+    ]
+}
+
+/// A measure by model; nothing where no model has any of it.
+fn measured(comparison: &Comparison, measure: &Measure) -> Option<Figure> {
+    let row = |model: &Model| {
+        let estimate = comparison.estimate(*model, measure)?;
+        let at = Estimated { at: 0.0, value: estimate.mean, interval: drawn(&estimate) };
+        Some((estimate, BarRow { name: model.name().into(), values: vec![at] }))
+    };
+    let (estimates, rows): (Vec<Estimate>, Vec<BarRow>) = comparison.models.iter().filter_map(row).unzip();
+    if estimates.iter().all(|it| it.mean == 0.0) {
+        return None;
+    }
+    let (name, _) = measure.title.rsplit_once(" [").unwrap_or((measure.title, ""));
+    let least = estimates.iter().map(|it| it.replications).min().unwrap_or(0);
+    Some(Figure {
+        svg: bars(Sheet::Column, [measure.title, "model [name]"], &[name], &rows),
+        title: capitalized(name),
+        caption: format!(
+            "Means over the seeds{}. n = {}{} runs for each model.",
+            if least > 1 {
+                " with Student's 95 % intervals"
+            } else {
+                ", without intervals: one seed has none"
+            },
+            if estimates.iter().all(|it| it.replications == least) { "" } else { "at least " },
+            counted(least as u64)
+        ),
+    })
+}
+
+/// The interval as it is drawn: no measure is below zero; one seed has none.
+fn drawn(estimate: &Estimate) -> Interval {
+    let Interval { lower, upper } = estimate.interval();
+    if upper.is_finite() {
+        Interval { lower: lower.max(0.0), upper }
+    } else {
+        Interval { lower: estimate.mean, upper: estimate.mean }
+    }
+}
+
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn table(comparison: &Comparison) -> Table {
+    let columns: Vec<(&str, Align)> = [("measure", Align::Words)]
+        .into_iter()
+        .chain(comparison.models.iter().map(|it| (it.name(), Align::Numbers)))
+        .collect();
+    let mut table = Table::new("Means over the seeds ± half of Student's 95 % intervals.", &columns);
+    for measure in &MEASURES {
+        let of = |model: &Model| {
+            comparison.estimate(*model, measure).map_or("–".into(), |it| cell(&it, measure.digits))
+        };
+        table.row([measure.title.to_owned()].into_iter().chain(comparison.models.iter().map(of)));
+    }
+    table
+}
+
+/// What the other models have more than the first; nothing where there is only one seed or model.
+fn differences(comparison: &Comparison) -> Table {
+    let (reference, others) = match &comparison.models[..] {
+        [reference, others @ ..] if comparison.seeds().len() > 1 => (*reference, others),
+        [reference, ..] => (*reference, &[][..]),
+        [] => return Table::new("", &[]),
+    };
+    let columns: Vec<(&str, Align)> = [("measure", Align::Words)]
+        .into_iter()
+        .chain(others.iter().map(|it| (it.name(), Align::Numbers)))
+        .collect();
+    let caption = format!(
+        "How much more than {}: means of the differences seed by seed ± half of Student's 95 % intervals. With a seed the same \
+         vehicles and drivers come at the same times, so that differences are surer than the means they are of; * where the \
+         interval leaves out 0. Of so many numbers one in twenty does by chance.",
+        reference.name()
+    );
+    let mut table = Table::new(caption, &columns);
+    for measure in MEASURES.iter().filter(|_| !others.is_empty()) {
+        let of = |model: &Model| {
+            let difference = comparison.difference(*model, reference, measure);
+            difference.map_or("–".into(), |it| {
+                let is_sure = it.half_width.is_finite() && it.mean.abs() > it.half_width;
+                cell(&it, measure.digits).replacen('-', "−", 1) + if is_sure { " *" } else { "" }
+            })
+        };
+        table.row([measure.title.to_owned()].into_iter().chain(others.iter().map(of)));
+    }
+    table
+}
+
+fn method() -> Section {
+    Section::new("method", "How it was measured")
+        .text(
+            "Each model drives every seed of an input once. Everything but the decision on lane changes is the same: the map, the demand, \
+             the drivers with their car-following and gap acceptance, and for each seed all draws of arrivals and characters. \
+             null and constant-hazard are controls: a claim about reasons for lane changes that holds for them, too, is no \
+             claim about reasons.",
+        )
+        .text(
+            "A lane change is by choice where both lanes lead to the same place for the driver, and for the route otherwise. Held up: the \
+             leader keeps the driver below its desired speed beside a free lane; the ratio says how many times as likely a driver then is \
+             to want a change as on a free road. Delay is time beyond that on a free road at the speeds the driver desires.",
+        )
+}
