@@ -126,40 +126,52 @@ impl Differences {
     /// The differences for the screen, where `settings` were changed.
     pub fn to_text(&self, settings: &str) -> String {
         let mut text = String::new();
-        let mut line = |name: &str, value: String| {
+        for (name, value) in self.facts(settings) {
             // Writing to a string never fails.
             let _ = writeln!(text, "  {name:<17}{value}");
-        };
-        line("branch", format!("from {:.1} s on with {settings}", self.since_s));
+        }
+        text
+    }
+
+    /// The differences in words, where `settings` were changed: names and what they stand for.
+    pub(super) fn facts(&self, settings: &str) -> Vec<(&'static str, String)> {
+        let mut facts = vec![("branch", format!("from {:.1} s on with {settings}", self.since_s))];
         let first =
             self.vehicles.iter().min_by(|a, b| a.1.since_s.total_cmp(&b.1.since_s).then(a.0.cmp(b.0)));
         let Some((id, vehicle)) = first else {
-            line("differences", "none: both twins are the same to the last bit".into());
-            return text;
+            facts.push(("differences", "none: both twins are the same to the last bit".into()));
+            return facts;
         };
-        line("first", format!("vehicle {id} ({}) at {:.0} s", vehicle.style, vehicle.since_s));
-        let Some(last) = self.instants.last() else { return text };
-        let met: std::collections::BTreeSet<VehicleId> = self.vehicles.keys().copied().collect();
+        facts.push(("first", format!("vehicle {id} ({}) at {:.0} s", vehicle.style, vehicle.since_s)));
+        let Some(last) = self.instants.last() else { return facts };
         let share = 100.0 * f64::from(last.differ) / f64::from(last.on_road.max(1));
-        line("differ", format!("{} vehicles; at the end {share:.0} % of those on the road", met.len()));
+        let met = self.vehicles.len();
+        facts.push(("differ", format!("{met} vehicles; at the end {share:.0} % of those on the road")));
         let both = |of: [f64; 2], unit: &str, digits: usize| {
             format!("{:.digits$} → {:.digits$}{unit} ({:+.digits$})", of[0], of[1], of[1] - of[0])
         };
-        line("lane changes", both(self.changes.map(|it| it as f64), "", 0));
+        facts.push(("lane changes", both(self.changes.map(|it| it as f64), "", 0)));
         let speeds = [0, 1].map(|which| {
             let all: f64 = self.instants.iter().map(|it| it.mean_speed_mps[which]).sum();
             KMH_PER_MPS * all / self.instants.len() as f64
         });
-        line("mean speed", both(speeds, " km/h", 1));
+        facts.push(("mean speed", both(speeds, " km/h", 1)));
         let left = [0, 1].map(|which| self.left.values().filter(|it| it[which].is_some()).count() as f64);
-        line("left", both(left, "", 0));
-        let later: Vec<f64> =
-            self.left.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?)).collect();
+        facts.push(("left", both(left, "", 0)));
+        let later: Vec<f64> = self.later().collect();
         if !later.is_empty() {
             let mean = later.iter().sum::<f64>() / later.len() as f64;
-            line("who left in both", format!("{} vehicles, {mean:+.2} s later on average", later.len()));
+            facts.push((
+                "who left in both",
+                format!("{} vehicles, {mean:+.2} s later on average", later.len()),
+            ));
         }
-        text
+        facts
+    }
+
+    /// How much later than in the base those who left in both did so in the branch [s].
+    pub(super) fn later(&self) -> impl Iterator<Item = f64> {
+        self.left.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?))
     }
 }
 

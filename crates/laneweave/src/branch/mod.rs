@@ -2,18 +2,21 @@
 //! is caused by that change.
 
 mod differences;
+mod page;
 mod setting;
 
 use laneweave_models::Style;
 use laneweave_sim::World;
 
 use crate::fault::Fault;
+use crate::output::Traces;
 use crate::record::{End, Record};
 use crate::scenario::mixture::mixture;
-use crate::scenario::prepare;
+use crate::scenario::{Prepared, prepare};
 use crate::style::Population;
 
 pub use differences::{Differences, Instant, Vehicle};
+pub use page::page;
 pub use setting::Setting;
 
 /// Two worlds that were one.
@@ -22,6 +25,8 @@ pub struct Twins {
     pub base: World,
     /// As it goes otherwise.
     pub branch: World,
+    /// The vehicles of the lane on which most way is driven, in either; none where nobody comes from anywhere.
+    pub lanes: [Option<Traces>; 2],
     /// Steps until the run ends.
     steps_left: u32,
 }
@@ -42,13 +47,17 @@ impl Twins {
             return Err(Fault::new("--at", what, remedy));
         }
         let characters = changed(record, settings)?;
-        let [mut base, mut branch] = [prepare(scenario, origin)?.world, prepare(scenario, origin)?.world];
+        let Prepared { world: mut base, origins, .. } = prepare(scenario, origin)?;
+        let mut branch = prepare(scenario, origin)?.world;
         (0..before).for_each(|_| base.step());
         let bug = |error: &dyn std::fmt::Display| Fault::new("branch", error, "report this as a bug");
         let saved = base.save().map_err(|error| bug(&error))?;
         branch.restore(&saved).map_err(|error| bug(&error))?;
         branch.change_characters(characters).map_err(|error| bug(&error))?;
-        Ok(Twins { base, branch, steps_left: all - before })
+        let duration = f64::from(all - before) * scenario.run.step_s;
+        let lane = || Traces::most_driven(1, &base, &origins, base.clock().time(), duration).pop();
+        let lanes = [lane(), lane()];
+        Ok(Twins { base, branch, lanes, steps_left: all - before })
     }
 
     /// Drives both to the end of the run.
@@ -58,6 +67,9 @@ impl Twins {
             self.base.step();
             self.branch.step();
             differences.observe(&self.base, &self.branch);
+            for (lane, world) in self.lanes.iter_mut().zip([&self.base, &self.branch]) {
+                lane.iter_mut().for_each(|it| it.observe(world));
+            }
         }
         differences
     }

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use laneweave::Fault;
-use laneweave::branch::{Differences, Setting, Twins};
+use laneweave::branch::{Differences, Setting, Twins, page};
+use laneweave::output::write_whole;
 use laneweave::record::Record;
 use laneweave::study::{Column, Format, TableWriter};
 
@@ -51,6 +52,9 @@ impl Arguments {
                 let name = if number == 0 { "files" } else { "" };
                 text += &format!("  {name:<17}{}\n", path.display());
             }
+            let report = folder.join("report.html");
+            write_whole(&report, &page(&twins, &differences, &settings, &super::given()).to_html())?;
+            text += &format!("  {:<17}{}\n", "report", report.display());
         }
         say(&text);
         Ok(())

@@ -5,6 +5,7 @@
 pub(crate) mod classes;
 mod numbers;
 mod page;
+pub(crate) mod roads;
 mod run;
 mod table;
 

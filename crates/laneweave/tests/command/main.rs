@@ -1,6 +1,8 @@
 //! The `laneweave` command as a user meets it. Marked as tests, modules and all, so that their helpers may unwrap.
 
 #[cfg(test)]
+mod branch;
+#[cfg(test)]
 mod check;
 #[cfg(test)]
 mod compare;
