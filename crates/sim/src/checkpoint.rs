@@ -9,6 +9,7 @@ use crate::clock::Clock;
 use crate::guidance::Guidance;
 use crate::journal::Journal;
 use crate::junction::Passages;
+use crate::ledger::Ledger;
 use crate::metering::Metering;
 use crate::navigate::Guided;
 use crate::plan::Waiting;
@@ -49,6 +50,7 @@ struct Traffic {
     records: Records,
     trips: Trips,
     journal: Option<Journal>,
+    ledger: Option<Ledger>,
     counts: Counts,
     tally: Tally,
 }
@@ -80,6 +82,7 @@ impl World {
             records: self.records.clone(),
             trips: self.trips.clone(),
             journal: self.journal.clone(),
+            ledger: self.ledger.clone(),
             counts: self.counts,
             tally: self.counted(),
         };
@@ -115,6 +118,7 @@ impl World {
         self.records = traffic.records;
         self.trips = traffic.trips;
         self.journal = traffic.journal;
+        self.ledger = traffic.ledger;
         self.counts = traffic.counts;
         self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
         if let Some(outbox) = self.outboxes.first_mut() {

@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
 
+use crate::ledger::Mark;
 use crate::plan::Rerouting;
 use crate::traffic::VehicleId;
 use crate::vehicle::Class;
@@ -47,6 +48,8 @@ pub struct TripRecord {
     pub route_changes: u32,
     /// Times that its driver missed a turn.
     pub missed_turns: u32,
+    /// Up to where it is put down what it did on the lanelets.
+    pub(crate) mark: Mark,
 }
 
 impl TripRecord {
@@ -69,6 +72,7 @@ impl TripRecord {
             lane_changes: 0,
             route_changes: 0,
             missed_turns: 0,
+            mark: Mark::default(),
         }
     }
 

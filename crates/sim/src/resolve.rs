@@ -9,6 +9,7 @@ use crate::events::{Event, LaneChange};
 use crate::gap::gap;
 use crate::journal::TripRecord;
 use crate::junction::NO_PASSAGE;
+use crate::ledger::Mark;
 use crate::plan::{Ask, Request, Want};
 use crate::scene::Spot;
 use crate::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin, VehicleId};
@@ -194,10 +195,12 @@ impl World {
                     crate::traffic::Kind::Discretionary => self.counts.discretionary_changes += 1,
                     crate::traffic::Kind::Route => self.counts.route_changes += 1,
                 }
+                let ((from, x), (_, x_there)) = (record.from, record.to);
                 if let Some(trip) = self.record_mut(milestone.id) {
                     trip.way_to_start += jump;
                     trip.lane_changes += 1;
                 }
+                self.leave_chain(milestone.id, from, [x, x_there].map(|x| Mark { x, time }));
             }
             Reached::End | Reached::Return => {
                 let mut record = *self.records.get_mut(milestone.record);
@@ -281,14 +284,17 @@ impl World {
 
     fn go_on(&mut self, from: ChainIndex, next: ChainIndex, mut entry: Entry) {
         let length = self.network.chain(from).length;
+        if !entry.car.is_shadow {
+            if let Some(trip) = self.record_mut(entry.motion.id) {
+                trip.way_to_start += length;
+            }
+            let end = Mark::at(length, &entry.motion, self.clock);
+            self.leave_chain(entry.motion.id, from, [end, Mark { x: 0.0, ..end }]);
+            self.pass_end(from);
+        }
         entry.motion.x -= length;
         entry.mind.last_place -= length;
         entry.mind.trail = entry.mind.trail.left(from);
-        if !entry.car.is_shadow
-            && let Some(trip) = self.record_mut(entry.motion.id)
-        {
-            trip.way_to_start += length;
-        }
         let limit = self.network.chain(next).limit(entry.motion.x);
         let style = &self.characters[entry.car.character as usize];
         entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
@@ -331,6 +337,12 @@ impl World {
             self.counts.planned += 1;
             self.counts.delay += delay;
         }
+        let length = self.network.chain(from).length;
+        let end = Mark::at(motion.x.min(length), &motion, self.clock);
+        self.leave_chain(motion.id, from, [end; 2]);
+        if motion.x > length {
+            self.pass_end(from);
+        }
         let trip = self.journal.as_mut().and_then(|it| it.end(motion.id));
         self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion, trip });
     }
@@ -338,6 +350,21 @@ impl World {
     /// The record of the trip of a vehicle on the road, where trips are recorded.
     pub(crate) fn record_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
         self.journal.as_mut()?.of_mut(id)
+    }
+
+    /// What a vehicle did on the chain `from` up to the first mark is put down, where trips are recorded; it goes on from the second.
+    fn leave_chain(&mut self, id: VehicleId, from: ChainIndex, [there, on]: [Mark; 2]) {
+        let (Some(ledger), Some(journal)) = (&mut self.ledger, &mut self.journal) else { return };
+        if let Some(trip) = journal.of_mut(id) {
+            ledger.note(self.network.chain(from), [std::mem::replace(&mut trip.mark, on), there]);
+        }
+    }
+
+    /// A vehicle passed the end of `chain`.
+    fn pass_end(&mut self, chain: ChainIndex) {
+        if let Some(ledger) = &mut self.ledger {
+            ledger.pass_end(self.network.chain(chain));
+        }
     }
 
     /// Tells the other entry of a vehicle where this one stands now.

@@ -21,6 +21,7 @@ use crate::guidance::Guidance;
 use crate::headways::HeadwayError;
 use crate::journal::{Journal, TripRecord};
 use crate::junction::{NO_PASSAGE, Passages};
+use crate::ledger::{Ledger, Mark, Stay};
 use crate::metering::Metering;
 use crate::navigate::{Destination, Navigator};
 use crate::overlap::overlaps;
@@ -55,6 +56,8 @@ pub struct World {
     pub(crate) trips: Trips,
     /// Where trips are recorded.
     pub(crate) journal: Option<Journal>,
+    /// There too, what happens on the lanelets.
+    pub(crate) ledger: Option<Ledger>,
     pub(crate) events: Vec<Event>,
     pub(crate) counts: Counts,
     /// One for each thread.
@@ -216,6 +219,7 @@ impl World {
             records: Records::default(),
             trips: Trips::default(),
             journal: None,
+            ledger: None,
             events: Vec::new(),
             counts: Counts::default(),
             outboxes: (0..setup.threads.max(1)).map(|_| Outbox::default()).collect(),
@@ -242,9 +246,10 @@ impl World {
         Ok(self)
     }
 
-    /// The same world, which records every trip until it ends.
+    /// The same world, which records every trip until it ends, and what vehicles do on every lanelet.
     pub fn with_journal(mut self) -> World {
         self.journal = Some(Journal::default());
+        self.ledger = Some(Ledger::new(&self.network));
         self
     }
 
@@ -263,6 +268,9 @@ impl World {
         self.resolve();
         self.enter();
         self.guide();
+        if self.is_watched() {
+            self.put_down();
+        }
     }
 
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
@@ -339,6 +347,7 @@ impl World {
                 speed,
                 destination,
                 free_time,
+                mark: Mark { x, time: entered },
                 ..TripRecord::of(id, class, character)
             });
         }
@@ -482,6 +491,25 @@ impl World {
         self.plans.iter_mut().for_each(|it| it.distance = 0.0);
         self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
         self.counts = Counts { entered: self.on_road() as u64, ..Counts::default() };
+        self.put_down();
+        self.ledger = self.ledger.as_ref().map(|_| Ledger::new(&self.network));
+    }
+
+    /// Puts down what vehicles did on the lanelets up to now, where trips are recorded.
+    fn put_down(&mut self) {
+        if let (Some(ledger), Some(journal)) = (&mut self.ledger, &mut self.journal) {
+            ledger.look(&self.network, &self.lanes, journal, self.clock);
+        }
+    }
+
+    /// What vehicles did on each lanelet since the counts were last forgotten, where trips are recorded.
+    pub fn stays(&self) -> Vec<Stay> {
+        let (Some(mut ledger), Some(mut journal)) = (self.ledger.clone(), self.journal.clone()) else {
+            return Vec::new();
+        };
+        // Up to now, without a note of it: what is put down later does not depend on who asked.
+        ledger.look(&self.network, &self.lanes, &mut journal, self.clock);
+        ledger.stays
     }
 
     /// Vehicles on the road.

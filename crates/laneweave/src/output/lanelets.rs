@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_network::LaneletIndex;
-use laneweave_sim::{Clock, World};
+use laneweave_sim::{Clock, Stay, World};
 use laneweave_study::{Column, TableWriter};
 
 use super::names::Names;
@@ -24,6 +24,8 @@ pub(super) struct Lanelets {
     /// The intervals that are over.
     past: Traffic,
     interval: Traffic,
+    /// What vehicles did on the lanelets before the present interval.
+    before: Vec<Stay>,
     pen: Pen,
 }
 
@@ -32,28 +34,30 @@ impl Lanelets {
     pub(super) fn new(world: &World, every: Option<u32>, [first, last]: [u32; 2], pen: Pen) -> Lanelets {
         let begin = f64::from(first) * world.clock().dt;
         let interval = Traffic::of(world.network(), begin);
+        let before = vec![Stay::default(); world.network().lanelets.len()];
         let end = every.map_or(last, |it| (first + it).min(last));
-        Lanelets { begin, every, until: [end, last], past: interval.clone(), interval, pen }
+        Lanelets { begin, every, until: [end, last], past: interval.clone(), interval, before, pen }
     }
 }
 
 impl Observer for Lanelets {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        pack(&(&self.until, &self.past, &self.interval))
+        pack(&(&self.until, &self.past, &self.interval, &self.before))
     }
 
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
-        (self.until, self.past, self.interval) = unpack(saved)?;
+        (self.until, self.past, self.interval, self.before) = unpack(saved)?;
         Ok(())
     }
 
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
-        let Lanelets { begin, every, until: [end, last], past, interval, pen } = self;
+        let Lanelets { begin, every, until: [end, last], past, interval, before, pen } = self;
         interval.observe(world, |change| change.time >= *begin);
         let Clock { step, .. } = world.clock();
         if let Some(every) = *every
             && step == *end
         {
+            interval.close(world, before);
             past.add(interval);
             let next = Traffic::of(world.network(), world.clock().time());
             pen.hand_over(Page::Flows(std::mem::replace(interval, next)))?;
@@ -62,7 +66,8 @@ impl Observer for Lanelets {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+    fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+        self.interval.close(world, &mut self.before);
         self.past.add(&self.interval);
         self.pen.hand_over(Page::Lanelets(self.past))?;
         Ok(Vec::new())
@@ -158,11 +163,11 @@ impl Writer for LaneletTable {
                 lanelet.id.into(),
                 names.lanes.name(LaneletIndex(place as u32)).into(),
                 lanelet.length().into(),
-                counts.passed.into(),
+                counts.stay.passed.into(),
                 flow.into(),
                 density.into(),
                 speed.into(),
-                counts.standing.into(),
+                counts.stay.standing.into(),
                 counts.begun.into(),
                 counts.ended.into(),
                 to_left.into(),
