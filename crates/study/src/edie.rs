@@ -107,11 +107,20 @@ impl EdieGrid {
     /// # Panics
     /// If there is no such section.
     pub fn add(&mut self, section: usize, time_s: f64, duration_s: f64, distance_m: f64) {
+        self.add_all(section, time_s, duration_s, 1, distance_m);
+    }
+
+    /// The same for `vehicles` that were on the section at the same time and covered `distance_m` together.
+    ///
+    /// # Panics
+    /// If there is no such section.
+    pub fn add_all(&mut self, section: usize, time_s: f64, duration_s: f64, vehicles: u32, distance_m: f64) {
         let begin = self.in_intervals(time_s);
         let end = begin + duration_s / self.window.interval_s;
         if !(begin.is_finite() && end.is_finite() && end > begin && distance_m.is_finite()) {
             return;
         }
+        let duration_s = f64::from(vehicles) * duration_s;
         let first = begin.max(0.0) as usize;
         if begin >= 0.0 && end <= (first + 1) as f64 && first < self.window.intervals {
             // As nearly all do, it lies within one interval.

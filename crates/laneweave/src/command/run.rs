@@ -56,7 +56,7 @@ pub(crate) struct Arguments {
     /// Seed of all random draws [default: 1].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// Number of threads, 1 to 256; results do not depend on it [default: the machine's, at most 2].
+    /// Number of threads, 1 to 256; results do not depend on it [default: the cores of the machine, but for one that writes trajectories if they are recorded; at most 2].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     threads: Option<NonZero<usize>>,
     /// Simulated seconds before anything is measured or recorded [default: 0].

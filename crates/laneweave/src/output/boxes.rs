@@ -1,5 +1,6 @@
 //! Traffic in boxes of about 500 m of road and a minute, by Edie's definitions, with the lane changes in them.
 
+use laneweave_network::ChainIndex;
 use laneweave_sim::{Event, Kind, World};
 use laneweave_study::{EdieGrid, EdieRow, RatePoint, RateSeries, Window, rate_by_density};
 use serde::{Deserialize, Serialize};
@@ -49,9 +50,22 @@ impl Boxes {
             && clock.step.is_multiple_of(clock.steps(SAMPLING))
         {
             let duration = f64::from(clock.steps(SAMPLING)) * clock.dt;
-            for vehicle in world.vehicles() {
-                if let Some(section) = self.sections.at(vehicle.spot.chain, vehicle.x()) {
-                    grid.add(section, clock.time() - duration, duration, vehicle.speed() * duration);
+            let before = clock.time() - duration;
+            let scene = world.scene();
+            for (chain, lane) in (0..).map(ChainIndex).zip(scene.lanes) {
+                let entries = lane.motions().iter().zip(lane.cars());
+                let mut vehicles = entries.filter(|(_, car)| !car.is_shadow).map(|(it, _)| it).peekable();
+                // They stand in driving order: those in one section follow each other.
+                while let Some(first) = vehicles.peek() {
+                    let (section, end) = self.sections.span(chain, first.x);
+                    let (mut number, mut speeds) = (0, 0.0);
+                    while let Some(vehicle) = vehicles.next_if(|it| it.x < end) {
+                        number += 1;
+                        speeds += vehicle.speed;
+                    }
+                    if let Some(section) = section {
+                        grid.add_all(section, before, duration, number, speeds * duration);
+                    }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! How drivers of each style drive: distances to the leader, times to collision, accelerations; looked at once a second.
+//! How drivers of each style drive: distances to the leader, times to collision, accelerations; looked at every five seconds.
 
 use laneweave_models::Style;
 use laneweave_models::change::time_to_collision;
@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::units::KMH_PER_MPS;
 
-/// Time between two looks at the traffic [s].
-const SAMPLING: f64 = 1.0;
+/// Time between two looks at the traffic [s]: sooner, a vehicle is much as it was.
+const SAMPLING: f64 = 5.0;
 /// Bins of time gaps and of times to collision [s]: their width and number.
 const TIME_GAPS: (f64, usize) = (0.25, 32);
 const TIMES_TO_COLLISION: (f64, usize) = (0.5, 30);
@@ -36,7 +36,7 @@ pub struct Driving {
 pub struct StyleDriving {
     /// The style.
     pub name: String,
-    /// Samples: one for each vehicle on the road in each second.
+    /// Samples: one for each vehicle on the road every five seconds.
     pub samples: u64,
     /// Way driven, from the speeds at the samples [m].
     pub distance: f64,

@@ -3,17 +3,15 @@
 //! The world is copied while it waits; what it takes to find the bodies is left to the thread that writes.
 
 use std::mem;
-use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
-use std::thread::available_parallelism;
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
 use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_between};
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
-use super::scribe::{Page, Pen, THREADS};
+use super::scribe::{Page, Pen};
 use super::{Observer, Summary};
 use crate::fault::Fault;
 
@@ -148,10 +146,8 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Samples at every `every`-th step a world that moves on `threads` threads. Frames that are `written` come back.
-    pub(super) fn new(every: u32, threads: usize, pen: Pen, written: Receiver<Frame>) -> Samples {
-        let cores = available_parallelism().map_or(1, NonZero::get);
-        let is_machine_full = threads + THREADS > cores;
+    /// Samples at every `every`-th step. Frames that are `written` come back.
+    pub(super) fn new(every: u32, is_machine_full: bool, pen: Pen, written: Receiver<Frame>) -> Samples {
         let [frame, spare] = [Frame::default(), Frame::default()];
         Samples { every, frame, is_machine_full, pen, written, under_way: 0, spare }
     }

@@ -24,7 +24,9 @@ mod trips;
 
 use std::fs;
 use std::io;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
 
 use laneweave_sim::World;
 use laneweave_study::{Column, Format, TableError, TableWriter};
@@ -96,11 +98,14 @@ pub fn observers(
     let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
     let log = prepared.checkpoint_steps.map(|_| folder.file(checkpoint::LOG));
     let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
-    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world), log)?;
+    let cores = available_parallelism().map_or(1, NonZero::get);
+    let free = cores.saturating_sub(prepared.threads);
+    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world), log, free)?;
     let pen = scribe.pen();
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
-        observers.push(Box::new(Samples::new(steps, prepared.threads, pen.clone(), written)));
+        let is_machine_full = scribe.threads() > free;
+        observers.push(Box::new(Samples::new(steps, is_machine_full, pen.clone(), written)));
     }
     observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
     observers.push(Box::new(LaneChanges::new(begin, pen.clone())));

@@ -81,9 +81,21 @@ impl Sections {
 
     /// The section at `x` [m] of `chain`, if it is not left out.
     pub(super) fn at(&self, chain: ChainIndex, x: f64) -> Option<usize> {
+        self.span(chain, x).0
+    }
+
+    /// The same, and up to where on the chain that is so [m], which is beyond `x`.
+    pub(super) fn span(&self, chain: ChainIndex, x: f64) -> (Option<usize>, f64) {
         let place = self.places[chain.at()];
         let carriageway = &self.carriageways[place.carriageway];
-        carriageway.sections[carriageway.cell(place.offset + x)]
+        let cell = carriageway.cell(place.offset + x);
+        let end = match cell + 1 {
+            next if next < carriageway.sections.len() => {
+                carriageway.from + next as f64 * carriageway.cell_length() - place.offset
+            }
+            _ => f64::INFINITY,
+        };
+        (carriageway.sections[cell], end.max(x.next_up()))
     }
 }
 

@@ -23,13 +23,11 @@ use crate::fault::Fault;
 
 /// Pages that wait for a thread.
 const WAITING: usize = 2;
-/// Threads that write, at most: one for the tables, which passes all pages on to one for the XML files.
-pub(super) const THREADS: usize = 2;
-
 /// Frames that wait to be filled again, at most: of pages that come again there are more.
 const SPARES: usize = 8;
-/// The thread that keeps the log.
-const LOGS: &str = "tables";
+/// The thread for the tables, which keeps the log too, and that for the XML files.
+const TABLES: &str = "tables";
+const XML: &str = "xml";
 
 /// What was seen, in plain numbers.
 #[derive(Serialize, Deserialize)]
@@ -85,18 +83,23 @@ pub(super) struct Scribe {
 }
 
 impl Scribe {
-    /// Begins to write with `xml` and `tables`. The receiver gives frames back that are written, to be used again.
+    /// Begins to write with `xml` and `tables`: on two threads if so many `cores` are free, of which that for the tables passes all
+    /// pages on to that for the XML files, and else on one. The receiver gives frames back that are written, to be used again.
     pub(super) fn begin(
-        xml: Vec<Box<dyn Writer>>,
-        tables: Vec<Box<dyn Writer>>,
+        mut xml: Vec<Box<dyn Writer>>,
+        mut tables: Vec<Box<dyn Writer>>,
         names: Names,
         log_path: Option<PathBuf>,
+        cores: usize,
     ) -> Result<(Scribe, Receiver<Frame>), Fault> {
+        if cores < 2 {
+            tables.append(&mut xml);
+        }
         let mut log = log_path.as_deref().map(PageLog::create).transpose()?;
         let (written, spares) = sync_channel(SPARES);
         let (names, fault) = (Arc::new(names), Arc::new(OnceLock::new()));
         let (mut threads, mut next) = (Vec::new(), None);
-        let stages = [("xml", xml), (LOGS, tables)];
+        let stages = [(XML, xml), (TABLES, tables)];
         for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
             let (pages, received) = sync_channel(WAITING);
             let pen = Pen { pages, fault: Arc::clone(&fault) };
@@ -104,7 +107,7 @@ impl Scribe {
                 Stage { next: next.replace(pen), names: Arc::clone(&names), written: written.clone() };
             let fault = Arc::clone(&fault);
             // The first to get the pages logs them.
-            let log = if name == LOGS { log.take() } else { None };
+            let log = if name == TABLES { log.take() } else { None };
             let work = move || {
                 let outcome = stage.write(&received, writers, log);
                 if let Err(error) = &outcome {
@@ -120,6 +123,11 @@ impl Scribe {
         }
         let pen = next.ok_or_else(broke_off)?;
         Ok((Scribe { pen, threads, log: log_path }, spares))
+    }
+
+    /// Number of threads that write.
+    pub(super) fn threads(&self) -> usize {
+        self.threads.len()
     }
 
     /// What hands pages over to it.

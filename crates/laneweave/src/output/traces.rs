@@ -13,8 +13,9 @@ use super::road::Road;
 const LONGEST_ROAD: f64 = 10_000.0;
 /// Longest time that is drawn [s]; of longer runs the end is left out.
 const LONGEST_TIME: f64 = 3600.0;
-/// Time between two samples [s].
+/// Least time between two samples [s], and the most samples of a vehicle: a figure is no finer.
 const SAMPLING: f64 = 1.0;
+const MOST_SAMPLES: f64 = 600.0;
 
 /// Collects the vehicles of one lane.
 #[derive(Debug, Serialize, Deserialize)]
@@ -24,6 +25,8 @@ pub struct Traces {
     road: Road,
     begin: f64,
     end: f64,
+    /// Time between two samples [s].
+    sampling: f64,
     /// The trajectories of the vehicles that are on the lane now.
     current: BTreeMap<VehicleId, Vec<Sample>>,
     /// Those of vehicles that left it.
@@ -59,11 +62,13 @@ impl Traces {
     }
 
     fn on(Course { lanelet, road }: Course, begin: f64, duration: f64) -> Traces {
+        let duration = duration.min(LONGEST_TIME);
         Traces {
             lanelet,
             road,
             begin,
-            end: begin + duration.min(LONGEST_TIME),
+            end: begin + duration,
+            sampling: (duration / MOST_SAMPLES).ceil().max(SAMPLING),
             current: BTreeMap::new(),
             past: Vec::new(),
             changes: Vec::new(),
@@ -83,7 +88,7 @@ impl Traces {
                 self.changes.extend(places.into_iter().flatten().take(1).map(mark));
             }
         }
-        if clock.step.is_multiple_of(clock.steps(SAMPLING)) && clock.time() <= self.end {
+        if clock.step.is_multiple_of(clock.steps(self.sampling)) && clock.time() <= self.end {
             self.sample(world);
         }
     }

@@ -197,7 +197,8 @@ pub struct Run {
     pub seed: u64,
     /// Simulated time before anything is measured or recorded [s].
     pub warmup_s: f64,
-    /// Number of threads; results do not depend on it. Without it as many as the machine has, 2 at most.
+    /// Number of threads; results do not depend on it. Without it the cores of the machine, but for one that writes trajectories if
+    /// they are recorded; at most 2.
     pub threads: Option<NonZero<usize>>,
 }
 

@@ -1,5 +1,6 @@
 //! From a scenario to a world that can run: everything is checked before anything is written.
 
+use std::num::NonZero;
 use std::path::Path;
 use std::thread::available_parallelism;
 
@@ -71,9 +72,9 @@ pub struct Prepared {
 /// If anything is missing, not readable, or makes no sense.
 pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
-    let threads = threads(scenario, origin)?;
     let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
     let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
+    let threads = threads(scenario, origin, record_steps.is_some())?;
     let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
     if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
         let what = "fcd.xml is sampled at output.record_s, which is 0";
@@ -201,8 +202,13 @@ fn whole_steps(
     Err(Fault::new(origin.place(&["output", key]), what, remedy))
 }
 
-fn threads(scenario: &Scenario, origin: &Origin) -> Result<usize, Fault> {
-    let usual = || available_parallelism().map_or(1, |it| it.get().min(USUAL_THREADS));
+fn threads(scenario: &Scenario, origin: &Origin, records: bool) -> Result<usize, Fault> {
+    let usual = || {
+        let cores = available_parallelism().map_or(1, NonZero::get);
+        // What writes trajectories needs a core of its own: a thread that moves vehicles would wait for it.
+        let free = cores - usize::from(records);
+        free.clamp(1, USUAL_THREADS)
+    };
     let threads = scenario.run.threads.map_or_else(usual, |it| it.get());
     if threads > MOST_THREADS {
         let place = origin.place(&["run", "threads"]);

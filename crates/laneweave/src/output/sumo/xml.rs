@@ -13,6 +13,16 @@ use crate::output::Provenance;
 const BUFFER: usize = 1 << 18;
 /// Digits of a number, with sign and point.
 const DIGITS: usize = 24;
+/// The numbers below a hundred, with two digits.
+const PAIRS: [[u8; 2]; 100] = {
+    let mut pairs = [[0; 2]; 100];
+    let mut number = 0;
+    while number < 100 {
+        pairs[number] = [b'0' + (number / 10) as u8, b'0' + (number % 10) as u8];
+        number += 1;
+    }
+    pairs
+};
 /// Room for a line, so that the text never has to move [bytes].
 const LINE: usize = 1 << 10;
 
@@ -66,24 +76,23 @@ impl XmlFile {
         // Written from the end on: most of a file is such numbers, and this is the shortest way.
         let mut digits = [0; DIGITS];
         let (mut at, mut left) = (DIGITS, value.unsigned_abs());
-        let mut digit = |digit: u8| {
-            at -= 1;
-            digits[at] = digit;
+        let mut put = |text: &[u8]| {
+            at -= text.len();
+            digits[at..at + text.len()].copy_from_slice(text);
         };
-        for _ in 0..2 {
-            digit(b'0' + (left % 10) as u8);
-            left /= 10;
+        put(&PAIRS[(left % 100) as usize]);
+        put(b".");
+        left /= 100;
+        while left >= 10 {
+            put(&PAIRS[(left % 100) as usize]);
+            left /= 100;
         }
-        digit(b'.');
-        loop {
-            digit(b'0' + (left % 10) as u8);
-            left /= 10;
-            if left == 0 {
-                break;
-            }
+        // What is left has one digit, or none after others.
+        if left > 0 || value.unsigned_abs() < 100 {
+            put(&PAIRS[left as usize][1..]);
         }
         if value < 0 {
-            digit(b'-');
+            put(b"-");
         }
         self.text.extend_from_slice(&digits[at..]);
         self
@@ -158,13 +167,13 @@ mod tests {
     #[test]
     fn numbers_have_two_decimals_and_zero_has_no_sign() {
         let text = text(|it| {
-            for value in [0.0, -0.004, 1.005, -1.5, 99.999, -0.01, 1234567.891] {
+            for value in [0.0, -0.004, 1.005, -1.5, 99.999, -0.01, 10.0, 1234567.891] {
                 it.number(value).raw(" ");
             }
             it.time(12.0).raw(" ").time(0.1 + 0.2).raw(" ").time(0.125);
         });
         let body = text.split("<a>\n").nth(1).unwrap();
-        assert_eq!(body, "0.00 0.00 1.00 -1.50 100.00 -0.01 1234567.89 12.00 0.30 0.125</a>\n");
+        assert_eq!(body, "0.00 0.00 1.00 -1.50 100.00 -0.01 10.00 1234567.89 12.00 0.30 0.125</a>\n");
     }
 
     #[test]

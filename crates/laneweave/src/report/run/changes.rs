@@ -85,7 +85,7 @@ fn by_style(run: &RunReport) -> Figure {
         svg: bars(Sheet::Column, ["lane changes [1/(veh km)]", "style [name]"], &KINDS.map(|it| it.1), &rows),
         title: "Lane changes by style".into(),
         caption: format!(
-            "Completed changes per vehicle-kilometre that drivers of the style drove (speeds taken once a second), with exact \
+            "Completed changes per vehicle-kilometre that drivers of the style drove (speeds taken every five seconds), with exact \
              Poisson 95 % intervals of the counts. n = {} changes.",
             counted(reasons.total())
         ),

@@ -71,7 +71,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     });
     section
         .note(
-            "Every vehicle on the road is looked at once a second. Successive samples of a vehicle are nearly the same, and so are \
+            "Every vehicle on the road is looked at every five seconds. Successive samples of a vehicle are nearly the same, and so are \
              those of a platoon: these distributions have no intervals, and their n says how much was seen, not how sure it is.",
         )
         .figures(figures)
