@@ -1,8 +1,6 @@
 //! Help texts: what they show can be done, and they can be read.
 
-use std::path::Path;
-
-use crate::program::Folder;
+use crate::program::{Folder, at_home, without_first_duration};
 
 /// Longest line of a help text.
 const WIDTH: usize = 100;
@@ -30,20 +28,6 @@ fn examples(help: &str) -> Vec<&str> {
     text.lines().filter_map(|it| it.strip_prefix("  laneweave")).collect()
 }
 
-/// A folder with the maps and scenarios that come with the program.
-fn at_home() -> Folder {
-    let folder = Folder::new();
-    for name in ["maps", "scenarios"] {
-        let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name);
-        std::fs::create_dir(folder.path().join(name)).unwrap();
-        for file in std::fs::read_dir(from).unwrap() {
-            let file = file.unwrap();
-            std::fs::copy(file.path(), folder.path().join(name).join(file.file_name())).unwrap();
-        }
-    }
-    folder
-}
-
 #[test]
 fn every_example_works() {
     for (command, help) in helps() {
@@ -69,38 +53,6 @@ fn every_example_works() {
             let is_quiet = errors.lines().all(|it| it.starts_with("warning: map: "));
             assert!(run.code() == 0 && is_quiet, "{command}: laneweave {line}: {errors}");
         }
-    }
-}
-
-#[test]
-fn every_command_of_the_tutorial_works() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/getting-started.md");
-    let text = std::fs::read_to_string(path).unwrap().replace("\\\n", " ");
-    let blocks = text.split("```sh\n").skip(1).map(|it| it.split("```").next().unwrap());
-    let lines: Vec<&str> =
-        blocks.flat_map(str::lines).filter_map(|it| it.strip_prefix("laneweave ")).collect();
-    assert!(lines.len() > 7, "{lines:?}");
-    let folder = at_home();
-    for line in lines {
-        let line = line.split(" > ").next().unwrap();
-        let line = match line.strip_prefix("run ") {
-            Some(rest) => {
-                without_first_duration(&format!("run {rest} --duration 1")).replace("--warmup 240", "")
-            }
-            None => line.to_owned(),
-        };
-        let run = folder.laneweave(&line);
-        assert_eq!((run.code(), run.errors().as_str()), (0, ""), "laneweave {line}");
-    }
-}
-
-/// `line` without its first `--duration` if it has two.
-fn without_first_duration(line: &str) -> String {
-    let words: Vec<&str> = line.split_whitespace().collect();
-    let places: Vec<usize> = (0..words.len()).filter(|it| words[*it] == "--duration").collect();
-    match places[..] {
-        [first, _] => [&words[..first], &words[first + 2..]].concat().join(" "),
-        _ => line.into(),
     }
 }
 

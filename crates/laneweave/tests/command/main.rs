@@ -1,6 +1,8 @@
 //! The `laneweave` command as a user meets it. Marked as tests, modules and all, so that their helpers may unwrap.
 
 #[cfg(test)]
+mod book;
+#[cfg(test)]
 mod branch;
 #[cfg(test)]
 mod check;

@@ -63,6 +63,30 @@ pub(crate) fn maps() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps")
 }
 
+/// A folder with the maps and scenarios that come with the program.
+pub(crate) fn at_home() -> Folder {
+    let folder = Folder::new();
+    for name in ["maps", "scenarios"] {
+        let from = maps().join("..").join(name);
+        fs::create_dir(folder.path().join(name)).unwrap();
+        for file in fs::read_dir(from).unwrap() {
+            let file = file.unwrap();
+            fs::copy(file.path(), folder.path().join(name).join(file.file_name())).unwrap();
+        }
+    }
+    folder
+}
+
+/// `line` without its first `--duration` if it has two.
+pub(crate) fn without_first_duration(line: &str) -> String {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let places: Vec<usize> = (0..words.len()).filter(|it| words[*it] == "--duration").collect();
+    match places[..] {
+        [first, _] => [&words[..first], &words[first + 2..]].concat().join(" "),
+        _ => line.into(),
+    }
+}
+
 /// A map of a ring of four lanelets: nobody comes onto it or leaves it.
 pub(crate) fn closed() -> String {
     let mut map = String::from("<osm>");

@@ -1,0 +1,177 @@
+//! The README and the book: what they tell to type works, what they show of it is what it prints, and their figures are what it
+//! draws.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::golden::assert_golden;
+use crate::program::{Folder, at_home, maps, without_first_duration};
+
+/// Real maps and recordings, where they are at hand.
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
+
+/// Files that the reader has, each with one of ours in its place: under `DATA`, or with the maps.
+const THE_READERS: [(&str, &str); 4] = [
+    ("my-map.osm", "lanelet2/town10.osm"),
+    ("map.osm", "recordings/mona_east/map.osm"),
+    ("tracks.csv", "recordings/mona_east/vehicle_tracks_000.csv"),
+    ("USA_US101-1_1_T-1.xml", "recordings/ngsim_commonroad/USA_US101-1_1_T-1.xml"),
+];
+
+fn home() -> PathBuf {
+    maps().join("..")
+}
+
+/// The README and all pages of the book.
+fn pages() -> Vec<PathBuf> {
+    let book = home().join("docs/src");
+    let mut pages = vec![home().join("README.md")];
+    for folder in [book.clone(), book.join("how-to"), book.join("reference")] {
+        let files = fs::read_dir(folder).unwrap().map(|it| it.unwrap().path());
+        pages.extend(files.filter(|it| it.extension().is_some_and(|it| it == "md")));
+    }
+    pages.sort();
+    assert!(pages.len() > 15, "{pages:?}");
+    pages
+}
+
+/// Commands of one block, and the text that follows them: what they print.
+struct Example {
+    commands: Vec<String>,
+    shown: Option<String>,
+}
+
+/// The examples of a page, without the name of the program.
+fn examples(page: &Path) -> Vec<Example> {
+    let text = fs::read_to_string(page).unwrap().replace("\\\n", " ");
+    let mut parts = text.split("```");
+    let mut examples: Vec<Example> = Vec::new();
+    // Prose and blocks take turns.
+    while let (Some(_), Some(block)) = (parts.next(), parts.next()) {
+        let (kind, body) = block.split_once('\n').unwrap_or_default();
+        if kind == "sh" {
+            let lines = body.lines().filter_map(|it| it.trim_start().strip_prefix("laneweave "));
+            let commands = lines.map(|it| it.split("  #").next().unwrap().trim().to_owned()).collect();
+            examples.push(Example { commands, shown: None });
+        } else if kind.is_empty()
+            && let Some(last) = examples.last_mut()
+        {
+            last.shown.get_or_insert_with(|| body.to_owned());
+        }
+    }
+    examples.retain(|it| !it.commands.is_empty());
+    examples
+}
+
+/// A command as it is run here: nothing goes by way of the shell, and few seconds stand for many where nobody asks what became
+/// of them.
+fn shortened(command: &str, is_asked_about: bool) -> String {
+    let line = command.split(" > ").next().unwrap().replace("~/", "home/").replace("$seed", "1");
+    let is_short = is_asked_about || line.contains("--resume");
+    match line.split_whitespace().next() {
+        Some("run") if is_short => line,
+        Some("run") => {
+            without_first_duration(&format!("{line} --duration 2")).replace("--warmup 240", "--warmup 0")
+        }
+        Some("compare") => {
+            let line = ["5", "10"]
+                .iter()
+                .fold(line, |it, seeds| it.replace(&format!("--seeds {seeds}"), "--seeds 2"));
+            without_first_duration(&format!("{line} --duration 2"))
+        }
+        _ => line,
+    }
+}
+
+/// A folder with the maps and scenarios, and what the reader has; the names of what is missing here.
+fn readers() -> (Folder, Vec<&'static str>) {
+    let folder = at_home();
+    let mut missing = Vec::new();
+    for (name, ours) in THE_READERS {
+        if fs::copy(Path::new(DATA).join(ours), folder.path().join(name)).is_err() {
+            missing.push(name);
+        }
+    }
+    let made = folder.laneweave("scenario new maps/ramps.osm --out my-scenario.toml");
+    assert_eq!(made.code(), 0, "{}", made.errors());
+    (folder, missing)
+}
+
+#[test]
+fn every_command_works_and_prints_what_is_shown() {
+    let (mut run, mut shown) = (0, 0);
+    for page in pages() {
+        let examples = examples(&page);
+        let is_asked_about = |it: &Example| it.commands.iter().any(|it| it.contains(" out --"));
+        let is_asked_about = examples.iter().any(is_asked_about);
+        let (folder, missing) = readers();
+        for example in examples {
+            let mut printed = String::new();
+            for command in &example.commands {
+                if missing.iter().any(|it| command.split_whitespace().any(|word| word == *it)) {
+                    continue;
+                }
+                let line = shortened(command, is_asked_about && !command.contains("36000"));
+                let outcome = folder.laneweave(&line);
+                let errors = outcome.errors();
+                // What is odd about a map is said of any; a run that is resumed here was not killed.
+                let is_expected =
+                    |it: &str| it.starts_with("warning: ") || it.ends_with("the run has ended already");
+                let is_quiet = errors.lines().all(is_expected);
+                assert!(outcome.code() == 0 && is_quiet, "{}: laneweave {line}: {errors}", page.display());
+                printed = outcome.text();
+                run += 1;
+            }
+            // Of runs that are shortened the figures are others.
+            let last = example.commands.last().map(String::as_str).unwrap_or_default();
+            if let Some(text) =
+                example.shown.filter(|_| last.starts_with("explain") || last.starts_with("branch"))
+            {
+                shown += 1;
+                for line in text.lines().filter(|it| !it.trim().is_empty() && it.trim() != "…") {
+                    assert!(
+                        printed.lines().any(|it| it.trim_end() == line.trim_end()),
+                        "{}: laneweave {last} does not print: {line}\nbut: {printed}",
+                        page.display()
+                    );
+                }
+            }
+        }
+    }
+    assert!(run > 40 && shown >= 2, "{run} commands, {shown} with what they print");
+}
+
+/// Each figure of the book with the command that draws it, and where it leaves it.
+const FIGURES: [(&str, &str, &str); 7] = [
+    ("karlsruhe", "check DATA/lanelet2/karlsruhe.osm --svg map.svg", "map.svg"),
+    ("tianjin", "check DATA/lanelet2/tianjin.osm --svg map.svg", "map.svg"),
+    ("town10", "check DATA/lanelet2/town10.osm --svg map.svg", "map.svg"),
+    ("approach", "check maps/approach.osm --svg map.svg", "map.svg"),
+    ("own_town", "check maps/town.osm --svg map.svg", "map.svg"),
+    ("time_space", "run maps/ramps.osm --record 0", "out/time_space.svg"),
+    ("lane_change_rate", "run maps/ramps.osm --record 0", "out/lane_change_rate.svg"),
+];
+
+#[test]
+fn figures_are_what_their_commands_draw() {
+    let images = home().join("docs/src/images");
+    let mut names: Vec<String> = fs::read_dir(&images)
+        .unwrap()
+        .map(|it| it.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let mut known = FIGURES.map(|(name, ..)| name);
+    known.sort_unstable();
+    assert_eq!(names, known, "every figure has its command here");
+    for (name, command, file) in FIGURES {
+        let line = command.replace("DATA/", DATA);
+        let input = line.split_whitespace().nth(1).unwrap().to_owned();
+        let folder = at_home();
+        if !folder.path().join(input).exists() {
+            continue;
+        }
+        let run = folder.laneweave(&line);
+        assert_eq!(run.code(), 0, "{command}: {}", run.errors());
+        assert_golden(&images.join(format!("{name}.svg")), &folder.read(file));
+    }
+}
