@@ -1,16 +1,17 @@
-//! Apache Parquet: columns that may be null, in groups of rows, with dictionaries and without compression.
+//! Apache Parquet: columns that may be null, in groups of rows; integers by their differences, what repeats by dictionaries, and
+//! nothing compressed beyond that.
 
 use std::fs::File;
 use std::io;
 use std::sync::Arc;
 
-use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
+use parquet::basic::{Encoding, LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::schema::types::Type;
+use parquet::schema::types::{ColumnPath, Type};
 
 use super::{Cell, Cells, Column, Kind};
 
@@ -126,14 +127,21 @@ fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
     let notes = notes.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), (*value).to_owned()));
     let properties = WriterProperties::builder()
         .set_dictionary_page_size_limit(DICTIONARY_SIZE)
-        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_statistics_enabled(EnabledStatistics::None)
         .set_data_page_row_count_limit(PAGE)
         .set_key_value_metadata(Some(notes.collect()));
-    let plain = columns.iter().filter(|it| !it.repeats);
-    let properties = plain.fold(properties, |it, column| {
-        // Nobody looks for single rows by such a number: its extremes are not worth the time.
-        it.set_column_dictionary_enabled(column.name.into(), false)
-            .set_column_statistics_enabled(column.name.into(), EnabledStatistics::None)
+    let properties = columns.iter().fold(properties, |it, column| {
+        let name = || ColumnPath::from(column.name);
+        match (column.kind, column.repeats) {
+            // Times, above all: by its extremes a reader finds the groups with the rows that it looks for.
+            (Kind::F64, true) => it.set_column_statistics_enabled(name(), EnabledStatistics::Chunk),
+            (Kind::F64, false) => it.set_column_dictionary_enabled(name(), false),
+            // From one row to the next the number of a vehicle or lanelet differs by little.
+            (Kind::I64, _) => it
+                .set_column_dictionary_enabled(name(), false)
+                .set_column_encoding(name(), Encoding::DELTA_BINARY_PACKED),
+            (Kind::Text, _) => it,
+        }
     });
     properties.build()
 }
