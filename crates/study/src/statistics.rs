@@ -9,6 +9,9 @@ const CONFIDENCE: f64 = 0.95;
 /// Two-sided quantile of the normal distribution at 95 %.
 const NORMAL_QUANTILE: f64 = 1.96;
 
+/// With more degrees of freedom Student's quantile is had from the normal one, to 10⁻⁹.
+const NEARLY_NORMAL: usize = 200;
+
 /// A range of plausible values, in the unit of what it bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
@@ -117,8 +120,27 @@ pub fn geh(modelled: f64, counted: f64) -> f64 {
 
 /// t with P(|T| ≤ t) = 95 % for Student's distribution.
 fn student_quantile(degrees_of_freedom: usize) -> f64 {
+    if degrees_of_freedom > NEARLY_NORMAL {
+        return nearly_normal_quantile(degrees_of_freedom);
+    }
     let angle = bisect(0.0, FRAC_PI_2, |angle| student_within(degrees_of_freedom, angle) < CONFIDENCE);
     (degrees_of_freedom as f64).sqrt() * libm::tan(angle)
+}
+
+/// The same for many degrees of freedom ν, as a series in 1/ν (Abramowitz and Stegun, 26.7.5).
+fn nearly_normal_quantile(degrees_of_freedom: usize) -> f64 {
+    /// Where the normal distribution has 97.5 % below it.
+    const X: f64 = 1.959_963_984_540_054;
+    const X2: f64 = X * X;
+    /// What goes with 1, 1/ν, 1/ν² and 1/ν³.
+    const TERMS: [f64; 4] = [
+        X,
+        X * (X2 + 1.0) / 4.0,
+        X * ((5.0 * X2 + 16.0) * X2 + 3.0) / 96.0,
+        X * (((3.0 * X2 + 19.0) * X2 + 17.0) * X2 - 15.0) / 384.0,
+    ];
+    let share = 1.0 / degrees_of_freedom as f64;
+    TERMS.iter().rev().fold(0.0, |sum, term| sum * share + term)
 }
 
 /// P(|T| ≤ √ν tan θ) for ν degrees of freedom: a finite series in cos² θ
@@ -189,6 +211,15 @@ mod tests {
         }
         assert_near(student_quantile(30), 2.042272, 1e-6);
         assert_near(student_quantile(1_000_000), 1.959966, 1e-6);
+    }
+
+    #[test]
+    fn with_many_degrees_of_freedom_the_quantile_from_the_normal_one_is_the_same() {
+        let both = |it: usize| (nearly_normal_quantile(it), student_quantile(it));
+        let (near, exact) = both(NEARLY_NORMAL);
+        assert_near(near, exact, 2e-9);
+        let (near, exact) = both(NEARLY_NORMAL - 1);
+        assert_near(near, exact, 2e-9);
     }
 
     #[test]

@@ -187,9 +187,13 @@ fn append(path: &mut String, line: &[(f64, f64)]) {
     for (index, point) in line.iter().enumerate() {
         let there = ((point.0 * UNITS_PER_PX).round() as i64, (point.1 * UNITS_PER_PX).round() as i64);
         let (right, down) = (there.0 - here.0, there.1 - here.1);
+        path.push(if index == 0 { 'M' } else { 'l' });
+        path.push_str(itoa::Buffer::new().format(right));
         // A minus sign separates as well as a space does.
-        let space = if down < 0 { "" } else { " " };
-        *path += &format!("{}{right}{space}{down}", if index == 0 { 'M' } else { 'l' });
+        if down >= 0 {
+            path.push(' ');
+        }
+        path.push_str(itoa::Buffer::new().format(down));
         here = there;
     }
 }
