@@ -1,6 +1,6 @@
 //! Conflict zones: where two chains cross, merge, or run so close in a bend that a long vehicle needs both.
 
-use rstar::RTree;
+use rstar::{AABB, RTree};
 use rstar::primitives::GeomWithData;
 use serde::{Deserialize, Serialize};
 
@@ -74,6 +74,8 @@ const CAR_WIDTH: f64 = 1.85;
 const SPACE: f64 = 0.15;
 /// Distance of the samples along a chain [m].
 const SAMPLE: f64 = 0.5;
+/// Successive samples that are looked around together: about as far as others are near.
+const BLOCK: usize = 16;
 /// Vehicles on levels further apart do not touch [m].
 const HEIGHT: f64 = 2.5;
 /// Contacts further apart along a chain than this belong to different zones [m].
@@ -112,13 +114,17 @@ pub(super) fn zones(network: &Network, kinship: &Kinship) -> Vec<Zone> {
         let chain = samples[from].chain;
         let to = from + samples[from..].partition_point(|it| it.chain == chain);
         let mut found: Vec<(ChainIndex, Contact)> = Vec::new();
-        for here in &samples[from..to] {
-            let reach = LARGEST_VEHICLE[1] + SPACE + 2.0 * SAG_AT_MOST;
-            let near = tree.locate_within_distance([here.path.x, here.path.y], reach * reach);
-            let later = near.map(|it| &samples[it.data]).filter(|it| it.chain > chain);
-            found.extend(later.filter_map(|there| Some((there.chain, contact(here, there)?))));
+        for block in samples[from..to].chunks(BLOCK) {
+            let near = tree.locate_in_envelope(around(block)).map(|it| &samples[it.data]);
+            let later: Vec<&Sample> = near.filter(|it| it.chain > chain).collect();
+            for here in block {
+                found.extend(later.iter().filter_map(|there| Some((there.chain, contact(here, there)?))));
+            }
         }
-        found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.stations[0].total_cmp(&b.1.stations[0])));
+        found.sort_by(|(a, one), (b, other)| {
+            let [by_here, by_there] = [0, 1].map(|side| one.stations[side].total_cmp(&other.stations[side]));
+            a.cmp(b).then(by_here).then(by_there)
+        });
         for pair in found.chunk_by(|a, b| a.0 == b.0) {
             let contacts: Vec<Contact> = pair.iter().map(|it| it.1).collect();
             zones.extend(zones_of(kinship, [chain, pair[0].0], contacts));
@@ -126,6 +132,15 @@ pub(super) fn zones(network: &Network, kinship: &Kinship) -> Vec<Zone> {
         from = to;
     }
     zones
+}
+
+/// All from where somebody could touch a vehicle at one of these samples.
+fn around(block: &[Sample]) -> AABB<[f64; 2]> {
+    let reach = LARGEST_VEHICLE[1] + SPACE + 2.0 * SAG_AT_MOST;
+    let corners = block.iter().flat_map(|Sample { path: Point { x, y, .. }, .. }| {
+        [[x - reach, y - reach], [x + reach, y + reach]]
+    });
+    AABB::from_points(&corners.collect::<Vec<_>>())
 }
 
 /// The largest vehicle's middle is taken to be no further inside of a bend than this [m].
