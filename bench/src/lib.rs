@@ -1,6 +1,8 @@
 //! What the benchmarks share: rounds of measurement in turns, so that what disturbs the machine for a while disturbs all that is
 //! compared.
 
+pub mod machine;
+
 use std::io::Write;
 
 /// Prints a line; who no longer reads misses nothing.

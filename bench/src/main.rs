@@ -16,6 +16,7 @@ use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::network::{ChainIndex, Network};
 use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
 use laneweave::style::Population;
+use laneweave_bench::machine::{round_trip, spin_until};
 use laneweave_bench::{Rates, say};
 
 #[global_allocator]
@@ -175,40 +176,6 @@ fn in_step(it: &mut Measured, arrived: &AtomicU32, threads: u32) -> f64 {
         spin_until(|| arrived.load(Ordering::Acquire) >= threads * step);
     }
     (it.world.tally().updates - before) as f64 / start.elapsed().as_secs_f64()
-}
-
-/// How long a message from one core to the other and back takes [ns]: four times as long where the two share no cache,
-/// and a virtual machine is moved now and then.
-fn round_trip() -> f64 {
-    const MESSAGES: u32 = 2_000;
-    let (there, back) = (Message::default(), Message::default());
-    std::thread::scope(|scope| {
-        scope.spawn(|| {
-            for number in 1..=MESSAGES {
-                spin_until(|| there.0.load(Ordering::Acquire) == number);
-                back.0.store(number, Ordering::Release);
-            }
-        });
-        let send = |number| {
-            there.0.store(number, Ordering::Release);
-            spin_until(|| back.0.load(Ordering::Acquire) == number);
-        };
-        send(1);
-        let start = Instant::now();
-        (2..=MESSAGES).for_each(send);
-        1e9 * start.elapsed().as_secs_f64() / f64::from(MESSAGES - 1)
-    })
-}
-
-/// What one core tells the other, on a cache line of its own.
-#[derive(Default)]
-#[repr(align(128))]
-struct Message(AtomicU32);
-
-fn spin_until(is_so: impl Fn() -> bool) {
-    while !is_so() {
-        std::hint::spin_loop();
-    }
 }
 
 fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {

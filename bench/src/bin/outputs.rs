@@ -1,8 +1,10 @@
 //! What it costs to write results: the same hour with nothing written, and with more and more of it.
 //!
 //! `cargo run --release -p laneweave-bench --bin outputs [-- DIR]` runs a motorway of 20 km and the town of the demo, on one
-//! thread and on two, into a folder for the time being in DIR, and prints what each kind of output adds to the time of the run that leaves
-//! none. `… -- short DIR` runs twenty minutes of the motorway once, with everything, to count instructions under callgrind.
+//! thread and on two, into a temporary folder in DIR, and prints what each kind of output adds to the time of the run that
+//! leaves none: of the best rounds, and in the median of the differences within a round. For comparison there is the run that
+//! leaves none while another core is busy with what has nothing to do with it. `… -- short DIR` runs twenty minutes of the
+//! motorway once, with everything, to count instructions under callgrind.
 
 use std::error::Error;
 use std::num::NonZero;
@@ -16,14 +18,13 @@ use laneweave::output::{Inputs, Provenance, Summary, observers};
 use laneweave::record::fingerprint;
 use laneweave::scenario::{Origin, Scenario, SumoFile, prepare};
 use laneweave::simulation::simulate;
+use laneweave_bench::machine::{beside_a_busy_core, round_trip};
 use laneweave_bench::say;
 
 /// The allocator of the command.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// Rounds, of which the best counts: whatever else the machine does only ever slows one down.
-const ROUNDS: usize = 7;
 const HOUR_S: f64 = 3600.0;
 /// Length of the motorway [m], and vehicles that come [veh/h].
 const MOTORWAY_M: f64 = 20_000.0;
@@ -35,6 +36,8 @@ const SHORT_S: f64 = 1200.0;
 enum Leaves {
     /// Nothing: no observer looks at it.
     Nothing,
+    /// Nothing, but another core is busy.
+    NothingBesideABusyCore,
     /// The report, its figures and all tables but trajectories.
     NoTrajectories,
     /// Beside it where every vehicle was in each second.
@@ -44,12 +47,18 @@ enum Leaves {
 }
 
 impl Leaves {
-    const ALL: [Leaves; 4] =
-        [Leaves::Nothing, Leaves::NoTrajectories, Leaves::Trajectories, Leaves::Everything];
+    const ALL: [Leaves; 5] = [
+        Leaves::Nothing,
+        Leaves::NothingBesideABusyCore,
+        Leaves::NoTrajectories,
+        Leaves::Trajectories,
+        Leaves::Everything,
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Leaves::Nothing => "nothing",
+            Leaves::NothingBesideABusyCore => "a busy core",
             Leaves::NoTrajectories => "no trajectories",
             Leaves::Trajectories => "trajectories",
             Leaves::Everything => "everything",
@@ -93,24 +102,43 @@ fn measure(is_short: bool, dir: &Path) -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let demo = Origin::demo()?;
-    for (name, scenario) in [("motorway", &motorway), ("demo", &demo)] {
+    for (name, scenario, rounds) in [("motorway", &motorway, 7), ("demo", &demo, 21)] {
         for threads in [1, 2] {
-            let mut best = [f64::INFINITY; Leaves::ALL.len()];
-            for _ in 0..ROUNDS {
-                for (best, leaves) in best.iter_mut().zip(Leaves::ALL) {
-                    *best = best.min(run(scenario, HOUR_S, threads, leaves, dir)?);
+            let mut times = Leaves::ALL.map(|_| Vec::new());
+            let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);
+            for _ in 0..rounds {
+                let now = round_trip();
+                (nearest, farthest) = (nearest.min(now), farthest.max(now));
+                for (times, leaves) in times.iter_mut().zip(Leaves::ALL) {
+                    times.push(run(scenario, HOUR_S, threads, leaves, dir)?);
                 }
             }
-            let added = best
-                .iter()
-                .zip(Leaves::ALL)
-                .skip(1)
-                .map(|(it, leaves)| format!("{} +{:.1} %", leaves.name(), 100.0 * (it / best[0] - 1.0)));
-            let added: Vec<String> = added.collect();
-            say(&format!("{name}, {threads} thread(s): {:.3} s; {}", best[0], added.join(", ")));
+            let [alone, others @ ..] = &times;
+            say(&format!(
+                "{name}, {threads} thread(s): {:.3} s at best; a message from core to core and back takes {nearest:.0} to {farthest:.0} ns",
+                best(alone)
+            ));
+            for (others, leaves) in others.iter().zip(&Leaves::ALL[1..]) {
+                let name = leaves.name();
+                let [best, median] =
+                    [best(others) / best(alone), median_ratio(others, alone)].map(|it| 100.0 * (it - 1.0));
+                say(&format!("  {name:16} {best:+6.1} % of the best rounds, {median:+6.1} % in the median"));
+            }
         }
     }
     Ok(())
+}
+
+/// The shortest time: whatever else the machine does only ever slows a round down.
+fn best(times: &[f64]) -> f64 {
+    times.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+/// The middle one of the ratios of times within a round.
+fn median_ratio(times: &[f64], others: &[f64]) -> f64 {
+    let mut ratios: Vec<f64> = times.iter().zip(others).map(|(it, other)| it / other).collect();
+    ratios.sort_by(f64::total_cmp);
+    ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Time [s] from the first step to the last file.
@@ -121,22 +149,39 @@ fn run(
     leaves: Leaves,
     dir: &Path,
 ) -> Result<f64, Box<dyn Error>> {
-    let mut scenario = leaves.of(scenario, dir);
+    // What an earlier run left is not replaced: to take that away costs time of its own.
+    let dir = dir.join("run");
+    let mut scenario = leaves.of(scenario, &dir);
     scenario.run.duration_s = duration_s;
     scenario.run.threads = NonZero::new(threads);
     let mut prepared = prepare(&scenario, origin)?;
     let provenance = Provenance::of(String::new(), scenario.run.seed, fingerprint(&scenario, origin)?);
     let mut watching = match leaves {
-        Leaves::Nothing => Vec::new(),
+        Leaves::Nothing | Leaves::NothingBesideABusyCore => Vec::new(),
         _ => observers(&scenario, &prepared, &provenance)?,
     };
-    let start = Instant::now();
-    let ending = simulate(&mut prepared, &mut watching, None, None, |_| true, || ())?;
-    let inputs =
-        Inputs { scenario: &scenario, ending: &ending, wall_s: 0.0, load_s: 0.0, provenance: &provenance };
-    let summary = Summary::of(&prepared, inputs);
-    for observer in watching {
-        observer.finish(&prepared.world, &summary)?;
+    let mut to_the_end = || -> Result<f64, Box<dyn Error>> {
+        let start = Instant::now();
+        let ending = simulate(&mut prepared, &mut watching, None, None, |_| true, || ())?;
+        let inputs = Inputs {
+            scenario: &scenario,
+            ending: &ending,
+            wall_s: 0.0,
+            load_s: 0.0,
+            provenance: &provenance,
+        };
+        let summary = Summary::of(&prepared, inputs);
+        for observer in watching.drain(..) {
+            observer.finish(&prepared.world, &summary)?;
+        }
+        Ok(start.elapsed().as_secs_f64())
+    };
+    let time = match leaves {
+        Leaves::NothingBesideABusyCore => beside_a_busy_core(to_the_end),
+        _ => to_the_end(),
+    };
+    if dir.exists() {
+        fs::remove_dir_all(dir)?;
     }
-    Ok(start.elapsed().as_secs_f64())
+    time
 }
