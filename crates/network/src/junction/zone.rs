@@ -1,7 +1,7 @@
 //! Conflict zones: where two chains cross, merge, or run so close in a bend that a long vehicle needs both.
 
-use rstar::{AABB, RTree};
 use rstar::primitives::GeomWithData;
+use rstar::{AABB, RTree};
 use serde::{Deserialize, Serialize};
 
 use super::kinship::{Kinship, Meeting};
@@ -137,9 +137,9 @@ pub(super) fn zones(network: &Network, kinship: &Kinship) -> Vec<Zone> {
 /// All from where somebody could touch a vehicle at one of these samples.
 fn around(block: &[Sample]) -> AABB<[f64; 2]> {
     let reach = LARGEST_VEHICLE[1] + SPACE + 2.0 * SAG_AT_MOST;
-    let corners = block.iter().flat_map(|Sample { path: Point { x, y, .. }, .. }| {
-        [[x - reach, y - reach], [x + reach, y + reach]]
-    });
+    let corners = block
+        .iter()
+        .flat_map(|Sample { path: Point { x, y, .. }, .. }| [[x - reach, y - reach], [x + reach, y + reach]]);
     AABB::from_points(&corners.collect::<Vec<_>>())
 }
 
