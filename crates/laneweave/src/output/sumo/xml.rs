@@ -74,27 +74,28 @@ impl XmlFile {
 
     fn hundredths(&mut self, value: i64) -> &mut XmlFile {
         // Written from the end on: most of a file is such numbers, and this is the shortest way.
-        let mut digits = [0; DIGITS];
-        let (mut at, mut left) = (DIGITS, value.unsigned_abs());
-        let mut put = |text: &[u8]| {
-            at -= text.len();
-            digits[at..at + text.len()].copy_from_slice(text);
-        };
-        put(&PAIRS[(left % 100) as usize]);
-        put(b".");
-        left /= 100;
-        while left >= 10 {
-            put(&PAIRS[(left % 100) as usize]);
-            left /= 100;
+        let (mut whole, decimals) = (value.unsigned_abs() / 100, value.unsigned_abs() % 100);
+        let mut digits = [0; 2 * DIGITS];
+        let mut at = DIGITS - 3;
+        digits[at] = b'.';
+        digits[at + 1..DIGITS].copy_from_slice(&PAIRS[decimals as usize]);
+        loop {
+            at -= 2;
+            digits[at..at + 2].copy_from_slice(&PAIRS[(whole % 100) as usize]);
+            whole /= 100;
+            if whole == 0 {
+                break;
+            }
         }
-        // What is left has one digit, or none after others.
-        if left > 0 || value.unsigned_abs() < 100 {
-            put(&PAIRS[left as usize][1..]);
-        }
+        // A pair begins with a zero too many where an odd number of digits stands before the point.
+        at += usize::from(digits[at] == b'0');
         if value < 0 {
-            put(b"-");
+            at -= 1;
+            digits[at] = b'-';
         }
-        self.text.extend_from_slice(&digits[at..]);
+        // To copy a fixed number of bytes takes less time than to copy just those that are needed.
+        self.text.extend_from_slice(&digits[at..at + DIGITS]);
+        self.text.truncate(self.text.len() - at);
         self
     }
 
