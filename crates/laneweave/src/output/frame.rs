@@ -15,8 +15,8 @@ use super::scribe::{Page, Pen};
 use super::{Observer, Summary};
 use crate::fault::Fault;
 
-/// Vehicles in a page, or a few more: those of one instant are not parted. As many as fill a group of rows of the table.
-const PAGE: usize = 1 << 14;
+/// Vehicles in a page, or a few more: those of one instant are not parted. Few, so that little is left to write when the run ends.
+const PAGE: usize = 1 << 11;
 
 /// Vehicles at some instants.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

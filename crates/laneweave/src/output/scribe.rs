@@ -21,10 +21,10 @@ use super::{Observer, Summary};
 use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;
 
-/// Pages that wait for a thread.
-const WAITING: usize = 2;
+/// Pages that wait for a thread: as many as are filled while a row group of a table is encoded.
+const WAITING: usize = 16;
 /// Frames that wait to be filled again, at most: of pages that come again there are more.
-const SPARES: usize = 8;
+const SPARES: usize = 24;
 /// The thread for the tables, which keeps the log too, and that for the XML files.
 const TABLES: &str = "tables";
 const XML: &str = "xml";
