@@ -1,10 +1,11 @@
 //! A run as it stands, in a file: what moves, and what observers keep. A run that broke off goes on from there, and ends as it would
 //! have ended.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use laneweave_study::PartialFile;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
@@ -17,6 +18,8 @@ use crate::output::Queues;
 pub struct Checkpoint {
     /// Hash of all that the run depends on.
     pub fingerprint: String,
+    /// Hash of [what is written](crate::record::outputs).
+    pub outputs: String,
     /// Simulated time at which measuring began [s].
     pub measured_from_s: f64,
     /// Steps that were measured.
@@ -38,12 +41,16 @@ pub struct Keeper {
     pub every: u32,
     /// See [`Checkpoint::fingerprint`].
     pub fingerprint: String,
+    /// See [`Checkpoint::outputs`].
+    pub outputs: String,
 }
 
 /// The name of the file among the results.
 pub const FILE: &str = "checkpoint";
 /// The name of the file of what was written so far.
 pub const LOG: &str = "checkpoint.pages";
+/// The names of both.
+pub const FILES: [&str; 2] = [FILE, LOG];
 /// Bytes of the hash at the end of the file.
 const HASH: usize = 8;
 
@@ -55,13 +62,11 @@ impl Checkpoint {
     pub fn write(&self, path: &Path) -> Result<(), Fault> {
         let mut bytes = pack(self)?;
         bytes.extend(xxh3_64(&bytes).to_le_bytes());
-        let mut partial = path.as_os_str().to_owned();
-        partial.push(".partial");
         let write = || -> io::Result<()> {
-            let mut file = File::create(&partial)?;
+            let (partial, mut file) = PartialFile::create(path)?;
             file.write_all(&bytes)?;
             file.sync_data()?;
-            fs::rename(&partial, path)
+            partial.complete()
         };
         write().map_err(|error| Fault::refused(path, "written", &error))
     }
@@ -82,17 +87,6 @@ impl Checkpoint {
             return Err(Fault::new(path.display(), "the checkpoint is damaged", remedy));
         };
         unpack(body).map(Some)
-    }
-}
-
-/// Removes the file at `path`, if it is there.
-///
-/// # Errors
-/// If it is there and cannot be removed.
-pub fn remove(path: &Path) -> Result<(), Fault> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(Fault::refused(path, "removed", &error)),
-        _ => Ok(()),
     }
 }
 

@@ -10,6 +10,7 @@ pub mod checkpoint;
 pub mod compare;
 pub mod explain;
 mod fault;
+pub mod folder;
 pub mod output;
 pub mod record;
 pub mod report;

@@ -2,22 +2,29 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use serde::Deserialize;
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
+use crate::checkpoint;
 use crate::fault::Fault;
+use crate::folder::{BRANCH, Claim, RESULTS};
 use crate::output::write_whole;
 use crate::scenario::{Origin, Output, Scenario};
 use crate::source::Source;
 use crate::style::{built_in, find};
 
-/// The scenario among the results.
+/// The numbers of a run, among its results.
+pub const SUMMARY: &str = "summary.json";
+/// The scenario among them.
 pub const SCENARIO: &str = "scenario.toml";
-/// The folder of its style files, and the map that came with the program.
+/// The folder of its style files, and the name of the map that came with the program, without its extension.
 const STYLES: &str = "styles";
-const MAP: &str = "map.osm";
+const MAP: &str = "map";
+/// The line below the command in it: by it the scenario of a run is told from one that somebody has written.
+const MARK: &str = "# What ran, with all defaults and options: kept with its results, and replaced by the next run into this folder.";
 
 /// A run that has left its results.
 #[derive(Clone, Debug)]
@@ -43,6 +50,32 @@ pub struct End {
     pub warmup_s: f64,
 }
 
+/// Makes the claimed folder ready for another run: what a former one left goes. Nothing that no run has left does.
+///
+/// # Errors
+/// If a scenario lies there that no run has left and that this one would replace, or if something cannot be removed.
+pub fn clear(claim: &Claim) -> Result<(), Fault> {
+    let path = claim.dir().join(SCENARIO);
+    let former = match fs::read(&path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return claim.clear(&[SUMMARY]).and_then(|()| claim.clear(&checkpoint::FILES));
+        }
+        read => read.map_err(|error| Fault::refused(&path, "read", &error))?,
+    };
+    if former.split(|it| *it == b'\n').nth(1) != Some(MARK.as_bytes()) {
+        let what = "this scenario was left by no run, and would be replaced by what this one leaves";
+        return Err(Fault::new(path.display(), what, "choose another folder for the results with --out"));
+    }
+    let branch = claim.dir().join(BRANCH);
+    if branch.is_dir() {
+        Claim::on(&branch)?.clear_differences()?;
+        // Whatever else lies there stays, and the folder with it.
+        let _ = fs::remove_dir(&branch);
+    }
+    claim.clear(&RESULTS)?;
+    claim.clear(&[SCENARIO])
+}
+
 /// Writes `scenario` into the folder of its results, `dir`, with its style files and the `command` that gave it: run from there it is
 /// the same. Returns the text that was written.
 ///
@@ -51,15 +84,12 @@ pub struct End {
 pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> Result<String, Fault> {
     let styles = keep_styles(scenario, origin, dir)?;
     let map = match origin.built_in_map() {
-        Some(text) => {
-            write_whole(&dir.join(MAP), text)?;
-            PathBuf::from(MAP)
-        }
+        Some(text) => PathBuf::from(keep_text(dir, [MAP, "osm"], text, |_| false)?),
         None => relative(&scenario.map, dir)?,
     };
     let kept = Scenario { map, styles, ..scenario.clone() };
     let toml = toml::to_string(&kept).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
-    let text = format!("# {command}\n\n{toml}");
+    let text = format!("# {command}\n{MARK}\n\n{toml}");
     write_whole(&dir.join(SCENARIO), &text)?;
     Ok(text)
 }
@@ -76,15 +106,42 @@ fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTree
         fs::create_dir_all(&folder).map_err(|error| Fault::refused(&folder, "made", &error))?;
         let Source { path, text } = find(name, origin.style_folder(), || name.clone())?;
         let stem = path.file_stem().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
-        let names = (1..).map(|number| match number {
-            1 => format!("{STYLES}/{stem}.toml"),
-            _ => format!("{STYLES}/{stem}-{number}.toml"),
-        });
-        let free = names.into_iter().find(|it| !kept.contains_key(it)).unwrap_or_default();
-        write_whole(&dir.join(&free), &text)?;
-        kept.insert(free, *weight);
+        let key = |name: &str| format!("{STYLES}/{name}");
+        let name = keep_text(&folder, [&stem, "toml"], &text, |it| kept.contains_key(&key(it)))?;
+        kept.insert(key(&name), *weight);
     }
     Ok(kept)
+}
+
+/// Has `text` in a file of `folder`, and names it: `STEM.EXTENSION`, or `STEM-2.EXTENSION` and so on where that is taken or has
+/// another text, which stays.
+fn keep_text(
+    folder: &Path,
+    [stem, extension]: [&str; 2],
+    text: &str,
+    is_taken: impl Fn(&str) -> bool,
+) -> Result<String, Fault> {
+    let mut number = 1;
+    loop {
+        let name = match number {
+            1 => format!("{stem}.{extension}"),
+            _ => format!("{stem}-{number}.{extension}"),
+        };
+        number += 1;
+        if is_taken(&name) {
+            continue;
+        }
+        let path = folder.join(&name);
+        match fs::read(&path) {
+            Ok(there) if there == text.as_bytes() => return Ok(name),
+            Ok(_) => {}
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                write_whole(&path, text)?;
+                return Ok(name);
+            }
+            Err(error) => return Err(Fault::refused(&path, "read", &error)),
+        }
+    }
 }
 
 /// The path to `file` from `dir` on.
@@ -132,6 +189,17 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     Ok(format!("{:016x}", hash.digest()))
 }
 
+/// Hash of what a run writes, and how: all that its output says but for the folder.
+///
+/// # Errors
+/// None, as long as every output can be written down.
+pub fn outputs(scenario: &Scenario) -> Result<String, Fault> {
+    let output = Output { dir: PathBuf::new(), ..scenario.output.clone() };
+    let toml =
+        toml::to_string(&output).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    Ok(format!("{:016x}", xxh3_64(toml.as_bytes())))
+}
+
 impl Record {
     /// The run that left its results in `dir`.
     ///
@@ -139,7 +207,7 @@ impl Record {
     /// If there are none, or what the run depended on has changed since.
     pub fn open(dir: &Path) -> Result<Record, Fault> {
         let remedy = "name the folder of results of a run, that of --out";
-        let summary = dir.join("summary.json");
+        let summary = dir.join(SUMMARY);
         let text = fs::read_to_string(&summary).map_err(|error| {
             let what = format!("no results of a run: summary.json cannot be read: {error}");
             Fault::new(dir.display(), what, remedy)

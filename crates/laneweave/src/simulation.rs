@@ -117,6 +117,7 @@ impl Run {
         let bug = |error: CheckpointError| Fault::new(FILE, error, "report this as a bug");
         let checkpoint = Checkpoint {
             fingerprint: keeper.fingerprint.clone(),
+            outputs: keeper.outputs.clone(),
             measured_from_s: self.measured_from_s,
             measured_steps: self.measured_steps,
             world: world.save().map_err(bug)?,

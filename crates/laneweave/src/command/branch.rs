@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use clap::Args;
 use laneweave::Fault;
 use laneweave::branch::{Differences, Setting, Twins, page};
+use laneweave::folder::{BRANCH, Claim, REPORT};
 use laneweave::output::write_whole;
-use laneweave::record::Record;
+use laneweave::record::{Record, SCENARIO};
 use laneweave::study::{Column, Format, TableWriter};
 
 use super::say;
@@ -32,7 +33,14 @@ impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         let Arguments { out, at, settings, into } = self;
         let record = Record::open(&out)?;
+        let folder = into.unwrap_or_else(|| out.join(BRANCH));
+        if folder.join(SCENARIO).exists() {
+            let what = "this folder holds a scenario, and what a run of it leaves would be mixed with the differences";
+            return Err(Fault::new(folder.display(), what, "choose another folder with --into"));
+        }
         let mut twins = Twins::part(&record, at, &settings)?;
+        let claim = Claim::on(&folder)?;
+        claim.clear_differences()?;
         let differences = twins.drive();
         let end = format!("{:016x}", twins.base.state_hash());
         if end != record.end.state_hash {
@@ -43,16 +51,17 @@ impl Arguments {
         let texts: Vec<&str> = settings.iter().map(Setting::text).collect();
         let settings = if texts.is_empty() { "nothing changed".into() } else { texts.join(", ") };
         let mut text = differences.to_text(&settings);
-        if !differences.are_none() {
-            let folder = into.unwrap_or_else(|| out.join("branch"));
-            fs::create_dir_all(&folder).map_err(|error| Fault::refused(&folder, "made", &error))?;
+        if differences.are_none() {
+            // An empty folder says nothing; one that is not empty stays.
+            let _ = fs::remove_dir(&folder);
+        } else {
             for (number, path) in
                 tables(&differences, &folder, record.scenario.output.format.into())?.iter().enumerate()
             {
                 let name = if number == 0 { "files" } else { "" };
                 text += &format!("  {name:<17}{}\n", path.display());
             }
-            let report = folder.join("report.html");
+            let report = folder.join(REPORT);
             write_whole(&report, &page(&twins, &differences, &settings, &super::given()).to_html())?;
             text += &format!("  {:<17}{}\n", "report", report.display());
         }

@@ -1,14 +1,15 @@
 //! `laneweave compare`.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::thread::available_parallelism;
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::compare::{Comparison, MEASURES, compare, page};
+use laneweave::folder::{Claim, REPORT};
 use laneweave::output::write_whole;
-use laneweave::scenario::Origin;
+use laneweave::record::SCENARIO;
+use laneweave::scenario::{Origin, prepare};
 use laneweave::study::{Cell, Column, Format, TableWriter};
 use laneweave::style::Model;
 
@@ -48,9 +49,9 @@ impl Arguments {
         let Arguments { inputs, models, seeds, demand, duration, warmup, out } = self;
         let models = if models.is_empty() { USUAL.to_vec() } else { models };
         let threads = available_parallelism().map_or(1, |it| it.get());
-        let mut done = Vec::new();
-        for input in &inputs {
-            let (mut scenario, mut origin) = Origin::open(input)?;
+        let mut asked = Vec::new();
+        for input in inputs {
+            let (mut scenario, mut origin) = Origin::open(&input)?;
             if let Some(demand) = demand {
                 scenario.demand.entrances.clear();
                 scenario.demand.od.clear();
@@ -65,41 +66,61 @@ impl Arguments {
                 scenario.run.warmup_s = warmup;
                 origin.replaced("run.warmup_s", "--warmup");
             }
-            let first = scenario.run.seed;
-            let seeds: Vec<u64> = (first..first + seeds).collect();
+            // Nothing is driven before all of it has been checked.
+            prepare(&scenario, &origin)?;
+            let seeds = seeds_from(scenario.run.seed, seeds)?;
+            asked.push((input.display().to_string(), scenario, origin, seeds));
+        }
+        if out.join(SCENARIO).exists() {
+            let what = "this folder holds a scenario, and what a run of it leaves would be mixed with the comparison";
+            return Err(Fault::new(out.display(), what, "choose another folder with --out"));
+        }
+        let claim = Claim::on(&out)?;
+        let path = claim.dir().join("runs.csv");
+        let mut table = TableWriter::create(&path, Format::Csv, &columns())?;
+        let mut done = Vec::new();
+        for (input, scenario, origin, seeds) in asked {
             let comparison = compare(&scenario, &origin, &models, &seeds, threads)?;
             say(&format!(
-                "{}, {} s, {} seeds: means with 95 % intervals\n{}\n",
-                input.display(),
+                "{input}, {} s, {} seeds: means with 95 % intervals\n{}\n",
                 scenario.run.duration_s,
                 seeds.len(),
                 comparison.to_text()
             ));
-            done.push((input.display().to_string(), comparison));
+            append(&mut table, &input, &comparison)?;
+            done.push((input, comparison));
         }
-        let path = table(&out, &done)?;
-        let report = out.join("report.html");
+        table.finish()?;
+        let report = out.join(REPORT);
         write_whole(&report, &page(&done, &super::given()).to_html())?;
         say(&format!("report: {}\nall runs: {}\n", report.display(), path.display()));
         Ok(())
     }
 }
 
-/// Writes a row for each run.
-fn table(dir: &Path, comparisons: &[(String, Comparison)]) -> Result<PathBuf, Fault> {
-    fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made", &error))?;
-    let path = dir.join("runs.csv");
+/// So many seeds from the `first` on.
+fn seeds_from(first: u64, count: u64) -> Result<Vec<u64>, Fault> {
+    // Tables hold them as signed numbers.
+    let end = first.checked_add(count).filter(|it| i64::try_from(*it).is_ok());
+    let end = end.ok_or_else(|| {
+        let what = format!("{count} seeds from {first} on go beyond {}", i64::MAX);
+        Fault::new("--seeds", what, "choose a smaller run.seed in the scenario")
+    })?;
+    Ok((first..end).collect())
+}
+
+/// The columns of the table of all runs.
+fn columns() -> Vec<Column> {
     let named = [Column::text("input"), Column::text("model"), Column::integer("seed")];
-    let columns: Vec<Column> =
-        named.into_iter().chain(MEASURES.iter().map(|it| Column::real(it.column))).collect();
-    let mut table = TableWriter::create(&path, Format::Csv, &columns)?;
-    for (input, comparison) in comparisons {
-        for trial in &comparison.trials {
-            let named = [input.as_str().into(), trial.model.name().into(), (trial.seed as i64).into()];
-            let measured = MEASURES.iter().map(|it| (it.of)(&trial.outcome).into());
-            table.row(&named.into_iter().chain(measured).collect::<Vec<Cell>>())?;
-        }
+    named.into_iter().chain(MEASURES.iter().map(|it| Column::real(it.column))).collect()
+}
+
+/// Appends a row for each run.
+fn append(table: &mut TableWriter, input: &str, comparison: &Comparison) -> Result<(), Fault> {
+    for trial in &comparison.trials {
+        let named = [input.into(), trial.model.name().into(), (trial.seed as i64).into()];
+        let measured = MEASURES.iter().map(|it| (it.of)(&trial.outcome).into());
+        table.row(&named.into_iter().chain(measured).collect::<Vec<Cell>>())?;
     }
-    table.finish()?;
-    Ok(path)
+    Ok(())
 }

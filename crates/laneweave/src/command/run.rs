@@ -12,8 +12,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
+use laneweave::folder::{Claim, RESULTS};
 use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
-use laneweave::record;
+use laneweave::record::{self, SUMMARY};
 use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
 use laneweave::simulation::simulate;
 use laneweave::style::Model;
@@ -22,8 +23,6 @@ use super::numbers::{number, seed, threads};
 use super::progress::Progress;
 use super::say;
 
-/// The file with the numbers of a run.
-const SUMMARY: &str = "summary.json";
 /// Exit code of a program that was stopped by the keyboard.
 const STOPPED: i32 = 130;
 /// Problems of a map that are listed one by one.
@@ -189,14 +188,11 @@ pub(crate) fn run(
     let prepared = prepare(scenario, origin)?;
     let fingerprint = record::fingerprint(scenario, origin)?;
     let dir = &scenario.output.dir;
-    fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made the folder of the results", &error))?;
-    // What a former run left is no part of this one.
-    for name in [SUMMARY, record::SCENARIO, checkpoint::FILE, checkpoint::LOG] {
-        checkpoint::remove(&dir.join(name))?;
-    }
+    let claim = Claim::on(dir)?;
+    record::clear(&claim)?;
     let kept = record::keep(scenario, origin, dir, &super::given())?;
     let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
-    drive(scenario, prepared, provenance, None, screen, started)
+    drive(scenario, prepared, provenance, None, &claim, screen, started)
 }
 
 /// Goes on with the run that left its scenario in `dir`.
@@ -206,8 +202,9 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
         Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
     })?;
     scenario.output.dir = dir.into();
+    let claim = Claim::on(dir)?;
     if let Some(summary) = ended(&dir.join(SUMMARY))? {
-        tidy(dir)?;
+        claim.clear(&checkpoint::FILES)?;
         if !screen.quiet {
             eprintln!("{}: the run has ended already", dir.display());
         }
@@ -218,22 +215,22 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
     }
     let fingerprint = record::fingerprint(&scenario, &origin)?;
     let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
-    if kept.as_ref().is_some_and(|it| it.fingerprint != fingerprint) {
-        let what = "the map, a style, the scenario or the program has changed since this was run";
-        return Err(Fault::new(dir.display(), what, "run it again from the beginning"));
+    if let Some(kept) = &kept {
+        let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
+        if kept.fingerprint != fingerprint {
+            let what = "the map, a style, the scenario or the program has changed since this was run";
+            return Err(refused(what));
+        }
+        if kept.outputs != record::outputs(&scenario)? {
+            return Err(refused("the [output] of its scenario has changed since this was run"));
+        }
     }
     let prepared = prepare(&scenario, &origin)?;
     let path = dir.join(record::SCENARIO);
     let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
     let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
-    checkpoint::remove(&dir.join(SUMMARY))?;
-    drive(&scenario, prepared, provenance, kept, screen, started)
-}
-
-/// There is nothing to resume any more.
-fn tidy(dir: &Path) -> Result<(), Fault> {
-    checkpoint::remove(&dir.join(checkpoint::FILE))?;
-    checkpoint::remove(&dir.join(checkpoint::LOG))
+    claim.clear(if kept.is_some() { &[SUMMARY] } else { &RESULTS })?;
+    drive(&scenario, prepared, provenance, kept, &claim, screen, started)
 }
 
 /// The summary of a run that was not interrupted, if there is one.
@@ -253,6 +250,7 @@ fn drive(
     mut prepared: Prepared,
     provenance: Provenance,
     from: Option<Checkpoint>,
+    claim: &Claim,
     screen: Screen,
     started: Instant,
 ) -> Result<(), Fault> {
@@ -261,10 +259,12 @@ fn drive(
     }
     let dir = &scenario.output.dir;
     let mut observers = observers(scenario, &prepared, &provenance)?;
+    let outputs = record::outputs(scenario)?;
     let keeper = prepared.checkpoint_steps.map(|every| Keeper {
         path: dir.join(checkpoint::FILE),
         every,
         fingerprint: provenance.fingerprint.clone(),
+        outputs,
     });
     let stop = stop_by_keyboard()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
@@ -295,8 +295,10 @@ fn drive(
     let path = dir.join(SUMMARY);
     write_whole(&path, &json)?;
     files.push(path);
-    if !ending.is_interrupted {
-        tidy(dir)?;
+    if keeper.is_some() && !ending.is_interrupted {
+        // There is nothing to resume any more, once the results are sure to stay.
+        claim.settle(&files)?;
+        claim.clear(&checkpoint::FILES)?;
     }
     match screen {
         Screen { json: true, .. } => say(&json),

@@ -23,13 +23,13 @@ mod trip_times;
 mod trips;
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use laneweave_sim::World;
-use laneweave_study::{Column, Format, TableError, TableWriter};
+use laneweave_study::{Column, Format, PartialFile, TableError, TableWriter};
 
 use self::frame::Samples;
 use self::lane_changes::{LaneChangeTable, LaneChanges};
@@ -189,14 +189,12 @@ impl From<TableFormat> for Format {
 /// # Errors
 /// If it cannot be written.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Fault> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let written: io::Result<()> = fs::write(&partial, text).and_then(|()| fs::rename(&partial, path));
-    written.map_err(|error| {
-        // Of no interest beside the first failure.
-        let _ = fs::remove_file(&partial);
-        Fault::refused(path, "written", &error)
-    })
+    let write = || -> io::Result<()> {
+        let (partial, mut file) = PartialFile::create(path)?;
+        file.write_all(text.as_bytes())?;
+        partial.complete()
+    };
+    write().map_err(|error| Fault::refused(path, "written", &error))
 }
 
 impl From<TableError> for Fault {

@@ -42,9 +42,9 @@ pub(super) enum Page {
     Flows(Traffic),
     /// What happened on all lanelets in the whole run.
     Lanelets(Traffic),
-    /// The log of pages is to be complete up to here; its length is told.
+    /// The log of pages is to be complete up to here; its length is told, or why it is not.
     #[serde(skip)]
-    Mark(Sender<u64>),
+    Mark(Sender<Result<u64, Fault>>),
     /// The run is over, and files are to be completed.
     #[serde(skip)]
     End,
@@ -151,7 +151,7 @@ impl Observer for Scribe {
         let (told, length) = channel();
         self.pen.hand_over(Page::Mark(told))?;
         let length = length.recv().map_err(|_| self.pen.fault.get().cloned().unwrap_or_else(broke_off))?;
-        pack(&length)
+        pack(&length?)
     }
 
     /// Pages that were logged come again.
@@ -214,8 +214,12 @@ impl Stage {
             }
             if let Some(log) = &mut log {
                 match &*page {
-                    // Who asked has gone if nobody hears it.
-                    Page::Mark(told) => drop(told.send(log.mark()?)),
+                    Page::Mark(told) => {
+                        let marked = log.mark();
+                        // Who asked has gone if nobody hears it.
+                        let _ = told.send(marked.clone());
+                        marked?;
+                    }
                     Page::End => {}
                     page => log.write(page)?,
                 }

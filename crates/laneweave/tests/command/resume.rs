@@ -133,3 +133,88 @@ fn what_cannot_be_resumed_is_refused_with_a_remedy() {
     assert!(damaged.contains("the checkpoint is damaged; run again from the beginning"), "{damaged}");
     assert!(refused("run MAPS/ramps.osm --checkpoint 0.25").contains("choose a multiple of the step"));
 }
+
+/// A folder with a run that was killed after its first checkpoint.
+fn broken_off() -> Folder {
+    let folder = Folder::new();
+    let line =
+        "run MAPS/ramps.osm --duration 1e6 --checkpoint 20 --quiet".replace("MAPS", maps().to_str().unwrap());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_laneweave"))
+        .args(line.split_whitespace())
+        .current_dir(folder.path())
+        .spawn()
+        .unwrap();
+    while !folder.holds("out/checkpoint") {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    folder
+}
+
+#[test]
+fn what_is_not_as_it_was_kept_is_not_resumed() {
+    let folder = broken_off();
+    let refused = || {
+        let run = folder.laneweave("run out --resume");
+        assert_eq!(run.code(), 2);
+        run.errors()
+    };
+    let scenario = folder.read("out/scenario.toml");
+    let path = folder.path().join("out/scenario.toml");
+    for (key, other) in [
+        ("record_s = 1.0", "record_s = 2.0"),
+        ("flows_s = 0.0", "flows_s = 60.0"),
+        ("format = \"parquet\"", "format = \"csv\""),
+        ("sumo = []", "sumo = [\"fcd\"]"),
+        ("checkpoint_s = 20.0", "checkpoint_s = 0.0"),
+    ] {
+        assert!(scenario.contains(key), "{key}: {scenario}");
+        std::fs::write(&path, scenario.replace(key, other)).unwrap();
+        let told = refused();
+        assert!(
+            told.contains("the [output] of its scenario has changed since this was run"),
+            "{other}: {told}"
+        );
+    }
+    std::fs::write(&path, scenario.replace("duration_s = 1000000.0", "duration_s = 100.0")).unwrap();
+    assert!(refused().contains("the scenario or the program has changed since this was run"));
+    std::fs::write(&path, &scenario).unwrap();
+
+    let pages = folder.path().join("out/checkpoint.pages");
+    let mut bytes = std::fs::read(&pages).unwrap();
+    bytes[1000] ^= 1;
+    std::fs::write(&pages, &bytes).unwrap();
+    let told = refused();
+    assert!(told.contains("a page is damaged; run again from the beginning"), "{told}");
+    assert!(folder.holds("out/checkpoint") && !folder.holds("out/summary.json"));
+}
+
+/// Runs the program where no file may become larger than some kilobytes.
+#[cfg(target_os = "linux")]
+fn on_a_small_disk(folder: &Folder, line: &str) -> String {
+    let line = line.replace("MAPS", maps().to_str().unwrap());
+    let output = Command::new("sh")
+        .args(["-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_laneweave")])
+        .args(line.split_whitespace())
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_checkpoint_that_cannot_be_written_is_told_and_nothing_half_written_is_left() {
+    // With samples the pages are too large at the first checkpoint, and without them the checkpoint is.
+    for (record, file) in [(1, "checkpoint.pages"), (0, "checkpoint")] {
+        let folder = Folder::new();
+        let options = format!("--warmup 150 --checkpoint 20 --record {record}");
+        let told =
+            on_a_small_disk(&folder, &format!("run MAPS/ramps.osm --demand 6000 --duration 200 {options}"));
+        assert!(told.contains(&format!("out/{file}: cannot be written: file too large")), "{told}");
+        let left: Vec<_> = std::fs::read_dir(folder.path().join("out")).unwrap().flatten().collect();
+        assert!(left.iter().all(|it| !it.path().to_string_lossy().ends_with(".partial")), "{left:?}");
+    }
+}
