@@ -45,6 +45,8 @@ pub struct Account<'a> {
     pub act: Act,
     /// The gap that it waits for, if it does: with its new leader, and with its new follower.
     pub pairings: [Option<Pairing<'a>>; 2],
+    /// The highest own speed for which the road left does for that change [m/s].
+    pub fastest: f64,
 }
 
 /// A side to which a driver may change.
@@ -121,12 +123,7 @@ impl World {
         for (side, chance) in sides.iter_mut().zip(chances) {
             side.iter_mut().for_each(|it| it.chance = chance);
         }
-        let pairings = match car.phase {
-            Phase::Wants => {
-                gap(&scene, spot, scene.mind(spot).side).map_or([None; 2], |it| it.pairings(&scene, spot))
-            }
-            _ => [None; 2],
-        };
+        let found = (car.phase == Phase::Wants).then(|| gap(&scene, spot, scene.mind(spot).side)).flatten();
         Account {
             vehicle: motion.id,
             time,
@@ -139,7 +136,8 @@ impl World {
             epochs,
             draw: self.random.uniform(motion.id, Purpose::Desire, self.clock.step),
             act: act(&scene, moment, spot),
-            pairings,
+            pairings: found.map_or([None; 2], |it| it.pairings(&scene, spot)),
+            fastest: found.map_or(f64::INFINITY, |it| it.fastest(&scene, spot)),
         }
     }
 }

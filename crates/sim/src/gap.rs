@@ -121,7 +121,19 @@ impl Gap {
     /// # Errors
     /// Why not.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Hindrance> {
-        let speed = scene.motion(spot).speed;
+        self.has_road(scene, spot, scene.motion(spot).speed)?;
+        let style = &scene.characters[scene.car(spot).character as usize];
+        let [ahead, behind] = self.pairings(scene, spot);
+        ahead
+            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
+            .map_err(|(why, pair)| Hindrance::Ahead(why, pair))?;
+        behind
+            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
+            .map_err(|(why, pair)| Hindrance::Behind(why, pair))
+    }
+
+    /// Whether the road left does for the change at that `speed` [m/s] of the driver at `spot`.
+    fn has_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<(), Hindrance> {
         let style = &scene.characters[scene.car(spot).character as usize];
         let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
         let crossing = 0.5 * duration * speed;
@@ -131,14 +143,25 @@ impl Gap {
         if !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {
             return Err(Hindrance::Junction);
         }
-        let style = &scene.characters[scene.car(spot).character as usize];
-        let [ahead, behind] = self.pairings(scene, spot);
-        ahead
-            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
-            .map_err(|(why, pair)| Hindrance::Ahead(why, pair))?;
-        behind
-            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
-            .map_err(|(why, pair)| Hindrance::Behind(why, pair))
+        Ok(())
+    }
+
+    /// The highest speed of the driver at `spot` for which the road left does, to the last bit [m/s]; infinite where that is more than
+    /// anybody drives, 0 where it does for no speed.
+    pub(crate) fn fastest(&self, scene: &Scene, spot: Spot) -> f64 {
+        const NOBODY: f64 = 128.0;
+        let does = |speed: f64| self.has_road(scene, spot, speed).is_ok();
+        let (mut does_for, mut too_fast) = (0.0, NOBODY);
+        if does(too_fast) {
+            return f64::INFINITY;
+        }
+        loop {
+            let middle = 0.5 * (does_for + too_fast);
+            if middle <= does_for || middle >= too_fast {
+                return does_for;
+            }
+            if does(middle) { does_for = middle } else { too_fast = middle }
+        }
     }
 
     /// Who would follow whom: the driver its new leader, its new follower the driver.

@@ -5,9 +5,10 @@ use std::fmt::Write;
 
 use laneweave_sim::{Event, Phase, VehicleId, World};
 
+use crate::report::signed;
 use crate::units::KMH_PER_MPS;
 
-/// How often twins are held against each other [s].
+/// Twins are held against each other after every step, and what comes of it is kept every so many seconds.
 const EVERY: f64 = 1.0;
 
 /// The twins at one instant.
@@ -45,7 +46,7 @@ pub struct Vehicle {
 pub struct Differences {
     /// When the twins parted [s].
     pub since_s: f64,
-    /// Second by second.
+    /// Second by second, and the last.
     pub instants: Vec<Instant>,
     /// Those who differ, by id.
     pub vehicles: BTreeMap<VehicleId, Vehicle>,
@@ -87,13 +88,30 @@ impl Differences {
                 }
             }
         }
+        let counts = self.compare(base, branch);
         if base.clock().step.is_multiple_of(base.clock().steps(EVERY)) {
-            self.compare(base, branch);
+            self.keep(base, branch, counts);
         }
     }
 
-    fn compare(&mut self, base: &World, branch: &World) {
+    /// Notes what came of those who differ, when the twins have ended.
+    pub(super) fn complete(&mut self, base: &World, branch: &World) {
+        if self.instants.last().is_none_or(|it| it.time_s < base.clock().time()) {
+            let counts = self.compare(base, branch);
+            self.keep(base, branch, counts);
+        }
+        for (id, vehicle) in &mut self.vehicles {
+            vehicle.lane_changes = self.by_vehicle.get(id).copied().unwrap_or_default();
+            vehicle.left_s = self.left.get(id).copied().unwrap_or_default();
+        }
+    }
+
+    /// How many vehicles are on the road in either, and how many of them differ: who does for the first time is noted.
+    fn compare(&mut self, base: &World, branch: &World) -> [u32; 2] {
         let time_s = base.clock().time();
+        if base.vehicles().map(state).eq(branch.vehicles().map(state)) {
+            return [base.vehicles().count() as u32, 0];
+        }
         let states = [base, branch].map(states);
         let (mut on_road, mut differ, [mut a, mut b]) = (0, 0, [0, 0]);
         while a < states[0].len() || b < states[1].len() {
@@ -110,12 +128,13 @@ impl Differences {
             a += usize::from(here.is_some());
             b += usize::from(there.is_some());
         }
-        let mean_speed_mps = [base, branch].map(mean_speed);
+        [on_road, differ]
+    }
+
+    /// Keeps this instant.
+    fn keep(&mut self, base: &World, branch: &World, [on_road, differ]: [u32; 2]) {
+        let (time_s, mean_speed_mps) = (base.clock().time(), [base, branch].map(mean_speed));
         self.instants.push(Instant { time_s, on_road, differ, lane_changes: self.changes, mean_speed_mps });
-        for (id, vehicle) in &mut self.vehicles {
-            vehicle.lane_changes = self.by_vehicle.get(id).copied().unwrap_or_default();
-            vehicle.left_s = self.left.get(id).copied().unwrap_or_default();
-        }
     }
 
     /// Nothing differs.
@@ -142,13 +161,13 @@ impl Differences {
             facts.push(("differences", "none: both twins are the same to the last bit".into()));
             return facts;
         };
-        facts.push(("first", format!("vehicle {id} ({}) at {:.0} s", vehicle.style, vehicle.since_s)));
+        facts.push(("first", format!("vehicle {id} ({}) at {:.1} s", vehicle.style, vehicle.since_s)));
         let Some(last) = self.instants.last() else { return facts };
         let share = 100.0 * f64::from(last.differ) / f64::from(last.on_road.max(1));
         let met = self.vehicles.len();
         facts.push(("differ", format!("{met} vehicles; at the end {share:.0} % of those on the road")));
         let both = |of: [f64; 2], unit: &str, digits: usize| {
-            format!("{:.digits$} → {:.digits$}{unit} ({:+.digits$})", of[0], of[1], of[1] - of[0])
+            format!("{:.digits$} → {:.digits$}{unit} ({})", of[0], of[1], signed(of[1] - of[0], digits))
         };
         facts.push(("lane changes", both(self.changes.map(|it| it as f64), "", 0)));
         let speeds = [0, 1].map(|which| {
@@ -163,7 +182,7 @@ impl Differences {
             let mean = later.iter().sum::<f64>() / later.len() as f64;
             facts.push((
                 "who left in both",
-                format!("{} vehicles, {mean:+.2} s later on average", later.len()),
+                format!("{} vehicles, {} s later on average", later.len(), signed(mean, 2)),
             ));
         }
         facts
@@ -175,12 +194,13 @@ impl Differences {
     }
 }
 
+fn state(it: laneweave_sim::Vehicle) -> State {
+    (it.id(), it.spot.chain.0, it.x().to_bits(), it.speed().to_bits(), it.car.phase)
+}
+
 /// All vehicles in the order of their ids.
 fn states(world: &World) -> Vec<State> {
-    let mut states: Vec<State> = world
-        .vehicles()
-        .map(|it| (it.id(), it.spot.chain.0, it.x().to_bits(), it.speed().to_bits(), it.car.phase))
-        .collect();
+    let mut states: Vec<State> = world.vehicles().map(state).collect();
     states.sort_unstable_by_key(|it| it.0);
     states
 }

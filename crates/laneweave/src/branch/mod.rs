@@ -40,7 +40,7 @@ impl Twins {
         let Record { scenario, origin, end: End { duration_s, warmup_s, .. } } = record;
         let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
         let [all, before] = [duration_s + warmup_s, at].map(steps);
-        if at < 0.0 || before >= all {
+        if at.is_nan() || at < 0.0 || before >= all {
             let what = format!("the time {at} s");
             let remedy =
                 format!("the run lasted from 0 to {} s: choose a time before its end", duration_s + warmup_s);
@@ -71,6 +71,7 @@ impl Twins {
                 lane.iter_mut().for_each(|it| it.observe(world));
             }
         }
+        differences.complete(&self.base, &self.branch);
         differences
     }
 }

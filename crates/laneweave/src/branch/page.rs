@@ -128,7 +128,7 @@ fn vehicles(differences: &Differences) -> Table {
     for (id, it) in all.into_iter().take(NAMED) {
         let [base, branch] = it.lane_changes.map(|it| it.to_string());
         let [base_left, branch_left] = it.left_s.map(|it| it.map_or("–".into(), |it| format!("{it:.1}")));
-        let since = format!("{:.0}", it.since_s);
+        let since = format!("{:.1}", it.since_s);
         table.row([
             id.to_string(),
             it.style.clone(),

@@ -77,23 +77,21 @@ impl Setting {
                 did_you_mean(style, known),
             ));
         }
-        let (mut applied, mut refused) = (0, None);
-        for (template, _) in mixture.iter_mut() {
-            if self.style.as_ref().is_some_and(|it| *it != template.typical().name) {
-                continue;
-            }
-            match template.with_value(&self.path, self.value.clone(), &place) {
-                Ok(changed) => {
-                    *template = changed;
-                    applied += 1;
-                }
-                Err(fault) => refused = Some(fault),
-            }
+        let is_meant = |it: &StyleTemplate| match &self.style {
+            Some(style) => *style == it.typical().name,
+            None => it.has(&self.path),
+        };
+        let changed = |it: &StyleTemplate| it.with_value(&self.path, self.value.clone(), &place);
+        if let Some((any, _)) = mixture.first()
+            && !mixture.iter().any(|(it, _)| is_meant(it))
+        {
+            // Nobody has the key: what is wrong with it any style can say.
+            return changed(any).map(drop);
         }
-        match refused {
-            Some(fault) if applied == 0 => Err(fault),
-            _ => Ok(()),
+        for (template, _) in mixture.iter_mut().filter(|(it, _)| is_meant(it)) {
+            *template = changed(template)?;
         }
+        Ok(())
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// Say which smallest change of a weight, a gap or a speed would have turned its decisions.
     #[arg(long, requires = "vehicle")]
     flip: bool,
-    /// Ask everybody: for what drivers changed lanes, and why they did not.
+    /// Ask everybody, after the warm-up: for what drivers changed lanes, and why they did not.
     #[arg(long, conflicts_with = "vehicle")]
     summary: bool,
 }
@@ -34,7 +34,8 @@ impl Arguments {
         let Arguments { out, vehicle, time, flip, .. } = self;
         let Record { scenario, origin, end } = Record::open(&out)?;
         let End { duration_s, warmup_s, .. } = end;
-        let steps = ((duration_s + warmup_s) / scenario.run.step_s).round() as u32;
+        let [steps, warmup] =
+            [duration_s + warmup_s, warmup_s].map(|it| (it / scenario.run.step_s).round() as u32);
         let last = f64::from(steps) * scenario.run.step_s;
         if let Some(time) = time.filter(|it| !(0.0..=last).contains(it)) {
             let what = format!("the time {time} s");
@@ -46,8 +47,9 @@ impl Arguments {
         }
         let mut world = prepare(&scenario, &origin)?.world;
         let Some(vehicle) = vehicle else {
-            let mut commonest = Commonest::default();
-            (0..steps).for_each(|_| commonest.step(&mut world));
+            (0..warmup).for_each(|_| world.step());
+            let mut commonest = Commonest::since_now(&world);
+            (warmup..steps).for_each(|_| commonest.step(&mut world));
             say(&commonest.to_text());
             return Ok(());
         };

@@ -17,6 +17,9 @@ use crate::style::Model;
 pub use outcome::{MEASURES, Measure, Outcome};
 pub use page::page;
 
+/// What a number behind a mean says.
+const OF_FEW: &str = "(n): only n of the seeds have anything to measure there";
+
 /// One run of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
@@ -41,7 +44,7 @@ pub struct Comparison {
     pub trials: Vec<Trial>,
 }
 
-/// Drives `scenario` with each of the `models` and each of the `seeds`, so many runs at once as there are `threads`.
+/// Drives `scenario` with each of the `models`, once however often it is named, and each of the `seeds`, so many runs at once as there are `threads`.
 ///
 /// # Errors
 /// If the scenario cannot be driven.
@@ -53,6 +56,8 @@ pub fn compare(
     threads: usize,
 ) -> Result<Comparison, Fault> {
     let about = About::of(scenario, &prepare(scenario, origin)?);
+    let is_first = |(place, model): &(usize, &Model)| !models[..*place].contains(model);
+    let models: Vec<Model> = models.iter().enumerate().filter(is_first).map(|(_, model)| *model).collect();
     let jobs: Vec<(Model, u64)> =
         models.iter().flat_map(|model| seeds.iter().map(|seed| (*model, *seed))).collect();
     let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
@@ -72,7 +77,7 @@ pub fn compare(
     let mut trials = done.into_iter().collect::<Result<Vec<Trial>, Fault>>()?;
     let place = |model: Model| models.iter().position(|it| *it == model);
     trials.sort_by_key(|it| (place(it.model), it.seed));
-    Ok(Comparison { about, models: models.to_vec(), trials })
+    Ok(Comparison { about, models, trials })
 }
 
 /// One run without any output.
@@ -103,6 +108,17 @@ impl Comparison {
         mean(&values)
     }
 
+    /// A measure of a model, for a table.
+    fn cell(&self, model: Model, measure: &Measure) -> Option<String> {
+        self.estimate(model, measure).map(|it| cell(&it, measure.digits, self.seeds().len()))
+    }
+
+    /// The seeds that each model was driven with.
+    fn seeds(&self) -> Vec<u64> {
+        let first = self.models.first();
+        self.trials.iter().filter(|it| Some(&it.model) == first).map(|it| it.seed).collect()
+    }
+
     /// A table of all measures by model, each a mean with its 95 % interval over the seeds.
     pub fn to_text(&self) -> String {
         const NAME: usize = 46;
@@ -112,19 +128,42 @@ impl Comparison {
         for measure in &MEASURES {
             text += &format!("\n{:NAME$}", measure.title);
             for model in &self.models {
-                let cell = self.estimate(*model, measure).map_or("-".into(), |it| cell(&it, measure.digits));
+                let cell = self.cell(*model, measure).unwrap_or("-".into());
                 text += &format!("{cell:>CELL$}");
             }
         }
-        text + "\n"
+        text += "\n";
+        let seeds = self.seeds().len();
+        let cells = self.models.iter().flat_map(|model| MEASURES.iter().map(|it| self.estimate(*model, it)));
+        if cells.flatten().any(|it| it.replications != seeds) {
+            text += &format!("{OF_FEW}\n");
+        }
+        text
     }
 }
 
-fn cell(estimate: &Estimate, digits: usize) -> String {
-    let Estimate { mean, half_width, .. } = estimate;
+/// A mean with half its interval, and with the number of seeds it is of if that is not all `seeds`.
+fn cell(estimate: &Estimate, digits: usize, seeds: usize) -> String {
+    let Estimate { mean, half_width, replications, .. } = estimate;
+    let mut text = format!("{mean:.digits$}");
     if half_width.is_finite() {
-        format!("{mean:.digits$} ± {half_width:.digits$}")
-    } else {
-        format!("{mean:.digits$}")
+        text += &format!(" ± {half_width:.digits$}");
+    }
+    if *replications != seeds {
+        text += &format!(" ({replications})");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_of_some_seeds_only_says_of_how_many() {
+        let of = |values: &[f64]| mean(values).map(|it| cell(&it, 1, 3)).unwrap();
+        assert_eq!(of(&[1.0, 1.0, 1.0]), "1.0 ± 0.0");
+        assert_eq!(of(&[2.0, 2.0]), "2.0 ± 0.0 (2)");
+        assert_eq!(of(&[2.5]), "2.5 (1)");
     }
 }

@@ -6,7 +6,7 @@ use laneweave_study::{
     BarRow, EdieRow, Estimate, Estimated, Interval, RateSeries, Scattered, Sheet, bars, rate_density, scatter,
 };
 
-use super::{Comparison, MEASURES, Measure, cell};
+use super::{Comparison, MEASURES, Measure, OF_FEW, cell};
 use crate::output::Boxes;
 use crate::report::classes::{CLASS, LEAST_BOXES, means};
 use crate::report::{Align, Figure, Page, Section, Table, counted};
@@ -54,12 +54,6 @@ fn section(number: usize, input: &str, comparison: &Comparison) -> Section {
 }
 
 impl Comparison {
-    /// The seeds that each model was driven with.
-    fn seeds(&self) -> Vec<u64> {
-        let first = self.models.first();
-        self.trials.iter().filter(|it| Some(&it.model) == first).map(|it| it.seed).collect()
-    }
-
     /// The boxes of all runs of a model.
     fn boxes(&self, model: Model) -> impl Iterator<Item = &EdieRow> {
         self.trials.iter().filter(move |it| it.model == model).flat_map(|it| &it.boxes)
@@ -166,11 +160,10 @@ fn table(comparison: &Comparison) -> Table {
         .into_iter()
         .chain(comparison.models.iter().map(|it| (it.name(), Align::Numbers)))
         .collect();
-    let mut table = Table::new("Means over the seeds ± half of Student's 95 % intervals.", &columns);
+    let caption = format!("Means over the seeds ± half of Student's 95 % intervals. {OF_FEW}.");
+    let mut table = Table::new(caption, &columns);
     for measure in &MEASURES {
-        let of = |model: &Model| {
-            comparison.estimate(*model, measure).map_or("–".into(), |it| cell(&it, measure.digits))
-        };
+        let of = |model: &Model| comparison.cell(*model, measure).unwrap_or("–".into());
         table.row([measure.title.to_owned()].into_iter().chain(comparison.models.iter().map(of)));
     }
     table
@@ -190,7 +183,7 @@ fn differences(comparison: &Comparison) -> Table {
     let caption = format!(
         "How much more than {}: means of the differences seed by seed ± half of Student's 95 % intervals. With a seed the same \
          vehicles and drivers come at the same times, so that differences are surer than the means they are of; * where the \
-         interval leaves out 0. Of so many numbers one in twenty does by chance.",
+         interval leaves out 0; (n) as above. Of so many numbers one in twenty does by chance.",
         reference.name()
     );
     let mut table = Table::new(caption, &columns);
@@ -199,7 +192,8 @@ fn differences(comparison: &Comparison) -> Table {
             let difference = comparison.difference(*model, reference, measure);
             difference.map_or("–".into(), |it| {
                 let is_sure = it.half_width.is_finite() && it.mean.abs() > it.half_width;
-                cell(&it, measure.digits).replacen('-', "−", 1) + if is_sure { " *" } else { "" }
+                cell(&it, measure.digits, comparison.seeds().len()).replacen('-', "−", 1)
+                    + if is_sure { " *" } else { "" }
             })
         };
         table.row([measure.title.to_owned()].into_iter().chain(others.iter().map(of)));
@@ -218,6 +212,7 @@ fn method() -> Section {
         .text(
             "A lane change is by choice where both lanes lead to the same place for the driver, and for the route otherwise. Held up: the \
              leader keeps the driver below its desired speed beside a free lane; the ratio says how many times as likely a driver then is \
-             to want a change as on a free road. Delay is time beyond that on a free road at the speeds the driver desires.",
+             to want a change as on a free road. A seed in which nobody on a free road wanted one has no ratio, so that the mean of the others is \
+             rather too low. Delay is time beyond that on a free road at the speeds the driver desires.",
         )
 }

@@ -8,8 +8,10 @@ use laneweave_sim::{Act, Event, Phase, Spot, World};
 use super::words::reason;
 
 /// Counts of reasons.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Commonest {
+    /// Changes from this time on are counted, by when their centre crossed the line [s].
+    pub since_s: f64,
     /// Completed changes by style and by the row that spoke most for them.
     pub changes: BTreeMap<(String, String), u64>,
     /// Times that drivers considered lanes and stayed, or waited for a second, by reason.
@@ -17,6 +19,11 @@ pub struct Commonest {
 }
 
 impl Commonest {
+    /// None yet, from now on in `world`.
+    pub fn since_now(world: &World) -> Commonest {
+        Commonest { since_s: world.clock().time(), changes: BTreeMap::new(), refusals: BTreeMap::new() }
+    }
+
     /// Asks everybody whose turn it is in the next step, then steps.
     pub fn step(&mut self, world: &mut World) {
         let clock = world.clock();
@@ -41,6 +48,7 @@ impl Commonest {
         for event in world.events() {
             if let Event::LaneChange(change) = event
                 && change.is_completed
+                && change.time >= self.since_s
             {
                 let style = &world.characters()[change.character as usize];
                 let names = style.change.row_names();

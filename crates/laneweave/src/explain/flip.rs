@@ -3,8 +3,8 @@
 //! A gain is linear in the weights, so that for each there is one place on either side, if any, where the decision turns. It is
 //! found by bisection to the last bit, which also does for speeds and gaps, and for two sides that compete.
 
-use laneweave_models::change::{Appraisal, Row, Situation};
-use laneweave_models::follow::Pace;
+use laneweave_models::change::{Appraisal, Driver, Row, Situation};
+use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::Side;
 use laneweave_sim::{Account, Act, Hindrance, Pairing, SideAccount};
 
@@ -126,11 +126,11 @@ fn reappraised(account: &Account, side: &SideAccount, change: impl Fn(&mut Situa
 
 fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
     let with_speed = |it: Pairing<'_>, by: f64| -> f64 { it.follower.pace.speed + by };
+    let accepts = |it: &Pairing| it.accepted(&account.style.safety, dt).is_ok();
     let goes = |change: &dyn Fn(&mut [Option<Pairing>; 2])| {
         let mut pairings = account.pairings;
         change(&mut pairings);
-        let safety = &account.style.safety;
-        pairings.iter().flatten().all(|it| it.accepted(safety, dt).is_ok()).then_some(side)
+        pairings.iter().flatten().all(accepts).then_some(side)
     };
     let paced = |pairing: Pairing<'_>, speed: f64| Pace { speed, ..pairing.follower.pace };
     let [ahead, behind] = account.pairings;
@@ -155,13 +155,29 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
     }
     let own = ahead.map(|it| it.follower.pace.speed).or(behind.map(|it| it.leader.speed));
     if let Some(own) = own {
-        let speed = |by: f64| {
-            goes(&|all| {
-                all[0].iter_mut().for_each(|it| it.follower.pace = paced(*it, with_speed(*it, by)));
-                all[1].iter_mut().for_each(|it| it.leader.speed += by);
-            })
+        let slower_ahead = |by: f64| {
+            ahead.map(|it| Pairing { follower: Driver { pace: paced(it, own + by), ..it.follower }, ..it })
         };
-        flips.extend(flip(Knob::OwnSpeed, own, [-own, FAR], speed));
+        let faster_behind =
+            |by: f64| behind.map(|it| Pairing { leader: Ahead { speed: own + by, ..it.leader }, ..it });
+        let suits = |it: Option<Pairing>| it.is_none_or(|it| accepts(&it));
+        let goes = |by: f64| {
+            (suits(slower_ahead(by)) && suits(faster_behind(by)) && own + by <= account.fastest)
+                .then_some(side)
+        };
+        // The slower, the better for the gap ahead; the faster, the better for the one behind. Where one refuses, its own turning
+        // point is the only one, and the other has to agree there.
+        let found = match account.act {
+            Act::Waits(_, Hindrance::Ahead(..)) => {
+                flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(slower_ahead(by)).then_some(side))
+            }
+            Act::Waits(..) => {
+                flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(faster_behind(by)).then_some(side))
+            }
+            _ => flip(Knob::OwnSpeed, own, [-own, FAR], goes),
+        };
+        let turns = |it: &Flip| goes(it.by) != goes(0.0);
+        flips.extend(found.filter(turns));
     }
     flips
 }

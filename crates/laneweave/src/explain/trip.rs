@@ -45,7 +45,7 @@ pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flip
         } else if let Some((from, until)) = seen {
             return told.filter(|_| time <= until).map_or(Moment::At(from, until), Moment::Told);
         }
-        if now >= time && seen.is_some() {
+        if now >= time && seen.is_some_and(|(from, _)| from <= time) {
             break;
         }
         world.step();

@@ -54,7 +54,7 @@ fn stays(account: &Account) -> String {
     let against = account.change.row_names()[worst(best)];
     let gain =
         format!("G = {:.3} to the {side} is not above θ = {:.3}", best.appraisal.gain, best.appraisal.theta);
-    if above(best) > 0.0 {
+    if is_by_chance(account, best) {
         return format!(
             "stays by chance: G = {:.3} to the {side}, θ = {:.3}; the desire had the probability {:.2} and did not come",
             best.appraisal.gain, best.appraisal.theta, best.chance
@@ -82,7 +82,7 @@ pub fn reason(account: &Account) -> String {
     if best.is_out_of_question {
         return "calm after a change, or after giving one up".into();
     }
-    if above(best) > 0.0 {
+    if is_by_chance(account, best) {
         return "by chance: the desire did not come".into();
     }
     let names = account.change.row_names();
@@ -109,6 +109,13 @@ fn kind(refusal: Refusal) -> &'static str {
 
 fn above(side: &SideAccount) -> f64 {
     if side.is_out_of_question { f64::NEG_INFINITY } else { side.appraisal.gain - side.appraisal.theta }
+}
+
+/// Whether nothing but what was drawn kept the driver from wanting to go there: what is above the threshold is only likely where choices
+/// are drawn, and who changes without a reason has no threshold.
+fn is_by_chance(account: &Account, side: &SideAccount) -> bool {
+    let needs_no_reason = matches!(&*account.change, LaneChangeModel::ConstantHazard(_));
+    above(side) > 0.0 || (needs_no_reason && side.chance > 0.0)
 }
 
 fn product(row: &Row) -> f64 {

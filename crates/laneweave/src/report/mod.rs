@@ -9,7 +9,7 @@ pub(crate) mod roads;
 mod run;
 mod table;
 
-pub use numbers::{counted, number, percent, with_interval};
+pub use numbers::{counted, number, percent, signed, with_interval};
 pub use page::{Figure, Page, Section, Tile};
 pub use run::{About, RunReport};
 pub use table::{Align, Table};

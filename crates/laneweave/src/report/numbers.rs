@@ -16,6 +16,11 @@ pub fn number(value: f64, digits: usize) -> String {
     text.replacen('-', "−", 1)
 }
 
+/// A difference with so many decimals, and its sign.
+pub fn signed(value: f64, decimals: usize) -> String {
+    format!("{value:+.decimals$}").replacen('-', "−", 1)
+}
+
 /// A count, with its digits in groups of three.
 pub fn counted(count: u64) -> String {
     /// A narrow space at which no line is broken.
@@ -56,6 +61,11 @@ mod tests {
         let texts = [0.0, 0.014_2, 3.0, 1234.5, -2.5e-7].map(|it| number(it, 3));
         assert_eq!(texts, ["0", "0.0142", "3.00", "1234", "−0.000000250"]);
         assert_eq!([number(f64::NAN, 3), percent(0.0213), percent(0.5)], ["–", "2.1 %", "50.0 %"]);
+    }
+
+    #[test]
+    fn a_difference_has_a_sign() {
+        assert_eq!([signed(2.0, 0), signed(-0.25, 2), signed(0.0, 1)], ["+2", "−0.25", "+0.0"]);
     }
 
     #[test]

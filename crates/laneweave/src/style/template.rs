@@ -96,6 +96,14 @@ impl StyleTemplate {
         Ok(StyleTemplate { table, parameters, typical: Style { change: change.clone(), ..typical } })
     }
 
+    /// Whether there is a key at `path`, the keys from the outermost in.
+    pub fn has(&self, path: &[String]) -> bool {
+        let is_distributed = self.parameters.iter().any(|it| path.starts_with(&it.path));
+        let found =
+            |table: Table| path.iter().try_fold(&Value::Table(table), |inner, key| inner.get(key)).is_some();
+        is_distributed || Table::try_from(&self.typical).is_ok_and(found)
+    }
+
     /// The same style with `value` at `path`, the keys from the outermost in. What is drawn of it stays as it was.
     ///
     /// # Errors

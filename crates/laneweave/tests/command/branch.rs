@@ -31,6 +31,43 @@ fn what_differs_is_told_and_lies_in_tables_and_on_a_page() {
     for (name, value) in lines {
         assert!(page.contains(&format!("<dt>{name}</dt><dd>{value}</dd>")), "{name}: {value}");
     }
+
+    // Nothing differs now, and nothing says that anything does.
+    assert_eq!(folder.laneweave("branch out --at 80").code(), 0);
+    assert!(!folder.holds("out/branch") && folder.holds("out/report.html"));
+}
+
+#[test]
+fn what_differs_between_two_whole_seconds_is_seen() {
+    let folder = Folder::new();
+    folder.summary("MAPS/ramps.osm --demand 4000 --duration 60.5 --record 0 --format csv");
+    let told = folder.laneweave("branch out --at 60.2 --set style.follow.time_gap=3").text();
+    assert!(told.contains("at 60.3 s"), "{told}");
+    assert_eq!(folder.read("out/branch/instants.csv").lines().count(), 2, "the last one");
+}
+
+#[test]
+fn what_cannot_be_set_is_refused_even_if_some_styles_could_have_it() {
+    let folder = Folder::new();
+    let styles = "--style paper-aggressive=1 --style conservative=1 --style lmrs=1";
+    folder.summary(&format!("MAPS/ramps.osm --duration 20 --record 0 {styles}"));
+    let refused = |setting: &str| {
+        let run = folder.laneweave(&format!("branch out --at 10 --set {setting}"));
+        assert_eq!(run.code(), 2, "{setting}");
+        run.errors()
+    };
+    // The one of the threshold rule could do without noise, the one with the logit cannot.
+    assert!(refused("style.sigma=0").contains("a logit rule without noise"));
+    assert!(refused("style.speeed.weight=2").contains("did you mean \"speed\"?"));
+    assert!(refused("style.theta=high").contains("no number"));
+    assert!(!folder.holds("out/branch"));
+    assert_eq!(folder.laneweave("branch out --at 10 --set style.speed.weight=2").code(), 0);
+    assert!(
+        folder
+            .laneweave("branch out --at 10 --into out")
+            .errors()
+            .contains("choose another folder with --into")
+    );
 }
 
 #[test]
@@ -41,4 +78,7 @@ fn with_nothing_changed_nothing_differs_and_nothing_is_written() {
     assert_eq!(told.code(), 0);
     assert!(told.text().contains("none: both twins are the same to the last bit"), "{}", told.text());
     assert!(!folder.holds("out/branch"));
+    let refused = folder.laneweave("branch out --at nan");
+    assert_eq!(refused.code(), 2);
+    assert!(refused.errors().contains("choose a time before its end"), "{}", refused.errors());
 }

@@ -11,7 +11,7 @@ fn rows(table: &str) -> Vec<Vec<&str>> {
 #[test]
 fn every_model_drives_with_every_seed_and_what_comes_out_is_what_a_run_gives() {
     let folder = Folder::new();
-    let line = "compare MAPS/ramps.osm --seeds 2 --duration 90 --warmup 30 --demand 5000 --model mcdm --model mobil-lanes";
+    let line = "compare MAPS/ramps.osm --seeds 2 --duration 90 --warmup 30 --demand 5000 --model mcdm --model mobil-lanes --model mcdm";
     let told = folder.laneweave(line);
     assert_eq!((told.code(), told.errors().as_str()), (0, ""));
     for word in ["mcdm", "mobil-lanes", "changes by choice [1/veh-km]", "2 seeds: means with 95 % intervals"]
@@ -89,5 +89,20 @@ fn what_cannot_be_compared_is_refused_with_a_remedy() {
     assert!(refused("compare nowhere.osm").contains("nowhere.osm"));
     assert!(refused("compare MAPS/ramps.osm --model mobl").contains("mobil"));
     assert!(refused("compare MAPS/ramps.osm --seeds 0").contains("1..=10000"));
+    // Nothing is driven before all of it has been checked.
+    let run = folder.laneweave("compare MAPS/ramps.osm nowhere.osm --duration 10 --seeds 1");
+    assert_eq!((run.code(), run.text().as_str()), (2, ""));
+    let far =
+        format!("map = \"{}/ramps.osm\"\n[run]\nseed = {}\n", crate::program::maps().display(), i64::MAX - 3);
+    let folder = folder.with("far.toml", &far);
+    let refused = folder.laneweave("compare far.toml --seeds 4");
+    assert!(
+        refused.errors().contains("--seeds: 4 seeds from 9223372036854775804 on go beyond"),
+        "{}",
+        refused.errors()
+    );
     assert!(!folder.holds("comparison"));
+    let folder = folder.with("comparison", "a file");
+    let run = folder.laneweave("compare MAPS/ramps.osm --duration 10 --seeds 1");
+    assert_eq!((run.code(), run.text().as_str()), (2, ""));
 }

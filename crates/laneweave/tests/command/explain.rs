@@ -54,10 +54,24 @@ fn everybody_can_be_asked() {
     let told = folder.laneweave("explain out --summary").text();
     assert!(told.contains("lane changes, by style and by what spoke most for them"), "{told}");
     assert!(told.contains("no lane beside to which it may change"), "{told}");
-    // Changes of the warm-up are told as well.
-    let all: f64 = told.split(' ').next().unwrap().parse().unwrap();
+    // Those of the warm-up are left out, as in the table.
+    let all: usize = told.split(' ').next().unwrap().parse().unwrap();
     let table = folder.read("out/lane_changes.csv");
-    assert!(all >= table.lines().filter(|it| it.ends_with("completed")).count() as f64);
+    assert_eq!(all, table.lines().filter(|it| it.ends_with("completed")).count());
+}
+
+#[test]
+fn who_needs_no_reason_stays_by_chance() {
+    let folder = Folder::new();
+    folder.summary("MAPS/motorway_2_lanes.osm --duration 60 --record 0 --model constant-hazard");
+    let told = folder.laneweave("explain out --summary").text();
+    assert!(
+        told.contains("by chance: the desire did not come") && !told.contains("gains too little"),
+        "{told}"
+    );
+    let one = folder.laneweave("explain out --vehicle 5 --time 30").text();
+    assert!(one.contains("stays by chance: G = 0.000"), "{one}");
+    assert!(one.contains("the desire had the probability 0.01 and did not come"), "{one}");
 }
 
 #[test]
@@ -72,6 +86,9 @@ fn what_cannot_be_told_is_refused_with_a_remedy() {
     };
     assert!(refused("explain out --vehicle 99999").contains("no vehicle 99999 came onto the road"));
     assert!(refused("explain out --vehicle 0 --time 61").contains("the run lasted from 0 to 60 s"));
+    let early = refused("explain out --vehicle 20 --time 0");
+    let times: Vec<f64> = early.split_whitespace().filter_map(|it| it.parse().ok()).collect();
+    assert!(matches!(times[..], [.., from, until] if until > from), "{early}");
     assert!(refused("explain nowhere --vehicle 0").contains("no results of a run"));
     assert!(refused("explain out").contains("--vehicle"));
     let map = folder.read("own.osm").replacen("120", "110", 1);

@@ -197,6 +197,28 @@ fn otherwise(flip: &Flip, share: f64) -> Otherwise {
     it
 }
 
+/// Where a driver who waits would go at some other speed, tried one by one, a flip of its speed says so; whether there is one.
+fn assert_window_is_found(twin: &Twin, account: &Account, side: Side) -> bool {
+    /// Speeds that are tried are so far apart [m/s].
+    const APART: f64 = 0.1;
+    let (id, own) = (account.vehicle, twin.speed(account.vehicle));
+    // At the end of the road a higher speed needs more of it than there is.
+    if twin.road_left(id) < 500.0 {
+        return false;
+    }
+    let goes = |by: f64| {
+        let otherwise = Otherwise { speeds: [by, 0.0, 0.0], ..Otherwise::default() };
+        twin.refusal(id, side, otherwise, DT).is_none()
+    };
+    let tried = (1..400).flat_map(|it| [APART * f64::from(it), -APART * f64::from(it)]);
+    let Some(nearest) = tried.filter(|by| own + by >= 0.0).find(|by| goes(*by)) else { return false };
+    let flips = flips(account, DT);
+    let found = flips.iter().find(|it| it.knob == Knob::OwnSpeed);
+    let by = found.unwrap_or_else(|| panic!("{id} would go at {nearest:+} m/s: {account:?}")).by;
+    assert!((by - nearest).abs() <= APART && by * nearest > 0.0, "{by} is not {nearest}");
+    true
+}
+
 #[test]
 fn every_flip_flips_when_applied_and_half_of_it_does_not() {
     /// A flip is found to the last bit of the program's own sums; by hand they may differ in it.
@@ -204,7 +226,7 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
     let (mut world, mut stage) = (motorway(), motorway());
     let original = world.characters().to_vec();
     let random = Random::new(11);
-    let (mut weights, mut speeds, mut gaps) = (0, 0, 0);
+    let (mut weights, mut speeds, mut gaps, mut windows) = (0, 0, 0, 0);
     for step in 0..4000_u32 {
         let mut saved = None;
         for spot in deciding(&world) {
@@ -218,6 +240,9 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
                 continue;
             }
             let (id, twin) = (account.vehicle, Twin::of(&world));
+            if let Act::Waits(side, Hindrance::Ahead(..) | Hindrance::Behind(..)) = account.act {
+                windows += usize::from(assert_window_is_found(&twin, &account, side));
+            }
             for flip in flips(&account, DT) {
                 match (flip.knob, account.act) {
                     (Knob::Weight(row), _) => {
@@ -255,4 +280,5 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
         world.step();
     }
     assert!(weights > 100 && speeds > 200 && gaps > 200, "{weights} weights, {speeds} speeds, {gaps} gaps");
+    assert!(windows > 20, "{windows}");
 }
