@@ -209,6 +209,10 @@ impl Record {
         let remedy = "name the folder of results of a run, that of --out";
         let summary = dir.join(SUMMARY);
         let text = fs::read_to_string(&summary).map_err(|error| {
+            if error.kind() == io::ErrorKind::NotFound && dir.join(SCENARIO).exists() {
+                let remedy = format!("wait, or go on with it: laneweave run {} --resume", dir.display());
+                return Fault::new(dir.display(), "this run has not ended", remedy);
+            }
             let what = format!("no results of a run: summary.json cannot be read: {error}");
             Fault::new(dir.display(), what, remedy)
         })?;

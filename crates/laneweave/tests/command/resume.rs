@@ -188,6 +188,11 @@ fn what_is_not_as_it_was_kept_is_not_resumed() {
     let told = refused();
     assert!(told.contains("a page is damaged; run again from the beginning"), "{told}");
     assert!(folder.holds("out/checkpoint") && !folder.holds("out/summary.json"));
+    let told = folder.laneweave("explain out --summary").errors();
+    assert!(
+        told.contains("this run has not ended; wait, or go on with it: laneweave run out --resume"),
+        "{told}"
+    );
 }
 
 /// Runs the program where no file may become larger than some kilobytes.
