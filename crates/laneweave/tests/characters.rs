@@ -187,7 +187,7 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
             for it in world.vehicles() {
                 let was = phases.insert(it.id(), it.car.phase);
                 let Some(twin) = it.mind.twin.filter(|_| was == Some(Phase::Wants)) else { continue };
-                let from = scene.viewpoint_at(twin.chain, twin.x, it.id(), it.car.goal.destination());
+                let from = scene.viewpoint_at(scene.viewpoint(it.spot), twin.chain, twin.x);
                 let Some(found) = scene.follower(from).filter(|it| it.distance < NEAR) else { continue };
                 let (other, egoist) = (scene.motion(found.spot), it.car.character >= both.shares[1].first);
                 let at = step + AFTER * STEPS_PER_SECOND;

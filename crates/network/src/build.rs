@@ -4,8 +4,9 @@ use thiserror::Error;
 
 use crate::chain::{Beside, Chain, ChainIndex, join};
 use crate::gate::{Gate, gates, lane_drops};
-use crate::junction::{Junctions, LightConflict, Regulations, SignalPlan};
+use crate::junction::{Crossing, Junctions, LightConflict, Reach, Regulations, SignalPlan};
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+use crate::width::note_open;
 
 /// A road network; it never changes after loading.
 #[derive(Clone, Debug)]
@@ -85,6 +86,7 @@ impl Network {
         for index in &lane_drops {
             chains[index.at()].is_lane_drop = true;
         }
+        note_open(&mut chains, &lanelets, [&entrances, &exits]);
         let junctions = Junctions::default();
         Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions })
     }
@@ -92,9 +94,27 @@ impl Network {
     /// The same network with its junctions, at which `regulations` hold.
     pub fn regulated(mut self, regulations: &Regulations) -> Network {
         self.junctions = Junctions::new(&self, regulations);
-        let is_free = |chain: &ChainIndex| self.junctions.is_clear_until(*chain, Network::ROOM_TO_ENTER);
-        self.entrances.iter_mut().for_each(|it| it.chains.retain(is_free));
-        self.entrances.retain(|it| !it.chains.is_empty());
+        let is_entrance: Vec<bool> = self.has_gates(&self.entrances);
+        let is_exit: Vec<bool> = self.has_gates(&self.exits);
+        // What shares ground with others that come or leave at the edge of the map is entered in turns.
+        let is_at_the_edge = |crossing: Crossing| {
+            let Reach { chain, start, end } = *self.junctions.other_side(crossing);
+            let begins = is_entrance[chain.at()] && start < Network::ROOM_TO_ENTER;
+            let ends = is_exit[chain.at()] && end > self.chain(chain).length - Network::ROOM_TO_ENTER;
+            begins || ends
+        };
+        let is_free = |chain: &ChainIndex| {
+            let is_open = self.chain(*chain).is_open(0.0, false);
+            let near = self
+                .junctions
+                .for_cars(*chain)
+                .take_while(|it| self.junctions.reach(*it).start < Network::ROOM_TO_ENTER);
+            is_open && near.into_iter().all(is_at_the_edge)
+        };
+        let mut entrances = self.entrances.clone();
+        entrances.iter_mut().for_each(|it| it.chains.retain(is_free));
+        entrances.retain(|it| !it.chains.is_empty());
+        self.entrances = entrances;
         for index in 0..self.chains.len() {
             for side in Side::BOTH {
                 let stretches = self.outside_of_junctions(ChainIndex(index as u32), side);
@@ -105,6 +125,13 @@ impl Network {
             }
         }
         self
+    }
+
+    /// For each chain whether it is part of one of these `gates`.
+    fn has_gates(&self, gates: &[Gate]) -> Vec<bool> {
+        let mut has = vec![false; self.chains.len()];
+        gates.iter().flat_map(|it| &it.chains).for_each(|it| has[it.at()] = true);
+        has
     }
 
     /// Which traffic lights get in each other's way.

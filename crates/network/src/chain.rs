@@ -30,6 +30,8 @@ pub struct Chain {
     pub following: Vec<ChainIndex>,
     /// It ends beside a continuing chain: who is on it has to change lanes.
     pub is_lane_drop: bool,
+    /// Somewhere it is too narrow for some vehicles, so that for them it begins later or ends earlier than drawn.
+    pub is_narrow: bool,
     /// Chains that this one continues.
     pub previous: Vec<ChainIndex>,
     /// Speed limits in order of their start.
@@ -44,6 +46,10 @@ pub struct Chain {
     pub starts: Vec<f64>,
     /// Centre line.
     pub centre: Polyline,
+    /// Where it is wide enough to drive on, for cars and for long vehicles: first and last station of a front [m].
+    pub open: [[f64; 2]; 2],
+    /// Somewhere on the way through it, it is narrower than a long vehicle.
+    pub is_tight_for_long: bool,
 }
 
 /// A speed limit from `start` on.
@@ -102,6 +108,9 @@ impl Beside {
 }
 
 impl Chain {
+    /// Wide enough for all, all along.
+    pub(crate) const WIDE: [[f64; 2]; 2] = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+
     /// Stretches of lanelets are joined to one as long as that moves no station by more than this [m].
     const STRETCH_ERROR: f64 = 0.02;
 
@@ -120,6 +129,25 @@ impl Chain {
         let stretches = self.stretches(side);
         let after = stretches.partition_point(|it| it.start <= station);
         stretches[..after].last().filter(|it| station <= it.end)
+    }
+
+    /// Whether it is wide enough at `station` [m] for a car, or for a long vehicle.
+    #[inline]
+    pub fn is_open(&self, station: f64, is_long: bool) -> bool {
+        let [from, until] = self.open[usize::from(is_long)];
+        (from..=until).contains(&station)
+    }
+
+    /// Whether one may change lanes to it at `station` [m] with a car, or with a long vehicle.
+    #[inline]
+    pub fn takes(&self, station: f64, is_long: bool) -> bool {
+        !self.is_narrow || self.is_open(station, is_long)
+    }
+
+    /// Last station at which a car, or a long vehicle, keeps to it [m]: its end, or where it gets too narrow.
+    #[inline]
+    pub fn driven_until(&self, is_long: bool) -> f64 {
+        self.open[usize::from(is_long)][1].min(self.length)
     }
 
     /// Speed limit at `station` [m/s].
@@ -161,6 +189,9 @@ impl Chain {
             left: Vec::new(),
             right: Vec::new(),
             is_lane_drop: false,
+            is_narrow: false,
+            open: Chain::WIDE,
+            is_tight_for_long: false,
             fork_clearance: 0.0,
         }
     }

@@ -162,6 +162,17 @@ impl Polyline {
             .next()
     }
 
+    /// Horizontal distance from `point` to the nearest place of the line [m].
+    pub fn distance_to(&self, point: &Point) -> f64 {
+        let to = |piece: &[Point]| {
+            let (from, along) = (piece[0], (piece[1].x - piece[0].x, piece[1].y - piece[0].y));
+            let (dx, dy) = (point.x - from.x, point.y - from.y);
+            let share = (dx * along.0 + dy * along.1) / (along.0 * along.0 + along.1 * along.1);
+            from.towards(&piece[1], share.clamp(0.0, 1.0)).distance(point)
+        };
+        self.points.windows(2).map(to).fold(f64::INFINITY, f64::min)
+    }
+
     /// This line followed by `next`; their common point is kept once.
     pub fn append(&mut self, next: &Polyline) {
         for point in &next.points {

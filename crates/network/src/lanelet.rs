@@ -125,6 +125,12 @@ impl Lanelet {
         }
     }
 
+    /// Room for a vehicle on the centre line at `station` [m]: from there to the nearest points of the two borders.
+    pub fn clear_width(&self, station: f64) -> f64 {
+        let at = self.centre.at(station);
+        self.left_border.distance_to(&at) + self.right_border.distance_to(&at)
+    }
+
     /// Distance between the borders at `station` of the centre line [m].
     pub fn width(&self, station: f64) -> f64 {
         let fraction = station / self.length();

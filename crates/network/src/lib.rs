@@ -13,6 +13,7 @@ mod lanelet;
 mod polygon;
 mod section;
 mod symmetry;
+mod width;
 
 pub use alongside::Alongside;
 pub use build::{Network, NetworkError};
@@ -20,9 +21,9 @@ pub use chain::{Beside, Chain, ChainIndex, Limit};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use junction::{
-    Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, OnChain, Phase, Place,
-    PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind, StopRule,
-    Turn, Zone, ZoneIndex, ZoneKind,
+    Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, Nearby, OnChain, Phase,
+    Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind,
+    StopRule, Touch, Turn, Zone, ZoneIndex, ZoneKind,
 };
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;

@@ -3,13 +3,15 @@
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
-use laneweave_network::{ChainIndex, Side};
+use laneweave_network::{Chain, ChainIndex, Side};
 
 use crate::appeal::STANDS;
 use crate::clock::Clock;
+use crate::gap::gap;
 use crate::junction::{self, Junction};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Car, Motion, Phase};
+use crate::window::{self, Window};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
@@ -53,7 +55,7 @@ pub(crate) struct OpenRoad {
 impl OpenRoad {
     /// That of `chain`, which ends at `lane_end` if it is a lane that ends: there it has none.
     #[inline]
-    pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<f64>) -> OpenRoad {
+    pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<LaneEnd>) -> OpenRoad {
         let [first_place, last_place] = scene.network.junctions.places(chain);
         let fork_clearance =
             if lane_end.is_some() { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
@@ -84,7 +86,7 @@ pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion,
 }
 
 /// Every case. A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
-pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Chosen {
+pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let chosen = in_lane(scene, clock, spot, lane_end);
     if !scene.car(spot).phase.is_between_lanes() {
         return chosen;
@@ -100,7 +102,7 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
 /// For one entry: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may
 /// have to decide.
 #[inline(never)]
-fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Chosen {
+fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let heeds_more = car.phase == Phase::Wants || car.heeds_more;
     let next = scene.motions(spot.chain).get(spot.index + 1).filter(|it| !heeds_more && it.id != motion.id);
@@ -113,13 +115,13 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<f64>) -> Ch
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(motion, car), leader);
-    let (wish, lane_end) = heed(scene, clock, spot, wish, lane_end);
+    let (wish, end) = heed(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
     let (wish, stop) = heed_junction(motion, car, follow, &junction, wish, clock.dt);
     let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
     let clear = |it: Ahead| it.nearer(follow.clearance());
     let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
-    let before_the_end = bound(motion.speed, behind_leader, lane_end, clock.dt);
+    let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
     let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
     Chosen {
@@ -182,29 +184,62 @@ fn heed(
     clock: Clock,
     spot: Spot,
     behind_leader: f64,
-    lane_end: Option<f64>,
+    lane_end: Option<LaneEnd>,
 ) -> (f64, Option<Ahead>) {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let (mut wish, mut obstacle) = (behind_leader, None);
     if car.phase == Phase::Wants || car.heeds_more {
         wish = wish.min(beyond_the_leader(scene, clock, spot));
     }
-    if let Some(end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
-        let kept = kept_room(scene, clock, spot);
+    if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
+        let end = lane_end.of_driver(car);
+        let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
         wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
         obstacle = Some(Ahead::standing(end - motion.x));
     }
     (wish, obstacle)
 }
 
-/// Where the lane ends for all that are on it, along the chain [m].
-pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<f64> {
+/// Where a lane ends beside another one, along a chain [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LaneEnd {
+    /// Where it ends as it is drawn: who changes lanes has to be across by then.
+    drawn: f64,
+    /// Where it becomes too narrow for a car, and for a long vehicle: who does not change lanes stops before.
+    open: [f64; 2],
+    /// From where on one may change lanes to leave it.
+    window: f64,
+}
+
+impl LaneEnd {
+    /// That of `next`, which begins at `start`.
+    fn of(next: &Chain, start: f64) -> LaneEnd {
+        let open = [false, true].map(|is_long| start + next.driven_until(is_long));
+        let begins = |side: Side| {
+            let stretches = next.stretches(side).iter().rev();
+            stretches.fold(f64::INFINITY, |begin, it| {
+                if begin - it.end < 1.0 || begin == f64::INFINITY { it.start } else { begin }
+            })
+        };
+        let window = Side::BOTH.map(begins).into_iter().fold(f64::INFINITY, f64::min);
+        let window = if window.is_finite() { start + window } else { f64::NEG_INFINITY };
+        LaneEnd { drawn: start + next.length, open, window }
+    }
+
+    /// Where it ends for a driver.
+    pub(crate) fn of_driver(&self, car: &Car) -> f64 {
+        if car.phase.is_between_lanes() { self.drawn } else { self.open[usize::from(car.class.is_long())] }
+    }
+}
+
+/// Where the lane ends for all that are on it.
+pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
     let here = scene.network.chain(chain);
     match here.following[..] {
-        [] => here.is_lane_drop.then_some(here.length),
+        [] => here.is_lane_drop.then(|| LaneEnd::of(here, 0.0)),
         [only] => {
             let next = scene.network.chain(only);
-            next.is_lane_drop.then_some(here.length + next.length)
+            next.is_lane_drop.then(|| LaneEnd::of(next, here.length))
         }
         _ => None,
     }
@@ -233,6 +268,14 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         Phase::Cruises | Phase::Aborts => false,
     };
     if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
+}
+
+/// Of the room that a driver keeps before a place, as much as leaves it within the `window` [m] in which lanes may be changed: where
+/// that is short, one waits at its beginning.
+fn within_window(kept: f64, window: f64) -> f64 {
+    /// So far into it one waits [m].
+    const INTO: f64 = 3.0;
+    kept.min((window - INTO).max(LEAST_ROOM))
 }
 
 /// What a driver heeds beside its leader.
@@ -267,22 +310,44 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     // Who is on its way through a junction waits for no gap there.
     let may_wait = matches!(car.phase, Phase::Cruises | Phase::Wants) && scene.passage(spot).is_none();
     if mind.last_place.is_finite() && may_wait {
-        let room = mind.last_place - kept_room(scene, clock, spot) - motion.x;
-        let passing = 0.5 * (pace.desired - WAITS_BELOW).max(0.0);
-        acceleration = acceleration.min(if passing > 0.0 {
-            approach(motion.speed, room, passing)
-        } else {
-            to_stop_at(motion.speed, room, clock.dt)
-        });
+        acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
     }
     acceleration
+}
+
+/// How far ahead the driver at `spot` waits for its last chance to change lanes [m].
+pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let length = Window::of(scene, spot).map_or(f64::INFINITY, |it| it.length());
+    scene.mind(spot).last_place - within_window(kept_room(scene, clock, spot), length) - scene.motion(spot).x
+}
+
+/// How a driver comes to the last place for a change. Into a short window it drives slowly enough to change there, and on through it if
+/// it has a gap; else it stops within it, or on a motorway slows down.
+fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+    let manner = &scene.characters[car.character as usize].manner;
+    let window = Window::of(scene, spot);
+    if let Some(window) = window.filter(|it| car.phase == Phase::Wants && it.is_near_and_short())
+        && gap(scene, spot, mind.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())
+    {
+        let passing = window.speed_for(manner.duration(f64::from(mind.urgency)));
+        return approach(motion.speed, window.start.max(0.0), passing);
+    }
+    let room = place_to_wait(scene, clock, spot);
+    let passing = 0.5 * (f64::from(car.desired) - WAITS_BELOW).max(0.0);
+    let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.change_duration)));
+    if passing > 0.0 && car.desired > WAITS_BELOW as f32 {
+        approach(motion.speed, room, passing)
+    } else {
+        to_stop_at(motion.speed, room, clock.dt)
+    }
 }
 
 /// The leader on the lane beside, on `side`.
 fn leader_beside(scene: &Scene, spot: Spot, side: Side) -> Option<Ahead> {
     let from = scene.viewpoint(spot);
-    let beside = scene.network.chain(spot.chain).beside(side, from.x)?;
-    scene.ahead(scene.viewpoint_at(beside.chain, beside.across(from.x), from.id, from.destination))
+    let beside = window::beside(scene, spot, side)?;
+    scene.ahead(scene.viewpoint_at(from, beside.chain, beside.across(from.x)))
 }
 
 /// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.

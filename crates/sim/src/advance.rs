@@ -46,7 +46,6 @@ pub(crate) fn advance(
     for upkeep in &plan.upkeep {
         let (motion, car, mind) = lane.entry_mut(upkeep.index as usize);
         car.in_emergency = upkeep.in_emergency;
-        car.in_collision = upkeep.in_collision;
         if car.desired != car.limit_desired {
             let eased = car.desired - (EASING * clock.dt) as f32;
             car.desired = eased.max(car.limit_desired);

@@ -5,12 +5,11 @@ use laneweave_network::{ChainIndex, LightIndex, ZoneKind};
 
 use crate::clock::Clock;
 use crate::junction::{
-    Asking, Claim, Hindrance, Hold, SPARE_ROOM, Survey, are_led_on, lets_go, may_pass, refuges, sight,
-    stands_beyond, survey, turns,
+    Applicant, Asking, Claim, Hindrance, Hold, SPARE_ROOM, Survey, are_led_on, lets_go, may_pass, refuges,
+    sight, stands_beyond, survey, turns,
 };
 use crate::plan::{Appeal, Outbox, Plan, Plea, Waiting};
 use crate::scene::{Scene, Spot};
-use crate::traffic::Motion;
 use crate::world::World;
 
 /// Slower than this [m/s] a vehicle stands before a junction (ours).
@@ -38,8 +37,9 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
         if !surveyed(scene, spot, &mut outbox.survey) {
             continue;
         }
-        let asking = Asking::of(scene, spot, waiting.since, clock);
-        match may_pass(scene, spot, &outbox.survey, asking) {
+        let applicant = Applicant::at(scene, spot);
+        let asking = Asking::of(&applicant, waiting.since, clock);
+        match may_pass(scene, &applicant, &outbox.survey, asking) {
             Ok(()) => outbox.appeals.push(Appeal {
                 since: waiting.since,
                 id: motion.id,
@@ -48,7 +48,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 what: Plea::Pass,
             }),
             Err(Hindrance::Others) => {
-                outbox.claims.extend(turns(scene, spot, &outbox.survey.holds, asking.claim));
+                outbox.claims.extend(turns(scene, &applicant, &outbox.survey.holds, asking.claim));
             }
             Err(hindrance @ (Hindrance::Room | Hindrance::Ring)) => {
                 if !asking.claim.is_patient {
@@ -89,16 +89,16 @@ fn claim_room(scene: &Scene, spot: Spot, claim: Claim, outbox: &mut Outbox) {
 
 /// Surveys what the driver at `spot` needs next. Returns whether there is something, and nobody before it waits there.
 pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {
-    let speed = scene.motion(spot).speed;
-    survey_at(scene, spot, |light, at| !lets_go(scene, light, at, speed), out) && are_led_on(scene, spot, out)
+    let applicant = Applicant::at(scene, spot);
+    let is_held = |light, at| !lets_go(scene, light, at, applicant.speed);
+    survey_at(scene, spot, is_held, out) && are_led_on(scene, &applicant, out)
 }
 
 /// Surveys what the driver at `spot` needs next, up to a light where it `is_held`. Returns whether there is something.
 fn survey_at(scene: &Scene, spot: Spot, is_held: impl Fn(LightIndex, f64) -> bool, out: &mut Survey) -> bool {
-    let Motion { speed, id, .. } = *scene.motion(spot);
-    let passage = scene.passages.of(scene.mind(spot).passage, id);
-    let granted = passage.map_or(0.0, |it| it.left().max(0.0));
-    survey(scene, spot, [granted, sight(speed)], is_held, out)
+    let applicant = Applicant::at(scene, spot);
+    let granted = applicant.passage.map_or(0.0, |it| it.left().max(0.0));
+    survey(scene, &applicant, [granted, sight(applicant.speed)], is_held, out)
 }
 
 impl World {
@@ -118,6 +118,9 @@ impl World {
     pub(crate) fn give_passages(&mut self) {
         let mut appeals = std::mem::take(&mut self.outboxes[0].appeals);
         let mut claims = std::mem::take(&mut self.outboxes[0].claims);
+        let mut survey = std::mem::take(&mut self.outboxes[0].survey);
+        self.claims_at_entrances(&mut claims, &mut survey);
+        self.outboxes[0].survey = survey;
         self.passages.clear_claims();
         claims.drain(..).for_each(|(zone, side, turn)| self.passages.note_claim(zone, side, turn));
         let rings = self.outboxes[0].rings.drain(..);
@@ -156,9 +159,10 @@ impl World {
     fn give_passage(&mut self, spot: Spot, since: u32) {
         let mut outbox = std::mem::take(&mut self.outboxes[0]);
         let scene = self.scene();
-        let asking = Asking::of(&scene, spot, since, self.clock);
+        let applicant = Applicant::at(&scene, spot);
+        let asking = Asking::of(&applicant, since, self.clock);
         let may = surveyed(&scene, spot, &mut outbox.survey)
-            && may_pass(&scene, spot, &outbox.survey, asking).is_ok();
+            && may_pass(&scene, &applicant, &outbox.survey, asking).is_ok();
         if may {
             self.give_surveyed(spot, since, &mut outbox);
         }
@@ -178,7 +182,7 @@ impl World {
             |it: &Hold| matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_));
         let fits = room >= survey.needed - asking.squeezes_into() || survey.holds.iter().all(is_merge);
         survey.room = f64::INFINITY;
-        is_freed && fits && may_pass(&scene, spot, survey, asking).is_ok()
+        is_freed && fits && may_pass(&scene, &Applicant::at(&scene, spot), survey, asking).is_ok()
     }
 
     /// Gives the driver at `spot`, who first asked in step `since`, the passage that it needs next.

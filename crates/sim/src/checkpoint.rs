@@ -7,6 +7,7 @@ use thiserror::Error;
 use crate::busy::Busy;
 use crate::clock::Clock;
 use crate::guidance::Guidance;
+use crate::incidents::Touching;
 use crate::journal::Journal;
 use crate::junction::Passages;
 use crate::ledger::Ledger;
@@ -53,6 +54,7 @@ struct Traffic {
     ledger: Option<Ledger>,
     counts: Counts,
     tally: Tally,
+    touching: Touching,
 }
 
 /// What governs it.
@@ -85,6 +87,7 @@ impl World {
             ledger: self.ledger.clone(),
             counts: self.counts,
             tally: self.counted(),
+            touching: self.touching.clone(),
         };
         let order = Order {
             passages: self.passages.clone(),
@@ -120,6 +123,7 @@ impl World {
         self.journal = traffic.journal;
         self.ledger = traffic.ledger;
         self.counts = traffic.counts;
+        self.touching = traffic.touching;
         self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
         if let Some(outbox) = self.outboxes.first_mut() {
             outbox.tally = traffic.tally;

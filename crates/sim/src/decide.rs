@@ -11,6 +11,7 @@ use crate::beliefs::Beliefs;
 use crate::clock::Clock;
 use crate::gap::{Hindrance, ROOM_TO_YIELD, gap};
 use crate::leave::departure;
+use crate::navigate::Destination;
 use crate::perceive::{Dismissed, Outlook};
 use crate::plan::{Ask, Concern, Note, Outbox, Plan, Request, Want, push_tight};
 use crate::random::{Purpose, Random};
@@ -18,8 +19,10 @@ use crate::scene::{Scene, Spot};
 use crate::signs::Sign;
 use crate::stuck::{STANDSTILL, is_stuck};
 use crate::tally::Tally;
-use crate::traffic::{Car, Kind, Mind, Phase};
+use crate::traffic::{Car, Kind, Mind, Motion, Phase};
 use crate::turn::next_turn;
+use crate::ways::Waypoint;
+use crate::window;
 
 /// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
 const STANDS_IN_VAIN: f32 = 120.0;
@@ -107,18 +110,11 @@ pub(crate) fn consider(
     };
     let (navigator, goal) = (scene.navigator, car.goal.destination());
     let waypoint = navigator.waypoint_from(scene.network, goal, spot.chain, motion.x);
-    // Where it stands in vain, the driver takes another way if there is one.
-    let stands_in_vain = note.standing >= STANDS_IN_VAIN && waypoint.last_place - motion.x < AT_THE_PLACE;
-    let beyond = waypoint.last_place + 1.0;
-    // Who has a passage goes the way that it was given for.
-    let is_free = || !scene.has_passage(spot, f64::NEG_INFINITY);
-    let has_another_way =
-        stands_in_vain && is_free() && navigator.reachable(spot.chain, beyond).next().is_some();
-    if (!waypoint.leads_on(motion.x) && is_free()) || has_another_way {
-        let from = if has_another_way { beyond } else { motion.x };
-        concern.rerouted = Some(navigator.nearest(goal, spot.chain, from));
+    if let Some(other) = other_goal(scene, spot, &waypoint, note.standing) {
+        concern.rerouted = Some(other);
         concern.gives_up = true;
         outbox.count_missed_turn(motion.id);
+        outbox.tally.lost += u64::from(other.is_none());
         push_tight(&mut plan.concerns, concern);
         return;
     }
@@ -130,9 +126,15 @@ pub(crate) fn consider(
     if leads_on && waypoint.last_place - motion.x < HEEDED_WITHIN {
         concern.last_place = waypoint.last_place;
     }
+    let is_last_chance = leads_on && style.change.follows_a_route() && comes_to_last_place(motion, &waypoint);
+    if is_last_chance
+        && car.phase == Phase::Cruises
+        && let Some(note) = plan.notes.last_mut()
+    {
+        note.due = moment.clock.step + 1;
+    }
     // Who may change to neither side has nothing to weigh, and nothing left to wait for.
-    let here = scene.network.chain(spot.chain);
-    let may_change = Side::BOTH.into_iter().any(|side| here.beside(side, motion.x).is_some());
+    let may_change = Side::BOTH.into_iter().any(|side| window::beside(scene, spot, side).is_some());
     if !may_change && navigator.recommended(goal).is_none() {
         concern.gives_up = car.phase == Phase::Wants;
         return keep_in_mind(concern, car, plan);
@@ -155,18 +157,43 @@ pub(crate) fn consider(
         let (mind, options) = (scene.mind(spot), Choice::both(&outlook, moment, &change));
         let of = |side: Side| options.iter().flatten().find(|it| it.side == side);
         let [wanted, other] = [mind.side, mind.side.opposite()].map(of);
-        concern.gives_up =
-            gives_up(moment, mind, style, [wanted, other].map(|it| it.map(|it| &it.appraisal)));
+        let leads = |it: Option<&Choice>| is_last_chance && it.is_some_and(|it| it.helps_the_route);
+        concern.gives_up = !leads(wanted)
+            && (leads(other)
+                || gives_up(moment, mind, style, [wanted, other].map(|it| it.map(|it| &it.appraisal))));
         concern.urgency = wanted.map_or(0.0, |it| it.pressure as f32);
     } else {
         let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
-        if let Some(choice) = desire(&outlook, moment, &change, epochs, draw, &mut outbox.tally) {
+        let needed =
+            || Choice::both(&outlook, moment, &change).into_iter().flatten().find(|it| it.helps_the_route);
+        let choice = is_last_chance.then(needed).flatten();
+        if let Some(choice) =
+            choice.or_else(|| desire(&outlook, moment, &change, epochs, draw, &mut outbox.tally))
+        {
             let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.pressure as f32);
             let ask = Ask::Want(choice.want(outlook.here().prospect));
             outbox.requests.push(Request { urgency, id, chain, x, ask });
         }
     }
     keep_in_mind(concern, car, plan);
+}
+
+/// Where the driver at `spot`, who has been `standing` so long [s], goes from now on because it cannot get to where it goes by its
+/// `waypoint`, or has waited for the change in vain: the nearest destination that it still can, or as the road leads. None if it goes on.
+fn other_goal(scene: &Scene, spot: Spot, waypoint: &Waypoint, standing: f32) -> Option<Destination> {
+    let goal = scene.car(spot).goal.destination();
+    let x = scene.motion(spot).x;
+    let found = if !waypoint.leads_on(x) {
+        scene.navigator.nearest(scene.network, goal, spot.chain, x)
+    } else if standing >= STANDS_IN_VAIN && waypoint.last_place - x < AT_THE_PLACE {
+        // Only a way that asks for no change here helps it on.
+        Some(scene.navigator.nearest_in_lane(goal, spot.chain, waypoint.last_place + AT_THE_PLACE)?)
+    } else {
+        return None;
+    };
+    // Who has a passage goes the way that it was given for; who drives as the road leads has no other goal to lose.
+    let is_free = goal.is_some() && !scene.has_passage(spot, f64::NEG_INFINITY);
+    (found != goal && is_free).then_some(found)
 }
 
 /// The lane-change model of a driver of `style` in this `state`.
@@ -211,6 +238,15 @@ fn desire(
     drawn.and_then(|it| options.into_iter().nth(it)).flatten()
 }
 
+/// Whether the driver comes to the last place for a change that it has to make: there it looks for a gap at every step, and wants the
+/// change whatever else speaks against it (ours).
+fn comes_to_last_place(motion: &Motion, waypoint: &Waypoint) -> bool {
+    /// Way before that place [m], and time [s].
+    const WAY: f64 = 30.0;
+    const TIME: f64 = 4.0;
+    waypoint.changes > 0 && waypoint.last_place - motion.x < (TIME * motion.speed).max(WAY)
+}
+
 /// A driver keeps its way in mind if there is something about it to keep, or to forget.
 #[inline(never)]
 fn keep_in_mind(concern: Concern, car: &Car, plan: &mut Plan) {
@@ -225,6 +261,8 @@ struct Choice {
     side: Side,
     appraisal: Appraisal,
     is_symmetric: bool,
+    /// Fewer changes are left to make there.
+    helps_the_route: bool,
     /// How much the driver is pressed to this side, 0…1.
     pressure: f64,
     /// Anticipated speed there [m/s].
@@ -253,6 +291,7 @@ impl Choice {
                 side,
                 appraisal,
                 is_symmetric: situation.is_symmetric(),
+                helps_the_route,
                 pressure: change.pressure(&situation, &appraisal),
                 prospect: situation.there.prospect,
             }
@@ -275,11 +314,14 @@ fn note(scene: &Scene, moment: Moment, spot: Spot, period: u32) -> Note {
     let style = &scene.characters[car.character as usize];
     let limit = scene.network.chain(spot.chain).limit(motion.x);
     let stands = motion.speed < STANDSTILL;
+    // Considerations between two turns add no time to that between the turns.
+    let is_turn = next_turn(motion.id, moment.clock.step, period) == moment.clock.step;
+    let since_last = if is_turn { (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 };
     Note {
         index: spot.index as u32,
         due: next_turn(motion.id, moment.clock.step + 1, period),
         limit_desired: car.class.desired_speed(style, limit) as f32,
-        standing: if stands { car.standing + (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 },
+        standing: if stands { car.standing + since_last } else { 0.0 },
     }
 }
 
@@ -303,7 +345,7 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
     let Some(gap) = gap(scene, spot, mind.side) else { return };
     match gap.taken(scene, spot, moment.clock) {
         Ok(()) => outbox.requests.push(request(Ask::Change)),
-        Err(Hindrance::InPassage | Hindrance::WantedBefore) => {}
+        Err(Hindrance::InPassage | Hindrance::WantedBefore | Hindrance::NotAllowed) => {}
         Err(_) if f64::from(mind.urgency) < asks_from => {}
         Err(_) => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {
@@ -325,11 +367,17 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
     let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };
+    // Back in a lane that ends it could no longer stop before that.
+    let left = scene.network.chain(spot.chain).driven_until(car.class.is_long()) - motion.x;
+    let ends_here = scene.network.chain(spot.chain).is_lane_drop;
+    if ends_here && deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER {
+        return;
+    }
     let style = &scene.characters[car.character as usize];
     let forced = |from| {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };
-    let there = forced(scene.viewpoint_at(twin.chain, twin.x, motion.id, car.goal.destination()));
+    let there = forced(scene.viewpoint_at(scene.viewpoint(spot), twin.chain, twin.x));
     if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
         let ask = Ask::Abort;
         outbox.requests.push(Request {

@@ -2,9 +2,10 @@
 
 use laneweave_network::ChainIndex;
 
-use crate::accelerate::{Chosen, OpenRoad, behind, lane_end, with_care};
+use crate::accelerate::{Chosen, LaneEnd, OpenRoad, behind, lane_end, with_care};
 use crate::clock::Clock;
 use crate::junction::NO_PASSAGE;
+use crate::overlap::touch;
 use crate::plan::{Outbox, Plan, Upkeep, Waiting, push_tight};
 use crate::scene::{Scene, Spot};
 use crate::traffic::{Lane, Motion};
@@ -59,7 +60,7 @@ fn drive_with_care(
     scene: &Scene,
     clock: Clock,
     spot: Spot,
-    lane_end: Option<f64>,
+    lane_end: Option<LaneEnd>,
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) -> (f64, f64) {
@@ -69,17 +70,16 @@ fn drive_with_care(
     let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
     // A shadow counts as well: kinematics in either lane is kinematics.
     outbox.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
-    outbox.tally.collisions += u64::from(touches && !car.in_collision);
+    if touches && let Some(leader) = scene.leader_spot(scene.viewpoint(spot)) {
+        touch(scene, spot, leader, clock.time(), &mut outbox.incidents);
+    }
     let index = spot.index as u32;
-    if !car.only_follows() || in_emergency || touches {
+    if !car.only_follows() || in_emergency {
         let motion = scene.motion(spot);
         let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
         let slot = scene.mind(spot).passage;
         let passage_is_over = slot != NO_PASSAGE && scene.passages.of(slot, motion.id).is_none();
-        push_tight(
-            &mut plan.upkeep,
-            Upkeep { index, distance, in_emergency, in_collision: touches, passage_is_over },
-        );
+        push_tight(&mut plan.upkeep, Upkeep { index, distance, in_emergency, passage_is_over });
     }
     if junction.asks {
         let id = scene.motion(spot).id;

@@ -7,10 +7,11 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
 use crate::accelerate::speed_before_a_stop;
 use crate::events::Event;
-use crate::junction::{sight, stop_ahead};
+use crate::junction::{Hindrance, sight, stop_ahead};
 use crate::metering::Metering;
 use crate::perceive::driver;
-use crate::scene::{Found, Scene};
+use crate::reserve::{Entry, applicant, entry};
+use crate::scene::{Found, Scene, nearer};
 use crate::source::{Arrival, Queue, Start};
 use crate::world::{NewVehicle, World};
 
@@ -18,7 +19,7 @@ impl World {
     /// Vehicles arrive, queue up, and enter where there is room.
     pub(crate) fn enter(&mut self) {
         let mut sources = std::mem::take(&mut self.sources);
-        if self.is_watched()
+        if self.begins_a_second()
             && let Some(metering) = &mut self.metering
         {
             metering.measure(&self.lanes);
@@ -33,37 +34,61 @@ impl World {
             self.next_id = next_id;
             for queue in source.queues() {
                 while let Some(place) = queue.first(is_full)
-                    && let Some(vehicle) = self.admit(queue, &queue.waiting[place])
-                    && let Some(Arrival { id, time, .. }) = queue.waiting.remove(place)
-                {
-                    self.put(vehicle, id, time);
-                    if let Some(record) = self.record_mut(id) {
-                        record.origin = Some(origin);
-                    }
-                    self.events.push(Event::Entered(id));
-                }
+                    && self.let_in(origin, queue, place)
+                {}
             }
         }
         self.sources = sources;
     }
 
-    /// The vehicle as it comes onto the lane of `queue`, if there is room for it.
-    fn admit(&self, queue: &Queue, arrival: &Arrival) -> Option<NewVehicle> {
-        let Arrival { id, class, character, destination, .. } = *arrival;
+    /// Lets the vehicle at a `place` of a queue onto the road, if there is room for it. Returns whether it came.
+    fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize) -> bool {
+        let mut survey = std::mem::take(&mut self.outboxes[0].survey);
+        let needs = entry(&self.scene(), queue, &queue.waiting[place], self.clock, &mut survey);
+        if let Entry::Refused(Hindrance::Others) = needs {
+            queue.asks_since.get_or_insert(self.clock.step);
+        }
+        let admitted = self.admit(queue, &queue.waiting[place], needs);
+        if let Some(vehicle) = admitted
+            && let Some(arrival) = queue.waiting.remove(place)
+        {
+            self.put(vehicle, arrival.id, arrival.time);
+            if matches!(needs, Entry::Reserved { .. }) {
+                self.reserve(queue, &arrival, &survey);
+            }
+            queue.asks_since = None;
+            if let Some(record) = self.record_mut(arrival.id) {
+                record.origin = Some(origin);
+            }
+            self.events.push(Event::Entered(arrival.id));
+        }
+        self.outboxes[0].survey = survey;
+        admitted.is_some()
+    }
+
+    /// The vehicle as it comes onto the lane of `queue`, if there is room for it and it has what it needs.
+    fn admit(&self, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<NewVehicle> {
+        let (granted, before) = match needs {
+            Entry::Refused(_) => return None,
+            Entry::Free => (0.0, None),
+            Entry::Reserved { until, ahead } => (until, ahead),
+        };
+        let Arrival { class, character, destination, .. } = *arrival;
         let chain = queue.chain;
         let rear = queue.start.station();
         let length = class.body().length;
         let x = rear + length;
         let style = &self.characters[character as usize];
         let scene = self.scene();
-        let from = scene.viewpoint_at(chain, rear, id, destination);
+        let from = scene.viewpoint_at(applicant(&scene, queue, arrival).from, chain, rear);
         let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
+        let ahead = nearer(ahead, before);
         let dt = self.clock.dt;
         let speed = match queue.start {
             Start::Driving => {
                 let desired = class.desired_speed(style, self.network.chain(chain).limit(x));
                 let speed = entry_speed(style, desired, ahead, dt)?;
-                let stop = stop_ahead(&scene, from, 0.0, sight(desired));
+                let stop = stop_ahead(&scene, from, granted, sight(desired));
                 stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
             }
             Start::FromRest(_) => {

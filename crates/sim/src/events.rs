@@ -4,6 +4,7 @@ use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side};
 use serde::{Deserialize, Serialize};
 
+use crate::incidents::Incident;
 use crate::journal::TripRecord;
 use crate::traffic::{Kind, Motion, VehicleId};
 
@@ -27,6 +28,8 @@ pub enum Event {
     },
     /// A lane change is completed, or was aborted.
     LaneChange(LaneChange),
+    /// Two vehicles came to touch each other.
+    Incident(Incident),
 }
 
 /// A lane change, with the reasons for it.

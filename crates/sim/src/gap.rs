@@ -5,11 +5,12 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::clock::Clock;
-use crate::junction::{Asking, Refuge, is_place_ahead};
+use crate::junction::{Applicant, Asking, Refuge, is_place_ahead};
 use crate::perceive::driver;
 use crate::scene::{Found, Scene, Spot, Viewpoint};
 use crate::stuck::STANDSTILL;
 use crate::traffic::Phase;
+use crate::window;
 
 /// Desire that a voluntary change counts for in the time gap accepted (ours).
 const VOLUNTARY_DESIRE: f64 = 0.3;
@@ -42,6 +43,8 @@ pub(crate) struct Gap {
     pub(crate) chain: ChainIndex,
     /// Where the own front bumper would be on it [m].
     pub(crate) x: f64,
+    /// It is looked at ahead of the place from which on the change is allowed.
+    pub(crate) is_coming: bool,
     /// Metres there for a metre here.
     pub(crate) scale: f64,
     /// Road on which the centre can still cross [m].
@@ -54,13 +57,14 @@ pub(crate) struct Gap {
 
 /// The gap beside; `None` where a change to `side` is not allowed.
 pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let beside = scene.network.chain(spot.chain).beside(side, motion.x)?;
+    let motion = scene.motion(spot);
+    let beside = window::beside(scene, spot, side)?;
     let x = beside.across(motion.x);
-    let from = scene.viewpoint_at(beside.chain, x, motion.id, car.goal.destination());
-    Some(Gap {
+    let from = scene.viewpoint_at(scene.viewpoint(spot), beside.chain, x);
+    scene.network.chain(beside.chain).takes(x, from.is_long).then(|| Gap {
         chain: beside.chain,
         x,
+        is_coming: motion.x < beside.start,
         scale: beside.scale,
         room: permitted_ahead(scene, spot, side),
         ahead: scene.ahead(from),
@@ -72,7 +76,8 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
     const ENOUGH: f64 = 150.0;
     let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let (mut chain, mut x, mut permitted) = (spot.chain, motion.x, 0.0);
+    let start = window::beside(scene, spot, side).map_or(motion.x, |it| it.start.max(motion.x));
+    let (mut chain, mut x, mut permitted) = (spot.chain, start, 0.0);
     while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
         permitted += stretch.end - x;
         if permitted > ENOUGH || stretch.end < scene.network.chain(chain).length - 1e-6 {
@@ -190,13 +195,14 @@ impl Gap {
         if self.is_wanted_before(scene, spot, clock) {
             return Err(Hindrance::WantedBefore);
         }
-        self.accepted(scene, spot, clock.dt)
+        self.accepted(scene, spot, clock.dt)?;
+        if self.is_coming { Err(Hindrance::NotAllowed) } else { Ok(()) }
     }
 
     /// Whether somebody who waits before a junction for room on that stretch comes first to it.
     fn is_wanted_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
         let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
-        let claim = Asking::of(scene, spot, scene.mind(spot).since, clock).claim;
+        let claim = Asking::of(&Applicant::at(scene, spot), scene.mind(spot).since, clock).claim;
         scene.passages.wanted_before(refuge, claim) > 0.0
     }
 
@@ -213,7 +219,9 @@ impl Gap {
             // Who stands beside or right behind a standing vehicle cannot make room for it.
             let is_beside = gap < room && motion.speed <= STANDSTILL;
             let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
-            car.phase == Phase::Cruises && gentle > 0.0 && !is_beside && needed <= gentle
+            // Nobody may come before who has a reservation: it lets in nobody.
+            let is_free = !scene.has_passage(it.spot, gap);
+            car.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle
         };
         std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
     }

@@ -434,8 +434,19 @@ impl Navigator {
         })
     }
 
-    /// The reachable destination of least time, for one who was on its way to `before`; of none, to wander.
-    pub fn nearest(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+    /// The destination of least time that can be reached from `x` on `chain`, over its end, too, for one who was on its way to `before`; of none, to wander.
+    pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+        let first = before.map_or(0, |it| self.view(it)) * self.of_view;
+        let all = (first..first + self.of_view - 1).map(|it| Some(it as u16));
+        let reachable = all.filter_map(|it| {
+            let waypoint = self.waypoint_from(network, it, chain, x);
+            waypoint.leads_on(x).then_some((it, waypoint.time))
+        });
+        reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
+    }
+
+    /// The destination of least time to which the usual way leads from `x` on `chain`, for one who was on its way to `before`.
+    pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
         let view = before.map_or(0, |it| self.view(it));
         let reachable = self.reachable_in(view, chain, x);
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)

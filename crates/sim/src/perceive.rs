@@ -12,6 +12,7 @@ use crate::beliefs::Beliefs;
 use crate::scene::{LaneSight, Scene, Spot, Viewpoint, nearer};
 use crate::traffic::{Car, Phase};
 use crate::ways::Waypoint;
+use crate::window;
 
 pub(crate) use glance::Dismissed;
 
@@ -79,9 +80,14 @@ impl<'s, 'a> Outlook<'s, 'a> {
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length, reach);
         let here = lane_view(scene, &me, &sight, route_view(scene, from, waypoint, beliefs));
-        let chain = scene.network.chain(from.chain);
         let beside = Side::BOTH.map(|side| {
-            let beside = chain.beside(side, from.x)?;
+            let beside = window::beside(scene, spot, side)?;
+            let there = scene.network.chain(beside.chain);
+            // Into a lane that is tight for it a long vehicle changes for its route only.
+            let is_tight = from.is_long && there.is_tight_for_long && waypoint.changes == 0;
+            if is_tight || !there.takes(beside.across(from.x), from.is_long) {
+                return None;
+            }
             let (x, hint) = (beside.across(from.x), &mut hints[side.at()]);
             *hint = scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
             Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })

@@ -4,6 +4,7 @@ use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Side, ZoneIndex};
 use serde::{Deserialize, Serialize};
 
+use crate::incidents::Incident;
 use crate::junction::{Claim, Refuge, Survey, Turn};
 use crate::navigate::Destination;
 use crate::tally::Tally;
@@ -90,6 +91,8 @@ pub(crate) struct Outbox {
     pub(crate) reroutings: Vec<(VehicleId, Rerouting)>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
+    /// Vehicles that touch each other.
+    pub(crate) incidents: Vec<Incident>,
     /// Lanes that had no vehicles when they were to be moved.
     pub(crate) empty: Vec<ChainIndex>,
 }
@@ -122,6 +125,7 @@ impl Outbox {
         take_over(&mut self.set_off, &mut other.set_off);
         take_over(&mut self.reroutings, &mut other.reroutings);
         take_over(&mut self.arrived, &mut other.arrived);
+        take_over(&mut self.incidents, &mut other.incidents);
         take_over(&mut self.empty, &mut other.empty);
     }
 }
@@ -151,8 +155,6 @@ pub(crate) struct Upkeep {
     pub(crate) distance: f64,
     /// Kinematics decided in the present braking.
     pub(crate) in_emergency: bool,
-    /// It touches its leader.
-    pub(crate) in_collision: bool,
     /// The passage that it had is over.
     pub(crate) passage_is_over: bool,
 }

@@ -3,8 +3,9 @@
 use laneweave_network::ChainIndex;
 
 use crate::appeal::surveyed;
-use crate::junction::{Asking, Hindrance, Survey, may_pass};
+use crate::junction::{Applicant, Asking, Hindrance, Survey, may_pass};
 use crate::metering::Metering;
+use crate::reserve::{Entry, applicant, entry};
 use crate::scene::{Scene, Spot};
 use crate::source::{Queue, Start};
 use crate::world::World;
@@ -76,13 +77,20 @@ impl World {
         if is_kerb && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
             return Some(Held::Room);
         }
-        let from = scene.viewpoint_at(queue.chain, queue.start.station(), first.id, first.destination);
+        match entry(&scene, queue, first, self.clock, &mut Survey::default()) {
+            Entry::Refused(Hindrance::Light) => return Some(Held::RedLight),
+            Entry::Refused(Hindrance::Sign | Hindrance::Others) => return Some(Held::Priority),
+            Entry::Refused(Hindrance::Room | Hindrance::Ring) => return Some(Held::Room),
+            Entry::Free | Entry::Reserved { .. } => {}
+        }
+        let from =
+            scene.viewpoint_at(applicant(&scene, queue, first).from, queue.chain, queue.start.station());
         let last = scene.leader_spot(from).filter(|it| scene.motion(*it).speed < QUEUES);
-        Some(last.map_or(Held::Traffic, |it| self.stands_for(&scene, head(&scene, it))))
+        Some(last.map_or(Held::Traffic, |it| self.why_head_stands(&scene, head(&scene, it))))
     }
 
     /// Why the driver at the head of a queue stands.
-    fn stands_for(&self, scene: &Scene, spot: Spot) -> Held {
+    fn why_head_stands(&self, scene: &Scene, spot: Spot) -> Held {
         let id = scene.motion(spot).id;
         let Some(waiting) = self.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id) else {
             return Held::Queue;
@@ -91,7 +99,8 @@ impl World {
         if !surveyed(scene, spot, &mut survey) {
             return Held::Queue;
         }
-        match may_pass(scene, spot, &survey, Asking::of(scene, spot, waiting.since, self.clock)) {
+        let applicant = Applicant::at(scene, spot);
+        match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, self.clock)) {
             Ok(()) => Held::Queue,
             Err(Hindrance::Light) => Held::RedLight,
             Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,

@@ -54,7 +54,11 @@ impl World {
             Ask::LetIn { follower, chain, x, gap, speed } => {
                 let since = lane.minds()[spot.index].since;
                 let found = self.lanes[chain.at()].find(follower, x);
-                if let Some(index) = found.filter(|it| self.has_seen(Spot { chain, index: *it }, since)) {
+                let heeds = |index: &usize| {
+                    let behind = Spot { chain, index: *index };
+                    self.has_seen(behind, since) && !self.scene().has_passage(behind, f64::from(gap))
+                };
+                if let Some(index) = found.filter(heeds) {
                     let (_, car, mind) = self.lanes[chain.at()].entry_mut(index);
                     // Of two who want in before it the nearer comes first.
                     if car.phase == Phase::Cruises && gap < mind.lets_in.0 {
@@ -121,7 +125,7 @@ impl World {
             return;
         }
         let Some(gap) = gap(&scene, spot, mind.side) else { return };
-        if gap.accepted(&scene, spot, self.clock.dt).is_err() {
+        if gap.is_coming || gap.accepted(&scene, spot, self.clock.dt).is_err() {
             return;
         }
         let [gap_ahead, gap_behind, ttc_ahead, ttc_behind] = gap.measures(&scene, spot);

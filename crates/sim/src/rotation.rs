@@ -2,7 +2,7 @@
 //! them could ever go if each waited for the other's room to be free; so they go together, each into the room of the next.
 
 use crate::appeal::STANDS;
-use crate::junction::{Asking, Hold};
+use crate::junction::{Applicant, Asking, Hold};
 use crate::plan::Appeal;
 use crate::scene::{Scene, Spot};
 use crate::world::World;
@@ -34,7 +34,7 @@ impl World {
         let scene = self.scene();
         let next = members.iter().cycle().skip(1);
         let may_go = members.iter().zip(next).all(|((spot, appeal), (next, _))| {
-            let asking = Asking::of(&scene, *spot, appeal.since, self.clock);
+            let asking = Asking::of(&Applicant::at(&scene, *spot), appeal.since, self.clock);
             let may = self.may_after(*spot, asking, *next, &mut outbox);
             let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
             let is_apart = !outbox.survey.holds.iter().any(crosses);

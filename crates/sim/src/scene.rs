@@ -49,6 +49,8 @@ pub struct Viewpoint {
     pub id: VehicleId,
     /// Where it goes.
     pub destination: Destination,
+    /// Its vehicle is long.
+    pub is_long: bool,
 }
 
 /// A vehicle that was found, and how far its front bumper is ahead of, or behind, one's own [m].
@@ -61,7 +63,7 @@ pub struct Found {
 }
 
 /// No vehicle is longer than this [m].
-const LONGEST: f64 = 12.0;
+pub(crate) const LONGEST: f64 = 12.0;
 /// How far back a follower is looked for [m].
 pub(crate) const REAR_SIGHT: f64 = 250.0;
 /// T_h window ahead [m].
@@ -172,20 +174,15 @@ impl<'a> Scene<'a> {
     #[inline]
     pub fn viewpoint(&self, spot: Spot) -> Viewpoint {
         let Motion { x, id, .. } = *self.motion(spot);
-        let destination = self.car(spot).goal.destination();
-        Viewpoint { chain: spot.chain, x, ahead: spot.index + 1, id, destination }
+        let Car { goal, class, .. } = self.car(spot);
+        let (destination, is_long) = (goal.destination(), class.is_long());
+        Viewpoint { chain: spot.chain, x, ahead: spot.index + 1, id, destination, is_long }
     }
 
-    /// The viewpoint from `x` on another chain.
+    /// What who looks `from` would see from `x` on another chain.
     #[inline]
-    pub fn viewpoint_at(
-        &self,
-        chain: ChainIndex,
-        x: f64,
-        id: VehicleId,
-        destination: Destination,
-    ) -> Viewpoint {
-        Viewpoint { chain, x, ahead: self.lanes[chain.at()].ahead_of(x), id, destination }
+    pub fn viewpoint_at(&self, from: Viewpoint, chain: ChainIndex, x: f64) -> Viewpoint {
+        Viewpoint { chain, x, ahead: self.lanes[chain.at()].ahead_of(x), ..from }
     }
 
     /// The chain on which a driver goes on.

@@ -128,7 +128,6 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         phase: if seen.change.is_some() { Phase::Changes } else { Phase::Cruises },
         is_shadow: false,
         in_emergency: false,
-        in_collision: false,
         heeds_more: false,
     };
     let twin = |change: Across| Twin { chain: change.other.0, x: change.other.1, stretch: 1.0 };

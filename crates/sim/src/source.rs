@@ -65,6 +65,8 @@ pub(crate) struct Queue {
     pub(crate) chain: ChainIndex,
     pub(crate) start: Start,
     pub(crate) waiting: VecDeque<Arrival>,
+    /// Step from which on the first of them has had to wait for others that use the same ground.
+    pub(crate) asks_since: Option<u32>,
 }
 
 /// How vehicles come onto a lane.
@@ -251,7 +253,7 @@ fn next_arrival(headways: Headways, rate: &Rate, last: f64, chance: f64) -> f64 
 
 /// The queues of a place, ordered from the slow side.
 fn queues(network: &Network, place: &Place) -> Vec<Queue> {
-    let queue = |chain, start| Queue { chain, start, waiting: VecDeque::new() };
+    let queue = |chain, start| Queue { chain, start, waiting: VecDeque::new(), asks_since: None };
     match place {
         Place::Gate(gate) => {
             from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving)).collect()

@@ -2,7 +2,7 @@
 
 use crate::appeal::surveyed;
 use crate::clock::Clock;
-use crate::junction::{Asking, Hindrance, Survey, look, may_pass};
+use crate::junction::{Applicant, Asking, Hindrance, Survey, look, may_pass};
 use crate::scene::{Scene, Spot};
 
 /// Standstill below this speed [m/s].
@@ -55,7 +55,8 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
     if !is_head {
         return on_way();
     }
-    match may_pass(scene, at, survey, Asking::of(scene, at, clock.step, clock)) {
+    let applicant = Applicant::at(scene, at);
+    match may_pass(scene, &applicant, survey, Asking::of(&applicant, clock.step, clock)) {
         Err(Hindrance::Room | Hindrance::Ring) => on_way(),
         Err(Hindrance::Light) => {
             let since = |it| f64::from(clock.step - scene.signals.green_at(it, clock)) * clock.dt;

@@ -30,6 +30,8 @@ pub struct Tally {
     pub stuck: u64,
     /// Drivers who passed the last place for a change without reaching a lane of their route.
     pub missed_turns: u64,
+    /// Drivers who had no way left to any destination.
+    pub lost: u64,
     /// Times that a driver left its route for a better one.
     pub route_changes: u64,
 }
@@ -62,6 +64,7 @@ impl Tally {
             overlaps,
             stuck,
             missed_turns,
+            lost,
             route_changes,
         } = other;
         self.considerations += considerations;
@@ -76,6 +79,7 @@ impl Tally {
         self.overlaps += overlaps;
         self.stuck += stuck;
         self.missed_turns += missed_turns;
+        self.lost += lost;
         self.route_changes += route_changes;
     }
 }

@@ -75,8 +75,6 @@ pub struct Car {
     pub is_shadow: bool,
     /// Kinematics, not the model, decided in the present braking.
     pub in_emergency: bool,
-    /// It touches its leader.
-    pub in_collision: bool,
     /// Its driver heeds more than the leader: the last place for a change, or a vehicle that it lets in.
     pub heeds_more: bool,
 }
@@ -90,7 +88,6 @@ impl Car {
         self.phase == Phase::Cruises
             && !self.heeds_more
             && !self.in_emergency
-            && !self.in_collision
             && self.desired == self.limit_desired
     }
 }

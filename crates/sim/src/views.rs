@@ -1,6 +1,6 @@
-//! How classes of vehicles see the roads: which lanes they avoid where there is another way.
+//! How classes of vehicles see the roads: which lanes they avoid where there is another way, as too tight or too narrow.
 
-use laneweave_network::{ChainIndex, Network, Point, Polyline};
+use laneweave_network::{Chain, ChainIndex, Network, Point, Polyline};
 
 use crate::vehicle::{Class, Fleet};
 
@@ -24,9 +24,10 @@ impl Views {
         if !has_long {
             return Views::default();
         }
-        let is_tight: Vec<bool> =
-            network.chains.iter().map(|it| tightest_turn(&it.centre) < TIGHTEST_TURN).collect();
-        Views { of_long: is_tight.contains(&true).then_some(is_tight) }
+        let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&it.centre) < TIGHTEST_TURN;
+        let is_tight: Vec<bool> = network.chains.iter().map(is_tight).collect();
+        let differs = is_tight.contains(&true) || network.chains.iter().any(|it| it.is_narrow);
+        Views { of_long: differs.then_some(is_tight) }
     }
 
     /// Number of different views.

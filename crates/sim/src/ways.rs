@@ -202,8 +202,8 @@ impl Planner<'_> {
             for (from, side, number) in &into[index.at()] {
                 let stretch = &network.chain(*from).stretches(*side)[*number];
                 let until = here.last_place.min(here.end) - Planner::ROOM_FOR_A_CHANGE;
-                let last_place =
-                    if until.is_finite() { stretch.end.min(stretch.back(until)) } else { stretch.end };
+                let end = stretch.end.min(network.chain(*from).driven_until(self.view > 0));
+                let last_place = if until.is_finite() { end.min(stretch.back(until)) } else { end };
                 if last_place > stretch.start && !ahead.contains(from) {
                     offer(*from, self.beside(*from, index, stretch, last_place, &here));
                 }
@@ -364,7 +364,8 @@ pub(crate) fn wander(network: &Network) -> Vec<Waypoint> {
     let mut table: Vec<Waypoint> = network.chains.iter().map(on).collect();
     for index in &network.lane_drops {
         let chain = network.chain(*index);
-        let ends = |side: Side| chain.stretches(side).last().map(|it| it.end);
+        let until = chain.driven_until(true);
+        let ends = |side: Side| chain.stretches(side).last().map(|it| it.end.min(until));
         let last_place = Side::BOTH.into_iter().filter_map(ends).reduce(f64::max).unwrap_or(chain.length);
         table[index.at()] = Waypoint { changes: 1, last_place, ..table[index.at()] };
     }

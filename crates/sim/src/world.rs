@@ -19,6 +19,7 @@ use crate::drive::drive;
 use crate::events::Event;
 use crate::guidance::Guidance;
 use crate::headways::HeadwayError;
+use crate::incidents::Touching;
 use crate::journal::{Journal, TripRecord};
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::ledger::{Ledger, Mark, Stay};
@@ -59,6 +60,10 @@ pub struct World {
     /// There too, what happens on the lanelets.
     pub(crate) ledger: Option<Ledger>,
     pub(crate) events: Vec<Event>,
+    /// Who touches whom.
+    pub(crate) touching: Touching,
+    /// Whether it is looked for overlaps at every step.
+    is_audited: bool,
     pub(crate) counts: Counts,
     /// One for each thread.
     pub(crate) outboxes: Vec<Outbox>,
@@ -221,6 +226,8 @@ impl World {
             journal: None,
             ledger: None,
             events: Vec::new(),
+            touching: Touching::default(),
+            is_audited: false,
             counts: Counts::default(),
             outboxes: (0..setup.threads.max(1)).map(|_| Outbox::default()).collect(),
             next_id: 0,
@@ -253,14 +260,22 @@ impl World {
         self
     }
 
+    /// The same world, in which it is looked for overlaps at every step, not only once a second.
+    pub fn audited(mut self) -> World {
+        self.is_audited = true;
+        self
+    }
+
     /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
     /// lanes is resolved in order; vehicles enter; drivers are guided.
     pub fn step(&mut self) {
         self.events.clear();
-        self.move_all();
+        let is_watched = self.is_watched();
+        self.move_all(is_watched);
         self.clock.step += 1;
         self.switch_lights();
         self.gather();
+        self.note_incidents(is_watched);
         self.account();
         self.pass_on();
         self.transfer();
@@ -268,14 +283,13 @@ impl World {
         self.resolve();
         self.enter();
         self.guide();
-        if self.is_watched() {
+        if self.begins_a_second() {
             self.put_down();
         }
     }
 
     /// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
-    fn move_all(&mut self) {
-        let is_watched = self.is_watched();
+    fn move_all(&mut self, is_watched: bool) {
         let World {
             network,
             navigator,
@@ -307,7 +321,7 @@ impl World {
                 drive(&scene, moment.clock, chain, plan, outbox);
                 appeal(&scene, moment.clock, chain, plan, outbox);
                 if is_watched {
-                    outbox.tally.overlaps += overlaps(&scene, chain);
+                    overlaps(&scene, chain, moment.clock.time(), &mut outbox.incidents);
                 }
             },
             |lane, outbox, index, plan| {
@@ -364,7 +378,6 @@ impl World {
             phase: Phase::Cruises,
             is_shadow: false,
             in_emergency: false,
-            in_collision: false,
             heeds_more: false,
         };
         let mind = Mind {
@@ -393,9 +406,14 @@ impl World {
         self.lanes[chain.at()].insert(entry);
     }
 
-    /// Overlaps are looked for once a second.
-    pub(crate) fn is_watched(&self) -> bool {
+    /// What is done once a second is done now.
+    pub(crate) fn begins_a_second(&self) -> bool {
         self.clock.step.is_multiple_of(self.clock.steps(1.0))
+    }
+
+    /// Overlaps are looked for once a second; in an audit at every step.
+    fn is_watched(&self) -> bool {
+        self.is_audited || self.begins_a_second()
     }
 
     /// The current instant.

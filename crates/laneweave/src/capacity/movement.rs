@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use laneweave_models::yielding::{MARGIN, time_to_cover};
-use laneweave_network::{ChainIndex, Precedence, ZoneKind};
+use laneweave_network::{ChainIndex, Precedence, Touch, ZoneKind};
 use laneweave_sim::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 
 use super::{Roads, once};
@@ -74,13 +74,13 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
         for crossing in &junctions.on(chain).crossings {
             let (zone, side) = (crossing.zone.at(), usize::from(crossing.side));
             // Lights part those who meet.
-            if junctions.zones[zone].kind == ZoneKind::Tight || is_lit[zone] == [true; 2] {
+            if junctions.zones[zone].touch != Touch::Any || is_lit[zone] == [true; 2] {
                 continue;
             }
             let reach = junctions.reach(*crossing);
             let end = match junctions.zones[zone].kind {
                 ZoneKind::Merging(stations) => stations[side],
-                ZoneKind::Crossing | ZoneKind::Tight => reach.end,
+                ZoneKind::Crossing => reach.end,
             };
             match all.last_mut().filter(|it| it.chain == chain && reach.start < it.end + APART) {
                 Some(last) => {

@@ -85,6 +85,9 @@ pub(crate) struct Arguments {
     /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none.
     #[arg(long)]
     resume: bool,
+    /// Look for overlapping vehicles at every step, not only once a second.
+    #[arg(long)]
+    audit: bool,
     #[command(flatten)]
     screen: Screen,
 }
@@ -165,6 +168,7 @@ impl Arguments {
         replace(origin, ("run.seed", "--seed"), &mut run.seed, self.seed);
         replace(origin, ("run.warmup_s", "--warmup"), &mut run.warmup_s, self.warmup);
         replace(origin, ("run.threads", "--threads"), &mut run.threads, self.threads.map(Some));
+        replace(origin, ("run.audit", "--audit"), &mut run.audit, self.audit.then_some(true));
         replace(origin, ("output.dir", "--out"), &mut output.dir, self.out);
         replace(origin, ("output.record_s", "--record"), &mut output.record_s, self.record);
         replace(origin, ("output.flows_s", "--flows"), &mut output.flows_s, self.flows);

@@ -2,6 +2,7 @@
 
 mod commonest;
 mod flip;
+mod standing;
 mod trip;
 mod words;
 

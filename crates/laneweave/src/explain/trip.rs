@@ -6,6 +6,7 @@ use laneweave_network::Network;
 use laneweave_sim::{Account, Act, Event, Spot, VehicleId, World};
 
 use super::flip::flips;
+use super::standing::stands_for;
 use super::words::{act, flip_in_words, story};
 use crate::units::KMH_PER_MPS;
 
@@ -19,6 +20,11 @@ pub enum Moment {
     /// It never came.
     Never,
 }
+
+/// Slower than this a vehicle stands [m/s].
+const STANDS: f64 = 0.1;
+/// A standstill is told after this time [s]. Ours.
+const TOLD_AFTER: f64 = 10.0;
 
 /// Where the main entry of vehicle `id` stands, if it is on the road.
 fn spot_of(world: &World, id: VehicleId) -> Option<Spot> {
@@ -61,13 +67,20 @@ fn full(world: &World, account: &Account, with_flips: bool) -> String {
     let scene = world.scene();
     let motion = scene.motion(account.spot);
     let found = if with_flips { flips(account, world.clock().dt) } else { Vec::new() };
-    story(account, world.network(), (motion.x, motion.speed), &found)
+    let mut told = story(account, world.network(), (motion.x, motion.speed), &found);
+    if motion.speed < STANDS {
+        // Writing to a string never fails.
+        let _ = writeln!(told, "  {}", stands_for(&world.stands_for(account.spot), world.network()));
+    }
+    told
 }
 
 /// The trip of the driver of `id`, line by line: what it did from when to when, and why. `None` if it never came within `steps`
 /// steps.
 pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> Option<String> {
     let mut lines = Lines::default();
+    let told_after = world.clock().steps(TOLD_AFTER);
+    let mut stood = 0;
     for _ in 0..steps {
         let now = world.clock().time();
         match spot_of(world, id) {
@@ -77,6 +90,11 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
                     lines.single(now, &format!("enters {}", place(world.network(), spot, world)));
                 }
                 lines.take(now, &account, with_flips, world.clock().dt);
+                stood = if world.scene().motion(spot).speed < STANDS { stood + 1 } else { 0 };
+                if stood == told_after {
+                    let why = stands_for(&world.stands_for(spot), world.network());
+                    lines.single(now, &format!("has stood for {TOLD_AFTER} s: {why}"));
+                }
             }
             None if !lines.text.is_empty() => break,
             None => {}

@@ -50,6 +50,8 @@ pub struct Summary {
     pub stuck: u64,
     /// Drivers who missed a turn.
     pub missed_turns: u64,
+    /// Drivers who had no way left to any destination.
+    pub lost: u64,
     /// Drivers who took another route: all who missed a turn do.
     pub rerouted: u64,
     /// Times that a driver left its route for a better one.
@@ -140,6 +142,7 @@ impl Summary {
             emergency_brakings: tally.emergency_brakings,
             stuck: tally.stuck,
             missed_turns: tally.missed_turns,
+            lost: tally.lost,
             rerouted: tally.missed_turns,
             route_changes: tally.route_changes,
             considerations: tally.considerations,

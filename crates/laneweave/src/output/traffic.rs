@@ -66,7 +66,7 @@ impl Traffic {
                 Event::LaneChange(change) if change.is_completed && is_measured(change) => {
                     self.change(network, change);
                 }
-                Event::LaneChange(_) => {}
+                Event::LaneChange(_) | Event::Incident(_) => {}
             }
         }
     }

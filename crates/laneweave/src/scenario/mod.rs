@@ -200,11 +200,13 @@ pub struct Run {
     /// Number of threads; results do not depend on it. Without it the cores of the machine, but for one that writes trajectories if
     /// they are recorded; at most 2.
     pub threads: Option<NonZero<usize>>,
+    /// Whether vehicles that overlap are looked for at every step, not only once a second.
+    pub audit: bool,
 }
 
 impl Default for Run {
     fn default() -> Run {
-        Run { duration_s: 600.0, step_s: 0.1, seed: 1, warmup_s: 0.0, threads: None }
+        Run { duration_s: 600.0, step_s: 0.1, seed: 1, warmup_s: 0.0, threads: None, audit: false }
     }
 }
 

@@ -109,6 +109,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let world = World::new(network, characters, demand, setup)
         .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?
         .with_journal();
+    let world = if scenario.run.audit { world.audited() } else { world };
     let world = match scenario.guidance.interval_s {
         0.0 => world,
         interval => world.guided(interval).map_err(|error| {

@@ -67,6 +67,16 @@ impl LaneChangeModel {
         }
     }
 
+    /// Whether a driver changes lanes for its route at all.
+    #[inline]
+    pub fn follows_a_route(&self) -> bool {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.route.weight > 0.0 || model.urgency.weight > 0.0,
+            LaneChangeModel::Mobil(_) | LaneChangeModel::Lmrs(_) => true,
+            LaneChangeModel::ConstantHazard(_) => false,
+        }
+    }
+
     /// Pressure from which a driver who waits for a gap falls in with the target lane.
     #[inline]
     pub fn synchronizes_from(&self) -> f64 {

@@ -10,6 +10,9 @@ const SAME: f64 = 4.0;
 /// Places of a way this close behind each other are no conflict, whatever the shape of the way [m].
 const BEHIND: f64 = 15.0;
 
+/// Ways lead in one direction whose headings have no smaller cosine of the angle between them: 60°. Ours.
+const ONE_DIRECTION: f64 = 0.5;
+
 /// How two chains come to be close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meeting {
@@ -17,6 +20,8 @@ pub(super) enum Meeting {
     Forks,
     /// They lead into one, from these stations on.
     Merges([f64; 2]),
+    /// They come from one place at the edge of the map, or lead to one.
+    Shares,
     /// None of these.
     Crosses,
 }
@@ -56,11 +61,11 @@ impl<'a> Kinship<'a> {
     pub(super) fn meeting(&self, [a, b]: [ChainIndex; 2], starts: [f64; 2], ends: [f64; 2]) -> Meeting {
         let forks = common(&self.ancestors[a.at()], &self.ancestors[b.at()])
             .any(|(to_a, to_b)| (to_a + starts[0] - to_b - starts[1]).abs() < SAME);
-        // Ways that begin together at the edge of the map fork off before it.
-        let at_the_edge = [a, b].iter().all(|it| self.network.chain(*it).previous.is_empty())
-            && starts[0].max(starts[1]) < SAME;
-        if (forks && starts[0].min(starts[1]) < SAME) || at_the_edge {
+        if forks && starts[0].min(starts[1]) < SAME {
             return Meeting::Forks;
+        }
+        if self.fork_at_the_edge([a, b], starts) || self.meet_at_the_edge([a, b], ends) {
+            return Meeting::Shares;
         }
         let [length_a, length_b] = [a, b].map(|it| self.network.chain(it).length);
         let merge = common(&self.descendants[a.at()], &self.descendants[b.at()])
@@ -72,6 +77,24 @@ impl<'a> Kinship<'a> {
             return Meeting::Merges(stations);
         }
         Meeting::Crosses
+    }
+
+    /// Whether two chains begin at one place at the edge of the map, and in one direction.
+    fn fork_at_the_edge(&self, pair: [ChainIndex; 2], starts: [f64; 2]) -> bool {
+        let chains = pair.map(|it| self.network.chain(it));
+        let [one, other] = chains.map(|it| it.centre.heading(0.0));
+        chains.iter().all(|it| it.previous.is_empty())
+            && starts[0].max(starts[1]) < SAME
+            && (one - other).cos() > ONE_DIRECTION
+    }
+
+    /// Whether two chains end at one place at the edge of the map, and in one direction.
+    fn meet_at_the_edge(&self, pair: [ChainIndex; 2], ends: [f64; 2]) -> bool {
+        let chains = pair.map(|it| self.network.chain(it));
+        let [one, other] = chains.map(|it| it.centre.heading(it.length));
+        chains.iter().all(|it| it.following.is_empty())
+            && chains.iter().zip(ends).all(|(it, end)| it.length - end < SAME)
+            && (one - other).cos() > ONE_DIRECTION
     }
 
     /// Chains that lead to `chain`, within 40 m, with the distance from their ends to its start [m].

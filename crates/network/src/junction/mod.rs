@@ -1,15 +1,18 @@
 //! Junctions: where chains get in each other's way, who goes first there, and where drivers stop.
 
+mod contact;
 mod kinship;
 mod light;
+mod nearby;
 mod precedence;
 mod signals;
 mod turning;
 mod zone;
 
 pub use light::{Light, LightIndex, LightState, Phase, Program};
+pub use nearby::Nearby;
 pub use signals::{Extension, LightConflict, SignalPlan, Turn};
-pub use zone::{Precedence, Reach, Zone, ZoneIndex, ZoneKind};
+pub use zone::{Precedence, Reach, Touch, Zone, ZoneIndex, ZoneKind};
 
 use crate::build::Network;
 use crate::chain::ChainIndex;
@@ -75,6 +78,8 @@ pub struct Junctions {
     chains: Vec<OnChain>,
     /// Where turns begin, by chain [m].
     turns: Vec<Vec<f64>>,
+    /// Where vehicles on other chains are near, by chain.
+    nearby: Vec<Vec<Nearby>>,
 }
 
 /// What drivers meet on one chain, in the order of stations. What they look at in every step comes first in memory.
@@ -110,6 +115,8 @@ pub enum PlaceKind {
     Zone {
         /// Its side.
         crossing: Crossing,
+        /// Which vehicles would touch there.
+        touch: Touch,
         /// Where it ends [m].
         end: f64,
         /// From where on the lanes are one, if they become one [m].
@@ -163,7 +170,8 @@ impl Junctions {
     /// The junctions of `network` under `regulations`. Lights without a program are given one (see [`Program`]).
     pub fn new(network: &Network, regulations: &Regulations) -> Junctions {
         let kinship = Kinship::of(network);
-        let mut zones = zone::zones(network, &kinship);
+        let contacts = contact::contacts(network);
+        let mut zones = zone::zones(&kinship, &contacts);
         precedence::settle(network, &kinship, regulations, &mut zones);
         let mut chains = vec![OnChain::EMPTY; network.chains.len()];
         for (zone, index) in zones.iter().zip(0..) {
@@ -180,6 +188,7 @@ impl Junctions {
         junctions.note_places();
         junctions.look_beyond(network);
         junctions.turns = turning::turns(network);
+        junctions.nearby = nearby::nearby(network, &contacts);
         junctions.made = signals::made_plans(network, &junctions);
         let made = junctions.made.clone();
         junctions.follow(&made);
@@ -251,9 +260,19 @@ impl Junctions {
 
     /// Whether a lane is outside of junctions from its start to `station` [m].
     pub fn is_clear_until(&self, chain: ChainIndex, station: f64) -> bool {
-        let crossings = self.on(chain).crossings.iter();
-        let mut zones = crossings.filter(|it| self.zones[it.zone.at()].kind != ZoneKind::Tight);
-        zones.next().is_none_or(|it| self.reach(*it).start >= station)
+        self.for_cars(chain).next().is_none_or(|it| self.reach(it).start >= station)
+    }
+
+    /// The zones of a chain in which cars would touch.
+    pub(crate) fn for_cars(&self, chain: ChainIndex) -> impl Iterator<Item = Crossing> {
+        let crossings = self.on(chain).crossings.iter().copied();
+        crossings.filter(|it| self.zones[it.zone.at()].touch == Touch::Any)
+    }
+
+    /// Where vehicles on other chains may touch those on `chain`, of each two chains once.
+    #[inline]
+    pub fn nearby(&self, chain: ChainIndex) -> &[Nearby] {
+        self.nearby.get(chain.at()).map_or(&[], Vec::as_slice)
     }
 
     /// The stretches of `chain` that are part of junctions: zones, and the places where drivers stop [m].
@@ -278,6 +297,8 @@ impl Junctions {
     pub(crate) fn reverse_chains(&mut self, turn: impl Fn(&mut ChainIndex)) {
         self.chains.reverse();
         self.turns.reverse();
+        self.nearby.reverse();
+        self.nearby.iter_mut().flatten().for_each(|it| turn(&mut it.chain));
         self.zones.iter_mut().flat_map(|it| &mut it.sides).for_each(|it| turn(&mut it.chain));
     }
 
@@ -309,10 +330,13 @@ impl Junctions {
             let (zone, side) = (&zones[crossing.zone.at()], usize::from(crossing.side));
             let merge = match zone.kind {
                 ZoneKind::Merging(stations) => Some(stations[side]),
-                ZoneKind::Crossing | ZoneKind::Tight => None,
+                ZoneKind::Crossing => None,
             };
             let Reach { start, end, .. } = zone.sides[side];
-            Place { station: start, what: PlaceKind::Zone { crossing: *crossing, end, merge } }
+            Place {
+                station: start,
+                what: PlaceKind::Zone { crossing: *crossing, touch: zone.touch, end, merge },
+            }
         };
         for chain in chains {
             let stops =

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::kinship::Kinship;
-use super::zone::{Precedence, Zone, ZoneKind};
+use super::zone::{Precedence, Touch, Zone};
 use super::{Regulations, StopKind, lineage};
 use crate::build::Network;
 use crate::chain::ChainIndex;
@@ -115,7 +115,7 @@ fn by_shape(network: &Network, zone: &Zone) -> Precedence {
         near_sign * turned(from[side], chain.centre.heading((reach.end + COMES_FROM).min(chain.length)))
     });
     let between = near_sign * turned(from[0], from[1]);
-    if between.abs() < ONE_ROAD || zone.kind == ZoneKind::Tight {
+    if between.abs() < ONE_ROAD || zone.touch != Touch::Any {
         Precedence::Arrival
     } else if between.abs() > OPPOSITE {
         first_of(turns.map(|it| it < TURNS)).unwrap_or_default()

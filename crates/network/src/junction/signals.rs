@@ -1,7 +1,7 @@
 //! Which lights get in each other's way, and the programs of those that do: turns, one after the other.
 
 use super::light::{LightIndex, Phase, Program};
-use super::{Junctions, Precedence, Sign, ZoneIndex, ZoneKind};
+use super::{Junctions, Precedence, Sign, Touch, ZoneIndex};
 use crate::build::Network;
 use crate::chain::ChainIndex;
 
@@ -263,7 +263,7 @@ impl Field {
             for crossing in &junctions.on(chain).crossings {
                 let reach = junctions.reach(*crossing);
                 let is_ahead = reach.end > from && base + reach.start < (reached + NEXT).min(REACH);
-                if is_ahead && junctions.zones[crossing.zone.at()].kind != ZoneKind::Tight {
+                if is_ahead && junctions.zones[crossing.zone.at()].touch == Touch::Any {
                     field.zones.push((crossing.zone.0, crossing.side));
                     reached = reached.max(base + reach.end);
                     field.clearance = field.clearance.max(base + reach.end);

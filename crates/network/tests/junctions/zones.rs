@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use laneweave_network::{ChainIndex, Point, Zone, ZoneKind};
+use laneweave_network::{ChainIndex, Point, Touch, Zone, ZoneKind};
 use proptest::prelude::*;
 
 use crate::drawn::{Lanes, WIDTH, arc, crossing, joined, straight};
@@ -116,7 +116,7 @@ fn lanes_side_by_side_are_in_each_others_way_in_tight_bends_only() {
     };
     // A vehicle of 12 m on 11.5 m reaches 1.5 m into the inner lane, on 43.5 m less than half a metre.
     let zones = bend(8.0);
-    assert_eq!(only(&zones).kind, ZoneKind::Tight);
+    assert_eq!(only(&zones).touch, Touch::OneLong);
     for (side, radius) in only(&zones).sides.iter().zip([8.0, 11.5]) {
         let bend = 40.0..40.0 + 0.5 * PI * radius;
         assert!(bend.contains(&(0.5 * (side.start + side.end))), "{side:?}");

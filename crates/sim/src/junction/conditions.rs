@@ -1,16 +1,18 @@
 //! Whether a driver may pass now.
 
 use laneweave_models::braking::is_secure;
-use laneweave_models::yielding::{MARGIN, time_to_cover};
+use laneweave_models::follow::Ahead;
+use laneweave_models::yielding::MARGIN;
 use laneweave_network::{Precedence, ZoneKind};
 
+use super::applicant::Applicant;
 use super::heed::{LONG, leader_into, lets_go};
 use super::oncoming::lag;
 use super::passages::{Claim, Hold, Passage};
 use super::survey::Survey;
-use super::turns::{Turn, clears, is_out_before, shares_ground};
+use super::turns::{Turn, clears, is_out_before};
 use crate::clock::Clock;
-use crate::scene::{Scene, Spot};
+use crate::scene::Scene;
 
 /// Why a driver may not pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,13 +51,11 @@ pub(crate) struct Asking {
 }
 
 impl Asking {
-    /// The driver at `spot`, who first asked in step `since`.
-    pub(crate) fn of(scene: &Scene, spot: Spot, since: u32, clock: Clock) -> Asking {
+    /// Of who first asked in step `since`.
+    pub(crate) fn of(applicant: &Applicant, since: u32, clock: Clock) -> Asking {
         let waited = clock.since(since);
-        let (motion, car) = (scene.motion(spot), scene.car(spot));
-        let patience = scene.characters[car.character as usize].yielding.patience;
-        let is_long = f64::from(motion.length) >= LONG;
-        let claim = Claim { is_patient: waited < patience, since, id: motion.id, is_long };
+        let is_patient = waited < applicant.style.yielding.patience;
+        let claim = Claim { is_patient, since, id: applicant.from.id, is_long: applicant.length >= LONG };
         Asking { claim, waited, clock }
     }
 
@@ -65,19 +65,24 @@ impl Asking {
     }
 }
 
-/// Whether the driver at `spot` may pass what it has surveyed.
+/// Whether the applicant may pass what it has surveyed.
 ///
 /// # Errors
 /// What hinders it.
-pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Asking) -> Result<(), Hindrance> {
-    let speed = scene.motion(spot).speed;
+pub(crate) fn may_pass(
+    scene: &Scene,
+    applicant: &Applicant,
+    survey: &Survey,
+    asking: Asking,
+) -> Result<(), Hindrance> {
+    let speed = applicant.speed;
     if !survey.lights.iter().all(|(light, at)| lets_go(scene, *light, *at, speed)) {
         return Err(Hindrance::Light);
     }
     if survey.has_stop_sign && (speed > STOPPED || survey.stop > AT_THE_LINE) {
         return Err(Hindrance::Sign);
     }
-    let (Scene { passages, lanes, .. }, way) = (*scene, [spot.chain, survey.refuge.chain]);
+    let (Scene { passages, lanes, .. }, way) = (*scene, [applicant.from.chain, survey.refuge.chain]);
     if passages.rings.is_closed(passages, lanes, way, asking.claim, survey.needed) {
         return Err(Hindrance::Ring);
     }
@@ -91,7 +96,7 @@ pub(crate) fn may_pass(scene: &Scene, spot: Spot, survey: &Survey, asking: Askin
     if lacks(0.0) || yields_room() {
         return Err(Hindrance::Room);
     }
-    if survey.holds.iter().all(|hold| may_hold(scene, spot, hold, asking)) {
+    if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking)) {
         Ok(())
     } else {
         Err(Hindrance::Others)
@@ -107,27 +112,27 @@ fn gives_way(scene: &Scene, hold: &Hold) -> bool {
     zone.precedence == Precedence::Side(side) && (waits() || passes() || comes())
 }
 
-fn may_hold(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
+fn may_hold(scene: &Scene, applicant: &Applicant, hold: &Hold, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let other_side = 1 - hold.side;
-    let matters = |is_long: bool| shares_ground(zone.kind, [asking.claim.is_long, is_long]);
+    let matters = |is_long: bool| zone.touch.is_of([asking.claim.is_long, is_long]);
     let turn = scene.passages.claim(hold.zone, other_side).filter(|it| matters(it.claim.is_long));
     let waits_for = |it: &Turn| {
-        goes_first(zone.precedence, other_side, it.claim, asking) && !is_out_before(scene, spot, hold, it)
+        goes_first(zone.precedence, other_side, it.claim, asking)
+            && !is_out_before(scene, applicant, hold, it)
     };
     if turn.is_some_and(|it| waits_for(&it)) {
         return false;
     }
-    let mut others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+    let others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+    let mut others = others.filter(|(_, other)| matters(other.length >= LONG));
     let fits = match zone.kind {
         ZoneKind::Merging(_) => {
-            others.next_back().is_none_or(|(_, other)| follows(scene, spot, hold, other, asking.clock.dt))
+            others.next_back().is_none_or(|(_, other)| follows(applicant, hold, other, asking.clock.dt))
         }
-        ZoneKind::Crossing | ZoneKind::Tight => others
-            .filter(|(_, other)| matters(other.length >= LONG))
-            .all(|(_, other)| clears(scene, spot, hold, other)),
+        ZoneKind::Crossing => others.all(|(_, other)| clears(scene, applicant, hold, other)),
     };
-    fits && accepts_lag(scene, spot, hold, asking)
+    fits && accepts_lag(scene, applicant, hold, asking)
 }
 
 /// Whether who claims a turn on the other side goes before who asks.
@@ -145,24 +150,31 @@ fn goes_first(precedence: Precedence, other_side: u8, claim: Claim, asking: Aski
 }
 
 /// Whether there is room enough behind `other`, who goes first into the merge.
-fn follows(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage, dt: f64) -> bool {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
+fn follows(applicant: &Applicant, hold: &Hold, other: &Passage, dt: f64) -> bool {
     let Some(ahead) = leader_into(hold.leave, hold, other) else { return true };
-    let least = scene.characters[car.character as usize].safety.min_gap;
-    ahead.gap >= least && is_secure(motion.speed, ahead, dt)
+    ahead.gap >= applicant.style.safety.min_gap && is_secure(applicant.speed, ahead, dt)
+}
+
+/// The nearest of those who go first into the merges of what was surveyed, as the applicant would follow it.
+pub(crate) fn leader_of(scene: &Scene, survey: &Survey) -> Option<Ahead> {
+    let zone = |hold: &Hold| &scene.network.junctions.zones[hold.zone.at()];
+    let merges = survey.holds.iter().filter(|it| matches!(zone(it).kind, ZoneKind::Merging(_)));
+    let last = |hold: &Hold| {
+        let others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+        others.map(|it| it.1).next_back().and_then(|other| leader_into(hold.leave, hold, other))
+    };
+    merges.filter_map(last).reduce(|a, b| if b.gap < a.gap { b } else { a })
 }
 
 /// Whether those who go first on the other side are far enough.
-fn accepts_lag(scene: &Scene, spot: Spot, hold: &Hold, asking: Asking) -> bool {
+fn accepts_lag(scene: &Scene, applicant: &Applicant, hold: &Hold, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
     let other_side = 1 - hold.side;
-    let needed = || time_to_cover(hold.leave, motion.speed, f64::from(car.desired));
+    let needed = || applicant.time_to(hold.leave);
     let lag = || lag(scene, hold.zone, &zone.sides[usize::from(other_side)]);
     match zone.precedence {
         Precedence::Side(side) if side == other_side && asking.claim.is_patient => {
-            let style = &scene.characters[car.character as usize];
-            style.yielding.accepts(lag(), needed(), asking.waited)
+            applicant.style.yielding.accepts(lag(), needed(), asking.waited)
         }
         Precedence::FromTheRight(side) if side == other_side && asking.waited < STANDOFF => {
             lag() >= needed() + MARGIN

@@ -1,7 +1,7 @@
 //! What a driver heeds at a junction while it drives on.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{LightIndex, LightState, Sign, ZoneKind};
+use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
 
 use super::passages::{Hold, Passage};
 use super::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead};
@@ -97,10 +97,12 @@ pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> 
 /// Those who go before it through a zone.
 fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
     for hold in &passage.holds {
-        let kind = scene.network.junctions.zones[hold.zone.at()].kind;
+        let Zone { kind, touch, .. } = scene.network.junctions.zones[hold.zone.at()];
+        let matters = |other: &Passage| touch.is_of([passage.length, other.length].map(|it| it >= LONG));
         let earlier =
             scene.passages.order(hold.zone).take_while(|(it, _)| it.slot != slot || it.side != hold.side);
-        let mut others = earlier.filter(|(it, _)| it.side != hold.side && it.slot != slot);
+        let mut others =
+            earlier.filter(|(it, other)| it.side != hold.side && it.slot != slot && matters(other));
         match kind {
             ZoneKind::Merging(_) => {
                 if let Some((_, other)) = others.last() {
@@ -110,11 +112,9 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
                     junction.leader = if is_nearer { ahead.or(junction.leader) } else { junction.leader };
                 }
             }
-            ZoneKind::Crossing | ZoneKind::Tight => {
-                let is_long = passage.length >= LONG;
-                let matters = |other: &Passage| kind == ZoneKind::Crossing || is_long || other.length >= LONG;
+            ZoneKind::Crossing => {
                 let distance = hold.enter - passage.travelled;
-                if distance > 0.0 && others.any(|(_, other)| matters(other)) {
+                if distance > 0.0 && others.next().is_some() {
                     let stop = distance - BEFORE_A_ZONE;
                     junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
                 }

@@ -9,6 +9,7 @@
 //! Who gives way to whom before that is up to drivers: lights and signs, the lag to those who go first
 //! (`laneweave_models::yielding`), then who waits longest; nobody need wait for who could not go yet anyway.
 
+mod applicant;
 mod conditions;
 mod heed;
 mod mergers;
@@ -20,7 +21,8 @@ mod room;
 mod survey;
 mod turns;
 
-pub(crate) use conditions::{Asking, Hindrance, may_pass};
+pub(crate) use applicant::Applicant;
+pub(crate) use conditions::{Asking, Hindrance, leader_of, may_pass};
 pub use heed::STOPS_AT_YELLOW;
 pub(crate) use heed::{Junction, is_nothing_near, lets_go, look, sight};
 pub(crate) use mergers::are_led_on;

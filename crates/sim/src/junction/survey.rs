@@ -1,16 +1,16 @@
 //! What a driver sees of the junction ahead: where it has to stop without a passage, and what passage it needs.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
 
+use super::applicant::Applicant;
 use super::passages::Hold;
 use super::refuge::Refuge;
 use super::room::{Beyond, ROOM_SIGHT, room};
 use crate::accelerate::ROOM_AT_A_STOP;
 use crate::scene::{Scene, Spot, Viewpoint};
-use crate::traffic::Motion;
 
 /// How far before a zone a vehicle stops [m] (ours).
 pub(super) const BEFORE_A_ZONE: f64 = 1.0;
@@ -81,7 +81,7 @@ impl Point {
         let at = base + place.station;
         match place.what {
             PlaceKind::Sign(sign) => Point { stop: at - BEFORE_A_LINE, what: What::Sign(sign) },
-            PlaceKind::Zone { crossing, end, merge } => {
+            PlaceKind::Zone { crossing, end, merge, .. } => {
                 let what = What::Zone(crossing, base + end, merge.map(|it| base + it));
                 Point { stop: at - BEFORE_A_ZONE, what }
             }
@@ -96,11 +96,12 @@ pub(super) enum What {
     Zone(Crossing, f64, Option<f64>),
 }
 
-/// Visits the places on the way of who looks `from`, in order, up to `until` [m]. Returns how far the way goes on.
+/// Visits the places on the way of who looks `from`, in order, up to `until` [m], which may grow on the way. Returns how far the way
+/// goes on.
 fn points(
     scene: &Scene,
     from: Viewpoint,
-    until: f64,
+    until: &Cell<f64>,
     mut visit: impl FnMut(Point, f64, ChainIndex) -> ControlFlow<()>,
 ) -> f64 {
     let junctions = &scene.network.junctions;
@@ -116,8 +117,11 @@ fn points(
             if at > trip_end {
                 return f64::INFINITY;
             }
-            if at > until {
-                return until;
+            if at > until.get() {
+                return until.get();
+            }
+            if !concerns(place, from.is_long) {
+                continue;
             }
             if visit(Point::of(place, base), at, chain).is_break() {
                 return at;
@@ -126,15 +130,24 @@ fn points(
         if trip_end < f64::INFINITY {
             return f64::INFINITY;
         }
-        base += scene.network.chain(chain).length;
-        if base > until {
-            return until;
+        let here = scene.network.chain(chain);
+        base += here.length;
+        if base > until.get() {
+            return until.get();
         }
         match scene.next(from.destination, chain) {
             Some(next) => chain = next,
-            None if scene.network.chain(chain).is_lane_drop => return base,
+            None if here.is_lane_drop => return base - here.length + here.driven_until(from.is_long),
             None => return f64::INFINITY,
         }
+    }
+}
+
+/// Whether a place matters to vehicles that are long or not.
+fn concerns(place: &Place, is_long: bool) -> bool {
+    match place.what {
+        PlaceKind::Sign(_) => true,
+        PlaceKind::Zone { touch, .. } => touch.concerns(is_long),
     }
 }
 
@@ -149,7 +162,7 @@ pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f6
         return None;
     }
     let mut found = None;
-    points(scene, from, until, |point, at, _| {
+    points(scene, from, &Cell::new(until), |point, at, _| {
         if at <= granted {
             return ControlFlow::Continue(());
         }
@@ -165,7 +178,7 @@ pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool
         return false;
     }
     let mut is_there = false;
-    points(scene, from, until, |_, _, _| {
+    points(scene, from, &Cell::new(until), |_, _, _| {
         is_there = true;
         ControlFlow::Break(())
     });
@@ -206,17 +219,16 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     }
 }
 
-/// Surveys the passage that the vehicle at `spot` needs next, beyond the `granted` [m] it has. Returns whether there is one within
+/// Surveys the passage that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one within
 /// `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
 pub(crate) fn survey(
     scene: &Scene,
-    spot: Spot,
+    applicant: &Applicant,
     [granted, until]: [f64; 2],
     is_held: impl Fn(LightIndex, f64) -> bool,
     out: &mut Survey,
 ) -> bool {
-    let (from, Motion { length, speed, .. }) = (scene.viewpoint(spot), *scene.motion(spot));
-    let length = f64::from(length);
+    let Applicant { from, length, .. } = *applicant;
     out.lights.clear();
     out.holds.clear();
     out.has_stop_sign = false;
@@ -224,8 +236,9 @@ pub(crate) fn survey(
     let mut ends = false;
     let mut clear = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
-    let far = until + ROOM_SIGHT;
-    let way_end = points(scene, from, far, |point, at, _| {
+    // As far as the vehicle will need room: zones may be longer than anybody sees.
+    let far = Cell::new(until + ROOM_SIGHT);
+    let way_end = points(scene, from, &far, |point, at, _| {
         if at <= granted {
             return ControlFlow::Continue(());
         }
@@ -256,6 +269,7 @@ pub(crate) fn survey(
                 let Crossing { zone, side } = crossing;
                 out.holds.push(Hold { zone, side, enter: at, leave });
                 clear = clear.max(end.min(merge.unwrap_or(f64::INFINITY)));
+                far.set(far.get().max(clear + length + ROOM_SIGHT));
             }
         }
         ControlFlow::Continue(())
@@ -273,12 +287,12 @@ pub(crate) fn survey(
     let beyond = chain_at(scene, from, clear);
     (out.refuge, out.refuge_start) =
         (Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1), beyond.1);
-    let limit = if next_stop < f64::INFINITY || way_end >= far { next_stop } else { way_end };
+    let limit = if next_stop < f64::INFINITY || way_end >= far.get() { next_stop } else { way_end };
     // Whose trip ends before the next place is behind others who stop there.
-    let place = next_place(scene, beyond, clear) - ROOM_AT_A_STOP;
+    let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
-    let arrival = time_to_cover(out.extent, speed, f64::from(scene.car(spot).desired));
+    let arrival = applicant.time_to(out.extent);
     out.room = room(scene, from, Beyond { refuge: out.refuge, clear, limit, arrival });
     true
 }
@@ -322,9 +336,9 @@ pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spo
 
 /// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have to
 /// stop [m].
-fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64) -> f64 {
+fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64, is_long: bool) -> f64 {
     let places = scene.network.junctions.on(chain).places.iter();
-    let stops = places.map(|it| start + Point::of(it, 0.0).stop);
+    let stops = places.filter(|it| concerns(it, is_long)).map(|it| start + Point::of(it, 0.0).stop);
     stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
 
@@ -382,7 +396,7 @@ mod tests {
             let snapshot = Snapshot::new(&network, [truck]);
             let scene = snapshot.scene(&network, &navigator, &[]);
             let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
-            if !survey(&scene, spot, [0.0, 30.0], |_, _| false, &mut out) {
+            if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
                 continue;
             }
             let from = scene.viewpoint(spot);

@@ -6,10 +6,11 @@ use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
 use serde::{Deserialize, Serialize};
 
+use super::applicant::Applicant;
 use super::heed::LONG;
 use super::passages::{Claim, Hold, Passage};
 use super::survey::SPARE_ROOM;
-use crate::scene::{Scene, Spot};
+use crate::scene::Scene;
 
 /// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
 /// while it clears.
@@ -25,52 +26,47 @@ pub(crate) struct Turn {
     pub(crate) begins: f64,
 }
 
-/// Whether two vehicles of which some `are_long` are in each other's way in a zone.
-pub(super) fn shares_ground(kind: ZoneKind, are_long: [bool; 2]) -> bool {
-    kind != ZoneKind::Tight || are_long.contains(&true)
-}
-
-/// The turns that the driver at `spot` claims on all zones that it `holds` with its passage.
+/// The turns that the applicant claims on all zones that it `holds` with its passage.
 pub(crate) fn turns(
     scene: &Scene,
-    spot: Spot,
+    applicant: &Applicant,
     holds: &[Hold],
     claim: Claim,
 ) -> impl Iterator<Item = (ZoneIndex, u8, Turn)> {
-    let held_up = holds.iter().map(|it| held_up(scene, spot, it, claim)).fold(0.0, f64::max);
+    let held_up = holds.iter().map(|it| held_up(scene, applicant, it, claim)).fold(0.0, f64::max);
     holds.iter().map(move |it| {
-        let begins = held_up + arrival(scene, spot, it);
+        let begins = held_up + arrival(scene, applicant, it);
         (it.zone, it.side, Turn { claim, begins })
     })
 }
 
-/// Whether the driver at `spot`, if it goes now, is out of a zone before it would be in the way of who has its `turn` there, and
+/// Whether the applicant, if it goes now, is out of a zone before it would be in the way of who has its `turn` there, and
 /// is patient.
-pub(super) fn is_out_before(scene: &Scene, spot: Spot, hold: &Hold, turn: &Turn) -> bool {
-    let length = f64::from(scene.motion(spot).length);
-    turn.claim.is_patient && time_to(scene, spot, departure(scene, hold, length)) <= turn.begins + COURTESY
+pub(super) fn is_out_before(scene: &Scene, applicant: &Applicant, hold: &Hold, turn: &Turn) -> bool {
+    let out = applicant.time_to(departure(scene, hold, applicant.length));
+    turn.claim.is_patient && out <= turn.begins + COURTESY
 }
 
-/// Whether `other` will be out of the crossing by the time that the driver at `spot` gets there.
-pub(super) fn clears(scene: &Scene, spot: Spot, hold: &Hold, other: &Passage) -> bool {
-    clearance(scene, hold, other) <= arrival(scene, spot, hold)
+/// Whether `other` will be out of the crossing by the time that the applicant gets there.
+pub(super) fn clears(scene: &Scene, applicant: &Applicant, hold: &Hold, other: &Passage) -> bool {
+    clearance(scene, hold, other) <= arrival(scene, applicant, hold)
 }
 
-/// How much later than now those who have passages let the driver at `spot` begin its way to a zone [s].
-fn held_up(scene: &Scene, spot: Spot, hold: &Hold, claim: Claim) -> f64 {
-    let kind = scene.network.junctions.zones[hold.zone.at()].kind;
+/// How much later than now those who have passages let the applicant begin its way to a zone [s].
+fn held_up(scene: &Scene, applicant: &Applicant, hold: &Hold, claim: Claim) -> f64 {
+    let touch = scene.network.junctions.zones[hold.zone.at()].touch;
     let others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-    let matters = |other: &Passage| shares_ground(kind, [claim.is_long, other.length >= LONG]);
+    let matters = |other: &Passage| touch.is_of([claim.is_long, other.length >= LONG]);
     let clearances = others.filter(|(_, it)| matters(it)).map(|(_, it)| clearance(scene, hold, it));
-    clearances.fold(0.0, f64::max) - arrival(scene, spot, hold)
+    clearances.fold(0.0, f64::max) - arrival(scene, applicant, hold)
 }
 
-/// Time until the driver at `spot` can be in a zone, and others have to be out of it [s].
-fn arrival(scene: &Scene, spot: Spot, hold: &Hold) -> f64 {
+/// Time until the applicant can be in a zone, and others have to be out of it [s].
+fn arrival(scene: &Scene, applicant: &Applicant, hold: &Hold) -> f64 {
     if is_merge(scene, hold) {
-        time_to(scene, spot, hold.leave)
+        applicant.time_to(hold.leave)
     } else {
-        time_to(scene, spot, hold.enter) + APPROACHES
+        applicant.time_to(hold.enter) + APPROACHES
     }
 }
 
@@ -89,10 +85,4 @@ fn departure(scene: &Scene, hold: &Hold, length: f64) -> f64 {
 
 fn is_merge(scene: &Scene, hold: &Hold) -> bool {
     matches!(scene.network.junctions.zones[hold.zone.at()].kind, ZoneKind::Merging(_))
-}
-
-/// Time until the front of the vehicle at `spot` is `distance` ahead [s].
-fn time_to(scene: &Scene, spot: Spot, distance: f64) -> f64 {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    time_to_cover(distance, motion.speed, f64::from(car.desired))
 }

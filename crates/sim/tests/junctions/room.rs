@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use laneweave_models::Style;
 use laneweave_models::follow::{FollowingModel, Idm};
-use laneweave_network::{ChainIndex, Network, ZoneKind};
+use laneweave_network::{ChainIndex, Network, Touch};
 use laneweave_sim::{Class, NewVehicle, VehicleId, World};
 
 use crate::drivers;
@@ -31,7 +31,7 @@ fn is_in_the_way(
         let junctions = &network.junctions;
         junctions.on(chain).crossings.iter().any(|crossing| {
             let reach = junctions.reach(*crossing);
-            let is_tight = junctions.zones[crossing.zone.at()].kind == ZoneKind::Tight;
+            let is_tight = junctions.zones[crossing.zone.at()].touch != Touch::Any;
             !is_tight && x > reach.start && x - length < reach.end.min(network.chain(chain).length)
         })
     };

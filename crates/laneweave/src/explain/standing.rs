@@ -1,0 +1,42 @@
+//! Why a vehicle stands, in words.
+
+use laneweave_network::{ChainIndex, Network};
+use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
+
+/// What holds a vehicle, as one sentence.
+pub(super) fn stands_for(it: &StandsFor, network: &Network) -> String {
+    match it {
+        StandsFor::Leader { vehicle, gap } => format!("it stands behind vehicle {vehicle}, {gap:.1} m ahead"),
+        StandsFor::Light(id) => format!("it waits at light {id}"),
+        StandsFor::StopSign => "it stops at a stop sign".into(),
+        StandsFor::After(others) => format!("it has its reservation, and goes after {}", vehicles(others)),
+        StandsFor::LaneEnd(distance) => format!("its lane ends {distance:.1} m ahead"),
+        StandsFor::LastPlace(distance) => {
+            format!("{distance:.1} m ahead is the last place for a lane change that its route needs")
+        }
+        StandsFor::LetsIn(distance) => format!("it lets in a vehicle {distance:.1} m ahead"),
+        StandsFor::Nothing => "nothing holds it: it drives off".into(),
+        StandsFor::Junction { areas, why, others } => {
+            let lanelet = |(chain, station): (ChainIndex, f64)| network.lanelet_at(chain, station).0.id;
+            let areas: Vec<String> = areas
+                .iter()
+                .map(|sides| sides.map(lanelet))
+                .map(|[one, other]| format!("lanelets {one} and {other}"))
+                .collect();
+            let why = match why {
+                JunctionHindrance::Others => format!("{} go first", vehicles(others)),
+                JunctionHindrance::Space => "there is no storage space beyond".into(),
+                JunctionHindrance::Roundabout => "the roundabout is full".into(),
+            };
+            format!("it waits for the conflict area of {}: {why}", areas.join(", of "))
+        }
+    }
+}
+
+fn vehicles(ids: &[VehicleId]) -> String {
+    match ids {
+        [] => "others".into(),
+        [one] => format!("vehicle {one}"),
+        all => format!("vehicles {}", all.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}

@@ -1,0 +1,65 @@
+//! Where lanes are wide enough: a lane that opens, or narrows to nothing, begins and ends for a vehicle where it is as wide as that.
+
+use crate::chain::{Chain, ChainIndex};
+use crate::gate::Gate;
+use crate::lanelet::Lanelet;
+
+/// Width of a car, and of the widest long vehicle [m]; ours, of usual European vehicles.
+const BODIES: [f64; 2] = [1.8, 2.55];
+/// Widths are compared at stations this far apart [m].
+const STEP: f64 = 0.5;
+/// What is nowhere wider than this has been drawn without a width [m].
+const NO_WIDTH: f64 = 0.01;
+
+/// Notes for each chain where it is wide enough. A lane that begins or ends beside others, or on which no car fits and which leads
+/// nowhere, begins and ends where its width asks; any other leads through for all, but is tight for long vehicles where it is
+/// narrower than they are.
+pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, exits]: [&[Gate]; 2]) {
+    let [is_entrance, is_exit] = [entrances, exits].map(|gates| {
+        let mut is_gate = vec![false; chains.len()];
+        gates.iter().flat_map(|it| &it.chains).for_each(|it: &ChainIndex| is_gate[it.at()] = true);
+        is_gate
+    });
+    for (index, chain) in chains.iter_mut().enumerate() {
+        let widths = widths(chain, lanelets);
+        if widths.iter().all(|(_, it)| *it < NO_WIDTH || *it >= BODIES[1]) {
+            continue;
+        }
+        let leads_nowhere = widths.iter().all(|(_, it)| *it < BODIES[0]);
+        let opens = chain.previous.is_empty() && (leads_nowhere || !is_entrance[index]);
+        let closes = chain.following.is_empty() && (leads_nowhere || !is_exit[index]);
+        chain.open = BODIES.map(|body| open(&widths, body, [opens, closes]));
+        let [from, until] = chain.open[1];
+        let through = widths.iter().filter(|(station, _)| (from..=until).contains(station));
+        chain.is_tight_for_long = through.map(|it| it.1).fold(f64::INFINITY, f64::min) < BODIES[1];
+        chain.is_narrow = chain.is_tight_for_long || chain.open != Chain::WIDE;
+    }
+}
+
+/// First and last station at which a lane of these `widths` is as wide as a body, where it begins or ends for the sake of that [m].
+fn open(widths: &[(f64, f64)], body: f64, [opens, closes]: [bool; 2]) -> [f64; 2] {
+    let mut wide = widths.iter().filter(|it| it.1 >= body).map(|it| it.0);
+    let (first, last) = (wide.next(), wide.next_back());
+    let end = widths.last().map_or(0.0, |it| it.0);
+    let from = first.filter(|it| *it > 0.0 || !opens);
+    let until = last.or(first).filter(|it| *it < end || !closes);
+    match (first, opens, closes) {
+        (None, true, _) | (None, _, true) => [f64::INFINITY, f64::NEG_INFINITY],
+        _ => [
+            if opens { from.unwrap_or(f64::NEG_INFINITY) } else { f64::NEG_INFINITY },
+            if closes { until.unwrap_or(f64::INFINITY) } else { f64::INFINITY },
+        ],
+    }
+}
+
+/// Stations of a chain, with its width there [m].
+fn widths(chain: &Chain, lanelets: &[Lanelet]) -> Vec<(f64, f64)> {
+    let pieces = (chain.length / STEP).ceil().max(1.0) as usize;
+    let stations = (0..=pieces).map(|it| chain.length * it as f64 / pieces as f64);
+    stations
+        .map(|station| {
+            let (lanelet, along) = chain.lanelet(station);
+            (station, lanelets[lanelet.at()].clear_width(along))
+        })
+        .collect()
+}
