@@ -65,8 +65,7 @@ impl Arguments {
             write_whole(&report, &page(&twins, &differences, &settings, &super::given()).to_html())?;
             text += &format!("  {:<17}{}\n", "report", report.display());
         }
-        say(&text);
-        Ok(())
+        say(&text)
     }
 }
 

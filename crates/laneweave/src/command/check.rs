@@ -91,14 +91,10 @@ impl Arguments {
             write_whole(path, &picture(&name, &map, &report.problems))?;
         }
         if self.json {
-            say(&json(&Both { map: report, recording })?);
-            return Ok(());
+            return say(&json(&Both { map: report, recording })?);
         }
-        say(&report.to_text());
-        if let Some(recording) = recording {
-            say(&format!("\nTracks in the same file:\n{}", recording.to_text()));
-        }
-        Ok(())
+        let tracks = recording.map(|it| format!("\nTracks in the same file:\n{}", it.to_text()));
+        say(&(report.to_text() + &tracks.unwrap_or_default()))
     }
 
     /// Before anything is written: no file goes in place of another that is wanted, and all have a folder to go to.
@@ -127,8 +123,7 @@ impl Arguments {
         let (recording, problems) = open_recording(&self.file)?;
         let map = open_map(map, &self.options.options())?;
         let report = RecordingReport::of(recording, &problems, &map.network);
-        say(&if self.json { json(&report)? } else { report.to_text() });
-        Ok(())
+        say(&if self.json { json(&report)? } else { report.to_text() })
     }
 }
 

@@ -50,8 +50,7 @@ impl Arguments {
             (0..warmup).for_each(|_| world.step());
             let mut commonest = Commonest::since_now(&world);
             (warmup..steps).for_each(|_| commonest.step(&mut world));
-            say(&commonest.to_text());
-            return Ok(());
+            return say(&commonest.to_text());
         };
         let never = || {
             let what = format!("no vehicle {vehicle} came onto the road");
@@ -59,18 +58,16 @@ impl Arguments {
         };
         let Some(time) = time else {
             let told = trip(&mut world, vehicle, steps, flip).ok_or_else(never)?;
-            say(&told);
-            return Ok(());
+            return say(&told);
         };
         match moment(&mut world, vehicle, time, steps, flip) {
             Moment::Told(told) => say(&told),
             Moment::At(from, until) => {
                 let what = format!("vehicle {vehicle} was not on the road at {time} s");
                 let remedy = format!("choose a time from {from:.1} to {until:.1} s");
-                return Err(Fault::new("--time", what, remedy));
+                Err(Fault::new("--time", what, remedy))
             }
-            Moment::Never => return Err(never()),
+            Moment::Never => Err(never()),
         }
-        Ok(())
     }
 }

@@ -92,23 +92,20 @@ impl Cli {
             Some(Command::Scenario(deed)) => deed.execute(),
             Some(Command::Generate(kind)) => kind.execute(),
             Some(Command::Styles(deed)) => deed.execute(),
-            Some(Command::Schema) => {
-                say(&format!("{:#}\n", Scenario::schema().to_value()));
-                Ok(())
-            }
-            Some(Command::Completions(arguments)) => {
-                arguments.execute(Cli::command());
-                Ok(())
-            }
+            Some(Command::Schema) => say(&format!("{:#}\n", Scenario::schema().to_value())),
+            Some(Command::Completions(arguments)) => arguments.execute(Cli::command()),
             Some(Command::Man(arguments)) => arguments.execute(Cli::command()),
         }
     }
 }
 
-/// Prints `text`. Whoever stops listening, as `head` does, has seen enough.
-fn say(text: &str) {
+/// Prints `text` on standard output.
+///
+/// # Errors
+/// If it cannot be written there, or nobody reads it.
+pub(crate) fn say(text: &str) -> Result<(), Fault> {
     let mut out = io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| Fault::output(&error))
 }
 
 /// The command line as it was given.

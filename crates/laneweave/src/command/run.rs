@@ -209,7 +209,7 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
             eprintln!("{}: the run has ended already", dir.display());
         }
         if screen.json {
-            say(&summary);
+            say(&summary)?;
         }
         return Ok(());
     }
@@ -303,9 +303,8 @@ fn drive(
     match screen {
         Screen { json: true, .. } => say(&json),
         Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files)),
-        _ => {}
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// Lists what in the map could not be used as it stands, and what makes traffic on it look odd.

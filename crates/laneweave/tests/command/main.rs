@@ -37,4 +37,6 @@ mod shell;
 #[cfg(test)]
 mod signals;
 #[cfg(test)]
+mod standard_output;
+#[cfg(test)]
 mod styles;
