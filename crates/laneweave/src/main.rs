@@ -24,18 +24,19 @@ const UNWRITTEN: u8 = 1;
 fn main() -> ExitCode {
     let started = Instant::now();
     let done = Cli::try_parse().map_or_else(help, |cli| cli.execute(started));
-    let Err(fault) = done else { return ExitCode::SUCCESS };
-    // Who stops reading, as `head` does, has seen enough.
-    if fault.cause != Cause::Closed {
-        eprintln!("error: {fault}");
-    }
-    ExitCode::from(if fault.cause == Cause::Input { MISTAKE } else { UNWRITTEN })
+    done.unwrap_or_else(|fault| {
+        // Who stops reading, as `head` does, has seen enough.
+        if fault.cause != Cause::Closed {
+            eprintln!("error: {fault}");
+        }
+        ExitCode::from(if fault.cause == Cause::Input { MISTAKE } else { UNWRITTEN })
+    })
 }
 
 /// Prints a help text or the version; on a command line that is wrong it ends the program.
-fn help(error: Error) -> Result<(), Fault> {
+fn help(error: Error) -> Result<ExitCode, Fault> {
     if error.use_stderr() {
         with_tip(error).exit();
     }
-    say(&error.render().to_string())
+    say(&error.render().to_string()).map(|()| ExitCode::SUCCESS)
 }

@@ -12,10 +12,12 @@ mod routes;
 mod run;
 mod scenario;
 mod shell;
+mod stop;
 mod styles;
 mod tips;
 
 use std::io::{self, Write};
+use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -77,13 +79,13 @@ enum Command {
 
 impl Cli {
     /// Does what the user asks for; `started` is when the process began.
-    pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
-        match self.command {
+    pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
+        let done = match self.command {
             None => {
                 let (scenario, origin) = Origin::demo()?;
-                run::run(&scenario, &origin, run::Screen::default(), started)
+                return run::run(&scenario, &origin, run::Screen::default(), started);
             }
-            Some(Command::Run(arguments)) => arguments.execute(started),
+            Some(Command::Run(arguments)) => return arguments.execute(started),
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Compare(arguments)) => arguments.execute(),
@@ -95,7 +97,8 @@ impl Cli {
             Some(Command::Schema) => say(&format!("{:#}\n", Scenario::schema().to_value())),
             Some(Command::Completions(arguments)) => arguments.execute(Cli::command()),
             Some(Command::Man(arguments)) => arguments.execute(Cli::command()),
-        }
+        };
+        done.map(|()| ExitCode::SUCCESS)
     }
 }
 

@@ -4,8 +4,7 @@ use std::fs;
 use std::io;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -22,9 +21,8 @@ use laneweave::style::Model;
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
 use super::say;
+use super::stop::Stop;
 
-/// Exit code of a program that was stopped by the keyboard.
-const STOPPED: i32 = 130;
 /// Problems of a map that are listed one by one.
 const LISTED_PROBLEMS: usize = 3;
 
@@ -129,7 +127,7 @@ fn sumo_file(text: &str) -> Result<SumoFile, String> {
 }
 
 impl Arguments {
-    pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
+    pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
         let screen = self.screen;
         if self.resume {
             return resume(&self.input, screen, started);
@@ -184,7 +182,7 @@ pub(crate) fn run(
     origin: &Origin,
     screen: Screen,
     started: Instant,
-) -> Result<(), Fault> {
+) -> Result<ExitCode, Fault> {
     let prepared = prepare(scenario, origin)?;
     let fingerprint = record::fingerprint(scenario, origin)?;
     let dir = &scenario.output.dir;
@@ -196,7 +194,7 @@ pub(crate) fn run(
 }
 
 /// Goes on with the run that left its scenario in `dir`.
-fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
+fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<ExitCode, Fault> {
     let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
         let remedy = "name the folder of results of a run that broke off";
         Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
@@ -211,7 +209,7 @@ fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
         if screen.json {
             say(&summary)?;
         }
-        return Ok(());
+        return Ok(ExitCode::SUCCESS);
     }
     let fingerprint = record::fingerprint(&scenario, &origin)?;
     let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
@@ -253,7 +251,7 @@ fn drive(
     claim: &Claim,
     screen: Screen,
     started: Instant,
-) -> Result<(), Fault> {
+) -> Result<ExitCode, Fault> {
     if !screen.quiet {
         warn(&prepared);
     }
@@ -266,7 +264,7 @@ fn drive(
         fingerprint: provenance.fingerprint.clone(),
         outputs,
     });
-    let stop = stop_by_keyboard()?;
+    let stop = Stop::listen()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
     let mut load_s = 0.0;
     let ending = simulate(
@@ -276,7 +274,7 @@ fn drive(
         keeper.as_ref(),
         |world| {
             progress.show(world);
-            !stop.load(Ordering::Relaxed)
+            !stop.is_raised()
         },
         || load_s = started.elapsed().as_secs_f64(),
     )?;
@@ -301,10 +299,11 @@ fn drive(
         claim.clear(&checkpoint::FILES)?;
     }
     match screen {
-        Screen { json: true, .. } => say(&json),
-        Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files)),
-        _ => Ok(()),
+        Screen { json: true, .. } => say(&json)?,
+        Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files))?,
+        _ => {}
     }
+    Ok(if ending.is_interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
 
 /// Lists what in the map could not be used as it stands, and what makes traffic on it look odd.
@@ -319,17 +318,4 @@ fn warn(prepared: &Prepared) {
     for remark in &prepared.remarks {
         eprintln!("warning: map: {remark}");
     }
-}
-
-/// A flag that Ctrl-C raises, so that the run ends with what it has; a second Ctrl-C ends at once.
-fn stop_by_keyboard() -> Result<Arc<AtomicBool>, Fault> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(STOPPED);
-        }
-    })
-    .map_err(|error| Fault::new("Ctrl-C", error, "report this as a bug"))?;
-    Ok(stop)
 }

@@ -39,4 +39,7 @@ mod signals;
 #[cfg(test)]
 mod standard_output;
 #[cfg(test)]
+#[cfg(unix)]
+mod stop;
+#[cfg(test)]
 mod styles;
