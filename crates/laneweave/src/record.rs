@@ -169,13 +169,7 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     bare.run.threads = None;
     let toml = toml::to_string(&bare).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
     hash.update(toml.as_bytes());
-    let mut styles = Vec::new();
-    for (name, weight) in &scenario.styles {
-        styles.push((find(name, origin.style_folder(), || name.clone())?.text, weight.to_bits()));
-    }
-    // The names of the files do not matter.
-    styles.sort();
-    for (text, weight) in styles {
+    for (text, weight) in style_texts(scenario, origin)? {
         hash.update(text.as_bytes());
         hash.update(&weight.to_le_bytes());
     }
@@ -187,6 +181,21 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
         }
     }
     Ok(format!("{:016x}", hash.digest()))
+}
+
+/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: the names of the files do not
+/// matter.
+///
+/// # Errors
+/// If a style file cannot be read.
+pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, u64)>, Fault> {
+    let text = |name: &String| find(name, origin.style_folder(), || name.clone()).map(|it| it.text);
+    let mut styles = Vec::new();
+    for (name, weight) in &scenario.styles {
+        styles.push((text(name)?, weight.to_bits()));
+    }
+    styles.sort();
+    Ok(styles)
 }
 
 /// Hash of what a run writes, and how: all that its output says but for the folder.

@@ -8,6 +8,7 @@ mod explain;
 mod generate;
 mod numbers;
 mod progress;
+mod resume;
 mod routes;
 mod run;
 mod scenario;

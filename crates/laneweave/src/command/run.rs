@@ -20,6 +20,7 @@ use laneweave::style::Model;
 
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
+use super::resume::same_run;
 use super::say;
 use super::stop::Stop;
 
@@ -78,9 +79,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
     sumo: Vec<SumoFile>,
     /// Seconds of the run between two checkpoints, from which it can be resumed if it breaks off; 0: there are none [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     checkpoint: Option<f64>,
-    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none.
+    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none; other options must say what the
+    /// run says, but for --threads, --quiet and --json.
     #[arg(long)]
     resume: bool,
     #[command(flatten)]
@@ -130,11 +132,57 @@ impl Arguments {
     pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
         let screen = self.screen;
         if self.resume {
-            return resume(&self.input, screen, started);
+            return self.resume(started);
         }
         let (mut scenario, mut origin) = Origin::open(&self.input)?;
         self.replace(&mut scenario, &mut origin);
         run(&scenario, &origin, screen, started)
+    }
+
+    /// Goes on with the run that left its scenario in the folder that is named.
+    fn resume(mut self, started: Instant) -> Result<ExitCode, Fault> {
+        let (dir, screen) = (&self.input.clone(), self.screen);
+        let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
+            let remedy = "name the folder of results of a run that broke off";
+            Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
+        })?;
+        scenario.output.dir = dir.into();
+        let whole = |path: &Path| path.canonicalize().ok();
+        // However its folder is written.
+        self.out = self.out.filter(|it| whole(it) != whole(dir));
+        let (mut asked, mut options) = (scenario.clone(), Origin::default());
+        self.replace(&mut asked, &mut options);
+        same_run((&scenario, &origin), (&asked, &options))?;
+        scenario.run.threads = asked.run.threads;
+        let claim = Claim::on(dir)?;
+        if let Some(summary) = ended(&dir.join(SUMMARY))? {
+            claim.clear(&checkpoint::FILES)?;
+            if !screen.quiet {
+                eprintln!("{}: the run has ended already", dir.display());
+            }
+            if screen.json {
+                say(&summary)?;
+            }
+            return Ok(ExitCode::SUCCESS);
+        }
+        let fingerprint = record::fingerprint(&scenario, &origin)?;
+        let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
+        if let Some(kept) = &kept {
+            let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
+            if kept.fingerprint != fingerprint {
+                let what = "the map, a style, the scenario or the program has changed since this was run";
+                return Err(refused(what));
+            }
+            if kept.outputs != record::outputs(&scenario)? {
+                return Err(refused("the [output] of its scenario has changed since this was run"));
+            }
+        }
+        let prepared = prepare(&scenario, &origin)?;
+        let path = dir.join(record::SCENARIO);
+        let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
+        let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
+        claim.clear(if kept.is_some() { &[SUMMARY] } else { &RESULTS })?;
+        drive(&scenario, prepared, provenance, kept, &claim, screen, started)
     }
 
     /// Options go before what the scenario says.
@@ -191,44 +239,6 @@ pub(crate) fn run(
     let kept = record::keep(scenario, origin, dir, &super::given())?;
     let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
     drive(scenario, prepared, provenance, None, &claim, screen, started)
-}
-
-/// Goes on with the run that left its scenario in `dir`.
-fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<ExitCode, Fault> {
-    let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
-        let remedy = "name the folder of results of a run that broke off";
-        Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
-    })?;
-    scenario.output.dir = dir.into();
-    let claim = Claim::on(dir)?;
-    if let Some(summary) = ended(&dir.join(SUMMARY))? {
-        claim.clear(&checkpoint::FILES)?;
-        if !screen.quiet {
-            eprintln!("{}: the run has ended already", dir.display());
-        }
-        if screen.json {
-            say(&summary)?;
-        }
-        return Ok(ExitCode::SUCCESS);
-    }
-    let fingerprint = record::fingerprint(&scenario, &origin)?;
-    let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
-    if let Some(kept) = &kept {
-        let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
-        if kept.fingerprint != fingerprint {
-            let what = "the map, a style, the scenario or the program has changed since this was run";
-            return Err(refused(what));
-        }
-        if kept.outputs != record::outputs(&scenario)? {
-            return Err(refused("the [output] of its scenario has changed since this was run"));
-        }
-    }
-    let prepared = prepare(&scenario, &origin)?;
-    let path = dir.join(record::SCENARIO);
-    let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
-    let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
-    claim.clear(if kept.is_some() { &[SUMMARY] } else { &RESULTS })?;
-    drive(&scenario, prepared, provenance, kept, &claim, screen, started)
 }
 
 /// The summary of a run that was not interrupted, if there is one.
