@@ -192,6 +192,11 @@ fn whole_steps(
     /// How far an interval may be off a whole number of steps, in steps.
     const TOLERANCE: f64 = 1e-6;
     let steps = interval / step;
+    if interval > 0.0 && steps < 1.0 - TOLERANCE {
+        let what = format!("{what} of {interval} s is shorter than a step of {step} s");
+        let remedy = format!("choose {step} s or a multiple of it, 0 for none, or a shorter step");
+        return Err(Fault::new(origin.place(&["output", key]), what, remedy));
+    }
     if (steps - steps.round()).abs() <= TOLERANCE {
         return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
     }
