@@ -157,7 +157,7 @@ fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
     Ok(up.chain(file.components().skip(shared)).collect())
 }
 
-/// Hash of all that a run depends on: the program's version, the scenario but for its output and threads, the styles, the map.
+/// Hash of all that a run depends on: the program's version, the scenario but for its output, its threads and its largest map, the styles, the map.
 ///
 /// # Errors
 /// If the map or a style file cannot be read.
@@ -167,6 +167,7 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
     bare.output = Output::default();
     bare.run.threads = None;
+    bare.map_options.max_size_mb = None;
     let toml = toml::to_string(&bare).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
     hash.update(toml.as_bytes());
     for (text, weight) in style_texts(scenario, origin)? {

@@ -19,6 +19,7 @@ mod regulation;
 mod routes;
 mod rule;
 mod shape;
+mod size;
 pub mod xml;
 
 pub use check::check;
@@ -31,3 +32,4 @@ pub use problem::Problem;
 pub use regulation::regulations;
 pub use routes::{By, Route, Sense, Step, routes};
 pub use rule::{Rule, RuleKind};
+pub use size::Size;

@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recording, picture, tracks};
+use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
 use serde::Serialize;
@@ -43,11 +44,33 @@ pub(crate) struct Reading {
     /// Whose speed limits hold where the map gives none [default: germany].
     #[arg(long, value_parser = law())]
     law: Option<Law>,
+    #[command(flatten)]
+    size: Limit,
+}
+
+/// How large a map may be.
+#[derive(Debug, Args)]
+pub(crate) struct Limit {
+    /// Largest size of the map, unpacked if it is compressed, such as 500MB; at most 2GiB [default: 1GiB].
+    #[arg(long, value_name = "SIZE")]
+    max_map_size: Option<Size>,
+}
+
+impl Limit {
+    /// In the unit of scenarios [MB].
+    pub(crate) fn mb(&self) -> Option<f64> {
+        self.max_map_size.map(Size::mb)
+    }
 }
 
 impl Reading {
     pub(crate) fn options(&self) -> MapOptions {
-        MapOptions { origin: self.origin, law: self.law.unwrap_or_default(), ..MapOptions::default() }
+        MapOptions {
+            origin: self.origin,
+            law: self.law.unwrap_or_default(),
+            max_size_mb: self.size.mb(),
+            ..MapOptions::default()
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use laneweave::scenario::{Origin, prepare};
 use laneweave::study::{Cell, Column, Format, TableWriter};
 use laneweave::style::Model;
 
+use super::check::Limit;
 use super::run::model;
 use super::say;
 
@@ -42,11 +43,13 @@ pub(crate) struct Arguments {
     /// Folder of the report and the table of all runs.
     #[arg(long, value_name = "DIR", default_value = "comparison")]
     out: PathBuf,
+    #[command(flatten)]
+    size: Limit,
 }
 
 impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { inputs, models, seeds, demand, duration, warmup, out } = self;
+        let Arguments { inputs, models, seeds, demand, duration, warmup, out, size } = self;
         let models = if models.is_empty() { USUAL.to_vec() } else { models };
         let threads = available_parallelism().map_or(1, |it| it.get());
         let mut asked = Vec::new();
@@ -65,6 +68,10 @@ impl Arguments {
             if let Some(warmup) = warmup {
                 scenario.run.warmup_s = warmup;
                 origin.replaced("run.warmup_s", "--warmup");
+            }
+            if let Some(size) = size.mb() {
+                scenario.map_options.max_size_mb = Some(size);
+                origin.replaced("map_options.max_size_mb", "--max-map-size");
             }
             // Nothing is driven before all of it has been checked.
             prepare(&scenario, &origin)?;

@@ -8,8 +8,8 @@ use toml::{Table, Value};
 /// A scenario, and where its values came from.
 type Sourced<'a> = (&'a Scenario, &'a Origin);
 
-/// Results do not depend on it.
-const THREADS: &str = "run.threads";
+/// Results do not depend on them.
+const FREE: [&str; 2] = ["run.threads", "map_options.max_size_mb"];
 /// What replaces the demand replaces these as well.
 const DEMANDS: [&str; 3] = ["demand.vehicles_per_hour", "demand.entrances", "demand.od"];
 
@@ -20,7 +20,7 @@ const DEMANDS: [&str; 3] = ["demand.vehicles_per_hour", "demand.entrances", "dem
 pub(super) fn same_run(run: Sourced, asked: Sourced) -> Result<(), Fault> {
     let [of_run, of_asked] = [table(run.0)?, table(asked.0)?];
     let mut differing = Vec::new();
-    for (key, option) in asked.1.options().filter(|(key, _)| *key != THREADS) {
+    for (key, option) in asked.1.options().filter(|(key, _)| !FREE.contains(key)) {
         let is_same = match key {
             "styles" => style_texts(run.0, run.1)? == style_texts(asked.0, asked.1)?,
             _ if key == DEMANDS[0] => DEMANDS.iter().all(|it| at(&of_run, it) == at(&of_asked, it)),

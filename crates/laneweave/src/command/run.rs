@@ -18,6 +18,7 @@ use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, pre
 use laneweave::simulation::simulate;
 use laneweave::style::Model;
 
+use super::check::Limit;
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
 use super::resume::same_run;
@@ -85,6 +86,8 @@ pub(crate) struct Arguments {
     /// run says, but for --threads, --quiet and --json.
     #[arg(long)]
     resume: bool,
+    #[command(flatten)]
+    size: Limit,
     #[command(flatten)]
     screen: Screen,
 }
@@ -154,6 +157,7 @@ impl Arguments {
         self.replace(&mut asked, &mut options);
         same_run((&scenario, &origin), (&asked, &options))?;
         scenario.run.threads = asked.run.threads;
+        scenario.map_options.max_size_mb = asked.map_options.max_size_mb;
         let claim = Claim::on(dir)?;
         if let Some(summary) = ended(&dir.join(SUMMARY))? {
             claim.clear(&checkpoint::FILES)?;
@@ -198,7 +202,7 @@ impl Arguments {
                 origin.replaced(key, option);
             }
         }
-        let Scenario { demand, run, output, styles, model, .. } = scenario;
+        let Scenario { demand, run, output, styles, model, map_options, .. } = scenario;
         if self.demand.is_some() {
             demand.entrances.clear();
             demand.od.clear();
@@ -221,6 +225,8 @@ impl Arguments {
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
         replace(origin, ("model", "--model"), model, self.model.map(Some));
+        let size = self.size.mb().map(Some);
+        replace(origin, ("map_options.max_size_mb", "--max-map-size"), &mut map_options.max_size_mb, size);
     }
 }
 

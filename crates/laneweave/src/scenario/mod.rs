@@ -75,6 +75,8 @@ pub struct MapOptions {
     pub law: Law,
     /// On which side traffic drives; without it what the map says, or else the right.
     pub driving_side: Option<DrivingSide>,
+    /// Largest size of the map, unpacked if it is compressed [MB]; without it 1 GiB, at most 2 GiB.
+    pub max_size_mb: Option<f64>,
 }
 
 /// Whose traffic law holds.

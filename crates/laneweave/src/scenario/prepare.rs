@@ -4,7 +4,7 @@ use std::num::NonZero;
 use std::path::Path;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, lanelet2, load, regulations};
+use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, Size, lanelet2, load, regulations};
 use laneweave_models::Style;
 use laneweave_network::{DrivingSide, LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Rate, Setup, World};
@@ -171,6 +171,10 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
     let room = room - demand.buses;
     check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
+    if let Some(size) = scenario.map_options.max_size_mb {
+        let largest = Size::MAXIMUM.mb();
+        check(&["map_options", "max_size_mb"], "a largest map", size, (f64::MIN_POSITIVE, largest), " MB")?;
+    }
     let guidance = scenario.guidance.interval_s;
     if guidance != 0.0 {
         let path = ["guidance", "interval_s"];
@@ -262,6 +266,7 @@ impl From<&MapOptions> for ReadOptions {
             origin: options.origin.map(|[latitude, longitude]| (latitude, longitude)),
             law: options.law.into(),
             driving_side: options.driving_side.map(DrivingSide::from),
+            largest: options.max_size_mb.map_or_else(Size::default, Size::of_mb),
         }
     }
 }
@@ -279,6 +284,10 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     let named_at = origin.in_file(&["map"]);
     match (error, line, named_at) {
         (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
+        (MapError::TooLarge { .. }, ..) => {
+            let remedy = "cut the map into smaller ones, or allow for more with --max-map-size, at most 2GiB";
+            Fault::new(file, what, remedy)
+        }
         (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),
         (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
             Fault::new(place, format!("map {file}: {what}"), remedy)

@@ -69,6 +69,47 @@ fn compressed_maps_are_maps() {
 }
 
 #[test]
+fn a_map_larger_than_its_limit_is_refused_before_it_is_in_memory() {
+    // A hundred megabytes of spaces, packed a thousand times smaller.
+    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+    let blank = vec![b' '; 1 << 20];
+    (0..100).for_each(|_| packed.write_all(&blank).unwrap());
+    let packed = packed.finish().unwrap();
+    assert!(packed.len() < 1_000_000);
+    let folder = Folder::new().with("s.toml", "map = \"bomb.osm.gz\"\nmap_options.max_size_mb = 20");
+    fs::write(folder.path().join("bomb.osm.gz"), packed).unwrap();
+    let expected = |limit| {
+        format!(
+            "error: bomb.osm.gz: the map is larger than the limit of {limit}; cut the map into smaller ones, or allow for more with \
+             --max-map-size, at most 2GiB"
+        )
+    };
+    for command in ["check", "run", "compare", "scenario new"] {
+        let line = format!("{command} bomb.osm.gz --max-map-size 99MB");
+        assert_eq!(refusal(&folder, &line), expected("99 MB"), "{command}");
+    }
+    assert_eq!(refusal(&folder, "routes bomb.osm.gz 1 2 --max-map-size 64kib"), expected("64 KiB"));
+    assert_eq!(refusal(&folder, "run s.toml"), expected("20 MB"));
+    assert!(refusal(&folder, "check bomb.osm.gz --max-map-size 105MB").contains("bomb.osm.gz:1: "));
+    assert!(
+        refusal(&folder, "check MAPS/town.osm --max-map-size 10kB")
+            .contains("larger than the limit of 10 kB")
+    );
+    assert!(
+        refusal(&folder, "check MAPS/town.osm --max-map-size 3GiB")
+            .contains("write a size such as 500MB or 2GiB")
+    );
+}
+
+#[test]
+fn a_limit_of_the_map_changes_nothing_else() {
+    let folder = Folder::new();
+    let usual = folder.summary("MAPS/on_ramp.osm --duration 10 --record 0");
+    let limited = folder.summary("MAPS/on_ramp.osm --duration 10 --record 0 --max-map-size 2GiB");
+    assert_eq!(limited["fingerprint"], usual["fingerprint"]);
+}
+
+#[test]
 fn the_origin_moves_a_projected_map() {
     let mut map = String::from("<osm>");
     for (id, lat, lon) in [(1, 49.0, 8.44), (2, 49.0, 8.45), (3, 49.0001, 8.44), (4, 49.0001, 8.45)] {

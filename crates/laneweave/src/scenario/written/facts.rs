@@ -52,6 +52,7 @@ impl Facts {
         };
         let values = [
             ("map_options.driving_side", json!(side), Some("On this map:".into())),
+            ("map_options.max_size_mb", json!(500.0), Some("For example:".into())),
             ("map_options.origin", origin(prepared), Some(origin_note(prepared).into())),
             ("demand.vehicles_per_hour", json!(tenths(prepared.demand_veh_h)), Some(demand_note(prepared))),
             (
