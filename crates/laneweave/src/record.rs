@@ -216,15 +216,25 @@ impl Record {
     /// # Errors
     /// If there are none, or what the run depended on has changed since.
     pub fn open(dir: &Path) -> Result<Record, Fault> {
-        let remedy = "name the folder of results of a run, that of --out";
+        let remedy = "name the folder of results that a run has left, that of its --out, with summary.json and scenario.toml";
+        if !dir.is_dir() {
+            let what = if dir.exists() { "this is a file" } else { "there is no such folder" };
+            return Err(Fault::new(dir.display(), format!("no results of a run: {what}"), remedy));
+        }
         let summary = dir.join(SUMMARY);
         let text = fs::read_to_string(&summary).map_err(|error| {
             if error.kind() == io::ErrorKind::NotFound && dir.join(SCENARIO).exists() {
                 let remedy = format!("wait, or go on with it: laneweave run {} --resume", dir.display());
                 return Fault::new(dir.display(), "this run has not ended", remedy);
             }
-            let what = format!("no results of a run: summary.json cannot be read: {error}");
-            Fault::new(dir.display(), what, remedy)
+            match error.kind() {
+                io::ErrorKind::NotFound => Fault::new(
+                    dir.display(),
+                    "no results of a run: there is no summary.json in this folder",
+                    remedy,
+                ),
+                _ => Fault::refused(&summary, "read", &error),
+            }
         })?;
         let end: End = serde_json::from_str(&text).map_err(|error| {
             Fault::new(summary.display(), format!("no summary of a run of this version: {error}"), remedy)
