@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use laneweave_sim::World;
+use laneweave_study::seconds;
 use serde::Serialize;
 
 use super::queues::Queue;
@@ -157,8 +158,8 @@ impl Summary {
             fingerprint: provenance.fingerprint.clone(),
             command: provenance.command.clone(),
             demand_veh_h: prepared.demand_veh_h,
-            duration_s: rounded(ending.measured_s),
-            warmup_s: rounded(ending.measured_from_s),
+            duration_s: seconds(ending.measured_s),
+            warmup_s: seconds(ending.measured_from_s),
             interrupted: ending.is_interrupted,
             seed: scenario.run.seed,
             threads: prepared.threads,
@@ -262,11 +263,6 @@ impl Summary {
 
 fn ratio(part: f64, whole: f64) -> Option<f64> {
     (whole > 0.0).then(|| part / whole)
-}
-
-/// A simulated time without the dust of its steps: to the microsecond.
-fn rounded(time: f64) -> f64 {
-    (time * 1e6).round() / 1e6
 }
 
 fn peak_rss_mb() -> f64 {

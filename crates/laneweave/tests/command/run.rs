@@ -414,7 +414,7 @@ fn an_interrupted_run_leaves_what_it_computed() {
     sleep(Duration::from_millis(500));
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
-    assert!(output.status.success());
+    assert_eq!(output.status.code(), Some(130));
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(summary["interrupted"], true);
     let duration = number(&summary, "duration_s");
@@ -502,4 +502,32 @@ fn a_scenario_and_styles_that_somebody_wrote_are_not_replaced() {
     }
     // What a run has left can be run into the same folder.
     folder.summary("own/scenario.toml --out own --record 0");
+}
+
+#[test]
+fn times_in_tables_are_those_of_whole_steps_without_dust() {
+    let folder = Folder::new();
+    let line = "run MAPS/ramps.osm --demand 4000 --duration 150 --record 0.1 --flows 0.3 --format csv";
+    assert_eq!(folder.laneweave(line).code(), 0);
+    for table in ["trajectories", "lane_changes", "trips", "flows", "lanelets"] {
+        let text = folder.read(&format!("out/{table}.csv"));
+        let mut lines = text.lines();
+        let of_steps =
+            ["time_s", "started_s", "duration_s", "entered_s", "left_s", "from_s", "to_s", "standing_s"];
+        let columns: Vec<usize> = (0..)
+            .zip(lines.next().unwrap().split(','))
+            .filter(|(_, name)| of_steps.contains(name))
+            .map(|(place, _)| place)
+            .collect();
+        assert!(!columns.is_empty(), "{table}");
+        for line in lines {
+            let cells: Vec<&str> = line.split(',').collect();
+            for column in &columns {
+                let decimals = cells[*column].split_once('.').map_or(0, |(_, it)| it.len());
+                assert!(decimals <= 6, "{table}: {line}");
+            }
+        }
+    }
+    let times = folder.read("out/trajectories.csv");
+    assert!(times.contains("\n123.6,") && !times.contains("123.60000000000001"));
 }
