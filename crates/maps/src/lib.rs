@@ -28,7 +28,7 @@ pub use drawing::Drawing;
 pub use error::MapError;
 pub use format::{FORMATS, Format, Law, Map, ReadOptions, load};
 pub use graph::{Graph, Node, NodeIndex};
-pub use problem::Problem;
+pub use problem::{BORDERS, Problem};
 pub use regulation::regulations;
 pub use routes::{By, Route, Sense, Step, routes};
 pub use rule::{Rule, RuleKind};

@@ -69,6 +69,44 @@ fn compressed_maps_are_maps() {
 }
 
 #[test]
+fn a_map_whose_lanelets_lack_borders_says_that_first() {
+    let whole = fs::read_to_string(maps().join("motorway_2_lanes.osm")).unwrap();
+    let parts: Vec<&str> = whole.split("role=\"left\"").collect();
+    let lanelets = parts.len() - 1;
+    // Every second way in the role left gets another.
+    let roles = parts.iter().enumerate().skip(1).map(|(number, part)| {
+        let role = if number % 2 == 0 { "centerline" } else { "left" };
+        format!("role=\"{role}\"{part}")
+    });
+    let half = parts[0].to_owned() + &roles.collect::<String>();
+    let folder = Folder::new().with("half.osm", &half);
+    let lacking = lanelets / 2;
+    let first = format!(
+        "{} of {lanelets} lanelets have no left or right border, so they are left out; export the map again, with a way in the role \
+         left and one in the role right of each lanelet",
+        lacking
+    );
+    let text = folder.laneweave("check half.osm").text();
+    assert!(text.starts_with(&format!("{first}.\n")), "{text}");
+    assert!(
+        text.contains(&format!("\nProblems ({}; --json lists all):\n  borders: {first}\n", 1 + lacking)),
+        "{text}"
+    );
+    let told = folder.laneweave("run half.osm --duration 1").errors();
+    assert!(told.starts_with(&format!("warning: map: borders: {first}\n")), "{told}");
+
+    let folder = Folder::new().with("none.osm", &whole.replace("role=\"left\"", "role=\"centerline\""));
+    let told = refusal(&folder, "run none.osm");
+    assert!(
+        told.contains(&format!(
+            "(the first problem is borders: {lanelets} of {lanelets} lanelets have no left"
+        )),
+        "{told}"
+    );
+    assert!(told.ends_with("); draw them, or choose another map"), "{told}");
+}
+
+#[test]
 fn a_map_larger_than_its_limit_is_refused_before_it_is_in_memory() {
     // A hundred megabytes of spaces, packed a thousand times smaller.
     let mut packed = GzEncoder::new(Vec::new(), Compression::fast());

@@ -22,7 +22,7 @@ pub use osm::Document;
 use crate::drawing::Drawing;
 use crate::error::MapError;
 use crate::format::{Map, ReadOptions};
-use crate::problem::Problem;
+use crate::problem::{BORDERS, Problem};
 use crate::size::Size;
 use lookup::Lookup;
 
@@ -75,9 +75,11 @@ impl<'a> Document<'a> {
             Err(MapError::NotDrivable { problems: flaws, .. }) => {
                 problems.extend(flaws);
                 problems.sort_by_key(|it| it.line);
-                const REMEDY: &str =
+                const TAG: &str =
                     "give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes";
-                Err(MapError::NotDrivable { lanelets, problems, remedy: REMEDY })
+                let lack_borders = problems.first().is_some_and(|it| it.element == BORDERS);
+                let remedy = if lack_borders { "draw them, or choose another map" } else { TAG };
+                Err(MapError::NotDrivable { lanelets, problems, remedy })
             }
             Err(error) => Err(error),
         }
