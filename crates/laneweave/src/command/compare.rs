@@ -74,7 +74,8 @@ impl Arguments {
                 origin.replaced("map_options.max_size_mb", "--max-map-size");
             }
             // Nothing is driven before all of it has been checked.
-            prepare(&scenario, &origin)?;
+            let prepared = prepare(&scenario, &origin)?;
+            prepared.demand_note().iter().for_each(|it| eprintln!("{}: {it}", input.display()));
             let seeds = seeds_from(scenario.run.seed, seeds)?;
             asked.push((input.display().to_string(), scenario, origin, seeds));
         }

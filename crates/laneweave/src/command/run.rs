@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
-    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 1000 a lane, or 200 a kilometre].
+    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 70 % of its estimated capacity].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
@@ -322,7 +322,7 @@ fn drive(
     Ok(if ending.is_interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
 
-/// Lists what in the map could not be used as it stands, and what makes traffic on it look odd.
+/// Lists what in the map could not be used as it stands, what makes traffic on it look odd, and what the demand is.
 fn warn(prepared: &Prepared) {
     let problems = &prepared.problems;
     for problem in problems.iter().take(LISTED_PROBLEMS) {
@@ -334,4 +334,6 @@ fn warn(prepared: &Prepared) {
     for remark in &prepared.remarks {
         eprintln!("warning: map: {remark}");
     }
+    prepared.demand_note().iter().for_each(|it| eprintln!("{it}"));
+    prepared.demand_warning().iter().for_each(|it| eprintln!("warning: {it}"));
 }

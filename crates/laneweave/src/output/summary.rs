@@ -27,7 +27,7 @@ pub struct Summary {
     pub on_road: u64,
     /// Vehicles that wait at the entrances at the end.
     pub waiting: u64,
-    /// The largest demand that the map bears [veh/h].
+    /// The estimated capacity of the map [veh/h].
     pub entrance_capacity: f64,
     /// What is full first when the demand grows.
     pub bottleneck: Option<String>,
@@ -201,10 +201,13 @@ impl Summary {
         line("map", self.map.clone());
         line("drivers", mixture.join(", "));
         line("simulated", format!("{} s{warm}{early}, seed {}", self.duration_s, self.seed));
-        let first = self.bottleneck.as_ref().map_or(String::new(), |it| format!(", then {it} is full"));
+        let first = self.bottleneck.as_ref().map_or(String::new(), |it| format!(" (bottleneck: {it})"));
         line(
             "demand",
-            format!("{:.0} veh/h; the map bears {:.0}{first}", self.demand_veh_h, self.entrance_capacity),
+            format!(
+                "{:.0} veh/h; estimated capacity {:.0} veh/h{first}",
+                self.demand_veh_h, self.entrance_capacity
+            ),
         );
         line(
             "vehicles",

@@ -1,5 +1,6 @@
 //! Scenario files: what to simulate, in TOML. Every key but the map has a default.
 
+mod basis;
 mod demand;
 mod headways;
 pub(crate) mod mixture;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::style::{DEFAULT_MIXTURE, Model};
 
+pub use basis::Basis;
 pub use headways::Headways;
 pub use origin::Origin;
 pub(crate) use prepare::driven;
@@ -113,7 +115,7 @@ pub enum DrivingSide {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Demand {
-    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 1000 for each lane.
+    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 70 % of the estimated capacity.
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
     pub trucks: f64,

@@ -2,6 +2,7 @@
 
 use std::num::NonZero;
 use std::path::Path;
+use std::sync::Arc;
 use std::thread::available_parallelism;
 
 use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, Size, lanelet2, load, regulations};
@@ -9,6 +10,7 @@ use laneweave_models::Style;
 use laneweave_network::{DrivingSide, LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Rate, Setup, World};
 
+use super::basis::{Basis, usual};
 use super::demand::{check_ways, demand};
 use super::mixture::mixture;
 use super::signals::plans;
@@ -52,7 +54,9 @@ pub struct Prepared {
     pub demand_veh_h: f64,
     /// Where trips start, each with its demand [veh/h].
     pub origins: Vec<(Place, f64)>,
-    /// The largest demand that the map bears.
+    /// What it rests on.
+    pub basis: Basis,
+    /// The estimated capacity of the map.
     pub capacity: Capacity,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
@@ -76,14 +80,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
     let threads = threads(scenario, origin, record_steps.is_some())?;
     let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
-    if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
-        let what = "fcd.xml is sampled at output.record_s, which is 0";
-        return Err(Fault::new(
-            origin.place(&["output", "sumo"]),
-            what,
-            "leave fcd out, or set record_s = 1",
-        ));
-    }
+    check_samples(scenario, origin, record_steps)?;
     let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
@@ -98,25 +95,30 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
                     more that shares its ground with no other can another be reached";
         return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
     }
-    let demand = demand(scenario, origin, &network, places, shares)?;
+    let network = Arc::new(network);
+    let build = |total: Option<f64>| {
+        let demand = demand(scenario, origin, &network, places.clone(), shares.clone(), total)?;
+        let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
+        World::new(Arc::clone(&network), characters.clone(), demand, setup)
+            .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
+    };
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
+    let capacity =
+        |world: &World| Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
+    let (world, basis) = if Basis::is_open(&scenario.demand) {
+        // The estimate depends on where a demand leads, not on how much it is: the least does.
+        let total = usual(&capacity(&build(Some(1.0))?));
+        (build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual })
+    } else {
+        (build(None)?, Basis::Given)
+    };
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
-        demand.origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
-    let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
-    let world = World::new(network, characters, demand, setup)
-        .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?
-        .with_journal();
-    let world = match scenario.guidance.interval_s {
-        0.0 => world,
-        interval => world.guided(interval).map_err(|error| {
-            let place = origin.place(&["guidance", "interval_s"]);
-            Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
-        })?,
-    };
-    let capacity = Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
+        world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
+    let world = guided(world.with_journal(), scenario, origin)?;
+    let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
@@ -127,6 +129,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         checkpoint_steps,
         flows_steps,
         demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
+        basis,
         origins,
         capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
@@ -136,6 +139,17 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         origin: map.origin,
         world,
     })
+}
+
+/// The world with the guidance of `scenario`.
+fn guided(world: World, scenario: &Scenario, origin: &Origin) -> Result<World, Fault> {
+    match scenario.guidance.interval_s {
+        0.0 => Ok(world),
+        interval => world.guided(interval).map_err(|error| {
+            let place = origin.place(&["guidance", "interval_s"]);
+            Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
+        }),
+    }
 }
 
 /// The roads of `map` with their junctions, and where trips on them start and end.
@@ -152,6 +166,19 @@ fn places(network: &Network, graph: &Graph) -> Places {
     }
     let all = graph.conflicting.iter().zip(0..);
     Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))
+}
+
+/// Whether there are samples where a file needs them.
+fn check_samples(scenario: &Scenario, origin: &Origin, record_steps: Option<u32>) -> Result<(), Fault> {
+    if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
+        let what = "fcd.xml is sampled at output.record_s, which is 0";
+        return Err(Fault::new(
+            origin.place(&["output", "sumo"]),
+            what,
+            "leave fcd out, or set record_s = 1",
+        ));
+    }
+    Ok(())
 }
 
 fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {

@@ -9,6 +9,8 @@ mod check;
 #[cfg(test)]
 mod compare;
 #[cfg(test)]
+mod demand;
+#[cfg(test)]
 mod explain;
 #[cfg(test)]
 mod generate;

@@ -189,8 +189,8 @@ fn values_of_a_scenario_that_make_no_sense() {
             "s.toml:3:1: the entrance 1 has a demand of its own in demand.entrances; leave it out there, or here",
         ),
         (
-            "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 5\n",
-            "s.toml:4:1: the shortest headway is 5 s, where the mean is 3.60 s: it must be shorter; choose less, or \
+            "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 6\n",
+            "s.toml:4:1: the shortest headway is 6 s, where the mean is 5.29 s: it must be shorter; choose less, or \
              a lower demand at the entrance 1",
         ),
         (

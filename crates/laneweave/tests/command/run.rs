@@ -34,7 +34,8 @@ fn number(summary: &Value, field: &str) -> f64 {
 fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
     let folder = Folder::new();
     let run = folder.laneweave("run MAPS/ramps.osm --duration 60");
-    assert_eq!((run.code(), run.errors().as_str()), (0, ""));
+    assert_eq!(run.code(), 0);
+    assert!(run.errors().starts_with("demand: ") && run.errors().lines().count() == 1, "{}", run.errors());
     let tables = ["trajectories", "lane_changes", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
     for file in tables.iter().map(String::as_str).chain(["summary.json"]) {
         assert!(folder.holds(&format!("out/{file}")), "{file}");
@@ -59,7 +60,7 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert_eq!(of("entered"), of("left") + of("on_road"));
     assert_eq!(of("lane_changes"), of("lane_changes_discretionary") + of("lane_changes_route"));
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
-    assert_eq!(of("demand_veh_h"), 4000.0);
+    assert_eq!(of("demand_veh_h"), 2724.0);
     assert_eq!(of("duration_s"), 120.0);
     let mean_speed = of("veh_km") * 1000.0 / (of("updates") * 0.1);
     assert!((of("mean_speed_mps") / mean_speed - 1.0).abs() < 1e-12);
