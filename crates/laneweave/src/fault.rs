@@ -4,9 +4,22 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
+/// Why a command fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// A mistake in what the user gave, or a file that the system refuses.
+    Input,
+    /// Standard output cannot be written.
+    Output,
+    /// Nobody reads standard output any more.
+    Closed,
+}
+
 /// A mistake in the input, with its place and its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
+    /// Why the command fails.
+    pub cause: Cause,
     /// Where: `FILE:LINE:COLUMN`, a file, or an option of the command.
     pub place: String,
     /// What is wrong there.
@@ -18,7 +31,22 @@ pub struct Fault {
 impl Fault {
     /// `what` is wrong at `place`, and `remedy` mends it.
     pub fn new(place: impl fmt::Display, what: impl fmt::Display, remedy: impl fmt::Display) -> Fault {
-        Fault { place: place.to_string(), what: what.to_string(), remedy: remedy.to_string() }
+        Fault {
+            cause: Cause::Input,
+            place: place.to_string(),
+            what: what.to_string(),
+            remedy: remedy.to_string(),
+        }
+    }
+
+    /// Standard output cannot be written.
+    pub fn output(error: &io::Error) -> Fault {
+        let cause = match error.kind() {
+            io::ErrorKind::BrokenPipe => Cause::Closed,
+            _ => Cause::Output,
+        };
+        let what = format!("cannot be written: {}", plain(error));
+        Fault { cause, ..Fault::new("standard output", what, "make room there, or send it elsewhere") }
     }
 
     /// The system refuses to `deed` the file at `path`.

@@ -21,7 +21,7 @@ pub mod style;
 mod units;
 
 pub use capacity::{Bottleneck, Capacity};
-pub use fault::{Fault, did_you_mean};
+pub use fault::{Cause, Fault, did_you_mean};
 pub use source::Source;
 
 pub use laneweave_maps as maps;

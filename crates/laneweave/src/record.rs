@@ -157,7 +157,7 @@ fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
     Ok(up.chain(file.components().skip(shared)).collect())
 }
 
-/// Hash of all that a run depends on: the program's version, the scenario but for its output and threads, the styles, the map.
+/// Hash of all that a run depends on: the program's version, the scenario but for its output, its threads and its largest map, the styles, the map.
 ///
 /// # Errors
 /// If the map or a style file cannot be read.
@@ -167,15 +167,10 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
     bare.output = Output::default();
     bare.run.threads = None;
+    bare.map_options.max_size_mb = None;
     let toml = toml::to_string(&bare).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
     hash.update(toml.as_bytes());
-    let mut styles = Vec::new();
-    for (name, weight) in &scenario.styles {
-        styles.push((find(name, origin.style_folder(), || name.clone())?.text, weight.to_bits()));
-    }
-    // The names of the files do not matter.
-    styles.sort();
-    for (text, weight) in styles {
+    for (text, weight) in style_texts(scenario, origin)? {
         hash.update(text.as_bytes());
         hash.update(&weight.to_le_bytes());
     }
@@ -187,6 +182,21 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
         }
     }
     Ok(format!("{:016x}", hash.digest()))
+}
+
+/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: the names of the files do not
+/// matter.
+///
+/// # Errors
+/// If a style file cannot be read.
+pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, u64)>, Fault> {
+    let text = |name: &String| find(name, origin.style_folder(), || name.clone()).map(|it| it.text);
+    let mut styles = Vec::new();
+    for (name, weight) in &scenario.styles {
+        styles.push((text(name)?, weight.to_bits()));
+    }
+    styles.sort();
+    Ok(styles)
 }
 
 /// Hash of what a run writes, and how: all that its output says but for the folder.
@@ -206,15 +216,25 @@ impl Record {
     /// # Errors
     /// If there are none, or what the run depended on has changed since.
     pub fn open(dir: &Path) -> Result<Record, Fault> {
-        let remedy = "name the folder of results of a run, that of --out";
+        let remedy = "name the folder of results that a run has left, that of its --out, with summary.json and scenario.toml";
+        if !dir.is_dir() {
+            let what = if dir.exists() { "this is a file" } else { "there is no such folder" };
+            return Err(Fault::new(dir.display(), format!("no results of a run: {what}"), remedy));
+        }
         let summary = dir.join(SUMMARY);
         let text = fs::read_to_string(&summary).map_err(|error| {
             if error.kind() == io::ErrorKind::NotFound && dir.join(SCENARIO).exists() {
                 let remedy = format!("wait, or go on with it: laneweave run {} --resume", dir.display());
                 return Fault::new(dir.display(), "this run has not ended", remedy);
             }
-            let what = format!("no results of a run: summary.json cannot be read: {error}");
-            Fault::new(dir.display(), what, remedy)
+            match error.kind() {
+                io::ErrorKind::NotFound => Fault::new(
+                    dir.display(),
+                    "no results of a run: there is no summary.json in this folder",
+                    remedy,
+                ),
+                _ => Fault::refused(&summary, "read", &error),
+            }
         })?;
         let end: End = serde_json::from_str(&text).map_err(|error| {
             Fault::new(summary.display(), format!("no summary of a run of this version: {error}"), remedy)

@@ -6,6 +6,7 @@ use laneweave_network::NetworkError;
 use thiserror::Error;
 
 use crate::problem::Problem;
+use crate::size::Size;
 use crate::xml::XmlError;
 
 /// Why a map cannot be read. Messages name the place inside the file and the remedy, not the file.
@@ -31,13 +32,11 @@ pub enum MapError {
         /// The formats with their extensions.
         known: String,
     },
-    /// It is larger than any map this program can hold.
-    #[error("the file has {bytes} bytes, the limit is {limit}; cut the map into smaller ones")]
+    /// It is larger than what is to be read, unpacked if it is compressed.
+    #[error("the map is larger than the limit of {largest}; cut it into smaller ones, or allow for more")]
     TooLarge {
-        /// Its size [B].
-        bytes: u64,
-        /// The largest size that is read [B].
-        limit: u64,
+        /// The largest size that is read.
+        largest: Size,
     },
     /// It is called compressed but cannot be unpacked.
     #[error(

@@ -15,6 +15,7 @@ use crate::graph::Graph;
 use crate::lanelet2;
 use crate::problem::Problem;
 use crate::rule::Rule;
+use crate::size::Size;
 
 /// A map that was read.
 #[derive(Clone, Debug)]
@@ -43,6 +44,8 @@ pub struct ReadOptions {
     pub law: Law,
     /// On which side traffic drives. Without it what the map says, or else the right.
     pub driving_side: Option<DrivingSide>,
+    /// Largest size of its text, unpacked if it is compressed, up to [`Size::MAXIMUM`].
+    pub largest: Size,
 }
 
 /// Whose traffic law holds on a map.
@@ -72,9 +75,6 @@ pub const FORMATS: &[Format] = &[
     Format { name: "CommonRoad", extensions: &["xml"], read: commonroad::read },
 ];
 
-/// Largest file that is read [B].
-pub(crate) const MAXIMUM_SIZE: u64 = 2 << 30;
-
 /// Ending of the names of compressed files.
 const COMPRESSED: &str = ".gz";
 
@@ -92,26 +92,37 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     }
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let format = format_of(name.strip_suffix(COMPRESSED).unwrap_or(&name))?;
-    let too_large = |bytes| MapError::TooLarge { bytes, limit: MAXIMUM_SIZE };
-    if metadata.len() > MAXIMUM_SIZE {
-        return Err(too_large(metadata.len()));
-    }
-    let mut bytes = Vec::with_capacity(metadata.len() as usize);
-    let file = File::open(path).map_err(MapError::Unreadable)?;
-    if name.ends_with(COMPRESSED) {
-        // However much it unpacks to, no more than this is kept.
-        let unpacked = MultiGzDecoder::new(file).take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes);
-        unpacked.map_err(MapError::Compressed)?;
+    let bytes = if name.ends_with(COMPRESSED) {
+        unpacked(path, options.largest)?
     } else {
-        file.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes).map_err(MapError::Unreadable)?;
-    }
-    if bytes.len() as u64 > MAXIMUM_SIZE {
-        return Err(too_large(bytes.len() as u64));
-    }
+        admit(metadata.len(), options.largest)?;
+        let file = File::open(path).map_err(MapError::Unreadable)?;
+        read_all(file, metadata.len()).map_err(MapError::Unreadable)?
+    };
     if bytes.is_empty() {
         return Err(MapError::Empty);
     }
     (format.read)(&bytes, options)
+}
+
+/// The text of the compressed file at `path`. It is unpacked twice: the first time only to know its size, so that nothing is kept of
+/// one that is too large.
+fn unpacked(path: &Path, largest: Size) -> Result<Vec<u8>, MapError> {
+    let open = || File::open(path).map(MultiGzDecoder::new).map_err(MapError::Unreadable);
+    let size = io::copy(&mut open()?.take(largest.0 + 1), &mut io::sink()).map_err(MapError::Compressed)?;
+    admit(size, largest)?;
+    read_all(open()?, size).map_err(MapError::Compressed)
+}
+
+fn admit(size: u64, largest: Size) -> Result<(), MapError> {
+    if size > largest.0 { Err(MapError::TooLarge { largest }) } else { Ok(()) }
+}
+
+/// So many bytes of what `source` holds.
+fn read_all(source: impl Read, size: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(size as usize);
+    source.take(size).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 fn format_of(name: &str) -> Result<&'static Format, MapError> {

@@ -19,6 +19,7 @@ mod regulation;
 mod routes;
 mod rule;
 mod shape;
+mod size;
 pub mod xml;
 
 pub use check::check;
@@ -27,7 +28,8 @@ pub use drawing::Drawing;
 pub use error::MapError;
 pub use format::{FORMATS, Format, Law, Map, ReadOptions, load};
 pub use graph::{Graph, Node, NodeIndex};
-pub use problem::Problem;
+pub use problem::{BORDERS, Problem};
 pub use regulation::regulations;
 pub use routes::{By, Route, Sense, Step, routes};
 pub use rule::{Rule, RuleKind};
+pub use size::Size;

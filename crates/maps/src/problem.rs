@@ -4,6 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
+/// The element of a problem that many lanelets have: they lack borders.
+pub const BORDERS: &str = "borders";
+
 /// Something in a map that could not be used as it stands.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {

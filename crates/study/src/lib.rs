@@ -21,4 +21,4 @@ pub use rate::{RatePoint, rate_by_density};
 pub use returning::{Attempt, returning_rate};
 pub use signal::{Signal, SignalQueue};
 pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
-pub use table::{Cell, Cells, Column, Format, Kind, PartialFile, TableError, TableWriter};
+pub use table::{Cell, Cells, Column, Format, Kind, PartialFile, TableError, TableWriter, seconds};

@@ -87,6 +87,12 @@ impl Column {
     }
 }
 
+/// A simulated time [s] as it is written: to the microsecond, without the dust of its steps, of which 1236 of 0.1 s are
+/// 123.60000000000001 s.
+pub fn seconds(time: f64) -> f64 {
+    (time * 1e6).round() / 1e6
+}
+
 /// One value of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {

@@ -1,4 +1,4 @@
-//! How many vehicles an hour a map bears.
+//! The estimated capacity of a map: how many vehicles an hour it carries.
 //!
 //! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a kerb, or a town as
 //! a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to carry is the demand along the usual
@@ -23,7 +23,7 @@ use stream::Mixture;
 
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
-/// The largest demand that a map bears.
+/// The estimated capacity of a map: the demand at which its first part is full.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
     /// Of all origins together [veh/h].
@@ -52,6 +52,13 @@ pub enum Bottleneck {
     Town,
 }
 
+impl fmt::Display for Capacity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "estimated capacity of {:.0} veh/h", self.veh_h)?;
+        self.bottleneck.map_or(Ok(()), |it| write!(f, " (bottleneck: {it})"))
+    }
+}
+
 impl fmt::Display for Bottleneck {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -64,7 +71,7 @@ impl fmt::Display for Bottleneck {
     }
 }
 
-/// A part of the map with its share of what it bears that is taken up.
+/// A part of the map with the share of its capacity that is taken up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Load {
     share: f64,
@@ -101,7 +108,7 @@ impl Capacity {
     /// weight.
     ///
     /// Lanes carry what a long queue sends off, and side by side what is driven on a road like that; lights let pass what of a standing queue drives off at green; where ways meet without
-    /// a light, drivers take turns and gaps; and a town bears what it lets in. What is not looked at can only make it less: gaps that
+    /// a light, drivers take turns and gaps; and a town carries what it lets in. What is not looked at can only make it less: gaps that
     /// nobody finds to change lanes, turns across oncoming traffic at green, queues that stand in each other's way.
     pub fn new(
         network: &Network,
@@ -115,7 +122,9 @@ impl Capacity {
             .into_iter()
             .chain(conflict::loads(&roads, &movements))
             .chain(town::kerb_loads(&roads, demand));
-        let fullest = parts.reduce(|fullest, it| if it.share > fullest.share { it } else { fullest });
+        // Of parts that are equally full the first counts, however their numbers are rounded.
+        let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
+        let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
         let Some(part) = fullest.filter(|it| it.share > 0.0) else {
             return Capacity { veh_h: 0.0, bottleneck: None };
         };

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Write};
 
-use laneweave_maps::{Map, Problem, RuleKind, check};
+use laneweave_maps::{BORDERS, Map, Problem, RuleKind, check};
 use laneweave_network::{ChainIndex, DrivingSide, Network, Sign};
 use laneweave_sim::{Place, Places};
 use serde::Serialize;
@@ -137,6 +137,10 @@ impl Report {
     }
 
     fn write_to(&self, out: &mut String) -> fmt::Result {
+        // Little else counts on a map without borders.
+        if let Some(Problem { what, remedy, .. }) = self.problems.iter().find(|it| it.element == BORDERS) {
+            writeln!(out, "{what}; {remedy}.\n")?;
+        }
         match self.origin {
             Some([latitude, longitude]) => {
                 writeln!(out, "Coordinates are projected (UTM), relative to {latitude}, {longitude}.")?;

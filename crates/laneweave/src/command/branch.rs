@@ -9,7 +9,7 @@ use laneweave::branch::{Differences, Setting, Twins, page};
 use laneweave::folder::{BRANCH, Claim, REPORT};
 use laneweave::output::write_whole;
 use laneweave::record::{Record, SCENARIO};
-use laneweave::study::{Column, Format, TableWriter};
+use laneweave::study::{Column, Format, TableWriter, seconds};
 
 use super::say;
 
@@ -65,8 +65,7 @@ impl Arguments {
             write_whole(&report, &page(&twins, &differences, &settings, &super::given()).to_html())?;
             text += &format!("  {:<17}{}\n", "report", report.display());
         }
-        say(&text);
-        Ok(())
+        say(&text)
     }
 }
 
@@ -112,11 +111,11 @@ fn tables(
             (*id).into(),
             it.style.as_str().into(),
             it.class.into(),
-            it.since_s.into(),
+            seconds(it.since_s).into(),
             base.into(),
             branch.into(),
-            base_left.into(),
-            branch_left.into(),
+            base_left.map(seconds).into(),
+            branch_left.map(seconds).into(),
         ])?;
     }
     table.finish()?;
@@ -125,7 +124,7 @@ fn tables(
         let [base, branch] = it.lane_changes.map(|it| it as i64);
         let [base_speed, branch_speed] = it.mean_speed_mps;
         table.row(&[
-            it.time_s.into(),
+            seconds(it.time_s).into(),
             it.on_road.into(),
             it.differ.into(),
             base.into(),

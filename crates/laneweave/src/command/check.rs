@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recording, picture, tracks};
+use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
 use serde::Serialize;
@@ -43,11 +44,33 @@ pub(crate) struct Reading {
     /// Whose speed limits hold where the map gives none [default: germany].
     #[arg(long, value_parser = law())]
     law: Option<Law>,
+    #[command(flatten)]
+    size: Limit,
+}
+
+/// How large a map may be.
+#[derive(Debug, Args)]
+pub(crate) struct Limit {
+    /// Largest size of the map, unpacked if it is compressed, such as 500MB; at most 2GiB [default: 1GiB].
+    #[arg(long, value_name = "SIZE")]
+    max_map_size: Option<Size>,
+}
+
+impl Limit {
+    /// In the unit of scenarios [MB].
+    pub(crate) fn mb(&self) -> Option<f64> {
+        self.max_map_size.map(Size::mb)
+    }
 }
 
 impl Reading {
     pub(crate) fn options(&self) -> MapOptions {
-        MapOptions { origin: self.origin, law: self.law.unwrap_or_default(), ..MapOptions::default() }
+        MapOptions {
+            origin: self.origin,
+            law: self.law.unwrap_or_default(),
+            max_size_mb: self.size.mb(),
+            ..MapOptions::default()
+        }
     }
 }
 
@@ -91,14 +114,10 @@ impl Arguments {
             write_whole(path, &picture(&name, &map, &report.problems))?;
         }
         if self.json {
-            say(&json(&Both { map: report, recording })?);
-            return Ok(());
+            return say(&json(&Both { map: report, recording })?);
         }
-        say(&report.to_text());
-        if let Some(recording) = recording {
-            say(&format!("\nTracks in the same file:\n{}", recording.to_text()));
-        }
-        Ok(())
+        let tracks = recording.map(|it| format!("\nTracks in the same file:\n{}", it.to_text()));
+        say(&(report.to_text() + &tracks.unwrap_or_default()))
     }
 
     /// Before anything is written: no file goes in place of another that is wanted, and all have a folder to go to.
@@ -127,8 +146,7 @@ impl Arguments {
         let (recording, problems) = open_recording(&self.file)?;
         let map = open_map(map, &self.options.options())?;
         let report = RecordingReport::of(recording, &problems, &map.network);
-        say(&if self.json { json(&report)? } else { report.to_text() });
-        Ok(())
+        say(&if self.json { json(&report)? } else { report.to_text() })
     }
 }
 

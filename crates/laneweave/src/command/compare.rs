@@ -13,6 +13,7 @@ use laneweave::scenario::{Origin, prepare};
 use laneweave::study::{Cell, Column, Format, TableWriter};
 use laneweave::style::Model;
 
+use super::check::Limit;
 use super::run::model;
 use super::say;
 
@@ -42,11 +43,13 @@ pub(crate) struct Arguments {
     /// Folder of the report and the table of all runs.
     #[arg(long, value_name = "DIR", default_value = "comparison")]
     out: PathBuf,
+    #[command(flatten)]
+    size: Limit,
 }
 
 impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { inputs, models, seeds, demand, duration, warmup, out } = self;
+        let Arguments { inputs, models, seeds, demand, duration, warmup, out, size } = self;
         let models = if models.is_empty() { USUAL.to_vec() } else { models };
         let threads = available_parallelism().map_or(1, |it| it.get());
         let mut asked = Vec::new();
@@ -66,8 +69,13 @@ impl Arguments {
                 scenario.run.warmup_s = warmup;
                 origin.replaced("run.warmup_s", "--warmup");
             }
+            if let Some(size) = size.mb() {
+                scenario.map_options.max_size_mb = Some(size);
+                origin.replaced("map_options.max_size_mb", "--max-map-size");
+            }
             // Nothing is driven before all of it has been checked.
-            prepare(&scenario, &origin)?;
+            let prepared = prepare(&scenario, &origin)?;
+            prepared.demand_note().iter().for_each(|it| eprintln!("{}: {it}", input.display()));
             let seeds = seeds_from(scenario.run.seed, seeds)?;
             asked.push((input.display().to_string(), scenario, origin, seeds));
         }
@@ -79,22 +87,24 @@ impl Arguments {
         let path = claim.dir().join("runs.csv");
         let mut table = TableWriter::create(&path, Format::Csv, &columns())?;
         let mut done = Vec::new();
+        // The files become whole even if nothing can be said of them.
+        let mut said = Ok(());
         for (input, scenario, origin, seeds) in asked {
             let comparison = compare(&scenario, &origin, &models, &seeds, threads)?;
-            say(&format!(
+            let text = format!(
                 "{input}, {} s, {} seeds: means with 95 % intervals\n{}\n",
                 scenario.run.duration_s,
                 seeds.len(),
                 comparison.to_text()
-            ));
+            );
+            said = said.and_then(|()| say(&text));
             append(&mut table, &input, &comparison)?;
             done.push((input, comparison));
         }
         table.finish()?;
         let report = out.join(REPORT);
         write_whole(&report, &page(&done, &super::given()).to_html())?;
-        say(&format!("report: {}\nall runs: {}\n", report.display(), path.display()));
-        Ok(())
+        said.and_then(|()| say(&format!("report: {}\nall runs: {}\n", report.display(), path.display())))
     }
 }
 

@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "OUT")]
     out: PathBuf,
     /// The vehicle that is asked, by its id in the tables.
-    #[arg(long, value_name = "ID", required_unless_present = "summary")]
+    #[arg(long, value_name = "ID")]
     vehicle: Option<u32>,
     /// When it is asked, in seconds as in the tables [default: all of its trip].
     #[arg(long, value_name = "S", requires = "vehicle")]
@@ -31,8 +31,12 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { out, vehicle, time, flip, .. } = self;
+        let Arguments { out, vehicle, time, flip, summary } = self;
         let Record { scenario, origin, end } = Record::open(&out)?;
+        if vehicle.is_none() && !summary {
+            let remedy = "name a vehicle with --vehicle ID, or ask all with --summary";
+            return Err(Fault::new("explain", "nobody is asked", remedy));
+        }
         let End { duration_s, warmup_s, .. } = end;
         let [steps, warmup] =
             [duration_s + warmup_s, warmup_s].map(|it| (it / scenario.run.step_s).round() as u32);
@@ -50,8 +54,7 @@ impl Arguments {
             (0..warmup).for_each(|_| world.step());
             let mut commonest = Commonest::since_now(&world);
             (warmup..steps).for_each(|_| commonest.step(&mut world));
-            say(&commonest.to_text());
-            return Ok(());
+            return say(&commonest.to_text());
         };
         let never = || {
             let what = format!("no vehicle {vehicle} came onto the road");
@@ -59,18 +62,16 @@ impl Arguments {
         };
         let Some(time) = time else {
             let told = trip(&mut world, vehicle, steps, flip).ok_or_else(never)?;
-            say(&told);
-            return Ok(());
+            return say(&told);
         };
         match moment(&mut world, vehicle, time, steps, flip) {
             Moment::Told(told) => say(&told),
             Moment::At(from, until) => {
                 let what = format!("vehicle {vehicle} was not on the road at {time} s");
                 let remedy = format!("choose a time from {from:.1} to {until:.1} s");
-                return Err(Fault::new("--time", what, remedy));
+                Err(Fault::new("--time", what, remedy))
             }
-            Moment::Never => return Err(never()),
+            Moment::Never => Err(never()),
         }
-        Ok(())
     }
 }

@@ -8,14 +8,17 @@ mod explain;
 mod generate;
 mod numbers;
 mod progress;
+mod resume;
 mod routes;
 mod run;
 mod scenario;
 mod shell;
+mod stop;
 mod styles;
 mod tips;
 
 use std::io::{self, Write};
+use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -77,13 +80,13 @@ enum Command {
 
 impl Cli {
     /// Does what the user asks for; `started` is when the process began.
-    pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
-        match self.command {
+    pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
+        let done = match self.command {
             None => {
                 let (scenario, origin) = Origin::demo()?;
-                run::run(&scenario, &origin, run::Screen::default(), started)
+                return run::run(&scenario, &origin, run::Screen::default(), started);
             }
-            Some(Command::Run(arguments)) => arguments.execute(started),
+            Some(Command::Run(arguments)) => return arguments.execute(started),
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Compare(arguments)) => arguments.execute(),
@@ -92,23 +95,21 @@ impl Cli {
             Some(Command::Scenario(deed)) => deed.execute(),
             Some(Command::Generate(kind)) => kind.execute(),
             Some(Command::Styles(deed)) => deed.execute(),
-            Some(Command::Schema) => {
-                say(&format!("{:#}\n", Scenario::schema().to_value()));
-                Ok(())
-            }
-            Some(Command::Completions(arguments)) => {
-                arguments.execute(Cli::command());
-                Ok(())
-            }
+            Some(Command::Schema) => say(&format!("{:#}\n", Scenario::schema().to_value())),
+            Some(Command::Completions(arguments)) => arguments.execute(Cli::command()),
             Some(Command::Man(arguments)) => arguments.execute(Cli::command()),
-        }
+        };
+        done.map(|()| ExitCode::SUCCESS)
     }
 }
 
-/// Prints `text`. Whoever stops listening, as `head` does, has seen enough.
-fn say(text: &str) {
+/// Prints `text` on standard output.
+///
+/// # Errors
+/// If it cannot be written there, or nobody reads it.
+pub(crate) fn say(text: &str) -> Result<(), Fault> {
     let mut out = io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| Fault::output(&error))
 }
 
 /// The command line as it was given.

@@ -1,4 +1,4 @@
-//! How far a long run is, in one line on the terminal.
+//! How far a long run is: in one line on the terminal, or a line a minute where there is none.
 
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
@@ -6,16 +6,36 @@ use std::time::{Duration, Instant};
 use laneweave::scenario::Prepared;
 use laneweave::sim::World;
 
-/// Runs shorter than this show nothing.
-const PATIENCE: Duration = Duration::from_secs(2);
-/// Time between two looks.
-const PERIOD: Duration = Duration::from_millis(200);
+/// Where the progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Screen {
+    /// Nowhere.
+    Nothing,
+    /// In one line, which changes.
+    Terminal,
+    /// In a file or a log, in a line each.
+    Log,
+}
 
-/// The line.
+impl Screen {
+    /// Runs shorter than this show nothing.
+    fn patience(self) -> Duration {
+        Duration::from_secs(if self == Screen::Log { 60 } else { 2 })
+    }
+
+    /// Time between two looks.
+    fn period(self) -> Duration {
+        if self == Screen::Log { Duration::from_secs(60) } else { Duration::from_millis(200) }
+    }
+}
+
+/// The progress of a run.
 pub(super) struct Progress {
-    is_shown: bool,
+    screen: Screen,
     began: Instant,
     next: Instant,
+    /// Simulated time at which it began [s].
+    from: Option<f64>,
     /// Simulated time at the end [s].
     end: f64,
     is_on_screen: bool,
@@ -23,44 +43,92 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn new(prepared: &Prepared, step: f64, quiet: bool) -> Progress {
-        let began = Instant::now();
-        Progress {
-            is_shown: !quiet && stderr().is_terminal(),
-            began,
-            next: began + PATIENCE,
-            end: f64::from(prepared.warmup_steps + prepared.steps) * step,
-            is_on_screen: false,
-        }
+        let screen = match (quiet, stderr().is_terminal()) {
+            (true, _) => Screen::Nothing,
+            (false, true) => Screen::Terminal,
+            (false, false) => Screen::Log,
+        };
+        let end = f64::from(prepared.warmup_steps + prepared.steps) * step;
+        Progress::on(screen, Instant::now(), end)
     }
 
-    /// Brings the line up to date, now and then.
+    fn on(screen: Screen, began: Instant, end: f64) -> Progress {
+        Progress { screen, began, next: began + screen.patience(), from: None, end, is_on_screen: false }
+    }
+
+    /// Shows how far the run is, now and then.
     pub(super) fn show(&mut self, world: &World) {
-        if !self.is_shown {
+        if self.screen == Screen::Nothing {
             return;
         }
-        let now = Instant::now();
-        if now < self.next {
-            return;
-        }
-        self.next = now + PERIOD;
-        self.is_on_screen = true;
         let time = world.clock().time();
-        let wall = self.began.elapsed().as_secs_f64();
-        let left = wall * (self.end - time) / time.max(f64::MIN_POSITIVE);
-        let line = format!(
-            "\r\x1b[K{time:.0} of {:.0} s, {} vehicles, {:.0} times real time, {left:.0} s to go",
-            self.end,
-            world.on_road(),
-            time / wall,
-        );
+        let Some(line) = self.line(Instant::now(), time, world.on_road()) else { return };
         // A terminal that is gone needs no progress.
         let _ = stderr().write_all(line.as_bytes());
     }
 
-    /// Takes the line away.
+    /// What to write at `now`, when `time` [s] is simulated, if it is time for it.
+    fn line(&mut self, now: Instant, time: f64, vehicles: usize) -> Option<String> {
+        // A run that is resumed does not begin at 0.
+        let from = *self.from.get_or_insert(time);
+        if now < self.next {
+            return None;
+        }
+        self.next = now + self.screen.period();
+        let wall = (now - self.began).as_secs_f64();
+        let pace = (time - from) / wall;
+        let left = (self.end - time) / pace.max(f64::MIN_POSITIVE);
+        let text = format!(
+            "{time:.0} of {:.0} s, {vehicles} vehicles, {pace:.0} times real time, {left:.0} s to go",
+            self.end
+        );
+        if self.screen == Screen::Log {
+            return Some(text + "\n");
+        }
+        self.is_on_screen = true;
+        Some(format!("\r\x1b[K{text}"))
+    }
+
+    /// Takes the line off the terminal.
     pub(super) fn clear(&mut self) {
         if self.is_on_screen {
             let _ = stderr().write_all(b"\r\x1b[K");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lines that are written in a run that is watched every half of a second, and simulates five seconds in one, each with its
+    /// time on the wall [s].
+    fn lines(screen: Screen, wall: u32) -> Vec<(f64, String)> {
+        let began = Instant::now();
+        let mut progress = Progress::on(screen, began, 1000.0);
+        let look = |half: u32| {
+            let wall = f64::from(half) / 2.0;
+            let now = began + Duration::from_secs_f64(wall);
+            progress.line(now, 5.0 * wall, 7).map(|line| (wall, line))
+        };
+        (0..=2 * wall).filter_map(look).collect()
+    }
+
+    #[test]
+    fn a_log_gets_a_line_a_minute() {
+        let line = |wall, text: &str| (wall, format!("{text} to go\n"));
+        let expected = [
+            line(60.0, "300 of 1000 s, 7 vehicles, 5 times real time, 140 s"),
+            line(120.0, "600 of 1000 s, 7 vehicles, 5 times real time, 80 s"),
+        ];
+        assert_eq!(lines(Screen::Log, 179), expected);
+        assert!(lines(Screen::Log, 59).is_empty());
+    }
+
+    #[test]
+    fn a_terminal_shows_one_line_after_two_seconds() {
+        let shown = lines(Screen::Terminal, 3);
+        assert_eq!(shown.iter().map(|it| it.0).collect::<Vec<_>>(), [2.0, 2.5, 3.0]);
+        assert!(shown.iter().all(|(_, line)| line.starts_with("\r\x1b[K") && !line.ends_with('\n')));
     }
 }

@@ -87,8 +87,7 @@ impl Arguments {
         found.sort_by(|a, b| a.time.total_cmp(&b.time));
         found.truncate(self.most);
         let found: Vec<Way> = found.iter().map(|it| Way::of(it, &map)).collect();
-        say(&if self.json { json(&Ways { routes: found })? } else { text(&found, self.from, self.to) });
-        Ok(())
+        say(&if self.json { json(&Ways { routes: found })? } else { text(&found, self.from, self.to) })
     }
 }
 

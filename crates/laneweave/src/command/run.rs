@@ -4,8 +4,7 @@ use std::fs;
 use std::io;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -19,12 +18,13 @@ use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, pre
 use laneweave::simulation::simulate;
 use laneweave::style::Model;
 
+use super::check::Limit;
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
+use super::resume::same_run;
 use super::say;
+use super::stop::Stop;
 
-/// Exit code of a program that was stopped by the keyboard.
-const STOPPED: i32 = 130;
 /// Problems of a map that are listed one by one.
 const LISTED_PROBLEMS: usize = 3;
 
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
-    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 1000 a lane, or 200 a kilometre].
+    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 70 % of its estimated capacity].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
@@ -80,14 +80,17 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
     sumo: Vec<SumoFile>,
     /// Seconds of the run between two checkpoints, from which it can be resumed if it breaks off; 0: there are none [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     checkpoint: Option<f64>,
-    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none.
+    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none; other options must say what the
+    /// run says, but for --threads, --quiet and --json.
     #[arg(long)]
     resume: bool,
     /// Look for overlapping vehicles at every step, not only once a second.
     #[arg(long)]
     audit: bool,
+    #[command(flatten)]
+    size: Limit,
     #[command(flatten)]
     screen: Screen,
 }
@@ -132,14 +135,61 @@ fn sumo_file(text: &str) -> Result<SumoFile, String> {
 }
 
 impl Arguments {
-    pub(crate) fn execute(self, started: Instant) -> Result<(), Fault> {
+    pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
         let screen = self.screen;
         if self.resume {
-            return resume(&self.input, screen, started);
+            return self.resume(started);
         }
         let (mut scenario, mut origin) = Origin::open(&self.input)?;
         self.replace(&mut scenario, &mut origin);
         run(&scenario, &origin, screen, started)
+    }
+
+    /// Goes on with the run that left its scenario in the folder that is named.
+    fn resume(mut self, started: Instant) -> Result<ExitCode, Fault> {
+        let (dir, screen) = (&self.input.clone(), self.screen);
+        let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
+            let remedy = "name the folder of results of a run that broke off";
+            Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
+        })?;
+        scenario.output.dir = dir.into();
+        let whole = |path: &Path| path.canonicalize().ok();
+        // However its folder is written.
+        self.out = self.out.filter(|it| whole(it) != whole(dir));
+        let (mut asked, mut options) = (scenario.clone(), Origin::default());
+        self.replace(&mut asked, &mut options);
+        same_run((&scenario, &origin), (&asked, &options))?;
+        scenario.run.threads = asked.run.threads;
+        scenario.map_options.max_size_mb = asked.map_options.max_size_mb;
+        let claim = Claim::on(dir)?;
+        if let Some(summary) = ended(&dir.join(SUMMARY))? {
+            claim.clear(&checkpoint::FILES)?;
+            if !screen.quiet {
+                eprintln!("{}: the run has ended already", dir.display());
+            }
+            if screen.json {
+                say(&summary)?;
+            }
+            return Ok(ExitCode::SUCCESS);
+        }
+        let fingerprint = record::fingerprint(&scenario, &origin)?;
+        let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
+        if let Some(kept) = &kept {
+            let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
+            if kept.fingerprint != fingerprint {
+                let what = "the map, a style, the scenario or the program has changed since this was run";
+                return Err(refused(what));
+            }
+            if kept.outputs != record::outputs(&scenario)? {
+                return Err(refused("the [output] of its scenario has changed since this was run"));
+            }
+        }
+        let prepared = prepare(&scenario, &origin)?;
+        let path = dir.join(record::SCENARIO);
+        let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
+        let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
+        claim.clear(if kept.is_some() { &[SUMMARY] } else { &RESULTS })?;
+        drive(&scenario, prepared, provenance, kept, &claim, screen, started)
     }
 
     /// Options go before what the scenario says.
@@ -155,7 +205,7 @@ impl Arguments {
                 origin.replaced(key, option);
             }
         }
-        let Scenario { demand, run, output, styles, model, .. } = scenario;
+        let Scenario { demand, run, output, styles, model, map_options, .. } = scenario;
         if self.demand.is_some() {
             demand.entrances.clear();
             demand.od.clear();
@@ -179,6 +229,8 @@ impl Arguments {
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
         replace(origin, ("model", "--model"), model, self.model.map(Some));
+        let size = self.size.mb().map(Some);
+        replace(origin, ("map_options.max_size_mb", "--max-map-size"), &mut map_options.max_size_mb, size);
     }
 }
 
@@ -188,7 +240,7 @@ pub(crate) fn run(
     origin: &Origin,
     screen: Screen,
     started: Instant,
-) -> Result<(), Fault> {
+) -> Result<ExitCode, Fault> {
     let prepared = prepare(scenario, origin)?;
     let fingerprint = record::fingerprint(scenario, origin)?;
     let dir = &scenario.output.dir;
@@ -197,44 +249,6 @@ pub(crate) fn run(
     let kept = record::keep(scenario, origin, dir, &super::given())?;
     let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
     drive(scenario, prepared, provenance, None, &claim, screen, started)
-}
-
-/// Goes on with the run that left its scenario in `dir`.
-fn resume(dir: &Path, screen: Screen, started: Instant) -> Result<(), Fault> {
-    let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
-        let remedy = "name the folder of results of a run that broke off";
-        Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
-    })?;
-    scenario.output.dir = dir.into();
-    let claim = Claim::on(dir)?;
-    if let Some(summary) = ended(&dir.join(SUMMARY))? {
-        claim.clear(&checkpoint::FILES)?;
-        if !screen.quiet {
-            eprintln!("{}: the run has ended already", dir.display());
-        }
-        if screen.json {
-            say(&summary);
-        }
-        return Ok(());
-    }
-    let fingerprint = record::fingerprint(&scenario, &origin)?;
-    let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
-    if let Some(kept) = &kept {
-        let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
-        if kept.fingerprint != fingerprint {
-            let what = "the map, a style, the scenario or the program has changed since this was run";
-            return Err(refused(what));
-        }
-        if kept.outputs != record::outputs(&scenario)? {
-            return Err(refused("the [output] of its scenario has changed since this was run"));
-        }
-    }
-    let prepared = prepare(&scenario, &origin)?;
-    let path = dir.join(record::SCENARIO);
-    let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
-    let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
-    claim.clear(if kept.is_some() { &[SUMMARY] } else { &RESULTS })?;
-    drive(&scenario, prepared, provenance, kept, &claim, screen, started)
 }
 
 /// The summary of a run that was not interrupted, if there is one.
@@ -257,7 +271,7 @@ fn drive(
     claim: &Claim,
     screen: Screen,
     started: Instant,
-) -> Result<(), Fault> {
+) -> Result<ExitCode, Fault> {
     if !screen.quiet {
         warn(&prepared);
     }
@@ -270,7 +284,7 @@ fn drive(
         fingerprint: provenance.fingerprint.clone(),
         outputs,
     });
-    let stop = stop_by_keyboard()?;
+    let stop = Stop::listen()?;
     let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
     let mut load_s = 0.0;
     let ending = simulate(
@@ -280,7 +294,7 @@ fn drive(
         keeper.as_ref(),
         |world| {
             progress.show(world);
-            !stop.load(Ordering::Relaxed)
+            !stop.is_raised()
         },
         || load_s = started.elapsed().as_secs_f64(),
     )?;
@@ -305,14 +319,14 @@ fn drive(
         claim.clear(&checkpoint::FILES)?;
     }
     match screen {
-        Screen { json: true, .. } => say(&json),
-        Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files)),
+        Screen { json: true, .. } => say(&json)?,
+        Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files))?,
         _ => {}
     }
-    Ok(())
+    Ok(if ending.is_interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
 
-/// Lists what in the map could not be used as it stands, and what makes traffic on it look odd.
+/// Lists what in the map could not be used as it stands, what makes traffic on it look odd, and what the demand is.
 fn warn(prepared: &Prepared) {
     let problems = &prepared.problems;
     for problem in problems.iter().take(LISTED_PROBLEMS) {
@@ -324,17 +338,6 @@ fn warn(prepared: &Prepared) {
     for remark in &prepared.remarks {
         eprintln!("warning: map: {remark}");
     }
-}
-
-/// A flag that Ctrl-C raises, so that the run ends with what it has; a second Ctrl-C ends at once.
-fn stop_by_keyboard() -> Result<Arc<AtomicBool>, Fault> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(STOPPED);
-        }
-    })
-    .map_err(|error| Fault::new("Ctrl-C", error, "report this as a bug"))?;
-    Ok(stop)
+    prepared.demand_note().iter().for_each(|it| eprintln!("{it}"));
+    prepared.demand_warning().iter().for_each(|it| eprintln!("warning: {it}"));
 }

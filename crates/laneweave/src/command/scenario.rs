@@ -56,8 +56,7 @@ impl New {
         let prepared = prepare(&scenario, &origin)?;
         scenario.map = from_folder_of(&file, &self.map);
         write_whole(&file, &write(&scenario, &prepared)?)?;
-        say(&format!("{0} is written; edit it, then: laneweave run {0}\n", file.display()));
-        Ok(())
+        say(&format!("{0} is written; edit it, then: laneweave run {0}\n", file.display()))
     }
 
     /// Whether `file` may be written.

@@ -27,10 +27,10 @@ pub(crate) struct Pages {
 }
 
 impl Completions {
-    pub(crate) fn execute(&self, command: Command) {
+    pub(crate) fn execute(&self, command: Command) -> Result<(), Fault> {
         let mut text = Vec::new();
         clap_complete::generate(self.shell, &mut naming_styles(command), "laneweave", &mut text);
-        say(&String::from_utf8_lossy(&text));
+        say(&String::from_utf8_lossy(&text))
     }
 }
 
@@ -58,8 +58,7 @@ impl Pages {
         for (path, text) in &pages {
             write_whole(path, text)?;
         }
-        say(&format!("{} pages are written into {}\n", pages.len(), self.folder.display()));
-        Ok(())
+        say(&format!("{} pages are written into {}\n", pages.len(), self.folder.display()))
     }
 }
 

@@ -40,10 +40,12 @@ impl Deed {
         match self {
             Deed::List => {
                 let widest = BUILT_IN.iter().map(|it| it.name.len()).max().unwrap_or(0);
+                let mut text = String::new();
                 for style in BUILT_IN {
                     let template = StyleTemplate::parse(&named(style.name)?)?;
-                    say(&format!("{:widest$}  {}\n", style.name, template.typical().description));
+                    text += &format!("{:widest$}  {}\n", style.name, template.typical().description);
                 }
+                say(&text)
             }
             Deed::Show { name } => say(&named(&name)?.text),
             Deed::New { name, from, file } => {
@@ -57,10 +59,9 @@ impl Deed {
                 say(&format!(
                     "{} is written; edit it, then: laneweave run MAP --style {0}=1\n",
                     file.display()
-                ));
+                ))
             }
         }
-        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use laneweave_models::change::INCENTIVES;
 use laneweave_network::{Point, Side};
 use laneweave_sim::{Event, Kind, LaneChange, World};
-use laneweave_study::{Cell, Column, TableWriter};
+use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
@@ -134,9 +134,9 @@ fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
     let lanelet = |at| names.lanelet(at).1.id;
     let Point { x, y, .. } = place(names, change);
     let mut cells: Vec<Cell> = vec![
-        change.time.into(),
-        change.started.into(),
-        change.duration.into(),
+        seconds(change.time).into(),
+        seconds(change.started).into(),
+        seconds(change.duration).into(),
         change.vehicle.into(),
         names.style(change.character).into(),
         change.class.body().name.into(),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use laneweave_network::LaneletIndex;
 use laneweave_sim::{Clock, Stay, World};
-use laneweave_study::{Column, TableWriter};
+use laneweave_study::{Column, TableWriter, seconds};
 
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
@@ -104,8 +104,8 @@ impl Writer for FlowTable {
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
             let id = names.network.lanelets[place].id;
             self.table.row(&[
-                from.into(),
-                to.into(),
+                seconds(from).into(),
+                seconds(to).into(),
                 id.into(),
                 flow.into(),
                 density.into(),
@@ -167,7 +167,7 @@ impl Writer for LaneletTable {
                 flow.into(),
                 density.into(),
                 speed.into(),
-                counts.stay.standing.into(),
+                seconds(counts.stay.standing).into(),
                 counts.begun.into(),
                 counts.ended.into(),
                 to_left.into(),

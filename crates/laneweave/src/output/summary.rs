@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use laneweave_sim::World;
+use laneweave_study::seconds;
 use serde::Serialize;
 
 use super::queues::Queue;
@@ -26,7 +27,7 @@ pub struct Summary {
     pub on_road: u64,
     /// Vehicles that wait at the entrances at the end.
     pub waiting: u64,
-    /// The largest demand that the map bears [veh/h].
+    /// The estimated capacity of the map [veh/h].
     pub entrance_capacity: f64,
     /// What is full first when the demand grows.
     pub bottleneck: Option<String>,
@@ -160,8 +161,8 @@ impl Summary {
             fingerprint: provenance.fingerprint.clone(),
             command: provenance.command.clone(),
             demand_veh_h: prepared.demand_veh_h,
-            duration_s: rounded(ending.measured_s),
-            warmup_s: rounded(ending.measured_from_s),
+            duration_s: seconds(ending.measured_s),
+            warmup_s: seconds(ending.measured_from_s),
             interrupted: ending.is_interrupted,
             seed: scenario.run.seed,
             threads: prepared.threads,
@@ -203,10 +204,13 @@ impl Summary {
         line("map", self.map.clone());
         line("drivers", mixture.join(", "));
         line("simulated", format!("{} s{warm}{early}, seed {}", self.duration_s, self.seed));
-        let first = self.bottleneck.as_ref().map_or(String::new(), |it| format!(", then {it} is full"));
+        let first = self.bottleneck.as_ref().map_or(String::new(), |it| format!(" (bottleneck: {it})"));
         line(
             "demand",
-            format!("{:.0} veh/h; the map bears {:.0}{first}", self.demand_veh_h, self.entrance_capacity),
+            format!(
+                "{:.0} veh/h; estimated capacity {:.0} veh/h{first}",
+                self.demand_veh_h, self.entrance_capacity
+            ),
         );
         line(
             "vehicles",
@@ -265,11 +269,6 @@ impl Summary {
 
 fn ratio(part: f64, whole: f64) -> Option<f64> {
     (whole > 0.0).then(|| part / whole)
-}
-
-/// A simulated time without the dust of its steps: to the microsecond.
-fn rounded(time: f64) -> f64 {
-    (time * 1e6).round() / 1e6
 }
 
 fn peak_rss_mb() -> f64 {

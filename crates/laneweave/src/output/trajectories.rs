@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_sim::{Class, Phase};
-use laneweave_study::{Cells, Column, TableWriter};
+use laneweave_study::{Cells, Column, TableWriter, seconds};
 
 use super::Folder;
 use super::names::Names;
@@ -63,7 +63,7 @@ impl Writer for Trajectories {
         numbers.iter_mut().for_each(|it| empty(it, seen.len()));
         let [time, along, offset, x, y, z, heading, speed, acceleration, length, width] = numbers;
         for (step, here, _) in frame.instants() {
-            time.resize(time.len() + here.len(), f64::from(step) * names.step_s);
+            time.resize(time.len() + here.len(), seconds(f64::from(step) * names.step_s));
         }
         along.extend(bodies.iter().map(|it| it.along));
         offset.extend(bodies.iter().map(|it| it.offset));

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use laneweave_network::ChainIndex;
 use laneweave_sim::{Event, TripRecord, World};
-use laneweave_study::{Cell, Column, TableWriter};
+use laneweave_study::{Cell, Column, TableWriter, seconds};
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
@@ -168,16 +168,16 @@ fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
         names.destination(record.destination).into(),
         lanelet(record.from).into(),
         end.map(|it| lanelet(it.at)).into(),
-        record.arrived.into(),
-        record.entered.into(),
-        end.map(|it| it.time).into(),
-        trip.waiting().into(),
-        end.map(|it| it.duration).into(),
+        seconds(record.arrived).into(),
+        seconds(record.entered).into(),
+        end.map(|it| seconds(it.time)).into(),
+        seconds(trip.waiting()).into(),
+        end.map(|it| seconds(it.duration)).into(),
         record.free_time.into(),
         trip.delay().into(),
         (*way).into(),
         record.stops.into(),
-        record.stood.into(),
+        seconds(record.stood).into(),
         record.lane_changes.into(),
         record.route_changes.into(),
         record.missed_turns.into(),

@@ -8,15 +8,16 @@ use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
 use crate::fault::{Fault, did_you_mean};
 use crate::units::METRES_PER_KM;
 
-/// Demand of a lane where nothing is said [veh/h].
+/// Demand of a lane where nothing is said of it, but of others, or there is no estimate [veh/h].
 const USUAL_DEMAND: f64 = 1000.0;
-/// Demand along a kilometre of lanes on which trips start, where nothing is said [veh/h]: some ten vehicles on it, if a trip
+/// The same along a kilometre of lanes on which trips start [veh/h]: some ten vehicles on it, if a trip
 /// takes three minutes. Ours.
 const USUAL_STARTS: f64 = 200.0;
 /// Nobody has seen more vehicles an hour on one lane than a quarter of this.
 const LARGEST_DEMAND: f64 = 10_000.0;
 
-/// The demand at each of `places`, and the weights of the destinations.
+/// The demand at each of `places`, and the weights of the destinations; a `total` of it where none is given [veh/h], or else the usual
+/// one.
 ///
 /// # Errors
 /// If an entrance or exit is not there, or a number makes no sense.
@@ -26,12 +27,13 @@ pub(super) fn demand(
     network: &Network,
     places: Places,
     population: Vec<Share>,
+    total: Option<f64>,
 ) -> Result<Demand, Fault> {
     let wanted = &scenario.demand;
     let lanes: usize = places.origins.iter().map(|place| place.chains().len()).sum();
     // A table of origins and destinations is all there is, unless a total is given for the other origins.
     let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
-    let total = wanted.vehicles_per_hour.unwrap_or_else(usual);
+    let total = wanted.vehicles_per_hour.or(total).unwrap_or_else(usual);
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
     let fleet = Fleet { trucks: wanted.trucks, buses: wanted.buses, motorcycles: wanted.motorcycles };
     let mut demand = Demand::over(places, total, fleet, population);

@@ -1,5 +1,6 @@
 //! Scenario files: what to simulate, in TOML. Every key but the map has a default.
 
+mod basis;
 mod demand;
 mod headways;
 pub(crate) mod mixture;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::style::{DEFAULT_MIXTURE, Model};
 
+pub use basis::Basis;
 pub use headways::Headways;
 pub use origin::Origin;
 pub(crate) use prepare::driven;
@@ -75,6 +77,8 @@ pub struct MapOptions {
     pub law: Law,
     /// On which side traffic drives; without it what the map says, or else the right.
     pub driving_side: Option<DrivingSide>,
+    /// Largest size of the map, unpacked if it is compressed [MB]; without it 1 GiB, at most 2 GiB.
+    pub max_size_mb: Option<f64>,
 }
 
 /// Whose traffic law holds.
@@ -111,7 +115,7 @@ pub enum DrivingSide {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Demand {
-    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 1000 for each lane.
+    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 70 % of the estimated capacity.
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
     pub trucks: f64,

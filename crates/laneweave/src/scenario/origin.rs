@@ -57,6 +57,11 @@ impl Origin {
         self.options.insert(key, option);
     }
 
+    /// The keys whose values were replaced, each with its option.
+    pub fn options(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.options.iter().map(|(key, option)| (*key, *option))
+    }
+
     /// The place of the key at `path`: an option, a place in the scenario file, or else the key itself.
     pub fn place(&self, path: &[&str]) -> String {
         let option = (1..=path.len()).find_map(|n| self.options.get(path[..n].join(".").as_str()));

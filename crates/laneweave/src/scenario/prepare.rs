@@ -2,13 +2,15 @@
 
 use std::num::NonZero;
 use std::path::Path;
+use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, lanelet2, load, regulations};
+use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, Size, lanelet2, load, regulations};
 use laneweave_models::Style;
 use laneweave_network::{DrivingSide, LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Rate, Setup, World};
 
+use super::basis::{Basis, usual};
 use super::demand::{check_ways, demand};
 use super::mixture::mixture;
 use super::signals::plans;
@@ -52,7 +54,9 @@ pub struct Prepared {
     pub demand_veh_h: f64,
     /// Where trips start, each with its demand [veh/h].
     pub origins: Vec<(Place, f64)>,
-    /// The largest demand that the map bears.
+    /// What it rests on.
+    pub basis: Basis,
+    /// The estimated capacity of the map.
     pub capacity: Capacity,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
@@ -76,14 +80,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
     let threads = threads(scenario, origin, record_steps.is_some())?;
     let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
-    if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
-        let what = "fcd.xml is sampled at output.record_s, which is 0";
-        return Err(Fault::new(
-            origin.place(&["output", "sumo"]),
-            what,
-            "leave fcd out, or set record_s = 1",
-        ));
-    }
+    check_samples(scenario, origin, record_steps)?;
     let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
     let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
@@ -98,26 +95,31 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
                     more that shares its ground with no other can another be reached";
         return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
     }
-    let demand = demand(scenario, origin, &network, places, shares)?;
+    let network = Arc::new(network);
+    let build = |total: Option<f64>| {
+        let demand = demand(scenario, origin, &network, places.clone(), shares.clone(), total)?;
+        let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
+        World::new(Arc::clone(&network), characters.clone(), demand, setup)
+            .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
+    };
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
+    let capacity =
+        |world: &World| Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
+    let (world, basis) = if Basis::is_open(&scenario.demand) {
+        // The estimate depends on where a demand leads, not on how much it is: the least does.
+        let total = usual(&capacity(&build(Some(1.0))?));
+        (build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual })
+    } else {
+        (build(None)?, Basis::Given)
+    };
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
-        demand.origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
-    let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
-    let world = World::new(network, characters, demand, setup)
-        .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))?
-        .with_journal();
+        world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
+    let world = guided(world.with_journal(), scenario, origin)?;
     let world = if scenario.run.audit { world.audited() } else { world };
-    let world = match scenario.guidance.interval_s {
-        0.0 => world,
-        interval => world.guided(interval).map_err(|error| {
-            let place = origin.place(&["guidance", "interval_s"]);
-            Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
-        })?,
-    };
-    let capacity = Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
+    let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
@@ -128,6 +130,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         checkpoint_steps,
         flows_steps,
         demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
+        basis,
         origins,
         capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
@@ -137,6 +140,17 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
         origin: map.origin,
         world,
     })
+}
+
+/// The world with the guidance of `scenario`.
+fn guided(world: World, scenario: &Scenario, origin: &Origin) -> Result<World, Fault> {
+    match scenario.guidance.interval_s {
+        0.0 => Ok(world),
+        interval => world.guided(interval).map_err(|error| {
+            let place = origin.place(&["guidance", "interval_s"]);
+            Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
+        }),
+    }
 }
 
 /// The roads of `map` with their junctions, and where trips on them start and end.
@@ -153,6 +167,19 @@ fn places(network: &Network, graph: &Graph) -> Places {
     }
     let all = graph.conflicting.iter().zip(0..);
     Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))
+}
+
+/// Whether there are samples where a file needs them.
+fn check_samples(scenario: &Scenario, origin: &Origin, record_steps: Option<u32>) -> Result<(), Fault> {
+    if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
+        let what = "fcd.xml is sampled at output.record_s, which is 0";
+        return Err(Fault::new(
+            origin.place(&["output", "sumo"]),
+            what,
+            "leave fcd out, or set record_s = 1",
+        ));
+    }
+    Ok(())
 }
 
 fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
@@ -172,6 +199,10 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
     let room = room - demand.buses;
     check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
+    if let Some(size) = scenario.map_options.max_size_mb {
+        let largest = Size::MAXIMUM.mb();
+        check(&["map_options", "max_size_mb"], "a largest map", size, (f64::MIN_POSITIVE, largest), " MB")?;
+    }
     let guidance = scenario.guidance.interval_s;
     if guidance != 0.0 {
         let path = ["guidance", "interval_s"];
@@ -193,6 +224,11 @@ fn whole_steps(
     /// How far an interval may be off a whole number of steps, in steps.
     const TOLERANCE: f64 = 1e-6;
     let steps = interval / step;
+    if interval > 0.0 && steps < 1.0 - TOLERANCE {
+        let what = format!("{what} of {interval} s is shorter than a step of {step} s");
+        let remedy = format!("choose {step} s or a multiple of it, 0 for none, or a shorter step");
+        return Err(Fault::new(origin.place(&["output", key]), what, remedy));
+    }
     if (steps - steps.round()).abs() <= TOLERANCE {
         return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
     }
@@ -258,6 +294,7 @@ impl From<&MapOptions> for ReadOptions {
             origin: options.origin.map(|[latitude, longitude]| (latitude, longitude)),
             law: options.law.into(),
             driving_side: options.driving_side.map(DrivingSide::from),
+            largest: options.max_size_mb.map_or_else(Size::default, Size::of_mb),
         }
     }
 }
@@ -275,6 +312,10 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     let named_at = origin.in_file(&["map"]);
     match (error, line, named_at) {
         (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
+        (MapError::TooLarge { .. }, ..) => {
+            let remedy = "cut the map into smaller ones, or allow for more with --max-map-size, at most 2GiB";
+            Fault::new(file, what, remedy)
+        }
         (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),
         (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
             Fault::new(place, format!("map {file}: {what}"), remedy)

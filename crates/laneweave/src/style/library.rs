@@ -57,7 +57,7 @@ pub fn find(name: &str, folder: &Path, place: impl Fn() -> String) -> Result<Sou
     }
     if name.ends_with(".toml") {
         let path = folder.join(name);
-        let source = Source::read(&path).map_err(|Fault { place: file, what, remedy }| {
+        let source = Source::read(&path).map_err(|Fault { place: file, what, remedy, .. }| {
             Fault::new(place(), format!("style file {file}: {what}"), remedy)
         })?;
         if source.has_key("map") && !source.has_key("follow") {

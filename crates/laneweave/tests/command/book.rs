@@ -115,8 +115,11 @@ fn every_command_works_and_prints_what_is_shown() {
                 let outcome = folder.laneweave(&line);
                 let errors = outcome.errors();
                 // What is odd about a map is said of any; a run that is resumed here was not killed.
-                let is_expected =
-                    |it: &str| it.starts_with("warning: ") || it.ends_with("the run has ended already");
+                let is_demand =
+                    |it: &str| it.contains("demand: ") && it.contains(" % of the estimated capacity of ");
+                let is_expected = |it: &str| {
+                    it.starts_with("warning: ") || is_demand(it) || it.ends_with("the run has ended already")
+                };
                 let is_quiet = errors.lines().all(is_expected);
                 assert!(outcome.code() == 0 && is_quiet, "{}: laneweave {line}: {errors}", page.display());
                 printed = outcome.text();
@@ -148,8 +151,8 @@ const FIGURES: [(&str, &str, &str); 7] = [
     ("town10", "check DATA/lanelet2/town10.osm --svg map.svg", "map.svg"),
     ("approach", "check maps/approach.osm --svg map.svg", "map.svg"),
     ("own_town", "check maps/town.osm --svg map.svg", "map.svg"),
-    ("time_space", "run maps/ramps.osm --record 0", "out/time_space.svg"),
-    ("lane_change_rate", "run maps/ramps.osm --record 0", "out/lane_change_rate.svg"),
+    ("time_space", "run maps/ramps.osm --demand 4000 --record 0", "out/time_space.svg"),
+    ("lane_change_rate", "run maps/ramps.osm --demand 4000 --record 0", "out/lane_change_rate.svg"),
 ];
 
 #[test]

@@ -69,6 +69,85 @@ fn compressed_maps_are_maps() {
 }
 
 #[test]
+fn a_map_whose_lanelets_lack_borders_says_that_first() {
+    let whole = fs::read_to_string(maps().join("motorway_2_lanes.osm")).unwrap();
+    let parts: Vec<&str> = whole.split("role=\"left\"").collect();
+    let lanelets = parts.len() - 1;
+    // Every second way in the role left gets another.
+    let roles = parts.iter().enumerate().skip(1).map(|(number, part)| {
+        let role = if number % 2 == 0 { "centerline" } else { "left" };
+        format!("role=\"{role}\"{part}")
+    });
+    let half = parts[0].to_owned() + &roles.collect::<String>();
+    let folder = Folder::new().with("half.osm", &half);
+    let lacking = lanelets / 2;
+    let first = format!(
+        "{} of {lanelets} lanelets have no left or right border, so they are left out; export the map again, with a way in the role \
+         left and one in the role right of each lanelet",
+        lacking
+    );
+    let text = folder.laneweave("check half.osm").text();
+    assert!(text.starts_with(&format!("{first}.\n")), "{text}");
+    assert!(
+        text.contains(&format!("\nProblems ({}; --json lists all):\n  borders: {first}\n", 1 + lacking)),
+        "{text}"
+    );
+    let told = folder.laneweave("run half.osm --duration 1").errors();
+    assert!(told.starts_with(&format!("warning: map: borders: {first}\n")), "{told}");
+
+    let folder = Folder::new().with("none.osm", &whole.replace("role=\"left\"", "role=\"centerline\""));
+    let told = refusal(&folder, "run none.osm");
+    assert!(
+        told.contains(&format!(
+            "(the first problem is borders: {lanelets} of {lanelets} lanelets have no left"
+        )),
+        "{told}"
+    );
+    assert!(told.ends_with("); draw them, or choose another map"), "{told}");
+}
+
+#[test]
+fn a_map_larger_than_its_limit_is_refused_before_it_is_in_memory() {
+    // A hundred megabytes of spaces, packed a thousand times smaller.
+    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+    let blank = vec![b' '; 1 << 20];
+    (0..100).for_each(|_| packed.write_all(&blank).unwrap());
+    let packed = packed.finish().unwrap();
+    assert!(packed.len() < 1_000_000);
+    let folder = Folder::new().with("s.toml", "map = \"bomb.osm.gz\"\nmap_options.max_size_mb = 20");
+    fs::write(folder.path().join("bomb.osm.gz"), packed).unwrap();
+    let expected = |limit| {
+        format!(
+            "error: bomb.osm.gz: the map is larger than the limit of {limit}; cut the map into smaller ones, or allow for more with \
+             --max-map-size, at most 2GiB"
+        )
+    };
+    for command in ["check", "run", "compare", "scenario new"] {
+        let line = format!("{command} bomb.osm.gz --max-map-size 99MB");
+        assert_eq!(refusal(&folder, &line), expected("99 MB"), "{command}");
+    }
+    assert_eq!(refusal(&folder, "routes bomb.osm.gz 1 2 --max-map-size 64kib"), expected("64 KiB"));
+    assert_eq!(refusal(&folder, "run s.toml"), expected("20 MB"));
+    assert!(refusal(&folder, "check bomb.osm.gz --max-map-size 105MB").contains("bomb.osm.gz:1: "));
+    assert!(
+        refusal(&folder, "check MAPS/town.osm --max-map-size 10kB")
+            .contains("larger than the limit of 10 kB")
+    );
+    assert!(
+        refusal(&folder, "check MAPS/town.osm --max-map-size 3GiB")
+            .contains("write a size such as 500MB or 2GiB")
+    );
+}
+
+#[test]
+fn a_limit_of_the_map_changes_nothing_else() {
+    let folder = Folder::new();
+    let usual = folder.summary("MAPS/on_ramp.osm --duration 10 --record 0");
+    let limited = folder.summary("MAPS/on_ramp.osm --duration 10 --record 0 --max-map-size 2GiB");
+    assert_eq!(limited["fingerprint"], usual["fingerprint"]);
+}
+
+#[test]
 fn the_origin_moves_a_projected_map() {
     let mut map = String::from("<osm>");
     for (id, lat, lon) in [(1, 49.0, 8.44), (2, 49.0, 8.45), (3, 49.0001, 8.44), (4, 49.0001, 8.45)] {

@@ -98,6 +98,24 @@ fn what_cannot_be_told_is_refused_with_a_remedy() {
 }
 
 #[test]
+fn where_there_are_no_results_it_is_said_what_is_needed() {
+    let folder = Folder::new().with("empty.txt", "");
+    std::fs::create_dir(folder.path().join("empty")).unwrap();
+    let needed = "name the folder of results that a run has left, that of its --out, with summary.json and scenario.toml";
+    for (place, what) in [
+        ("nowhere", "there is no such folder"),
+        ("empty", "there is no summary.json in this folder"),
+        ("empty.txt", "this is a file"),
+    ] {
+        for line in [format!("explain {place}"), format!("branch {place} --at 10")] {
+            let run = folder.laneweave(&line);
+            let expected = format!("error: {place}: no results of a run: {what}; {needed}\n");
+            assert_eq!((run.code(), run.errors()), (2, expected), "{line}");
+        }
+    }
+}
+
+#[test]
 fn what_is_kept_with_the_results_runs_again_to_the_same_end_with_styles_from_files() {
     let folder = Folder::new();
     folder.laneweave("styles new mine --from aggressive");

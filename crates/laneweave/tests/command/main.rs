@@ -9,6 +9,8 @@ mod check;
 #[cfg(test)]
 mod compare;
 #[cfg(test)]
+mod demand;
+#[cfg(test)]
 mod explain;
 #[cfg(test)]
 mod generate;
@@ -36,5 +38,10 @@ mod schema;
 mod shell;
 #[cfg(test)]
 mod signals;
+#[cfg(test)]
+mod standard_output;
+#[cfg(test)]
+#[cfg(unix)]
+mod stop;
 #[cfg(test)]
 mod styles;

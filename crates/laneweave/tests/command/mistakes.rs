@@ -189,8 +189,8 @@ fn values_of_a_scenario_that_make_no_sense() {
             "s.toml:3:1: the entrance 1 has a demand of its own in demand.entrances; leave it out there, or here",
         ),
         (
-            "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 5\n",
-            "s.toml:4:1: the shortest headway is 5 s, where the mean is 3.60 s: it must be shorter; choose less, or \
+            "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 6\n",
+            "s.toml:4:1: the shortest headway is 6 s, where the mean is 5.29 s: it must be shorter; choose less, or \
              a lower demand at the entrance 1",
         ),
         (
@@ -327,4 +327,26 @@ fn files_and_styles_where_a_command_is_wanted() {
     assert!(
         answer(&folder, "generate moterway m.osm").contains("tip: a similar subcommand exists: 'motorway'")
     );
+}
+
+#[test]
+fn intervals_below_a_step_are_refused_and_not_taken_for_none() {
+    let folder = Folder::new();
+    for (option, what) in [
+        ("--record", "a recording interval"),
+        ("--flows", "an interval of flows"),
+        ("--checkpoint", "an interval of checkpoints"),
+    ] {
+        for interval in ["0.05", "0.000000001"] {
+            let run = folder.laneweave(&format!("run MAPS/ramps.osm {option} {interval}"));
+            let told = run.errors();
+            let expected = format!(
+                "error: {option}: {what} of {interval} s is shorter than a step of 0.1 s; choose 0.1 s or a multiple of it, 0 for \
+                 none, or a shorter step\n"
+            );
+            assert_eq!((run.code(), told), (2, expected));
+        }
+    }
+    let run = folder.laneweave("run MAPS/ramps.osm --duration 1 --record 0 --flows 0 --checkpoint 0.1");
+    assert_eq!(run.code(), 0, "{}", run.errors());
 }

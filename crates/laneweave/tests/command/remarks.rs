@@ -24,7 +24,7 @@ fn of(folder: &Folder) -> Vec<String> {
     let words = |it: &Value| format!("{}; {}", it["what"].as_str().unwrap(), it["remedy"].as_str().unwrap());
     let found: Vec<String> = report["remarks"].as_array().unwrap().iter().map(words).collect();
     let text = folder.laneweave("check m.osm").text();
-    let run = folder.laneweave("run m.osm --duration 1 --record 0");
+    let run = folder.laneweave("run m.osm --duration 1 --record 0 --demand 100");
     assert_eq!(run.code(), 0, "{}", run.errors());
     for remark in &found {
         assert!(text.contains(&format!("\n  {remark}\n")), "{text}");

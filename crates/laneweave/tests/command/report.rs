@@ -163,5 +163,5 @@ fn a_long_jam_has_a_small_report() {
     folder.summary("MAPS/lane_drop.osm --demand 9000 --duration 900 --record 0");
     let page = folder.read("out/report.html");
     assert!(page.len() < 300_000, "{}", page.len());
-    assert!(page.contains("is drawn)") && page.contains("Demand above what the map bears"));
+    assert!(page.contains("is drawn)") && page.contains("Demand above the estimated capacity"));
 }

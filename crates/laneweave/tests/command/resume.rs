@@ -134,6 +134,47 @@ fn what_cannot_be_resumed_is_refused_with_a_remedy() {
     assert!(refused("run MAPS/ramps.osm --checkpoint 0.25").contains("choose a multiple of the step"));
 }
 
+#[test]
+fn a_run_is_not_resumed_as_another_one() {
+    let folder = Folder::new();
+    folder.laneweave("styles new mild --from conservative");
+    folder.summary(
+        "MAPS/ramps.osm --demand 900 --duration 20 --record 2 --format csv --sumo fcd --style mild.toml=2",
+    );
+    std::fs::remove_file(folder.path().join("out/summary.json")).unwrap();
+    let line = "run out --resume --demand 800 --seed 3 --out other --record 1 --sumo tripinfo --style cautious=1 --duration 20";
+    let refused = folder.laneweave(line);
+    assert_eq!(refused.code(), 2);
+    let told = refused.errors();
+    for part in [
+        "error: --resume: another run is asked for: ",
+        "--demand 800 where the run has 900",
+        "--seed 3 where the run has 1",
+        "--out other where the run has out",
+        "--record 1 where the run has 2",
+        "--sumo [\"tripinfo\"] where the run has [\"fcd\"]",
+        "--style cautious=1 where the run has styles/mild.toml=2",
+        "; leave these options out, or run again from the beginning, without --resume",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert!(!told.contains("--duration") && !folder.holds("other"), "{told}");
+    let refused = folder.laneweave("run out --resume --model mobil").errors();
+    assert!(refused.contains("--model mobil where the run has none"), "{refused}");
+}
+
+#[test]
+fn options_that_are_those_of_the_run_may_be_given_again() {
+    let folder = Folder::new();
+    folder.laneweave("styles new mild --from conservative");
+    let options = "--demand 900 --duration 20 --record 0 --seed 5 --style mild.toml=2 --style cautious=1";
+    let whole = folder.summary(&format!("MAPS/ramps.osm {options}"));
+    std::fs::remove_file(folder.path().join("out/summary.json")).unwrap();
+    let resumed = folder.summary(&format!("out --resume {options} --out ./out/ --threads 1"));
+    assert_eq!(resumed["state_hash"], whole["state_hash"]);
+    assert_eq!(resumed["threads"], 1);
+}
+
 /// A folder with a run that was killed after its first checkpoint.
 fn broken_off() -> Folder {
     let folder = Folder::new();

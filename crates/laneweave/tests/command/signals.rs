@@ -56,7 +56,7 @@ fn greens_that_traffic_extends_shorten_delays_where_one_road_is_quiet() {
 }
 
 #[test]
-fn the_summary_says_what_the_map_bears_and_which_light_is_full_first() {
+fn the_summary_names_the_estimated_capacity_and_the_light_that_is_its_bottleneck() {
     let signals = |north_and_south: f64| {
         format!(
             "[[signals]]\nphases = [{{ green = {EAST_AND_WEST}, green_s = 25 }}, \

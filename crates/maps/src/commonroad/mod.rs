@@ -26,10 +26,11 @@ use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Polyline};
 
 use crate::contents::Contents;
 use crate::error::MapError;
-use crate::format::{Law, MAXIMUM_SIZE, Map, ReadOptions};
+use crate::format::{Law, Map, ReadOptions};
 use crate::graph::Graph;
 use crate::problem::Problem;
 use crate::shape::Shape;
+use crate::size::Size;
 use document::{Document, LaneletElement};
 use links::Places;
 use speed::SpeedSigns;
@@ -41,8 +42,8 @@ use speed::SpeedSigns;
 /// # Errors
 /// If it is no CommonRoad XML or holds no lanelet that cars may use.
 pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
-    if bytes.len() as u64 > MAXIMUM_SIZE {
-        return Err(MapError::TooLarge { bytes: bytes.len() as u64, limit: MAXIMUM_SIZE });
+    if bytes.len() as u64 > Size::MAXIMUM.0 {
+        return Err(MapError::TooLarge { largest: Size::MAXIMUM });
     }
     let mut problems = Vec::new();
     let document = document::parse(bytes, &mut problems)?;

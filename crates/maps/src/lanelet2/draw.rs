@@ -13,7 +13,7 @@ use super::speed::SpeedRules;
 use crate::contents::Contents;
 use crate::drawing::{Border, Drawing, Edge, Lane};
 use crate::format::ReadOptions;
-use crate::problem::Problem;
+use crate::problem::{BORDERS, Problem};
 
 /// What is wrong, and what mends it.
 pub(super) type Flaw = (String, &'static str);
@@ -43,6 +43,8 @@ pub(super) fn draw(
             found.push((relation, draft.borders_of(relation)));
         }
     }
+    let lacking = found.iter().filter(|(relation, _)| draft.lacks_a_border(relation)).count();
+    problems.extend(without_borders(lacking, found.len()));
     let oriented =
         |(relation, borders): (_, Result<_, Flaw>)| (relation, borders.map(|it| draft.oriented(it)));
     let found: Vec<(&Relation, Result<[Edge; 2], Flaw>)> = found.into_par_iter().map(oriented).collect();
@@ -74,6 +76,17 @@ pub(super) fn draw(
     }
     let drawing = draft.drawing;
     Drawing { points: lookup.into_points(), ..drawing }
+}
+
+/// What is said before all else of `lacking` lanelets, of so many, that lack a border; a single one speaks for itself.
+fn without_borders(lacking: usize, lanelets: usize) -> Option<Problem> {
+    (lacking > 1).then(|| Problem {
+        element: BORDERS.into(),
+        line: None,
+        what: format!("{lacking} of {lanelets} lanelets have no left or right border, so they are left out"),
+        remedy: "export the map again, with a way in the role left and one in the role right of each lanelet"
+            .into(),
+    })
 }
 
 fn problem(kind: &str, id: i64, line: u32, (what, remedy): Flaw) -> Problem {
@@ -113,6 +126,13 @@ impl Draft<'_> {
         };
         let (left_reversed, right_reversed) = reversals(&line(left), &line(right));
         [Edge { border: left, reversed: left_reversed }, Edge { border: right, reversed: right_reversed }]
+    }
+
+    /// Whether no way borders a lanelet on one of its sides.
+    fn lacks_a_border(&self, relation: &Relation) -> bool {
+        let is_there =
+            |side| self.document.members(relation, "way", side).any(|it| self.lookup.way(it).is_some());
+        !(is_there("left") && is_there("right"))
     }
 
     /// The way that borders a lanelet on `side`.

@@ -21,8 +21,9 @@ pub use osm::Document;
 
 use crate::drawing::Drawing;
 use crate::error::MapError;
-use crate::format::{MAXIMUM_SIZE, Map, ReadOptions};
-use crate::problem::Problem;
+use crate::format::{Map, ReadOptions};
+use crate::problem::{BORDERS, Problem};
+use crate::size::Size;
 use lookup::Lookup;
 
 /// Reads a Lanelet2 map. Lanelets that cannot be used as they stand are left out and listed as problems.
@@ -46,8 +47,8 @@ impl<'a> Document<'a> {
     /// # Errors
     /// If it is no OSM XML.
     pub fn parse(bytes: &'a [u8]) -> Result<(Document<'a>, Vec<Problem>), MapError> {
-        if bytes.len() as u64 > MAXIMUM_SIZE {
-            return Err(MapError::TooLarge { bytes: bytes.len() as u64, limit: MAXIMUM_SIZE });
+        if bytes.len() as u64 > Size::MAXIMUM.0 {
+            return Err(MapError::TooLarge { largest: Size::MAXIMUM });
         }
         let mut problems = Vec::new();
         let document = parse::parse(bytes, &mut problems)?;
@@ -74,9 +75,11 @@ impl<'a> Document<'a> {
             Err(MapError::NotDrivable { problems: flaws, .. }) => {
                 problems.extend(flaws);
                 problems.sort_by_key(|it| it.line);
-                const REMEDY: &str =
+                const TAG: &str =
                     "give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes";
-                Err(MapError::NotDrivable { lanelets, problems, remedy: REMEDY })
+                let lack_borders = problems.first().is_some_and(|it| it.element == BORDERS);
+                let remedy = if lack_borders { "draw them, or choose another map" } else { TAG };
+                Err(MapError::NotDrivable { lanelets, problems, remedy })
             }
             Err(error) => Err(error),
         }

@@ -24,7 +24,7 @@ pub struct About {
     pub classes: Vec<(&'static str, f64)>,
     /// Demand over all origins [veh/h], and their number.
     pub demand: (f64, usize),
-    /// The largest demand that the map bears [veh/h], and what is full then.
+    /// The estimated capacity of the map [veh/h], and its bottleneck.
     pub capacity: (f64, Option<String>),
     /// Length of a step, of the warm-up, of the time to be measured [s].
     pub times: [f64; 3],
@@ -82,15 +82,15 @@ impl About {
             classes.iter().map(|(name, share)| format!("{name} {}", percent(*share))).collect();
         let (rate, origins) = demand;
         let places = if *origins == 1 { "place" } else { "places" };
-        let (bears, full) = capacity;
-        let full = full.as_ref().map_or(String::new(), |it| format!("; then {it} is full"));
+        let (capacity, bottleneck) = capacity;
+        let first = bottleneck.as_ref().map_or(String::new(), |it| format!(" (bottleneck: {it})"));
         let [step, warmup, duration] = times;
         let km = number(*lane_km, 3);
         [
             ("Map", format!("{map}: {lanelets} lanelets, {km} km of lanes, {limits} (where the map gives none, those of {law})")),
             ("Drivers", drivers.join(", ")),
             ("Vehicles", vehicles.join(", ")),
-            ("Demand", format!("{rate:.0} veh/h at {origins} {places}; by estimate the map bears {bears:.0} veh/h{full}")),
+            ("Demand", format!("{rate:.0} veh/h at {origins} {places}; estimated capacity {capacity:.0} veh/h{first}")),
             ("Time", format!("{duration} s measured after {warmup} s of warm-up, in steps of {step} s")),
         ]
         .map(|(name, value)| (name.into(), value))

@@ -110,7 +110,7 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
     let share = format!("{:.0} against {:.0} veh/h", summary.demand_veh_h, summary.entrance_capacity);
     note(
         demand_is_higher,
-        "Demand above what the map bears by estimate",
+        "Demand above the estimated capacity",
         share,
         "queues grow as long as it lasts: lower it, or take the run as one of breakdown",
     );

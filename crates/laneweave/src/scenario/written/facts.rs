@@ -6,16 +6,14 @@ use laneweave_network::{DrivingSide, LightIndex, SignalPlan};
 use laneweave_sim::Place;
 use serde_json::{Value, json};
 
-use super::super::Prepared;
 use super::super::turns::forks;
+use super::super::{Basis, Prepared};
 use crate::style::BUILT_IN;
 
 /// Places of a map that are named one by one.
 const LISTED: usize = 24;
 /// Forks that are named, as examples.
 const LISTED_FORKS: usize = 3;
-/// Of what a map bears this flows with room to spare. Ours.
-const COMFORTABLE: f64 = 0.8;
 
 /// Values and rows by the paths of their keys.
 pub(super) struct Facts {
@@ -52,6 +50,7 @@ impl Facts {
         };
         let values = [
             ("map_options.driving_side", json!(side), Some("On this map:".into())),
+            ("map_options.max_size_mb", json!(500.0), Some("For example:".into())),
             ("map_options.origin", origin(prepared), Some(origin_note(prepared).into())),
             ("demand.vehicles_per_hour", json!(tenths(prepared.demand_veh_h)), Some(demand_note(prepared))),
             (
@@ -88,16 +87,12 @@ fn origin_note(prepared: &Prepared) -> &'static str {
     }
 }
 
-/// How much comes where nothing is said, and how much the map bears.
+/// How much comes where nothing is said, and the estimated capacity.
 fn demand_note(prepared: &Prepared) -> String {
-    let (demand, capacity) = (prepared.demand_veh_h, prepared.capacity.veh_h);
-    let Some(bottleneck) = prepared.capacity.bottleneck else { return "On this map:".into() };
-    let bears = format!("This map bears about {capacity:.0} veh/h, then {bottleneck} is full.");
-    let comfortable = two_digits(COMFORTABLE * capacity);
-    if demand <= comfortable {
-        return format!("{bears} Where nothing is said, this many come:");
+    match prepared.basis {
+        Basis::Estimated => format!("Where nothing is said, 70 % of the {}:", prepared.capacity),
+        _ => "On this map:".into(),
     }
-    format!("{bears} {comfortable} would leave room to drive; where nothing is said, this many come:")
 }
 
 fn entrances(prepared: &Prepared) -> Rows {
@@ -223,20 +218,4 @@ fn beyond(count: usize) -> usize {
 
 fn tenths(number: f64) -> f64 {
     (10.0 * number).round() / 10.0
-}
-
-/// `number` with its first two digits, the others 0; not more than it is.
-fn two_digits(number: f64) -> f64 {
-    let unit = 10f64.powi(number.max(1.0).log10().floor() as i32 - 1).max(1.0);
-    (number / unit).floor() * unit
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_number_keeps_two_digits() {
-        assert_eq!([4889.0, 999.9, 57.3, 4.0].map(two_digits), [4800.0, 990.0, 57.0, 4.0]);
-    }
 }
