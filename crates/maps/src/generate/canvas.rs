@@ -6,6 +6,7 @@ use crate::drawing::{Border, Crossing, Drawing, Edge, Lane, Paint, Surroundings}
 use crate::rule::{Rule, RuleKind};
 
 /// A drawing that grows.
+#[derive(Clone)]
 pub(super) struct Canvas {
     drawing: Drawing,
 }
@@ -28,6 +29,11 @@ impl Canvas {
         let [x, y, z] = [at.x, at.y, at.z].map(|metres| (metres * 1000.0).round() / 1000.0 + 0.0);
         self.drawing.points.push(Point { x, y, z });
         self.drawing.points.len() as u32 - 1
+    }
+
+    /// What is drawn so far.
+    pub(super) fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
     /// Where a point lies.
