@@ -6,7 +6,10 @@ use laneweave_maps::generate::{Element, Hazard, RandomMap, random};
 use laneweave_maps::{Map, ReadOptions, lanelet2};
 use laneweave_network::{LaneletIndex, Side};
 
-const SEEDS: std::ops::RangeInclusive<u64> = 1..=300;
+/// The seeds of the yard-stick.
+fn seeds() -> impl Iterator<Item = u64> {
+    (1..=300).chain(1001..=1100)
+}
 
 fn read(map: &RandomMap) -> Map {
     lanelet2::read(lanelet2::write(&map.drawing).as_bytes(), &ReadOptions::default()).expect("it is a map")
@@ -35,7 +38,7 @@ fn the_same_seed_draws_the_same_map_and_another_seed_another_one() {
 
 #[test]
 fn random_maps_are_read_without_problems_and_every_entrance_leads_to_an_exit() {
-    for seed in SEEDS {
+    for seed in seeds() {
         let map = read(&random(seed));
         assert_eq!(map.problems, [], "seed {seed}");
         let network = &map.network;
@@ -57,7 +60,7 @@ fn random_maps_are_read_without_problems_and_every_entrance_leads_to_an_exit() {
 #[test]
 fn every_random_map_is_hard_to_drive_on_and_every_hazard_is_found_often() {
     let mut found: BTreeMap<Hazard, usize> = BTreeMap::new();
-    for seed in SEEDS {
+    for seed in seeds() {
         let map = random(seed);
         let hazards: Vec<Hazard> = map.elements.iter().filter_map(|it| it.hazard).collect();
         assert!(hazards.len() >= 3, "seed {seed}: {hazards:?}");
@@ -71,14 +74,33 @@ fn every_random_map_is_hard_to_drive_on_and_every_hazard_is_found_often() {
 }
 
 #[test]
+fn lanes_are_wide_enough_for_a_car_but_for_strips_and_where_they_end() {
+    for seed in seeds() {
+        let random = random(seed);
+        let map = read(&random);
+        for element in random.elements.iter().filter(|it| it.hazard != Some(Hazard::Strip)) {
+            for lanelet in map.network.lanelets.iter().filter(|it| element.lanelets.contains(&it.id)) {
+                let [left, right] = [&lanelet.left_border, &lanelet.right_border];
+                let widths =
+                    [0.0, 1.0].map(|it| left.at(it * left.length()).distance(&right.at(it * right.length())));
+                let sound = |it: f64| (2.199..5.0).contains(&it) || it == 0.0;
+                assert!(widths.into_iter().all(sound), "seed {seed}: {}: {widths:?}", lanelet.id);
+                assert!(widths.iter().any(|it| *it > 0.0), "seed {seed}: {}", lanelet.id);
+            }
+        }
+    }
+}
+
+#[test]
 fn lanelets_share_ground_inside_of_elements_that_are_meant_to_only() {
     let shares = |it: &Hazard| {
         use Hazard::{EdgeFork, EdgeMerge, Lights, OneLaneStreet, PartialOverlap, PlainJunction};
+        use Hazard::{Fork, Merge};
         use Hazard::{Priority, Roundabout, Strip};
         let meant = [EdgeFork, EdgeMerge, Lights, OneLaneStreet, PartialOverlap, PlainJunction];
-        meant.contains(it) || [Priority, Roundabout, Strip].contains(it)
+        meant.contains(it) || [Priority, Roundabout, Strip, Fork, Merge].contains(it)
     };
-    for seed in SEEDS {
+    for seed in seeds() {
         let random = random(seed);
         let map = read(&random);
         let element = |it: LaneletIndex| -> &Element {

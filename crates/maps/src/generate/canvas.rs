@@ -81,6 +81,20 @@ impl Canvas {
         self.drawing.rules.push(Rule { id: 0, line: None, kind, lanelets, stop_lines, signs });
     }
 
+    /// The same without points through which no border runs.
+    pub(super) fn tidied(mut self) -> Canvas {
+        let Drawing { points, borders, .. } = &mut self.drawing;
+        let mut places: Vec<Option<u32>> = vec![None; points.len()];
+        borders.iter().flat_map(|it| &it.points).for_each(|it| places[*it as usize] = Some(0));
+        places.iter_mut().flatten().zip(0..).for_each(|(place, number)| *place = number);
+        let mut kept = places.iter();
+        points.retain(|_| kept.next().is_some_and(Option::is_some));
+        for point in borders.iter_mut().flat_map(|it| &mut it.points) {
+            *point = places[*point as usize].unwrap_or(*point);
+        }
+        self
+    }
+
     /// The drawing, its rules numbered behind the lanes; for traffic on the left its mirror image, with y negated.
     pub(super) fn finish(mut self, driving_side: DrivingSide) -> Drawing {
         let first = self.drawing.lanes.len() as i64 + 1;

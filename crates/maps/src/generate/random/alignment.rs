@@ -59,7 +59,7 @@ pub(super) fn short_lanelets(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     }
     let length = cuts.pop()?;
     cuts.remove(0);
-    let path = pen.gentle(mouth.pose, length);
+    let path = pen.gentle(mouth, length);
     let end = pen.draw(&Stretch { cuts, ..Stretch::onward(mouth, path) });
     Some(Built::road(pen.straight(&end, AROUND), Hazard::ShortLanelets))
 }
@@ -77,7 +77,7 @@ pub(super) fn narrow_lanes(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let there = Stretch::onward(mouth, Path::straight(mouth.pose, TRANSITION));
     let narrow = pen.draw(&there.to(&offsets, Ease::Smooth));
     let length = pen.dice.between(NARROW_LENGTH[0], NARROW_LENGTH[1]);
-    let path = pen.gentle(narrow.pose, length);
+    let path = pen.gentle(&narrow, length);
     let end = pen.go_on(&narrow, path);
     let back = Stretch::onward(&end, Path::straight(end.pose, TRANSITION));
     Some(Built::road(pen.draw(&back.to(&usual, Ease::Smooth)), Hazard::NarrowLanes))

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use laneweave_network::Pose;
 
 use super::mouth::{Knot, Mouth, Span, onward};
-use super::stretch::{Pen, Stretch};
+use super::stretch::{Pen, Stretch, limit_of_bend};
 use crate::generate::path::Path;
 
 /// Whether lanes part from a road in the direction in which it is drawn, or come to it.
@@ -35,6 +35,8 @@ impl Pen {
         let turn = if course.joint == Joint::Parts { course.angle } else { -course.angle };
         let corner = onward(from.pose, course.legs[0], turn);
         let path = Path::between(from.pose, onward(corner, course.legs[1], 0.0));
+        let radius = course.legs[0].min(course.legs[1]) / libm::tan(course.angle.abs() / 2.0);
+        let from = from.at_most(limit_of_bend(radius));
         self.draw(&Stretch::onward(&from, path).solid())
     }
 }

@@ -10,7 +10,7 @@ use super::element::{Builder, Built};
 use super::ground::Ground;
 use super::mouth::{Mouth, Width};
 use super::stretch::Pen;
-use super::{Element, RandomMap, alignment, fork, junction, lane_end, ramp, ring, shared, strip};
+use super::{Element, RandomMap, alignment, fork, junction, lane_end, merge, ramp, ring, shared, strip};
 use crate::generate::canvas::Canvas;
 use crate::generate::street::pose;
 
@@ -21,6 +21,9 @@ const TRIES: usize = 6;
 /// Elements along the first road, and along those that branch off.
 const FIRST: [usize; 2] = [3, 7];
 const FURTHER: [usize; 2] = [0, 2];
+/// How often a street is joined to nothing, and how far from the middle it begins at most [m].
+const ASIDE: f64 = 0.15;
+const FAR: f64 = 300.0;
 /// The road between elements, and to the edge of the map [m].
 const BETWEEN: [f64; 2] = [15.0, 70.0];
 const TO_EDGE: [f64; 2] = [40.0, 150.0];
@@ -29,7 +32,7 @@ const WIDTHS: [f64; 2] = [2.9, 3.75];
 const LIMITS: [f64; 4] = [30.0, 50.0, 70.0, 100.0];
 
 /// Elements for roads of one direction, and for streets of both; more likely ones stand there twice.
-const ONE_WAY: [Builder; 13] = [
+const ONE_WAY: [Builder; 15] = [
     lane_end::narrowing,
     lane_end::narrowing,
     lane_end::opening,
@@ -43,6 +46,8 @@ const ONE_WAY: [Builder; 13] = [
     alignment::sharp_bend,
     alignment::reverse_curve,
     fork::to_edge,
+    merge::merge,
+    merge::merge,
 ];
 const TWO_WAY: [Builder; 11] = [
     fork::divided,
@@ -82,8 +87,9 @@ pub(super) fn grow(seed: u64, attempt: u64) -> RandomMap {
     while let Some(bud) = growth.buds.pop_front() {
         growth.go_on(bud);
     }
+    growth.set_aside();
     let Growth { pen, elements, .. } = growth;
-    RandomMap { drawing: pen.canvas.finish(DrivingSide::Right), elements, length_m: pen.length }
+    RandomMap { drawing: pen.canvas.tidied().finish(DrivingSide::Right), elements, length_m: pen.length }
 }
 
 impl Growth {
@@ -102,6 +108,23 @@ impl Growth {
             _ => (Mouth::two_way(canvas, at, 0.0, width), from_edge),
         };
         self.build(&edge, None, builder, elements);
+    }
+
+    /// Draws, at times, a street that is joined to nothing.
+    fn set_aside(&mut self) {
+        if !self.pen.dice.chance(ASIDE) {
+            return;
+        }
+        for _ in 0..TRIES {
+            let Pen { canvas, dice, .. } = &mut self.pen;
+            let [x, y] = [(); 2].map(|()| dice.between(-FAR, FAR));
+            let at = pose(x, y, dice.between(0.0, TAU));
+            let width = Width { lane: dice.between(WIDTHS[0], WIDTHS[1]), limit_kmh: 50.0 };
+            let edge = Mouth::two_way(canvas, at, 0.0, width);
+            if self.build(&edge, None, shared::edge_to_edge, 0) {
+                return;
+            }
+        }
     }
 
     /// Goes on along a road: with an element, or to the edge of the map.
@@ -154,11 +177,11 @@ fn to_edge(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
 /// A piece of road, then an element that can follow.
 fn any(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let mut mouth = mouth.clone();
-    if pen.dice.chance(0.3) {
+    if pen.dice.chance(0.4) {
         mouth.limit_kmh = pen.dice.pick(&LIMITS);
     }
     let length = pen.dice.between(BETWEEN[0], BETWEEN[1]);
-    let path = pen.gentle(mouth.pose, length);
+    let path = pen.gentle(&mouth, length);
     let mouth = pen.go_on(&mouth, path);
     let own: &[Builder] = if mouth.is_two_way() { &TWO_WAY } else { &ONE_WAY };
     let choices = if pen.dice.chance(0.2) { &ANY } else { own };

@@ -15,6 +15,10 @@ pub enum Hazard {
     OnRamp,
     /// A lane that opens from nothing, runs beside the road, then leads away.
     OffRamp,
+    /// A road that comes to a lane without one of its own.
+    Merge,
+    /// A road that leaves a lane without one of its own.
+    Fork,
     /// A lanelet of 0.5 to 1.4 m beside a lane, with no border in common.
     Strip,
     /// Entrances that begin at one place.
@@ -47,12 +51,14 @@ pub enum Hazard {
 
 impl Hazard {
     /// All of them.
-    pub const ALL: [Hazard; 19] = [
+    pub const ALL: [Hazard; 21] = [
         Hazard::Taper,
         Hazard::OpeningLane,
         Hazard::BluntLaneDrop,
         Hazard::OnRamp,
         Hazard::OffRamp,
+        Hazard::Merge,
+        Hazard::Fork,
         Hazard::Strip,
         Hazard::EdgeFork,
         Hazard::EdgeMerge,
@@ -77,6 +83,8 @@ impl Hazard {
             Hazard::BluntLaneDrop => "blunt lane drop",
             Hazard::OnRamp => "on-ramp",
             Hazard::OffRamp => "off-ramp",
+            Hazard::Merge => "merge",
+            Hazard::Fork => "fork",
             Hazard::Strip => "strip",
             Hazard::EdgeFork => "fork at the edge",
             Hazard::EdgeMerge => "merge at the edge",

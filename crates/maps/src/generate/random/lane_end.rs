@@ -20,7 +20,7 @@ pub(super) fn narrowing(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     }
     let mouth = pen.straight(mouth, BEFORE);
     let length = pen.dice.between(TAPER[0], TAPER[1]);
-    let stretch = Stretch::onward(&mouth, pen.gentle(mouth.pose, length));
+    let stretch = Stretch::onward(&mouth, pen.gentle(&mouth, length));
     let mut offsets: Vec<f64> = mouth.knots.iter().map(|it| it.offset).collect();
     let last = offsets.len() - 1;
     if pen.dice.chance(0.4) {
@@ -41,7 +41,7 @@ pub(super) fn opening(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     }
     let mouth = pen.straight(mouth, AFTER);
     let length = pen.dice.between(TAPER[0], TAPER[1]);
-    let path = pen.gentle(mouth.pose, length);
+    let path = pen.gentle(&mouth, length);
     let (lanes, width, ease) = (mouth.lanes(), mouth.lane_width(), pen.taper());
     let [left, right] = mouth.reach();
     let mut wider = mouth.clone();

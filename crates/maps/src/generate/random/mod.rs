@@ -10,6 +10,7 @@ mod grow;
 mod hazard;
 mod junction;
 mod lane_end;
+mod merge;
 mod mouth;
 mod ramp;
 mod ring;
@@ -28,7 +29,7 @@ use crate::drawing::Drawing;
 const FEWEST_HAZARDS: usize = 3;
 /// And so much road [m].
 const LEAST_LENGTH: f64 = 600.0;
-/// It is drawn anew so often at most; some hundred seeds need 5.
+/// It is drawn anew so often at most. None of some hundred seeds needs as many.
 const ATTEMPTS: u64 = 64;
 
 /// A random map.

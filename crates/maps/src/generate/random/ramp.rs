@@ -58,7 +58,7 @@ fn side(pen: &mut Pen, mouth: &Mouth) -> Option<bool> {
 
 fn taper(pen: &mut Pen, wide: &Mouth) -> Stretch {
     let length = pen.dice.between(TAPER[0], TAPER[1]);
-    Stretch::onward(wide, pen.gentle(wide.pose, length))
+    Stretch::onward(wide, pen.gentle(wide, length))
 }
 
 fn course(pen: &mut Pen, joint: Joint, on_left: bool) -> Course {

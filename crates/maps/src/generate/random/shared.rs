@@ -28,8 +28,19 @@ pub(super) fn partial_overlap(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     sharing(pen, mouth, overlap, PARTIAL, Hazard::PartialOverlap)
 }
 
-/// A street that shares ground from the edge of the map on; at times to its other edge.
+/// A street that shares ground from the edge of the map on.
 pub(super) fn from_edge(pen: &mut Pen, start: &Mouth) -> Option<Built> {
+    let (shared, hazard) = shared_from(pen, start);
+    Some(Built::road(parting(pen, &shared, 0.0), hazard))
+}
+
+/// A street that shares ground from one edge of the map to the other.
+pub(super) fn edge_to_edge(pen: &mut Pen, start: &Mouth) -> Option<Built> {
+    let (_, hazard) = shared_from(pen, start);
+    Some(Built { mouths: Vec::new(), hazard: Some(hazard) })
+}
+
+fn shared_from(pen: &mut Pen, start: &Mouth) -> (Mouth, Hazard) {
     let whole = pen.dice.chance(0.5);
     let (length, hazard, overlap) = if whole {
         (ONE_LANE, Hazard::OneLaneStreet, start.lane_width())
@@ -38,11 +49,7 @@ pub(super) fn from_edge(pen: &mut Pen, start: &Mouth) -> Option<Built> {
     };
     let width = Width { lane: start.lane_width(), limit_kmh: start.limit_kmh.min(LIMIT) };
     let edge = Mouth::two_way(&mut pen.canvas, start.pose, overlap, width);
-    let shared = run(pen, &edge, length);
-    if pen.dice.chance(0.3) {
-        return Some(Built { mouths: Vec::new(), hazard: Some(hazard) });
-    }
-    Some(Built::road(parting(pen, &shared, 0.0), hazard))
+    (run(pen, &edge, length), hazard)
 }
 
 fn sharing(pen: &mut Pen, mouth: &Mouth, overlap: f64, length: [f64; 2], hazard: Hazard) -> Option<Built> {
@@ -59,8 +66,9 @@ fn sharing(pen: &mut Pen, mouth: &Mouth, overlap: f64, length: [f64; 2], hazard:
 
 fn run(pen: &mut Pen, mouth: &Mouth, [from, to]: [f64; 2]) -> Mouth {
     let length = pen.dice.between(from, to);
-    let path = pen.gentle(mouth.pose, length);
-    pen.go_on(mouth, path)
+    let path = pen.gentle(mouth, length);
+    let is_doubled = pen.dice.chance(0.5);
+    pen.draw(&Stretch { is_doubled, ..Stretch::onward(mouth, path) })
 }
 
 /// The way to lanes that overlap so much [m].

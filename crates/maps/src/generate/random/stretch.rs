@@ -4,7 +4,7 @@ use laneweave_network::Pose;
 
 use super::dice::Dice;
 use super::mouth::{Knot, Mouth, Span};
-use crate::drawing::{Crossing, Edge, Surroundings};
+use crate::drawing::{Crossing, Edge, KMH_PER_MPS, Surroundings};
 use crate::generate::canvas::Canvas;
 use crate::generate::path::Path;
 
@@ -16,6 +16,10 @@ const STEPS: f64 = 8.0;
 const APART: f64 = 0.4;
 /// Lines that end nearer to each other end at one point [m].
 const SAME: f64 = 1e-6;
+/// On bends that are not meant to be hard the limit means no more than this to the side [m/s²]. Ours.
+const SIDEWAYS: f64 = 3.5;
+/// Limits of bends that are not meant to be hard [km/h].
+const LIMITS: [f64; 4] = [100.0, 70.0, 50.0, 30.0];
 
 /// What maps are drawn with.
 #[derive(Clone)]
@@ -54,6 +58,8 @@ pub(super) struct Stretch {
     /// Where lanelets are cut between the ends of the path [m].
     pub(super) cuts: Vec<f64>,
     pub(super) limit_kmh: f64,
+    /// Lanes have borders of their own where they could have one in common.
+    pub(super) is_doubled: bool,
 }
 
 impl Line {
@@ -82,7 +88,7 @@ impl Stretch {
         };
         let lines = mouth.knots.iter().enumerate().map(line).collect();
         let limit_kmh = mouth.limit_kmh;
-        Stretch { path, lines, spans: mouth.spans.clone(), cuts: Vec::new(), limit_kmh }
+        Stretch { path, lines, spans: mouth.spans.clone(), cuts: Vec::new(), limit_kmh, is_doubled: false }
     }
 
     /// The same, with lines that nobody crosses.
@@ -113,6 +119,12 @@ impl Stretch {
         stations.retain(|it| fixed().all(|fixed| (it - fixed).abs() > APART));
         stations
     }
+}
+
+/// The greatest usual limit that fits a bend of this radius [km/h, m].
+pub(super) fn limit_of_bend(radius: f64) -> f64 {
+    let speed = (SIDEWAYS * radius).sqrt() * KMH_PER_MPS;
+    LIMITS.into_iter().find(|it| *it <= speed).unwrap_or(LIMITS[3])
 }
 
 impl Pen {
@@ -155,7 +167,8 @@ impl Pen {
     fn piece(&mut self, stretch: &Stretch, [begin, end]: [&[u32]; 2], between: &[f64]) -> Vec<i64> {
         let mut borders: Vec<u32> = Vec::new();
         for (number, line) in stretch.lines.iter().enumerate() {
-            let known = stretch.lines[..number].iter().position(|it| it == line);
+            let mut before = stretch.lines[..number].iter();
+            let known = before.position(|it| it == line && !stretch.is_doubled);
             let border = known.map(|it| borders[it]).unwrap_or_else(|| {
                 let mut points = vec![begin[number]];
                 let shares = between.iter().map(|it| (it, it / stretch.path.length()));
@@ -186,13 +199,15 @@ impl Pen {
         self.go_on(mouth, Path::straight(mouth.pose, length))
     }
 
-    /// A straight path, or a long bend.
-    pub(super) fn gentle(&mut self, from: Pose, length: f64) -> Path {
+    /// A straight path on from a cross-section, or a bend that can be driven at its limit.
+    pub(super) fn gentle(&mut self, mouth: &Mouth, length: f64) -> Path {
         if self.dice.chance(0.5) {
-            return Path::straight(from, length);
+            return Path::straight(mouth.pose, length);
         }
-        let radius = self.dice.between(80.0, 400.0).max(1.5 * length) * self.dice.sign();
-        Path::arc(from, radius, length / radius)
+        let speed = mouth.limit_kmh / KMH_PER_MPS;
+        let fits = (speed * speed / SIDEWAYS + mouth.breadth()).max(1.5 * length);
+        let radius = fits * self.dice.between(1.0, 3.0) * self.dice.sign();
+        Path::arc(mouth.pose, radius, length / radius)
     }
 
     /// How a taper narrows: linearly, or along a curve.

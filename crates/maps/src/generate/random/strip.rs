@@ -21,7 +21,7 @@ pub(super) fn strip(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let mouth = pen.straight(mouth, AROUND);
     let length = pen.dice.between(LENGTH[0], LENGTH[1]);
     if mouth.is_two_way() || pen.dice.chance(0.4) {
-        let path = pen.gentle(mouth.pose, length);
+        let path = pen.gentle(&mouth, length);
         narrow_lanelet(pen, &mouth, path);
         let end = pen.go_on(&mouth, path);
         return Some(Built::road(pen.straight(&end, AROUND), Hazard::Strip));
