@@ -24,6 +24,7 @@ use std::ops::Range;
 pub use hazard::Hazard;
 
 use crate::drawing::Drawing;
+use crate::format::Map;
 
 /// A map is drawn anew until it has so many elements that are hard to drive on.
 const FEWEST_HAZARDS: usize = 3;
@@ -60,7 +61,20 @@ impl RandomMap {
 
     fn is_enough(&self) -> bool {
         let hazards = self.elements.iter().filter(|it| it.hazard.is_some()).count();
-        hazards >= FEWEST_HAZARDS && self.length_m >= LEAST_LENGTH
+        hazards >= FEWEST_HAZARDS && self.length_m >= LEAST_LENGTH && self.has_clear_entrance()
+    }
+
+    /// Whether somebody can come onto it where the other direction does not need the same ground.
+    fn has_clear_entrance(&self) -> bool {
+        let Ok(Map { network, .. }) = self.drawing.build() else { return false };
+        let is_shared = |id: i64| {
+            let mut elements = self.elements.iter();
+            let hazard = elements.find(|it| it.lanelets.contains(&id)).and_then(|it| it.hazard);
+            matches!(hazard, Some(Hazard::OneLaneStreet | Hazard::PartialOverlap))
+        };
+        let chains = network.entrances.iter().flat_map(|it| &it.chains);
+        let lanelets = chains.filter_map(|it| network.chain(*it).lanelets.first());
+        lanelets.map(|it| network.lanelets[it.at()].id).any(|it| !is_shared(it))
     }
 }
 
