@@ -137,6 +137,11 @@ Examples:
   laneweave generate town town.osm
   laneweave generate town --driving-side left town-left.osm";
 
+pub(super) const RANDOM: &str = "\
+Examples:
+  laneweave generate random --seed 17 random.osm
+  laneweave run random.osm --demand 600 --duration 300";
+
 pub(super) const STYLES: &str = "\
 Examples:
   laneweave styles list

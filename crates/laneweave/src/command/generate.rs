@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
 use laneweave::maps::generate::{
-    Arterial, Control, GenerateError, Grid, Motorway, approach, arterial, grid, motorway, roundabout, town,
+    Arterial, Control, GenerateError, Grid, Hazard, Motorway, approach, arterial, grid, motorway, random,
+    roundabout, town,
 };
 use laneweave::maps::{Drawing, FORMATS, lanelet2};
 use laneweave::network::DrivingSide;
@@ -13,6 +14,7 @@ use laneweave::output::write_whole;
 
 use super::examples;
 use super::numbers::number;
+use super::say;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Kind {
@@ -37,6 +39,9 @@ pub(crate) enum Kind {
     /// A town with junctions of all kinds, and a motorway through it.
     #[command(after_help = examples::TOWN)]
     Town(Plain),
+    /// A road map put together at random, of elements that are hard to drive on, and lists these.
+    #[command(after_help = examples::RANDOM)]
+    Random(RandomArguments),
 }
 
 #[derive(Debug, Args)]
@@ -117,6 +122,16 @@ pub(crate) struct ArterialArguments {
     plain: Plain,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct RandomArguments {
+    /// Which map: the same seed gives the same one.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// The map file to write (.osm); one that is there is replaced.
+    #[arg(value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+}
+
 /// What every map needs.
 #[derive(Debug, Args)]
 pub(crate) struct Plain {
@@ -144,22 +159,27 @@ enum Order {
 
 impl Kind {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let (name, plain) = match &self {
-            Kind::Motorway(it) => ("motorway", &it.plain),
-            Kind::Weaving(it) => ("weaving", &it.plain),
-            Kind::Grid(it) => ("grid", &it.plain),
-            Kind::Arterial(it) => ("arterial", &it.plain),
-            Kind::Roundabout(plain) => ("roundabout", plain),
-            Kind::Approach(plain) => ("approach", plain),
-            Kind::Town(plain) => ("town", plain),
+        let (name, file) = match &self {
+            Kind::Motorway(it) => ("motorway", &it.plain.file),
+            Kind::Weaving(it) => ("weaving", &it.plain.file),
+            Kind::Grid(it) => ("grid", &it.plain.file),
+            Kind::Arterial(it) => ("arterial", &it.plain.file),
+            Kind::Roundabout(plain) => ("roundabout", &plain.file),
+            Kind::Approach(plain) => ("approach", &plain.file),
+            Kind::Town(plain) => ("town", &plain.file),
+            Kind::Random(it) => ("random", &it.file),
         };
-        check_name(&plain.file)?;
+        check_name(file)?;
         let drawing = self.draw().map_err(|error| {
             let message = error.to_string();
             let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "choose another"));
             Fault::new(format!("generate {name}"), what, remedy)
         })?;
-        write_whole(&plain.file, &lanelet2::write(&drawing))
+        write_whole(file, &lanelet2::write(&drawing))?;
+        if let Kind::Random(it) = &self {
+            say(&it.told())?;
+        }
+        Ok(())
     }
 
     fn draw(&self) -> Result<Drawing, GenerateError> {
@@ -171,6 +191,7 @@ impl Kind {
             Kind::Roundabout(it) => Ok(roundabout(it.side())),
             Kind::Approach(it) => Ok(approach(it.side())),
             Kind::Town(it) => Ok(town(it.side())),
+            Kind::Random(it) => Ok(random(it.seed).drawing),
         }
     }
 }
@@ -237,6 +258,14 @@ impl ArterialArguments {
             speed_limit_kmh: self.speed_limit,
             driving_side: self.plain.side(),
         })
+    }
+}
+
+impl RandomArguments {
+    /// What is hard about the map.
+    fn told(&self) -> String {
+        let hazards: Vec<&str> = random(self.seed).hazards().into_iter().map(Hazard::name).collect();
+        format!("random map {}: {}\n", self.seed, hazards.join(", "))
     }
 }
 

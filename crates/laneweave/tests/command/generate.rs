@@ -1,5 +1,7 @@
 //! Maps of one's own.
 
+use laneweave::maps::generate::{Hazard, random};
+use laneweave::maps::lanelet2;
 use serde_json::{Value, json};
 
 use crate::program::Folder;
@@ -32,6 +34,19 @@ fn what_cannot_be_built_is_refused_and_not_written() {
         assert!(run.errors().contains(message), "{}", run.errors());
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_random_map_is_named_with_what_is_hard_about_it() {
+    let folder = Folder::new();
+    let run = folder.laneweave("generate random --seed 17 own.osm");
+    assert_eq!((run.code(), run.errors().as_str()), (0, ""));
+    let text = run.text();
+    let hazards = text.trim_end().strip_prefix("random map 17: ").expect("it is named");
+    let known = |it: &str| Hazard::ALL.iter().any(|hazard| hazard.name() == it);
+    assert!(hazards.split(", ").all(known), "{hazards}");
+    let drawn = std::fs::read_to_string(folder.path().join("own.osm")).unwrap();
+    assert!(drawn == lanelet2::write(&random(17).drawing));
 }
 
 #[test]

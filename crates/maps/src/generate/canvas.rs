@@ -6,6 +6,7 @@ use crate::drawing::{Border, Crossing, Drawing, Edge, Lane, Paint, Surroundings}
 use crate::rule::{Rule, RuleKind};
 
 /// A drawing that grows.
+#[derive(Clone)]
 pub(super) struct Canvas {
     drawing: Drawing,
 }
@@ -28,6 +29,11 @@ impl Canvas {
         let [x, y, z] = [at.x, at.y, at.z].map(|metres| (metres * 1000.0).round() / 1000.0 + 0.0);
         self.drawing.points.push(Point { x, y, z });
         self.drawing.points.len() as u32 - 1
+    }
+
+    /// What is drawn so far.
+    pub(super) fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
     /// Where a point lies.
@@ -73,6 +79,20 @@ impl Canvas {
     ) {
         lanelets.sort_unstable();
         self.drawing.rules.push(Rule { id: 0, line: None, kind, lanelets, stop_lines, signs });
+    }
+
+    /// The same without points through which no border runs.
+    pub(super) fn tidied(mut self) -> Canvas {
+        let Drawing { points, borders, .. } = &mut self.drawing;
+        let mut places: Vec<Option<u32>> = vec![None; points.len()];
+        borders.iter().flat_map(|it| &it.points).for_each(|it| places[*it as usize] = Some(0));
+        places.iter_mut().flatten().zip(0..).for_each(|(place, number)| *place = number);
+        let mut kept = places.iter();
+        points.retain(|_| kept.next().is_some_and(Option::is_some));
+        for point in borders.iter_mut().flat_map(|it| &mut it.points) {
+            *point = places[*point as usize].unwrap_or(*point);
+        }
+        self
     }
 
     /// The drawing, its rules numbered behind the lanes; for traffic on the left its mirror image, with y negated.

@@ -36,11 +36,14 @@ pub(super) fn regulate(canvas: &mut Canvas, control: Control, arms: &[Arm], conn
 }
 
 fn signals(canvas: &mut Canvas, arms: &[Arm]) {
-    for lane in arms.iter().flat_map(|it| &it.arriving) {
-        let line = stop_line(canvas, lane);
-        let light = line.iter().map(|it| Point { z: it.z + LIGHT, ..*it }).collect();
-        canvas.rule(RuleKind::TrafficLight, vec![lane.lanelet], vec![line], vec![light]);
-    }
+    arms.iter().flat_map(|it| &it.arriving).for_each(|it| light(canvas, it));
+}
+
+/// Adds a light for a lane.
+pub(super) fn light(canvas: &mut Canvas, lane: &LaneEnd) {
+    let line = stop_line(canvas, lane);
+    let light = line.iter().map(|it| Point { z: it.z + LIGHT, ..*it }).collect();
+    canvas.rule(RuleKind::TrafficLight, vec![lane.lanelet], vec![line], vec![light]);
 }
 
 /// A rule for each arm that gives way.

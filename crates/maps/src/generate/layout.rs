@@ -80,7 +80,7 @@ pub(super) fn draw(canvas: &mut Canvas, layout: &Layout) {
         match &junction.kind {
             Kind::Crossing(control) => crossing(canvas, *control, &usual(lanes)),
             Kind::Marked(control, movements) => crossing(canvas, *control, movements),
-            Kind::Roundabout => roundabout::ring(canvas, junction.at, &arms),
+            Kind::Roundabout => roundabout::usual_ring(canvas, junction.at, &arms),
         }
     }
 }

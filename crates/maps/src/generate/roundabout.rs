@@ -1,6 +1,6 @@
 //! Roundabouts: a ring of one lane, around which traffic on the right drives counter-clockwise.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
 
 use laneweave_network::{DrivingSide, Point, Pose};
 
@@ -46,35 +46,68 @@ pub fn roundabout(driving_side: DrivingSide) -> Drawing {
     canvas.finish(driving_side)
 }
 
-/// Draws a ring, and the ways to it and from it. Who comes to it gives way.
-pub(super) fn ring(canvas: &mut Canvas, middle: (f64, f64), arms: &[Arm]) {
-    let angle = |arm: &Arm| arm.towards.heading();
+/// A ring of one lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ring {
+    /// Its middle: east and north [m].
+    pub(super) middle: (f64, f64),
+    /// Radius of the middle of its lane [m].
+    pub(super) radius: f64,
+    /// Ways in and out touch it at this angle before and after the middle of their arm [rad].
+    pub(super) touch: f64,
+}
+
+/// A street where it meets a ring.
+#[derive(Clone, Debug)]
+pub(super) struct RingArm {
+    /// In which direction the street lies, seen from the middle [rad].
+    pub(super) heading: f64,
+    /// Lanes that end at the ring.
+    pub(super) arriving: Vec<LaneEnd>,
+    /// Lanes that begin there.
+    pub(super) leaving: Vec<LaneEnd>,
+}
+
+/// Draws the usual ring, with arms at right angles.
+pub(super) fn usual_ring(canvas: &mut Canvas, middle: (f64, f64), arms: &[Arm]) {
+    let arm = |it: &Arm| RingArm {
+        heading: it.towards.heading(),
+        arriving: it.arriving.clone(),
+        leaving: it.leaving.clone(),
+    };
+    let arms: Vec<RingArm> = arms.iter().map(arm).collect();
+    ring(canvas, Ring { middle, radius: RADIUS, touch: TOUCH }, &arms);
+}
+
+/// Draws a ring, and the ways to it and from it, its arms given counter-clockwise. Who comes to it gives way.
+pub(super) fn ring(canvas: &mut Canvas, ring: Ring, arms: &[RingArm]) {
+    let Ring { middle, radius, touch } = ring;
     // Where ways out leave and ways in arrive, counter-clockwise.
-    let angles: Vec<f64> = arms.iter().flat_map(|it| [angle(it) - TOUCH, angle(it) + TOUCH]).collect();
+    let angles: Vec<f64> = arms.iter().flat_map(|it| [it.heading - touch, it.heading + touch]).collect();
     let points: Vec<[u32; 2]> = angles
         .iter()
-        .map(|angle| [-0.5, 0.5].map(|it| canvas.point(on_ring(middle, *angle, RADIUS + it * LANE_WIDTH).at)))
+        .map(|angle| [-0.5, 0.5].map(|it| canvas.point(on_ring(middle, *angle, radius + it * LANE_WIDTH).at)))
         .collect();
     // In front of each arm, then on to the next one.
     let pieces: Vec<i64> = (0..angles.len())
         .map(|it| {
             let next = (it + 1) % angles.len();
             let turn = (angles[next] - angles[it]).rem_euclid(TAU);
-            piece(canvas, middle, [points[it], points[next]], angles[it], turn)
+            piece(canvas, ring, [points[it], points[next]], angles[it], turn)
         })
         .collect();
     let mut borders = Borders::default();
     for (number, arm) in arms.iter().enumerate() {
         let (leaving, arriving) = (2 * number, 2 * number + 1);
-        let touch = |it: usize| LaneEnd { lanelet: pieces[it], left: points[it][0], right: points[it][1] };
+        let on_piece = |it: usize| LaneEnd { lanelet: pieces[it], left: points[it][0], right: points[it][1] };
         let tangent = |it: usize| angles[it] + FRAC_PI_2;
         for lane in &arm.leaving {
-            let headings = [tangent(leaving), arm.towards.heading()];
-            borders.connector(canvas, [touch(leaving), *lane], headings, SPEED_LIMIT);
+            let headings = [tangent(leaving), arm.heading];
+            borders.connector(canvas, [on_piece(leaving), *lane], headings, SPEED_LIMIT);
         }
         for lane in &arm.arriving {
-            let headings = [arm.towards.opposite().heading(), tangent(arriving)];
-            let way_in = borders.connector(canvas, [*lane, touch(arriving)], headings, SPEED_LIMIT);
+            let headings = [arm.heading + PI, tangent(arriving)];
+            let way_in = borders.connector(canvas, [*lane, on_piece(arriving)], headings, SPEED_LIMIT);
             let before = pieces[(leaving + pieces.len() - 1) % pieces.len()];
             yielding(canvas, &[*lane], vec![before, pieces[leaving]], vec![lane.lanelet, way_in]);
         }
@@ -82,10 +115,10 @@ pub(super) fn ring(canvas: &mut Canvas, middle: (f64, f64), arms: &[Arm]) {
 }
 
 /// Draws a piece of the ring between two pairs of points, inner and outer.
-fn piece(canvas: &mut Canvas, middle: (f64, f64), [begin, end]: [[u32; 2]; 2], angle: f64, turn: f64) -> i64 {
+fn piece(canvas: &mut Canvas, ring: Ring, [begin, end]: [[u32; 2]; 2], angle: f64, turn: f64) -> i64 {
     let edges = [(0, -0.5), (1, 0.5)].map(|(side, out)| {
-        let radius = RADIUS + out * LANE_WIDTH;
-        let path = Path::arc(on_ring(middle, angle, radius), radius, turn);
+        let radius = ring.radius + out * LANE_WIDTH;
+        let path = Path::arc(on_ring(ring.middle, angle, radius), radius, turn);
         let mut line = vec![begin[side]];
         line.extend(path.bends().iter().map(|it| canvas.point(path.beside(*it, 0.0))));
         line.push(end[side]);

@@ -1,0 +1,92 @@
+//! Lanes that end beside others, or begin there: tapers, and ends cut square.
+
+use super::element::Built;
+use super::hazard::Hazard;
+use super::mouth::{Mouth, Span, knot};
+use super::stretch::{Pen, Stretch};
+
+/// How long tapers are [m].
+const TAPER: [f64; 2] = [30.0, 200.0];
+/// How long lanes can be changed before a lane ends, and how long the road goes on as it is [m].
+const BEFORE: [f64; 2] = [50.0, 150.0];
+const AFTER: [f64; 2] = [40.0, 80.0];
+/// Roads with a lane that opens have no more lanes than this.
+const MOST_LANES: usize = 3;
+
+/// A lane of several narrows to nothing.
+pub(super) fn narrowing(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    if mouth.is_two_way() || mouth.lanes() < 2 {
+        return None;
+    }
+    let mouth = pen.straight(mouth, BEFORE);
+    let length = pen.dice.between(TAPER[0], TAPER[1]);
+    let stretch = Stretch::onward(&mouth, pen.gentle(&mouth, length));
+    let mut offsets: Vec<f64> = mouth.knots.iter().map(|it| it.offset).collect();
+    let last = offsets.len() - 1;
+    if pen.dice.chance(0.4) {
+        offsets[0] = offsets[1];
+    } else {
+        offsets[last] = offsets[last - 1];
+    }
+    let ease = pen.taper();
+    let narrow = pen.draw(&stretch.to(&offsets, ease));
+    let hazard = if mouth.is_ahead() { Hazard::Taper } else { Hazard::OpeningLane };
+    Some(Built::road(pen.straight(&narrow, AFTER), hazard))
+}
+
+/// A further lane opens from nothing.
+pub(super) fn opening(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    if mouth.is_two_way() || mouth.lanes() >= MOST_LANES {
+        return None;
+    }
+    let mouth = pen.straight(mouth, AFTER);
+    let length = pen.dice.between(TAPER[0], TAPER[1]);
+    let path = pen.gentle(&mouth, length);
+    let (lanes, width, ease) = (mouth.lanes(), mouth.lane_width(), pen.taper());
+    let [left, right] = mouth.reach();
+    let mut wider = mouth.clone();
+    let mut offsets: Vec<f64> = mouth.knots.iter().map(|it| it.offset).collect();
+    if pen.dice.chance(0.4) {
+        wider.knots.insert(0, mouth.knots[0]);
+        offsets.insert(0, left + width);
+    } else {
+        wider.knots.push(mouth.knots[lanes]);
+        offsets.push(right - width);
+    }
+    wider.spans = (0..=lanes).map(|it| Span { left: it, right: it + 1, ahead: mouth.is_ahead() }).collect();
+    let wide = pen.draw(&Stretch::onward(&wider, path).to(&offsets, ease));
+    let hazard = if mouth.is_ahead() { Hazard::OpeningLane } else { Hazard::Taper };
+    Some(Built::road(pen.straight(&wide, BEFORE), hazard))
+}
+
+/// A lane of several ends square; seen against traffic, it begins square.
+pub(super) fn blunt(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    if mouth.is_two_way() {
+        return None;
+    }
+    let on_left = pen.dice.chance(0.4);
+    let lanes = mouth.lanes();
+    if mouth.is_ahead() {
+        if lanes < 2 {
+            return None;
+        }
+        let mouth = pen.straight(mouth, BEFORE);
+        let rest = if on_left { mouth.only(1..lanes) } else { mouth.only(0..lanes - 1) };
+        return Some(Built::road(pen.straight(&rest, AFTER), Hazard::BluntLaneDrop));
+    }
+    if lanes >= MOST_LANES {
+        return None;
+    }
+    let mut wider = pen.straight(mouth, AFTER);
+    let width = wider.lane_width();
+    let [left, right] = wider.reach();
+    if on_left {
+        let further = knot(&mut pen.canvas, wider.pose, left + width);
+        wider.knots.insert(0, further);
+    } else {
+        let further = knot(&mut pen.canvas, wider.pose, right - width);
+        wider.knots.push(further);
+    }
+    wider.spans = (0..=lanes).map(|it| Span { left: it, right: it + 1, ahead: false }).collect();
+    Some(Built::road(pen.straight(&wider, BEFORE), Hazard::BluntLaneDrop))
+}
