@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::events::Event;
 use crate::plan::Outbox;
 use crate::traffic::VehicleId;
+use crate::vehicle::Class;
 use crate::world::World;
 
 /// Two vehicles whose rectangles come to intersect by more than 5 cm.
@@ -17,6 +18,10 @@ pub struct Incident {
     pub time: f64,
     /// Who, the smaller id first.
     pub vehicles: [VehicleId; 2],
+    /// Their characters' places in the table.
+    pub characters: [u32; 2],
+    /// Their classes.
+    pub classes: [Class; 2],
     /// Chain and front bumper of each [m].
     pub places: [(ChainIndex, f64); 2],
     /// Halfway between their centres.

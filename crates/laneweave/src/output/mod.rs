@@ -4,6 +4,7 @@
 mod boxes;
 mod driving;
 mod frame;
+mod incidents;
 mod lane_changes;
 mod lanelets;
 mod log;
@@ -32,6 +33,7 @@ use laneweave_sim::World;
 use laneweave_study::{Column, Format, PartialFile, TableError, TableWriter};
 
 use self::frame::Samples;
+use self::incidents::{IncidentTable, Incidents};
 use self::lane_changes::{LaneChangeTable, LaneChanges};
 use self::lanelets::{FlowTable, LaneletTable, Lanelets};
 use self::names::Names;
@@ -109,6 +111,7 @@ pub fn observers(
     }
     observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
     observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
+    observers.push(Box::new(Incidents::new(begin, pen.clone())));
     observers.push(Box::new(Trips::new(pen)));
     observers.push(Box::new(Report::new(&folder, scenario, prepared)));
     observers.push(Box::new(scribe));
@@ -125,6 +128,7 @@ fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, 
         writers.push(Box::new(FlowTable::create(folder)?));
     }
     writers.push(Box::new(LaneChangeTable::create(folder)?));
+    writers.push(Box::new(IncidentTable::create(folder)?));
     writers.push(Box::new(TripTable::create(folder)?));
     writers.push(Box::new(LaneletTable::create(folder)?));
     Ok(writers)

@@ -36,7 +36,8 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
     let run = folder.laneweave("run MAPS/ramps.osm --duration 60");
     assert_eq!(run.code(), 0);
     assert!(run.errors().starts_with("demand: ") && run.errors().lines().count() == 1, "{}", run.errors());
-    let tables = ["trajectories", "lane_changes", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
+    let tables =
+        ["trajectories", "lane_changes", "incidents", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
     for file in tables.iter().map(String::as_str).chain(["summary.json"]) {
         assert!(folder.holds(&format!("out/{file}")), "{file}");
         assert!(run.text().contains(&format!("out/{file}")), "{}", run.text());
@@ -46,7 +47,7 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
         assert!(svg.starts_with("<svg") && svg.contains("<path"), "{figure}");
     }
     let left_over = std::fs::read_dir(folder.path().join("out")).unwrap().count();
-    assert_eq!(left_over, 9);
+    assert_eq!(left_over, 10);
 }
 
 #[test]
@@ -456,13 +457,14 @@ fn results_of_a_former_run_go_and_what_no_run_has_left_stays() {
     };
     let left = names(&folder);
     let is_known = |it: &String| laneweave::folder::RESULTS.contains(&it.as_str()) || it == "scenario.toml";
-    assert!(left.len() == 13 && left.iter().all(is_known), "{left:?}");
+    assert!(left.len() == 14 && left.iter().all(is_known), "{left:?}");
     assert_eq!(folder.laneweave("branch out --at 10 --set style.speed.weight=2").code(), 0);
     assert!(folder.holds("out/branch/differences.csv"));
 
     let folder = folder.with("out/notes.txt", "mine").with("out/fcd.xml.partial", "<begun");
     folder.summary("MAPS/ramps.osm --duration 30 --record 0");
     let expected = [
+        "incidents.parquet",
         "lane_change_rate.svg",
         "lane_changes.parquet",
         "lanelets.parquet",
@@ -510,7 +512,7 @@ fn times_in_tables_are_those_of_whole_steps_without_dust() {
     let folder = Folder::new();
     let line = "run MAPS/ramps.osm --demand 4000 --duration 150 --record 0.1 --flows 0.3 --format csv";
     assert_eq!(folder.laneweave(line).code(), 0);
-    for table in ["trajectories", "lane_changes", "trips", "flows", "lanelets"] {
+    for table in ["trajectories", "lane_changes", "incidents", "trips", "flows", "lanelets"] {
         let text = folder.read(&format!("out/{table}.csv"));
         let mut lines = text.lines();
         let of_steps =
