@@ -1,4 +1,4 @@
-//! Vehicles that touch each other are told with their time and place: in the table `incidents`.
+//! Vehicles that touch each other are told with their time and place: in the table `incidents`, and the first in the summary.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -116,6 +116,7 @@ fn incidents_before_a_checkpoint_are_in_the_table_of_a_run_that_was_resumed() {
     assert!(broken_off.until(15.0).is_none());
     let (summary, _) = broken_off.until(f64::INFINITY).expect("it ends");
     assert_eq!(summary.state_hash, expected.state_hash);
+    assert_eq!(summary.first_incident, expected.first_incident);
     assert_eq!(broken_off.table(), undisturbed.table());
     assert_eq!(undisturbed.table().lines().count(), 2);
 }
@@ -126,5 +127,22 @@ fn where_nobody_touches_anybody_the_table_has_its_head_alone() {
     run.scenario.run.warmup_s = 10.0;
     let (summary, _) = run.until(f64::INFINITY).expect("it ends");
     // What happened in the warm-up does not count.
-    assert_eq!((summary.collisions, run.table().lines().count()), (0, 1));
+    assert_eq!((summary.incidents, summary.first_incident), (0, None));
+    assert_eq!(run.table().lines().count(), 1);
+    let text = summary.to_text(&[], &[]);
+    assert!(text.contains("0 missed turns, 0 lost\n") && !text.contains("first incident"), "{text}");
+}
+
+#[test]
+fn the_summary_names_the_first_incident_with_its_place() {
+    let run = Run::new();
+    let (summary, _) = run.until(f64::INFINITY).expect("it ends");
+    assert_eq!(summary.incidents, 1);
+    let first = summary.first_incident.expect("there is one");
+    assert_eq!((first.time_s, first.kind, first.vehicles), (0.0, "collision", [0, 1]));
+    let lanelet = run.table().lines().nth(1).and_then(|it| it.split(',').nth(8).map(String::from));
+    assert_eq!(Some(first.lanelet.to_string()), lanelet);
+    let told =
+        format!("  first incident   collision at 0 s on lanelet {}, vehicles 0 and 1\n", first.lanelet);
+    assert!(summary.to_text(&[], &[]).contains(&told));
 }

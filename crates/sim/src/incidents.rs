@@ -58,7 +58,7 @@ pub(crate) struct Touching(Vec<[VehicleId; 2]>);
 impl World {
     /// Counts and tells who came to touch each other; if all were `watched`, who was not seen to no longer does.
     pub(crate) fn note_incidents(&mut self, watched: bool) {
-        let World { touching: Touching(touching), outboxes, events, .. } = self;
+        let World { touching: Touching(touching), outboxes, events, counts, .. } = self;
         let Outbox { incidents, tally, .. } = &mut outboxes[0];
         // Of what is seen from both sides the graver counts.
         let gravity = |it: &Incident| it.kind == IncidentKind::Overlap;
@@ -73,6 +73,7 @@ impl World {
                 IncidentKind::Collision => tally.collisions += 1,
                 IncidentKind::Overlap => tally.overlaps += 1,
             }
+            counts.first_incident.get_or_insert(*incident);
             events.push(Event::Incident(*incident));
         }
         if watched {

@@ -1,10 +1,11 @@
-//! Every collision and overlap: the table `incidents`.
+//! Every collision and overlap: the table `incidents`, and the first of them in the summary.
 
 use std::path::PathBuf;
 
-use laneweave_network::Point;
-use laneweave_sim::{Event, Incident, World};
+use laneweave_network::{Network, Point};
+use laneweave_sim::{Event, Incident, VehicleId, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
+use serde::Serialize;
 
 use super::names::Names;
 use super::scribe::{Page, Pen, Writer};
@@ -76,6 +77,33 @@ impl Observer for Incidents {
     fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         self.pen.hand_over(Page::Incidents(self.seen))?;
         Ok(Vec::new())
+    }
+}
+
+/// The first incident of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FirstIncident {
+    /// When it was seen [s].
+    pub time_s: f64,
+    /// `collision` or `overlap`.
+    pub kind: &'static str,
+    /// The lanelet of the first of the two.
+    pub lanelet: i64,
+    /// Both, the smaller id first.
+    pub vehicles: [VehicleId; 2],
+}
+
+impl FirstIncident {
+    pub(super) fn of(network: &Network, incident: &Incident) -> FirstIncident {
+        let &Incident { kind, time, vehicles, places: [(chain, x), _], .. } = incident;
+        let lanelet = network.lanelet_at(chain, x).0.id;
+        FirstIncident { time_s: seconds(time), kind: kind.name(), lanelet, vehicles }
+    }
+
+    /// In words.
+    pub fn to_text(&self) -> String {
+        let FirstIncident { time_s, kind, lanelet, vehicles: [one, other] } = self;
+        format!("{kind} at {time_s} s on lanelet {lanelet}, vehicles {one} and {other}")
     }
 }
 

@@ -48,6 +48,7 @@ use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
 
 pub use boxes::Boxes;
 pub use driving::{Driving, StyleDriving};
+pub use incidents::FirstIncident;
 pub use provenance::{Provenance, command_line};
 pub use queues::{HeldFor, Queue, Queues};
 pub use reasons::Reasons;

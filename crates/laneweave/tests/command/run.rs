@@ -8,8 +8,8 @@ use crate::program::Folder;
 
 /// The fields that everybody can rely on.
 const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
-    lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps emergency_brakings stuck missed_turns \
-    rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s peak_rss_mb \
+    lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
+    lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s peak_rss_mb \
     state_hash route_changes";
 
 const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset_m,x_m,y_m,z_m,heading_rad,\
@@ -61,6 +61,8 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert_eq!(of("entered"), of("left") + of("on_road"));
     assert_eq!(of("lane_changes"), of("lane_changes_discretionary") + of("lane_changes_route"));
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
+    assert_eq!(of("incidents"), of("collisions") + of("overlaps"));
+    assert_eq!((of("incidents"), &summary["first_incident"]), (0.0, &Value::Null));
     assert_eq!(of("demand_veh_h"), 2724.0);
     assert_eq!(of("duration_s"), 120.0);
     let mean_speed = of("veh_km") * 1000.0 / (of("updates") * 0.1);
