@@ -2,5 +2,8 @@
 
 mod drawn;
 mod lights;
+mod nearby;
 mod precedence;
+mod shared;
+mod widths;
 mod zones;

@@ -1,0 +1,124 @@
+//! Lanes between borders that are drawn: where they are wide enough to drive on, and whether narrow ones get in each other's way.
+
+use laneweave_network::{
+    DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, Side, ZoneKind,
+};
+
+/// Speed limit of all lanes [m/s].
+const LIMIT: f64 = 50.0 / 3.6;
+
+/// A lanelet between two borders, each from its points [m].
+pub(crate) fn lanelet(id: i64, left: &[(f64, f64)], right: &[(f64, f64)]) -> Lanelet {
+    let line = |points: &[(f64, f64)]| {
+        Polyline::new(points.iter().map(|(x, y)| Point::new(*x, *y, 0.0))).expect("the line has a length")
+    };
+    let (left, right) = (line(left), line(right));
+    let centre = Polyline::between(&left, &right).expect("the line has a length");
+    Lanelet::alone(id, [left, right, centre], LIMIT)
+}
+
+/// A straight lanelet to the east, from `x` to `to`, its right border at `y`.
+pub(crate) fn eastward(id: i64, [x, to]: [f64; 2], y: f64, width: f64) -> Lanelet {
+    lanelet(id, &[(x, y + width), (to, y + width)], &[(x, y), (to, y)])
+}
+
+/// The network of lanelets where traffic drives on the right and no rules hold.
+pub(crate) fn network(lanelets: Vec<Lanelet>) -> Network {
+    Network::new(lanelets, DrivingSide::Right).expect("the lanelets fit").regulated(&Regulations::default())
+}
+
+/// The names of the entrances.
+pub(crate) fn entrances(network: &Network) -> Vec<i64> {
+    network.entrances.iter().map(|it| it.id).collect()
+}
+
+/// A road of 500 m, beside its first 300 m on the right a lane that narrows from 3.30 m to nothing in its last 100 m.
+fn tapering() -> Network {
+    let mut road = vec![
+        eastward(1, [0.0, 200.0], 3.3, 3.3),
+        eastward(2, [200.0, 300.0], 3.3, 3.3),
+        eastward(3, [0.0, 200.0], 0.0, 3.3),
+        lanelet(4, &[(200.0, 3.3), (300.0, 3.3)], &[(200.0, 0.0), (300.0, 3.3)]),
+        eastward(5, [300.0, 500.0], 3.3, 3.3),
+    ];
+    for (index, next) in [(0, 1), (1, 4), (2, 3)] {
+        road[index].following = vec![LaneletIndex(next)];
+    }
+    for (left, right) in [(0, 2), (1, 3)] {
+        road[left].right = Some(LaneletIndex(right as u32));
+        road[right].left = Some(LaneletIndex(left as u32));
+    }
+    network(road)
+}
+
+#[test]
+fn a_lane_that_narrows_to_nothing_ends_for_each_class_where_it_is_as_wide_as_that() {
+    let network = tapering();
+    let [road, drop] = &network.chains[..] else { panic!("{} chains", network.chains.len()) };
+    assert!(drop.is_lane_drop && drop.is_narrow && !road.is_narrow);
+    // It is 3.30 m wide at 200 m and narrows by 3.3 cm in a metre: to 1.80 m in 45.5 m, to 2.55 m in 22.7 m.
+    for (is_long, end) in [(false, 245.5), (true, 222.7)] {
+        let until = drop.driven_until(is_long);
+        // Widths are compared every half a metre; across the lane, not across the road, they are a little less.
+        assert!((until - end).abs() < 1.5, "{until} instead of {end}");
+        assert!(drop.is_open(0.0, is_long) && drop.is_open(until, is_long), "{:?}", drop.open);
+        assert!(!drop.is_open(until + 1.0, is_long), "{:?}", drop.open);
+        assert_eq!(road.driven_until(is_long), road.length);
+    }
+    assert_eq!(network.junctions.zones, [], "nobody drives where it touches the other lane");
+}
+
+#[test]
+fn lanes_side_by_side_of_2_60_m_do_not_get_in_each_others_way() {
+    let mut lanes = vec![eastward(1, [0.0, 400.0], 2.6, 2.6), eastward(2, [0.0, 400.0], 0.0, 2.6)];
+    lanes[0].right = Some(LaneletIndex(1));
+    lanes[1].left = Some(LaneletIndex(0));
+    let network = network(lanes);
+    assert_eq!(network.junctions.zones, []);
+    for (chain, side) in network.chains.iter().zip([Side::Right, Side::Left]) {
+        assert!(!chain.is_narrow, "as wide as the widest vehicle");
+        assert_eq!(chain.stretches(side).len(), 1, "one may change lanes all along");
+    }
+}
+
+#[test]
+fn a_strip_of_0_95_m_beside_a_lane_is_closed_and_in_nobodys_way() {
+    let network = network(vec![eastward(1, [0.0, 700.0], 0.0, 3.3), eastward(2, [100.0, 400.0], -1.1, 0.95)]);
+    let [lane, strip] = &network.chains[..] else { panic!("{} chains", network.chains.len()) };
+    for station in [0.0, 150.0, 300.0] {
+        assert!([false, true].iter().all(|is_long| !strip.is_open(station, *is_long)), "{station}");
+        assert!([false, true].iter().all(|is_long| lane.is_open(station, *is_long)), "{station}");
+    }
+    assert_eq!(entrances(&network), [1]);
+    assert_eq!(network.junctions.zones, []);
+}
+
+#[test]
+fn a_lane_of_2_m_from_edge_to_edge_is_driven_and_noted_as_tight_for_long_vehicles() {
+    let network = network(vec![eastward(1, [0.0, 100.0], 0.0, 2.0)]);
+    let [lane] = &network.chains[..] else { panic!("{} chains", network.chains.len()) };
+    assert!(lane.is_tight_for_long && lane.is_open(50.0, true) && lane.is_open(50.0, false));
+    assert_eq!(entrances(&network), [1]);
+}
+
+#[test]
+fn a_way_that_leads_into_another_beside_a_strip_meets_that_way_alone() {
+    let mut lanes = vec![
+        eastward(1, [0.0, 395.0], 0.0, 3.3),
+        eastward(2, [395.0, 700.0], 0.0, 3.3),
+        eastward(3, [100.0, 400.0], -1.1, 0.95),
+        lanelet(
+            4,
+            &[(335.0, 48.0), (380.0, 11.0), (395.0, 3.3)],
+            &[(332.0, 45.0), (376.0, 7.5), (395.0, 0.0)],
+        ),
+    ];
+    for from in [0, 3] {
+        lanes[from].following = vec![LaneletIndex(1)];
+    }
+    let network = network(lanes);
+    let [zone] = &network.junctions.zones[..] else { panic!("{:?}", network.junctions.zones) };
+    assert!(matches!(zone.kind, ZoneKind::Merging(_)), "{zone:?}");
+    let lanelets = zone.sides.map(|it| network.lanelet_at(it.chain, it.end).0.id);
+    assert_eq!(lanelets, [1, 4]);
+}
