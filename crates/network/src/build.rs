@@ -175,6 +175,18 @@ impl Network {
         &self.chains[index.at()]
     }
 
+    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough to change from the one to the other with a
+    /// car, or with a long vehicle [m]; the first beyond the last if nowhere.
+    pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
+        let there = self.chain(stretch.chain);
+        if !(chain.is_narrow || there.is_narrow) {
+            return [stretch.start, stretch.end];
+        }
+        let [from, until] = there.open[usize::from(is_long)].map(|it| stretch.back(it));
+        let [begins, ends] = chain.open[usize::from(is_long)];
+        [stretch.start.max(from).max(begins), stretch.end.min(until).min(ends)]
+    }
+
     /// The lanelet at `station` of a chain, and how far along it that is [m].
     pub fn lanelet_at(&self, chain: ChainIndex, station: f64) -> (&Lanelet, f64) {
         let (index, along) = self.chain(chain).lanelet(station);

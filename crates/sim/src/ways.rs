@@ -202,9 +202,9 @@ impl Planner<'_> {
             for (from, side, number) in &into[index.at()] {
                 let stretch = &network.chain(*from).stretches(*side)[*number];
                 let until = here.last_place.min(here.end) - Planner::ROOM_FOR_A_CHANGE;
-                let end = stretch.end.min(network.chain(*from).driven_until(self.view > 0));
+                let [start, end] = network.window(network.chain(*from), stretch, self.view > 0);
                 let last_place = if until.is_finite() { end.min(stretch.back(until)) } else { end };
-                if last_place > stretch.start && !ahead.contains(from) {
+                if last_place > start && !ahead.contains(from) {
                     offer(*from, self.beside(*from, index, stretch, last_place, &here));
                 }
             }
