@@ -17,7 +17,7 @@ pub struct Gate {
 
 /// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long.
 /// A lanelet whose group holds one that is not open is a lane that begins, or ends, beside a continuing one; one alone, from which no
-/// other can be reached, is no gate.
+/// other can be reached, is no gate where there are others.
 pub(crate) fn gates(
     lanelets: &[Lanelet],
     chain_of: &[ChainIndex],
@@ -27,7 +27,7 @@ pub(crate) fn gates(
     let beside = neighbours(lanelets);
     let mut has_previous = vec![false; lanelets.len()];
     lanelets.iter().flat_map(|it| &it.following).for_each(|it| has_previous[it.at()] = true);
-    let mut found = Vec::new();
+    let (mut found, mut alone) = (Vec::new(), Vec::new());
     for first in (0..lanelets.len()).map(|i| LaneletIndex(i as u32)) {
         if seen[first.at()] || !is_open(first) {
             continue;
@@ -46,14 +46,16 @@ pub(crate) fn gates(
         let is_alone =
             group.len() == 1 && lanelets[first.at()].following.is_empty() && !has_previous[first.at()];
         let is_gate = |it: &LaneletIndex| is_open(*it) && lanelets[it.at()].length() >= MINIMUM_GATE_LENGTH;
-        if !is_alone && group.iter().all(is_gate) {
+        if group.iter().all(is_gate) {
             group.sort_by_key(|it| lanelets[it.at()].id);
-            found.push(Gate {
+            let gate = Gate {
                 id: lanelets[group[0].at()].id,
                 chains: group.iter().map(|it| chain_of[it.at()]).collect(),
-            });
+            };
+            if is_alone { alone.push(gate) } else { found.push(gate) }
         }
     }
+    let mut found = if found.is_empty() { alone } else { found };
     found.sort_by_key(|gate| gate.id);
     found
 }

@@ -69,11 +69,15 @@ fn lanes_that_fork_off_together_are_not_in_each_others_way() {
 }
 
 #[test]
-fn lanes_that_begin_together_at_the_edge_of_the_map_are_not_in_each_others_way() {
+fn lanes_that_begin_together_at_the_edge_of_the_map_are_entered_one_behind_the_other() {
     let lanes = Lanes::default()
         .with(straight((0.0, 0.0), (100.0, 0.0)), &[])
         .with(straight((0.0, 0.0), (94.0, 34.0)), &[]);
-    assert_eq!(lanes.zones(), []);
+    let zones = lanes.zones();
+    let ZoneKind::Merging(stations) = only(&zones).kind else { panic!("{zones:?}") };
+    for (side, station) in only(&zones).sides.iter().zip(stations) {
+        assert!(side.start == 0.0 && station == side.end + 12.0, "{side:?} {station}");
+    }
 }
 
 #[test]

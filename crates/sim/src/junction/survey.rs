@@ -362,11 +362,29 @@ pub(super) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
 mod tests {
     use laneweave_maps::generate::own_maps;
     use laneweave_maps::regulations;
+    use laneweave_models::Style;
+    use laneweave_models::change::{LaneChangeModel, Mcdm};
+    use laneweave_models::follow::{FollowingModel, Idm};
 
     use super::*;
     use crate::navigate::Navigator;
     use crate::snapshot::{Seen, Snapshot};
     use crate::vehicle::Class;
+
+    fn driver() -> Style {
+        Style {
+            name: "some".into(),
+            description: String::new(),
+            speed_factor: 1.0,
+            follow: FollowingModel::Idm(Idm::default()),
+            change: LaneChangeModel::Mcdm(Mcdm::default()),
+            safety: Default::default(),
+            attention: Default::default(),
+            manner: Default::default(),
+            yielding: Default::default(),
+            guidance: Default::default(),
+        }
+    }
 
     #[test]
     fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
@@ -394,7 +412,8 @@ mod tests {
                 change: None,
             };
             let snapshot = Snapshot::new(&network, [truck]);
-            let scene = snapshot.scene(&network, &navigator, &[]);
+            let styles = [driver()];
+            let scene = snapshot.scene(&network, &navigator, &styles);
             let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
             if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
                 continue;
