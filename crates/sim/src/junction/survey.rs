@@ -152,13 +152,9 @@ fn concerns(place: &Place, is_long: bool) -> bool {
 }
 
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
-/// `granted` [m] it has. None if a vehicle ahead has to stop first.
+/// `granted` [m] it has.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
-    if granted >= until {
-        return None;
-    }
-    let until = until.min(shield(scene, from, until));
-    if is_far(scene, from, until) {
+    if granted >= until || is_far(scene, from, until) {
         return None;
     }
     let mut found = None;
@@ -194,7 +190,12 @@ pub(super) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
     scene.network.junctions.free_way(from.chain, from.x, length) - ROUNDING > until
 }
 
-/// How far the way of the vehicle ahead is free [m]: who is behind it need not look further.
+/// Whether a vehicle ahead has to stop before who looks `from` comes to a place `distance` ahead [m].
+pub(crate) fn stops_before(scene: &Scene, from: Viewpoint, distance: f64) -> bool {
+    shield(scene, from, distance) < distance
+}
+
+/// How far the way of the vehicle ahead is free, as far as `until` [m].
 fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
     if let Some(rear) = scene.waits_beside_in_fork(from) {
