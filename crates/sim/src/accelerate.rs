@@ -224,6 +224,7 @@ pub(crate) struct LaneEnd {
 
 impl LaneEnd {
     /// That of `next`, which begins at `start`.
+    #[inline(never)]
     fn of(next: &Chain, start: f64) -> LaneEnd {
         let open = [false, true].map(|is_long| start + next.driven_until(is_long));
         let begins = |side: Side| {
@@ -244,6 +245,7 @@ impl LaneEnd {
 }
 
 /// Where the lane ends for all that are on it.
+#[inline]
 pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
     let here = scene.network.chain(chain);
     match here.following[..] {

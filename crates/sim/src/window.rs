@@ -18,7 +18,9 @@ const NEAR: f64 = 1.0;
 pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'a Beside> {
     let chain = scene.network.chain(spot.chain);
     match chain.beside(side, scene.motion(spot).x) {
-        None if scene.car(spot).heeds_more => coming(scene, spot, chain.stretches(side)),
+        None if scene.car(spot).heeds_more && !chain.stretches(side).is_empty() => {
+            coming(scene, spot, chain.stretches(side))
+        }
         found => found,
     }
 }
@@ -28,6 +30,9 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
 fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a Beside> {
     let (x, last_place) = (scene.motion(spot).x, scene.mind(spot).last_place);
     let next = stretches.iter().find(|it| it.start > x && last_place.is_finite() && it.start < last_place)?;
+    if next.start - x > LOOKS_AHEAD {
+        return None;
+    }
     let window = Window::of(scene, spot)?;
     let begins_it = next.start - x <= window.start + NEAR;
     (begins_it && window.is_near_and_short() && next.across(x) >= 0.0).then_some(next)
@@ -43,9 +48,13 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where it is not found.
+    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where that is far.
     pub(crate) fn of(scene: &Scene, spot: Spot) -> Option<Window> {
         let (x, place) = (scene.motion(spot).x, scene.mind(spot).last_place);
+        // A short one is near, and a long one so far ahead is not worth the search.
+        if place - x > SHORT + LOOKS_AHEAD {
+            return None;
+        }
         let Car { goal, class, .. } = scene.car(spot);
         let (destination, is_long) = (goal.destination(), class.is_long());
         let (mut chain, mut base): (ChainIndex, f64) = (spot.chain, 0.0);
