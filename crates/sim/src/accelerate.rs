@@ -66,9 +66,9 @@ impl OpenRoad {
     #[inline]
     pub(crate) fn reaches(&self, motion: &Motion, leader: f64) -> bool {
         // Where it may have to stop behind its leader, or where that will have gone on, it looks more closely.
-        let comes_to_place = || self.first_place - motion.x < stopping_way(motion.speed);
-        let is_before_place = leader <= self.first_place && !comes_to_place();
-        motion.x >= self.from || (motion.x >= self.fork_clearance && is_before_place)
+        let stays_before = || self.first_place - motion.x >= stopping_way(motion.speed);
+        motion.x >= self.from
+            || (motion.x >= self.fork_clearance && leader <= self.first_place && stays_before())
     }
 }
 

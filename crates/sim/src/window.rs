@@ -14,13 +14,17 @@ const LOOKS_AHEAD: f64 = 60.0;
 const NEAR: f64 = 1.0;
 
 /// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which it has to change.
-#[inline]
+// Considering a lane begins with it.
+#[inline(always)]
 pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'a Beside> {
-    let chain = scene.network.chain(spot.chain);
-    match chain.beside(side, scene.motion(spot).x) {
-        None if scene.car(spot).heeds_more && !chain.stretches(side).is_empty() => {
-            coming(scene, spot, chain.stretches(side))
-        }
+    let stretches = scene.network.chain(spot.chain).stretches(side);
+    if stretches.is_empty() {
+        return None;
+    }
+    let x = scene.motion(spot).x;
+    let after = stretches.partition_point(|it| it.start <= x);
+    match stretches[..after].last().filter(|it| x <= it.end) {
+        None if scene.car(spot).heeds_more => coming(scene, spot, stretches),
         found => found,
     }
 }
