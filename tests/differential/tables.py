@@ -17,7 +17,7 @@ import duckdb
 import pandas
 import pyarrow.parquet
 
-TABLES = ["trajectories", "lane_changes", "trips", "lanelets", "flows"]
+TABLES = ["trajectories", "lane_changes", "incidents", "trips", "lanelets", "flows"]
 RUN = ["--duration", "150", "--warmup", "20", "--flows", "60", "--quiet"]
 NOTES = ["laneweave.command", "laneweave.scenario", "laneweave.seed", "laneweave.version"]
 SQL = {"double": "DOUBLE", "int64": "BIGINT", "string": "VARCHAR"}
@@ -68,6 +68,8 @@ def differences(name, folders, columns, summary):
         mean = frame.duration_s.mean()
         if abs(mean - summary["mean_trip_duration_s"]) > 1e-9 * mean:
             yield f"a mean duration of {mean} s"
+    if name == "incidents" and len(frame) != summary["collisions"] + summary["overlaps"]:
+        yield f"{len(frame)} rows for {summary['collisions']} collisions and {summary['overlaps']} overlaps"
     if name == "lanelets":
         driven = (frame.flow_veh_h * frame.length_m).sum() / 3600 * summary["duration_s"] / 1000
         if not 0.99 * summary["veh_km"] < driven <= summary["veh_km"] * 1.0001:

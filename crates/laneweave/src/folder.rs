@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::fault::Fault;
 
 /// Every name that a run gives to a file of results, in the order in which they are to go: without its summary no run has ended.
-pub const RESULTS: [&str; 19] = [
+pub const RESULTS: [&str; 21] = [
     "summary.json",
     "checkpoint",
     "checkpoint.pages",
@@ -15,6 +15,8 @@ pub const RESULTS: [&str; 19] = [
     "trajectories.csv",
     "lane_changes.parquet",
     "lane_changes.csv",
+    "incidents.parquet",
+    "incidents.csv",
     "trips.parquet",
     "trips.csv",
     "lanelets.parquet",

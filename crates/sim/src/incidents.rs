@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::events::Event;
 use crate::plan::Outbox;
 use crate::traffic::VehicleId;
+use crate::vehicle::Class;
 use crate::world::World;
 
 /// Two vehicles whose rectangles come to intersect by more than 5 cm.
@@ -17,6 +18,10 @@ pub struct Incident {
     pub time: f64,
     /// Who, the smaller id first.
     pub vehicles: [VehicleId; 2],
+    /// Their characters' places in the table.
+    pub characters: [u32; 2],
+    /// Their classes.
+    pub classes: [Class; 2],
     /// Chain and front bumper of each [m].
     pub places: [(ChainIndex, f64); 2],
     /// Halfway between their centres.
@@ -53,7 +58,7 @@ pub(crate) struct Touching(Vec<[VehicleId; 2]>);
 impl World {
     /// Counts and tells who came to touch each other; if all were `watched`, who was not seen to no longer does.
     pub(crate) fn note_incidents(&mut self, watched: bool) {
-        let World { touching: Touching(touching), outboxes, events, .. } = self;
+        let World { touching: Touching(touching), outboxes, events, counts, .. } = self;
         let Outbox { incidents, tally, .. } = &mut outboxes[0];
         // Of what is seen from both sides the graver counts.
         let gravity = |it: &Incident| it.kind == IncidentKind::Overlap;
@@ -68,6 +73,7 @@ impl World {
                 IncidentKind::Collision => tally.collisions += 1,
                 IncidentKind::Overlap => tally.overlaps += 1,
             }
+            counts.first_incident.get_or_insert(*incident);
             events.push(Event::Incident(*incident));
         }
         if watched {

@@ -137,6 +137,8 @@ fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident
         kind: if a.closes(&b) { IncidentKind::Collision } else { IncidentKind::Overlap },
         time,
         vehicles: spots.map(|it| scene.motion(it).id),
+        characters: spots.map(|it| scene.car(it).character),
+        classes: spots.map(|it| scene.car(it).class),
         places: spots.map(|it| (it.chain, scene.motion(it).x)),
         at: a.pose.at.midpoint(&b.pose.at),
         speeds: [a.speed, b.speed],

@@ -22,9 +22,9 @@ pub struct Tally {
     pub distance: f64,
     /// Braking events that kinematics, not the model, decided.
     pub emergency_brakings: u64,
-    /// Times that a vehicle came to touch its leader.
+    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each other.
     pub collisions: u64,
-    /// Other overlaps of two vehicles, looked for once a second.
+    /// Other times that two vehicles came to overlap.
     pub overlaps: u64,
     /// Vehicles that stood for 300 s.
     pub stuck: u64,

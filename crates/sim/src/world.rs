@@ -19,7 +19,7 @@ use crate::drive::drive;
 use crate::events::Event;
 use crate::guidance::Guidance;
 use crate::headways::HeadwayError;
-use crate::incidents::Touching;
+use crate::incidents::{Incident, Touching};
 use crate::journal::{Journal, TripRecord};
 use crate::junction::{NO_PASSAGE, Passages};
 use crate::ledger::{Ledger, Mark, Stay};
@@ -101,6 +101,8 @@ pub struct Counts {
     /// What their trips took beyond the time on a free road, at the speeds that they desired, of the way that they had
     /// before them when they entered [s].
     pub delay: f64,
+    /// The first incident, if there was any.
+    pub first_incident: Option<Incident>,
 }
 
 /// How a world is to run.

@@ -4,6 +4,7 @@
 mod boxes;
 mod driving;
 mod frame;
+mod incidents;
 mod lane_changes;
 mod lanelets;
 mod log;
@@ -33,6 +34,7 @@ use laneweave_sim::World;
 use laneweave_study::{Column, Format, PartialFile, TableError, TableWriter};
 
 use self::frame::Samples;
+use self::incidents::{IncidentTable, Incidents};
 use self::lane_changes::{LaneChangeTable, LaneChanges};
 use self::lanelets::{FlowTable, LaneletTable, Lanelets};
 use self::names::Names;
@@ -47,6 +49,7 @@ use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
 
 pub use boxes::Boxes;
 pub use driving::{Driving, StyleDriving};
+pub use incidents::FirstIncident;
 pub use provenance::{Provenance, command_line};
 pub use queues::{HeldFor, Queue, Queues};
 pub use reasons::Reasons;
@@ -111,6 +114,7 @@ pub fn observers(
     }
     observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
     observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
+    observers.push(Box::new(Incidents::new(begin, pen.clone())));
     observers.push(Box::new(Trips::new(pen)));
     observers.push(Box::new(Report::new(&folder, scenario, prepared)));
     observers.push(Box::new(scribe));
@@ -127,6 +131,7 @@ fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, 
         writers.push(Box::new(FlowTable::create(folder)?));
     }
     writers.push(Box::new(LaneChangeTable::create(folder)?));
+    writers.push(Box::new(IncidentTable::create(folder)?));
     writers.push(Box::new(TripTable::create(folder)?));
     writers.push(Box::new(LaneletTable::create(folder)?));
     Ok(writers)

@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread::{self, JoinHandle};
 
-use laneweave_sim::{LaneChange, World};
+use laneweave_sim::{Incident, LaneChange, World};
 use serde::{Deserialize, Serialize};
 
 use super::frame::Frame;
@@ -36,6 +36,8 @@ pub(super) enum Page {
     Frame(Frame),
     /// Lane changes that ended.
     LaneChanges(Vec<LaneChange>),
+    /// Vehicles that came to touch each other.
+    Incidents(Vec<Incident>),
     /// Trips that ended, or that go on when the run ends.
     Trips(Vec<Trip>),
     /// What happened on all lanelets in an interval.

@@ -7,6 +7,7 @@ use laneweave_sim::World;
 use laneweave_study::seconds;
 use serde::Serialize;
 
+use super::incidents::FirstIncident;
 use super::queues::Queue;
 use crate::output::Provenance;
 use crate::scenario::{Prepared, Scenario};
@@ -43,10 +44,14 @@ pub struct Summary {
     pub lane_changes_per_veh_km: Option<f64>,
     /// Distance driven [veh km].
     pub veh_km: f64,
-    /// Times that a vehicle came to touch its leader.
+    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each other.
     pub collisions: u64,
-    /// Other overlaps of two vehicles, looked for once a second.
+    /// Other times that two vehicles came to overlap.
     pub overlaps: u64,
+    /// Collisions and overlaps.
+    pub incidents: u64,
+    /// The first of them, if there was any.
+    pub first_incident: Option<FirstIncident>,
     /// Braking events that kinematics, not the model, decided.
     pub emergency_brakings: u64,
     /// Vehicles that stood for 300 s.
@@ -144,6 +149,8 @@ impl Summary {
             veh_km,
             collisions: tally.collisions,
             overlaps: tally.overlaps,
+            incidents: tally.collisions + tally.overlaps,
+            first_incident: counts.first_incident.map(|it| FirstIncident::of(world.network(), &it)),
             emergency_brakings: tally.emergency_brakings,
             stuck: tally.stuck,
             missed_turns: tally.missed_turns,
@@ -246,13 +253,8 @@ impl Summary {
             ),
         );
         line("route changes", self.route_changes.to_string());
-        line(
-            "safety",
-            format!(
-                "{} collisions, {} overlaps, {} stuck, {} emergency brakings, {} missed turns",
-                self.collisions, self.overlaps, self.stuck, self.emergency_brakings, self.missed_turns
-            ),
-        );
+        line("safety", self.safety());
+        self.first_incident.iter().for_each(|it| line("first incident", it.to_text()));
         let pace = (self.duration_s + self.warmup_s) / self.wall_s;
         line(
             "speed",
@@ -268,6 +270,15 @@ impl Summary {
             line(if index == 0 { "files" } else { "" }, file.display().to_string());
         }
         text
+    }
+
+    /// What should not happen, in words.
+    fn safety(&self) -> String {
+        let &Summary { collisions, overlaps, stuck, emergency_brakings, missed_turns, lost, .. } = self;
+        format!(
+            "{collisions} collisions, {overlaps} overlaps, {stuck} stuck, {emergency_brakings} emergency brakings, \
+             {missed_turns} missed turns, {lost} lost"
+        )
     }
 }
 

@@ -10,9 +10,10 @@ use crate::program::{Folder, maps};
 const RUN: &str =
     "MAPS/ramps.osm --demand 5000 --duration 500 --warmup 20 --checkpoint 20 --format csv --flows 100";
 /// The files that are compared to the last byte.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "trajectories.csv",
     "lane_changes.csv",
+    "incidents.csv",
     "trips.csv",
     "lanelets.csv",
     "flows.csv",
@@ -76,7 +77,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         let has_ended = out.join("summary.json").exists();
         window = window.mul_f64(if has_ended { 0.85 } else { 1.02 });
         // What has its name is whole.
-        for file in &FILES[..8] {
+        for file in &FILES[..9] {
             if out.join(file).exists() {
                 assert!(is_same(&folder, file), "{file} after kill {number}");
             }

@@ -8,8 +8,8 @@ use crate::program::Folder;
 
 /// The fields that everybody can rely on.
 const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
-    lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps emergency_brakings stuck missed_turns \
-    rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
+    lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
+    lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
     state_hash route_changes";
 
 const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset_m,x_m,y_m,z_m,heading_rad,\
@@ -36,7 +36,8 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
     let run = folder.laneweave("run MAPS/ramps.osm --duration 60");
     assert_eq!(run.code(), 0);
     assert!(run.errors().starts_with("demand: ") && run.errors().lines().count() == 1, "{}", run.errors());
-    let tables = ["trajectories", "lane_changes", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
+    let tables =
+        ["trajectories", "lane_changes", "incidents", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
     for file in tables.iter().map(String::as_str).chain(["summary.json"]) {
         assert!(folder.holds(&format!("out/{file}")), "{file}");
         assert!(run.text().contains(&format!("out/{file}")), "{}", run.text());
@@ -46,7 +47,7 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
         assert!(svg.starts_with("<svg") && svg.contains("<path"), "{figure}");
     }
     let left_over = std::fs::read_dir(folder.path().join("out")).unwrap().count();
-    assert_eq!(left_over, 9);
+    assert_eq!(left_over, 10);
 }
 
 #[test]
@@ -60,6 +61,8 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert_eq!(of("entered"), of("left") + of("on_road"));
     assert_eq!(of("lane_changes"), of("lane_changes_discretionary") + of("lane_changes_route"));
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
+    assert_eq!(of("incidents"), of("collisions") + of("overlaps"));
+    assert_eq!((of("incidents"), &summary["first_incident"]), (0.0, &Value::Null));
     assert_eq!(of("demand_veh_h"), 2724.0);
     assert_eq!(of("duration_s"), 120.0);
     let mean_speed = of("veh_km") * 1000.0 / (of("updates") * 0.1);
@@ -456,13 +459,14 @@ fn results_of_a_former_run_go_and_what_no_run_has_left_stays() {
     };
     let left = names(&folder);
     let is_known = |it: &String| laneweave::folder::RESULTS.contains(&it.as_str()) || it == "scenario.toml";
-    assert!(left.len() == 13 && left.iter().all(is_known), "{left:?}");
+    assert!(left.len() == 14 && left.iter().all(is_known), "{left:?}");
     assert_eq!(folder.laneweave("branch out --at 10 --set style.speed.weight=2").code(), 0);
     assert!(folder.holds("out/branch/differences.csv"));
 
     let folder = folder.with("out/notes.txt", "mine").with("out/fcd.xml.partial", "<begun");
     folder.summary("MAPS/ramps.osm --duration 30 --record 0");
     let expected = [
+        "incidents.parquet",
         "lane_change_rate.svg",
         "lane_changes.parquet",
         "lanelets.parquet",
@@ -510,7 +514,7 @@ fn times_in_tables_are_those_of_whole_steps_without_dust() {
     let folder = Folder::new();
     let line = "run MAPS/ramps.osm --demand 4000 --duration 150 --record 0.1 --flows 0.3 --format csv";
     assert_eq!(folder.laneweave(line).code(), 0);
-    for table in ["trajectories", "lane_changes", "trips", "flows", "lanelets"] {
+    for table in ["trajectories", "lane_changes", "incidents", "trips", "flows", "lanelets"] {
         let text = folder.read(&format!("out/{table}.csv"));
         let mut lines = text.lines();
         let of_steps =

@@ -1,0 +1,148 @@
+//! Vehicles that touch each other are told with their time and place: in the table `incidents`, and the first in the summary.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use laneweave::checkpoint::{self, Checkpoint, Keeper};
+use laneweave::output::{Inputs, Provenance, Summary, observers};
+use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
+use laneweave::sim::{Class, NewVehicle};
+use laneweave::simulation::simulate;
+
+/// A run of half a minute on two lanes, on which only those drive who are put there; in a folder that goes with it.
+struct Run {
+    scenario: Scenario,
+    keeper: Keeper,
+}
+
+impl Run {
+    fn new() -> Run {
+        static NUMBER: AtomicU32 = AtomicU32::new(0);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let dir = std::env::temp_dir().join(format!("laneweave-incidents-{}-{number}", std::process::id()));
+        fs::create_dir_all(&dir).expect("a folder");
+        let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/motorway_2_lanes.osm");
+        let mut scenario = Scenario::of_map(map);
+        scenario.demand.vehicles_per_hour = Some(0.0);
+        scenario.run.duration_s = 30.0;
+        scenario.output.dir = dir.clone();
+        scenario.output.format = TableFormat::Csv;
+        scenario.output.record_s = 0.0;
+        scenario.output.checkpoint_s = 10.0;
+        let path = dir.join(checkpoint::FILE);
+        Run { scenario, keeper: Keeper { path, every: 100, fingerprint: "f".into(), outputs: "o".into() } }
+    }
+
+    /// Two cars, of which the second has its front 2 m within the first; and a third far ahead.
+    fn prepared(&self) -> Prepared {
+        let mut prepared = prepare(&self.scenario, &Origin::default()).expect("the map is sound");
+        let chain = prepared.world.network().entrances[0].chains[0];
+        for x in [102.5, 100.0, 500.0] {
+            prepared.world.place(NewVehicle {
+                chain,
+                x,
+                speed: 20.0,
+                class: Class::Car,
+                character: 0,
+                destination: None,
+            });
+        }
+        prepared
+    }
+
+    /// Runs on from the last checkpoint, if there is one, and up to `end` [s], where it breaks off if that is before its end.
+    fn until(&self, end: f64) -> Option<(Summary, Vec<PathBuf>)> {
+        let Run { scenario, keeper } = self;
+        let mut prepared = self.prepared();
+        let provenance = Provenance::of(String::new(), 1, "f".into());
+        let mut watching = observers(scenario, &prepared, &provenance).expect("the folder is there");
+        let from = Checkpoint::read(&keeper.path).expect("it is whole");
+        let goes_on = |world: &laneweave::sim::World| world.clock().time() < end;
+        let ending = simulate(&mut prepared, &mut watching, from, Some(keeper), goes_on, || ())
+            .expect("it can be written");
+        if ending.is_interrupted {
+            return None;
+        }
+        let inputs = Inputs { scenario, ending: &ending, wall_s: 1.0, load_s: 0.0, provenance: &provenance };
+        let summary = Summary::of(&prepared, inputs);
+        let files = watching
+            .into_iter()
+            .flat_map(|it| it.finish(&prepared.world, &summary).expect("it can be written"));
+        let files = files.collect();
+        Some((summary, files))
+    }
+
+    fn table(&self) -> String {
+        fs::read_to_string(self.scenario.output.dir.join("incidents.csv")).expect("the table is there")
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.scenario.output.dir);
+    }
+}
+
+#[test]
+fn the_table_of_incidents_has_a_row_for_each_with_both_vehicles_and_the_place() {
+    let run = Run::new();
+    let (summary, files) = run.until(f64::INFINITY).expect("it ends");
+    assert!(files.iter().any(|it| it.ends_with("incidents.csv")), "{files:?}");
+    assert_eq!((summary.collisions, summary.overlaps), (1, 0));
+    let table = run.table();
+    let lines: Vec<&str> = table.lines().collect();
+    let [head, row] = lines[..] else { panic!("{table}") };
+    assert_eq!(
+        head,
+        "time_s,kind,vehicle,other_vehicle,class,other_class,style,other_style,lanelet,other_lanelet,position_m,\
+         other_position_m,x_m,y_m,speed_mps,other_speed_mps,depth_m"
+    );
+    let cells: Vec<&str> = row.split(',').collect();
+    assert_eq!(cells[..6], ["0.0", "collision", "0", "1", "car", "car"]);
+    assert_eq!(cells[6], cells[7]);
+    assert_eq!(cells[8], cells[9]);
+    assert_eq!(cells[10..12], ["102.5", "100.0"]);
+    assert_eq!(cells[14..16], ["20.0", "20.0"]);
+    let number = |it: usize| cells[it].parse::<f64>().expect("a number");
+    // Cars are 4.5 m long, and 1.8 m wide: less than the 2 m along the road.
+    assert!((number(16) - 1.8).abs() < 1e-6, "{row}");
+}
+
+#[test]
+fn incidents_before_a_checkpoint_are_in_the_table_of_a_run_that_was_resumed() {
+    let (undisturbed, broken_off) = (Run::new(), Run::new());
+    let (expected, _) = undisturbed.until(f64::INFINITY).expect("it ends");
+    assert!(broken_off.until(15.0).is_none());
+    let (summary, _) = broken_off.until(f64::INFINITY).expect("it ends");
+    assert_eq!(summary.state_hash, expected.state_hash);
+    assert_eq!(summary.first_incident, expected.first_incident);
+    assert_eq!(broken_off.table(), undisturbed.table());
+    assert_eq!(undisturbed.table().lines().count(), 2);
+}
+
+#[test]
+fn where_nobody_touches_anybody_the_table_has_its_head_alone() {
+    let mut run = Run::new();
+    run.scenario.run.warmup_s = 10.0;
+    let (summary, _) = run.until(f64::INFINITY).expect("it ends");
+    // What happened in the warm-up does not count.
+    assert_eq!((summary.incidents, summary.first_incident), (0, None));
+    assert_eq!(run.table().lines().count(), 1);
+    let text = summary.to_text(&[], &[]);
+    assert!(text.contains("0 missed turns, 0 lost\n") && !text.contains("first incident"), "{text}");
+}
+
+#[test]
+fn the_summary_names_the_first_incident_with_its_place() {
+    let run = Run::new();
+    let (summary, _) = run.until(f64::INFINITY).expect("it ends");
+    assert_eq!(summary.incidents, 1);
+    let first = summary.first_incident.expect("there is one");
+    assert_eq!((first.time_s, first.kind, first.vehicles), (0.0, "collision", [0, 1]));
+    let lanelet = run.table().lines().nth(1).and_then(|it| it.split(',').nth(8).map(String::from));
+    assert_eq!(Some(first.lanelet.to_string()), lanelet);
+    let told =
+        format!("  first incident   collision at 0 s on lanelet {}, vehicles 0 and 1\n", first.lanelet);
+    assert!(summary.to_text(&[], &[]).contains(&told));
+}
