@@ -73,6 +73,10 @@ impl Run {
         Some((summary, files))
     }
 
+    fn report(&self) -> String {
+        fs::read_to_string(self.scenario.output.dir.join("report.html")).expect("the report is there")
+    }
+
     fn table(&self) -> String {
         fs::read_to_string(self.scenario.output.dir.join("incidents.csv")).expect("the table is there")
     }
@@ -118,6 +122,7 @@ fn incidents_before_a_checkpoint_are_in_the_table_of_a_run_that_was_resumed() {
     assert_eq!(summary.state_hash, expected.state_hash);
     assert_eq!(summary.first_incident, expected.first_incident);
     assert_eq!(broken_off.table(), undisturbed.table());
+    assert_eq!(broken_off.report(), undisturbed.report());
     assert_eq!(undisturbed.table().lines().count(), 2);
 }
 
@@ -130,6 +135,7 @@ fn where_nobody_touches_anybody_the_table_has_its_head_alone() {
     assert_eq!((summary.incidents, summary.first_incident), (0, None));
     assert_eq!(run.table().lines().count(), 1);
     let text = summary.to_text(&[], &[]);
+    assert!(!run.report().contains("Incidents: "));
     assert!(text.contains("0 missed turns, 0 lost\n") && !text.contains("first incident"), "{text}");
 }
 
@@ -145,4 +151,20 @@ fn the_summary_names_the_first_incident_with_its_place() {
     let told =
         format!("  first incident   collision at 0 s on lanelet {}, vehicles 0 and 1\n", first.lanelet);
     assert!(summary.to_text(&[], &[]).contains(&told));
+}
+
+#[test]
+fn the_report_names_the_first_place_and_lists_the_first_incidents() {
+    let run = Run::new();
+    let (summary, _) = run.until(f64::INFINITY).expect("it ends");
+    let (first, report) = (summary.first_incident.expect("there is one"), run.report());
+    let told =
+        format!("first {}; the table incidents has every place; there should be none", first.to_text());
+    assert!(report.contains(&told), "{told}");
+    assert!(report.contains("Incidents: the first 1 of 1, as in the table incidents."));
+    let lanelets = format!("<td data-name=\"lanelets\">{0} and {0}</td>", first.lanelet);
+    assert!(report.contains(&lanelets), "{lanelets}");
+    for cell in ["\"vehicles\">0 and 1<", "\"speeds [km/h]\">72.0 and 72.0<", "class=\"number\">1.80<"] {
+        assert!(report.contains(cell), "{cell}");
+    }
 }

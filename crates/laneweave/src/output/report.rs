@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use laneweave_sim::{Kind, World};
+use laneweave_sim::{Event, Incident, Kind, World};
 use laneweave_study::{Mark, Sample, Sheet, rate_density, time_space};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,8 @@ use crate::scenario::{Prepared, Scenario};
 
 /// Lanes of which there are time–space diagrams.
 const ROADS: usize = 2;
+/// Incidents that are listed.
+const INCIDENTS: usize = 10;
 
 /// Collects what the report of a run shows.
 pub(super) struct Report {
@@ -47,6 +49,8 @@ pub struct Record {
     pub trips: TripTimes,
     /// Vehicles in the course of time.
     pub crowd: Crowd,
+    /// The first incidents.
+    pub incidents: Vec<Incident>,
 }
 
 impl Report {
@@ -61,6 +65,7 @@ impl Report {
             reasons: Reasons::new(world, begin),
             trips: TripTimes::of(world),
             crowd: Crowd::default(),
+            incidents: Vec::new(),
         };
         Report {
             path: folder.file("report.html"),
@@ -75,13 +80,18 @@ impl Report {
 
 impl Observer for Report {
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
-        let Record { boxes, roads, driving, reasons, trips, crowd } = &mut self.record;
+        let Record { boxes, roads, driving, reasons, trips, crowd, incidents } = &mut self.record;
         boxes.observe(world);
         roads.iter_mut().for_each(|it| it.observe(world));
         driving.observe(world);
         reasons.observe(world);
         trips.observe(world);
         crowd.observe(world);
+        let seen = world.events().iter().filter_map(|it| match it {
+            Event::Incident(incident) => Some(*incident),
+            _ => None,
+        });
+        incidents.extend(seen.take(INCIDENTS - incidents.len()));
         Ok(())
     }
 
@@ -97,7 +107,8 @@ impl Observer for Report {
     fn finish(self: Box<Self>, world: &World, summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         let Report { path, rate, time_space, about, provenance, record } = *self;
         let end = world.clock().time();
-        let report = RunReport { about: &about, provenance: &provenance, summary, record: &record, end };
+        let (about, provenance, record, network) = (&about, &provenance, &record, world.network());
+        let report = RunReport { about, provenance, summary, record, network, end };
         write_whole(&path, &report.page().to_html())?;
         write_whole(&rate, &record.rate_figure(end))?;
         write_whole(&time_space, &record.time_space_figure())?;

@@ -100,6 +100,8 @@ fn the_numbers_of_the_report_are_those_of_the_summary_and_the_table() {
         ("entered", "vehicles entered"),
         ("waiting", "wait at the entrances"),
         ("collisions", "collisions"),
+        ("overlaps", "overlaps"),
+        ("lost", "lost"),
         ("emergency_brakings", "emergency brakings"),
         ("stuck", "vehicles stuck"),
         ("missed_turns", "missed turns"),

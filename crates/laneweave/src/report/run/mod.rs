@@ -4,10 +4,13 @@ mod about;
 mod changes;
 mod flow;
 mod following;
+mod incidents;
 mod numbers;
 mod problems;
 mod roads;
 mod trips;
+
+use laneweave_network::Network;
 
 use super::Page;
 use crate::output::{Provenance, Record, Summary};
@@ -25,6 +28,8 @@ pub struct RunReport<'a> {
     pub summary: &'a Summary,
     /// What was seen of it.
     pub record: &'a Record,
+    /// The roads.
+    pub network: &'a Network,
     /// Simulated time at its end [s].
     pub end: f64,
 }

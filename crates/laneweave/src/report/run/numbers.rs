@@ -63,14 +63,15 @@ pub(super) fn section(run: &RunReport) -> Section {
             format!("= {} left + {} on the road", counted(*left), counted(*on_road)),
         ),
         tile(counted(*waiting), "wait at the entrances", "at the end".into()),
-        tile(counted(summary.collisions), "collisions", "a vehicle touches its leader".into()),
-        tile(counted(summary.overlaps), "overlaps", "of any two vehicles, seen once a second".into()),
+        tile(counted(summary.collisions), "collisions", "two vehicles meet while they close".into()),
+        tile(counted(summary.overlaps), "overlaps", "of any two vehicles, whatever their lanes".into()),
         tile(
             counted(summary.emergency_brakings),
             "emergency brakings",
             "decided by kinematics, not by the model".into(),
         ),
         tile(counted(summary.stuck), "vehicles stuck", "stood for 300 s".into()),
+        tile(counted(summary.lost), "lost", "drivers without any way left".into()),
         tile(counted(summary.missed_turns), "missed turns", "drivers who had to take another way".into()),
         tile(counted(summary.route_changes), "routes left for a better one", "by choice".into()),
     ];

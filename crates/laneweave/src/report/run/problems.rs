@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use laneweave_maps::Problem;
 
-use super::RunReport;
+use super::{RunReport, incidents};
 use crate::check::Remark;
 use crate::output::Summary;
 use crate::report::{Align, Section, Table, counted};
@@ -19,7 +19,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     let columns = [("what", Words), ("how many", Numbers), ("remedy", Words)];
     let mut of_run = Table::new("Of the run.", &columns);
     for (what, count, remedy) in run_problems(run, run.summary) {
-        of_run.row([what.to_owned(), count, remedy.to_owned()]);
+        of_run.row([what.to_owned(), count, remedy]);
     }
     let mut odd =
         Table::new("Of the map: what makes traffic on it look odd.", &[("what", Words), ("remedy", Words)]);
@@ -43,6 +43,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     }
     Section::new("problems", "Problems and remedies")
         .table_unless_empty(of_run, "The run had none.")
+        .table_unless_empty(incidents::table(run), "")
         .table_unless_empty(odd, "")
         .table_unless_empty(
             of_map,
@@ -64,24 +65,14 @@ fn kinds(problems: &[Problem]) -> Vec<(&Problem, u64)> {
     kinds
 }
 
-fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String, &'static str)> {
-    let mut found = Vec::new();
-    let mut note = |is_there: bool, what, count: String, remedy| {
+fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String, String)> {
+    let mut found = incidents::problems(run);
+    let mut note = |is_there: bool, what, count: String, remedy: &str| {
         if is_there {
-            found.push((what, count, remedy));
+            found.push((what, count, remedy.to_owned()));
         }
     };
     let counts = [
-        (
-            summary.collisions,
-            "Collisions",
-            "there should be none: report them with the map, the command and the seed",
-        ),
-        (
-            summary.overlaps,
-            "Overlaps of two vehicles",
-            "lanes of the map that share ground without being joined (laneweave check), or a bug: report it",
-        ),
         (
             summary.stuck,
             "Vehicles stuck for 300 s",
@@ -96,6 +87,11 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
             summary.missed_turns,
             "Missed turns",
             "the way to the turn may be too short or too full for the changes: less demand, more weight of the incentives route and urgency, or a way without the turn",
+        ),
+        (
+            summary.lost,
+            "Drivers who are lost",
+            "from where they are no way leads to any exit, as on a lane that ends beside nothing: mend the map there, or name other exits in the demand",
         ),
         (
             summary.waiting,
