@@ -372,6 +372,23 @@ mod tests {
     use crate::snapshot::{Seen, Snapshot};
     use crate::vehicle::Class;
 
+    /// A truck that stands.
+    fn standing() -> Seen {
+        Seen {
+            id: 1,
+            chain: ChainIndex(0),
+            x: 0.0,
+            speed: 0.0,
+            acceleration: 0.0,
+            length: 12.0,
+            class: Class::Truck,
+            character: 0,
+            desired: 8.0,
+            destination: None,
+            change: None,
+        }
+    }
+
     fn driver() -> Style {
         Style {
             name: "some".into(),
@@ -399,19 +416,7 @@ mod tests {
             let destination = Some((number % 4) as u16);
             let chain = ChainIndex(number % network.chains.len() as u32);
             let x = network.chain(chain).length * f64::from(number) / 6000.0;
-            let truck = Seen {
-                id: 1,
-                chain,
-                x,
-                speed: 0.0,
-                acceleration: 0.0,
-                length: 12.0,
-                class: Class::Truck,
-                character: 0,
-                desired: 8.0,
-                destination,
-                change: None,
-            };
+            let truck = Seen { chain, x, destination, ..standing() };
             let snapshot = Snapshot::new(&network, [truck]);
             let styles = [driver()];
             let scene = snapshot.scene(&network, &navigator, &styles);
@@ -429,5 +434,42 @@ mod tests {
             );
         }
         assert!(surveyed > 100, "{surveyed}");
+    }
+
+    #[test]
+    fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
+        let mut surveyed = 0;
+        for seed in 1..=12 {
+            let map = laneweave_maps::generate::random(seed).drawing.build().unwrap();
+            let rules = regulations(&map);
+            let network = map.network.regulated(&rules);
+            let navigator = Navigator::new(&network);
+            for number in 0..400_u32 {
+                let chain = ChainIndex(number % network.chains.len() as u32);
+                let x = network.chain(chain).length * f64::from(number) / 400.0;
+                let destination = Some((number % network.exits.len() as u32) as u16);
+                let class = if number % 2 == 0 { Class::Truck } else { Class::Car };
+                let length = class.body().length;
+                let seen = Seen { chain, x, length, class, destination, ..standing() };
+                let snapshot = Snapshot::new(&network, [seen]);
+                let styles = [driver()];
+                let scene = snapshot.scene(&network, &navigator, &styles);
+                let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
+                let mut out = Survey::default();
+                if !survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out) {
+                    continue;
+                }
+                surveyed += 1;
+                points(&scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
+                    if let What::Zone(crossing, ..) = point.what {
+                        let is_held =
+                            out.holds.iter().any(|it| (it.zone, it.side) == (crossing.zone, crossing.side));
+                        assert!(is_held, "seed {seed}: {crossing:?} at {at} of {} m", out.extent);
+                    }
+                    ControlFlow::Continue(())
+                });
+            }
+        }
+        assert!(surveyed > 200, "{surveyed}");
     }
 }
