@@ -115,9 +115,11 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> V
                     (0..2).all(|side| (it.0.stations[side] - contact.0.stations[side]).abs() <= APART)
                 })
             };
-        match groups.iter_mut().find(fits) {
-            // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it.
-            Some(group) if contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any) => {}
+        // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it: that is one of its own.
+        let joins = |group: &&mut Vec<(&Contact, Touch)>| {
+            fits(group) && !(contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any))
+        };
+        match groups.iter_mut().find(joins) {
             Some(group) => group.push(contact),
             None => groups.push(vec![contact]),
         }
