@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::fault::Fault;
-use crate::output::Queues;
+use crate::output::{Queues, ShortTrips};
 
 /// A run as it stands.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -28,6 +28,8 @@ pub struct Checkpoint {
     pub world: Vec<u8>,
     /// The queues at the entrances so far.
     pub queues: Queues,
+    /// The trips of one lanelet so far.
+    pub short_trips: ShortTrips,
     /// What each observer keeps.
     pub observers: Vec<Vec<u8>>,
 }

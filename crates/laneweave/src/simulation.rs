@@ -4,7 +4,7 @@ use laneweave_sim::{CheckpointError, World};
 
 use crate::checkpoint::{Checkpoint, FILE, Keeper};
 use crate::fault::Fault;
-use crate::output::{Observer, Queue, Queues};
+use crate::output::{Observer, Queue, Queues, ShortTrips};
 use crate::scenario::Prepared;
 
 /// How a run ended.
@@ -18,6 +18,8 @@ pub struct Ending {
     pub is_interrupted: bool,
     /// The queues that are left at the entrances, the longest first.
     pub queues: Vec<Queue>,
+    /// The trips of one lanelet.
+    pub short_trips: ShortTrips,
 }
 
 /// Runs `prepared` through its warm-up and its measured time, or on from a checkpoint. `observers` see the world after each measured
@@ -49,6 +51,7 @@ pub fn simulate(
         world.step();
         run.measured_steps += 1;
         run.queues.observe(world);
+        run.short_trips.observe(world);
         for observer in &mut *observers {
             observer.observe(world)?;
         }
@@ -59,8 +62,8 @@ pub fn simulate(
         }
     }
     let measured_s = world.clock().time() - run.measured_from_s;
-    let Run { measured_from_s, is_interrupted, queues, .. } = run;
-    Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world) })
+    let Run { measured_from_s, is_interrupted, queues, short_trips, .. } = run;
+    Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world), short_trips })
 }
 
 /// A run on its way.
@@ -70,6 +73,7 @@ struct Run {
     measured_steps: u32,
     is_interrupted: bool,
     queues: Queues,
+    short_trips: ShortTrips,
 }
 
 impl Run {
@@ -90,6 +94,7 @@ impl Run {
             measured_steps: 0,
             is_interrupted,
             queues: Queues::of(world),
+            short_trips: ShortTrips::default(),
         }
     }
 
@@ -99,7 +104,9 @@ impl Run {
         observers: &mut [Box<dyn Observer>],
         checkpoint: Checkpoint,
     ) -> Result<Run, Fault> {
-        let Checkpoint { measured_from_s, measured_steps, world, queues, observers: kept, .. } = checkpoint;
+        let Checkpoint {
+            measured_from_s, measured_steps, world, queues, short_trips, observers: kept, ..
+        } = checkpoint;
         let other = |what: String| Fault::new(FILE, what, "run again from the beginning, without --resume");
         prepared.world.restore(&world).map_err(|error| other(error.to_string()))?;
         if kept.len() != observers.len() {
@@ -108,7 +115,7 @@ impl Run {
         for (observer, kept) in observers.iter_mut().zip(kept) {
             observer.restore(&kept)?;
         }
-        Ok(Run { measured_from_s, measured_steps, is_interrupted: false, queues })
+        Ok(Run { measured_from_s, measured_steps, is_interrupted: false, queues, short_trips })
     }
 
     /// Writes a checkpoint.
@@ -122,6 +129,7 @@ impl Run {
             measured_steps: self.measured_steps,
             world: world.save().map_err(bug)?,
             queues: self.queues.clone(),
+            short_trips: self.short_trips,
             observers: kept?,
         };
         checkpoint.write(&keeper.path)

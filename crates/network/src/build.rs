@@ -94,13 +94,12 @@ impl Network {
     /// The same network with its junctions, at which `regulations` hold.
     pub fn regulated(mut self, regulations: &Regulations) -> Network {
         self.junctions = Junctions::new(&self, regulations);
-        let is_entrance: Vec<bool> = self.has_gates(&self.entrances);
-        let is_exit: Vec<bool> = self.has_gates(&self.exits);
         // What shares ground with others that come or leave at the edge of the map is entered in turns.
         let is_at_the_edge = |crossing: Crossing| {
             let Reach { chain, start, end } = *self.junctions.other_side(crossing);
-            let begins = is_entrance[chain.at()] && start < Network::ROOM_TO_ENTER;
-            let ends = is_exit[chain.at()] && end > self.chain(chain).length - Network::ROOM_TO_ENTER;
+            let chain = self.chain(chain);
+            let begins = chain.previous.is_empty() && start < Network::ROOM_TO_ENTER;
+            let ends = chain.following.is_empty() && end > chain.length - Network::ROOM_TO_ENTER;
             begins || ends
         };
         let is_free = |chain: &ChainIndex| {
@@ -125,13 +124,6 @@ impl Network {
             }
         }
         self
-    }
-
-    /// For each chain whether it is part of one of these `gates`.
-    fn has_gates(&self, gates: &[Gate]) -> Vec<bool> {
-        let mut has = vec![false; self.chains.len()];
-        gates.iter().flat_map(|it| &it.chains).for_each(|it| has[it.at()] = true);
-        has
     }
 
     /// Which traffic lights get in each other's way.
@@ -173,6 +165,18 @@ impl Network {
     #[inline]
     pub fn chain(&self, index: ChainIndex) -> &Chain {
         &self.chains[index.at()]
+    }
+
+    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough to change from the one to the other with a
+    /// car, or with a long vehicle [m]; the first beyond the last if nowhere.
+    pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
+        let there = self.chain(stretch.chain);
+        if !(chain.is_narrow || there.is_narrow) {
+            return [stretch.start, stretch.end];
+        }
+        let [from, until] = there.open[usize::from(is_long)].map(|it| stretch.back(it));
+        let [begins, ends] = chain.open[usize::from(is_long)];
+        [stretch.start.max(from).max(begins), stretch.end.min(until).min(ends)]
     }
 
     /// The lanelet at `station` of a chain, and how far along it that is [m].

@@ -16,7 +16,8 @@ pub struct Gate {
 }
 
 /// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long.
-/// A lanelet whose group holds one that is not open is a lane that begins, or ends, beside a continuing one.
+/// A lanelet whose group holds one that is not open is a lane that begins, or ends, beside a continuing one; one alone, from which no
+/// other can be reached, is no gate where there are others.
 pub(crate) fn gates(
     lanelets: &[Lanelet],
     chain_of: &[ChainIndex],
@@ -24,7 +25,9 @@ pub(crate) fn gates(
 ) -> Vec<Gate> {
     let mut seen = vec![false; lanelets.len()];
     let beside = neighbours(lanelets);
-    let mut found = Vec::new();
+    let mut has_previous = vec![false; lanelets.len()];
+    lanelets.iter().flat_map(|it| &it.following).for_each(|it| has_previous[it.at()] = true);
+    let (mut found, mut alone) = (Vec::new(), Vec::new());
     for first in (0..lanelets.len()).map(|i| LaneletIndex(i as u32)) {
         if seen[first.at()] || !is_open(first) {
             continue;
@@ -40,14 +43,19 @@ pub(crate) fn gates(
             }
             next += 1;
         }
-        if group.iter().all(|it| is_open(*it) && lanelets[it.at()].length() >= MINIMUM_GATE_LENGTH) {
+        let is_alone =
+            group.len() == 1 && lanelets[first.at()].following.is_empty() && !has_previous[first.at()];
+        let is_gate = |it: &LaneletIndex| is_open(*it) && lanelets[it.at()].length() >= MINIMUM_GATE_LENGTH;
+        if group.iter().all(is_gate) {
             group.sort_by_key(|it| lanelets[it.at()].id);
-            found.push(Gate {
+            let gate = Gate {
                 id: lanelets[group[0].at()].id,
                 chains: group.iter().map(|it| chain_of[it.at()]).collect(),
-            });
+            };
+            if is_alone { alone.push(gate) } else { found.push(gate) }
         }
     }
+    let mut found = if found.is_empty() { alone } else { found };
     found.sort_by_key(|gate| gate.id);
     found
 }
@@ -64,12 +72,23 @@ fn neighbours(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     beside
 }
 
-/// Chains that have no following one and are no exit: lane drops.
+/// Chains that have no following one and are no exit: lane drops. A lanelet alone is none.
 pub(crate) fn lane_drops(chains: &[Chain], exits: &[Gate]) -> Vec<ChainIndex> {
     let mut leaves = vec![false; chains.len()];
     exits.iter().flat_map(|gate| &gate.chains).for_each(|index| leaves[index.at()] = true);
+    let mut has_neighbour = vec![false; chains.len()];
+    for (chain, here) in chains.iter().zip(0..) {
+        for beside in chain.left.iter().chain(&chain.right) {
+            has_neighbour[beside.chain.at()] = true;
+            has_neighbour[here] = true;
+        }
+    }
+    let is_alone = |index: usize| {
+        let chain = &chains[index];
+        chain.lanelets.len() == 1 && chain.previous.is_empty() && !has_neighbour[index]
+    };
     (0..chains.len())
+        .filter(|index| chains[*index].following.is_empty() && !leaves[*index] && !is_alone(*index))
         .map(|i| ChainIndex(i as u32))
-        .filter(|index| chains[index.at()].following.is_empty() && !leaves[index.at()])
         .collect()
 }

@@ -21,6 +21,9 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
         is_gate
     });
     for (index, chain) in chains.iter_mut().enumerate() {
+        if is_wide(chain, lanelets) {
+            continue;
+        }
         let widths = widths(chain, lanelets);
         if widths.iter().all(|(_, it)| *it < NO_WIDTH || *it >= BODIES[1]) {
             continue;
@@ -50,6 +53,19 @@ fn open(widths: &[(f64, f64)], body: f64, [opens, closes]: [bool; 2]) -> [f64; 2
             if closes { until.unwrap_or(f64::INFINITY) } else { f64::INFINITY },
         ],
     }
+}
+
+/// Whether a look now and then shows that a chain is by far wide enough for all.
+fn is_wide(chain: &Chain, lanelets: &[Lanelet]) -> bool {
+    /// Looks are this far apart [m], and show at least this width [m].
+    const APART: f64 = 10.0;
+    const BY_FAR: f64 = BODIES[1] + 0.25;
+    chain.lanelets.iter().all(|index| {
+        let lanelet = &lanelets[index.at()];
+        let pieces = (lanelet.length() / APART).ceil().max(1.0) as usize;
+        let stations = (0..=pieces).map(|it| lanelet.length() * it as f64 / pieces as f64);
+        stations.into_iter().all(|it| lanelet.clear_width(it) >= BY_FAR)
+    })
 }
 
 /// Stations of a chain, with its width there [m].

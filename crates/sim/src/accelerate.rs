@@ -62,11 +62,13 @@ impl OpenRoad {
         OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
     }
 
-    /// Whether it reaches from `x` to a leader at `leader` [m].
+    /// Whether it reaches from a driver to a leader at `leader` [m].
     #[inline]
-    pub(crate) fn reaches(&self, x: f64, leader: f64) -> bool {
-        // Where it may have to stop behind its leader it looks more closely.
-        x >= self.from || (x >= self.fork_clearance && leader <= self.first_place)
+    pub(crate) fn reaches(&self, motion: &Motion, leader: f64) -> bool {
+        // Where it may have to stop behind its leader, or where that will have gone on, it looks more closely.
+        let stays_before = || self.first_place - motion.x >= stopping_way(motion.speed);
+        motion.x >= self.from
+            || (motion.x >= self.fork_clearance && leader <= self.first_place && stays_before())
     }
 }
 
@@ -107,7 +109,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let heeds_more = car.phase == Phase::Wants || car.heeds_more;
     let next = scene.motions(spot.chain).get(spot.index + 1).filter(|it| !heeds_more && it.id != motion.id);
     let road = OpenRoad::on(scene, spot.chain, lane_end);
-    let is_usual = |it: &&Motion| road.reaches(motion.x, it.x) && junction::is_nothing_near(scene, spot);
+    let is_usual = |it: &&Motion| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
     let usual = next.filter(is_usual);
     if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, car, it, clock.dt)) {
         return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
@@ -162,6 +164,15 @@ fn stopping_speed(room: f64) -> f64 {
     (2.0 * COMFORTABLE_BRAKING * room.max(0.0)).sqrt()
 }
 
+/// Way on which a driver at `speed` [m/s] stops with comfort, and somewhat more [m].
+#[inline]
+fn stopping_way(speed: f64) -> f64 {
+    /// A moment [s] and some room [m].
+    const MOMENT: f64 = 1.0;
+    const ROOM: f64 = 5.0;
+    speed * speed / (2.0 * COMFORTABLE_BRAKING) + MOMENT * speed + ROOM
+}
+
 /// Speed at which a driver enters who may have to stop `distance` ahead [m/s].
 pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
     stopping_speed(distance - ROOM_AT_A_STOP)
@@ -213,6 +224,7 @@ pub(crate) struct LaneEnd {
 
 impl LaneEnd {
     /// That of `next`, which begins at `start`.
+    #[inline(never)]
     fn of(next: &Chain, start: f64) -> LaneEnd {
         let open = [false, true].map(|is_long| start + next.driven_until(is_long));
         let begins = |side: Side| {
@@ -233,6 +245,7 @@ impl LaneEnd {
 }
 
 /// Where the lane ends for all that are on it.
+#[inline]
 pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
     let here = scene.network.chain(chain);
     match here.following[..] {

@@ -34,10 +34,10 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
     for waiting in plan.waiting.iter().filter(has_to_ask) {
         let spot = Spot { chain, index: waiting.index as usize };
         let motion = scene.motion(spot);
-        if !surveyed(scene, spot, &mut outbox.survey) {
+        let applicant = Applicant::at(scene, spot);
+        if !surveyed(scene, &applicant, &mut outbox.survey) {
             continue;
         }
-        let applicant = Applicant::at(scene, spot);
         let asking = Asking::of(&applicant, waiting.since, clock);
         match may_pass(scene, &applicant, &outbox.survey, asking) {
             Ok(()) => outbox.appeals.push(Appeal {
@@ -60,7 +60,7 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 }
             }
             Err(Hindrance::Light) if starves(scene, asking, &outbox.survey) => {
-                survey_at(scene, spot, |_, _| false, &mut outbox.survey);
+                survey_at(scene, &applicant, |_, _| false, &mut outbox.survey);
                 claim_room(scene, spot, asking.claim, outbox);
             }
             Err(Hindrance::Light | Hindrance::Sign) => {}
@@ -87,18 +87,21 @@ fn claim_room(scene: &Scene, spot: Spot, claim: Claim, outbox: &mut Outbox) {
     }
 }
 
-/// Surveys what the driver at `spot` needs next. Returns whether there is something, and nobody before it waits there.
-pub(crate) fn surveyed(scene: &Scene, spot: Spot, out: &mut Survey) -> bool {
-    let applicant = Applicant::at(scene, spot);
+/// Surveys what an applicant needs next. Returns whether there is something, and nobody before it waits there.
+pub(crate) fn surveyed(scene: &Scene, applicant: &Applicant, out: &mut Survey) -> bool {
     let is_held = |light, at| !lets_go(scene, light, at, applicant.speed);
-    survey_at(scene, spot, is_held, out) && are_led_on(scene, &applicant, out)
+    survey_at(scene, applicant, is_held, out) && are_led_on(scene, applicant, out)
 }
 
-/// Surveys what the driver at `spot` needs next, up to a light where it `is_held`. Returns whether there is something.
-fn survey_at(scene: &Scene, spot: Spot, is_held: impl Fn(LightIndex, f64) -> bool, out: &mut Survey) -> bool {
-    let applicant = Applicant::at(scene, spot);
+/// Surveys what an applicant needs next, up to a light where it `is_held`. Returns whether there is something.
+fn survey_at(
+    scene: &Scene,
+    applicant: &Applicant,
+    is_held: impl Fn(LightIndex, f64) -> bool,
+    out: &mut Survey,
+) -> bool {
     let granted = applicant.passage.map_or(0.0, |it| it.left().max(0.0));
-    survey(scene, &applicant, [granted, sight(applicant.speed)], is_held, out)
+    survey(scene, applicant, [granted, sight(applicant.speed)], is_held, out)
 }
 
 impl World {
@@ -161,7 +164,7 @@ impl World {
         let scene = self.scene();
         let applicant = Applicant::at(&scene, spot);
         let asking = Asking::of(&applicant, since, self.clock);
-        let may = surveyed(&scene, spot, &mut outbox.survey)
+        let may = surveyed(&scene, &applicant, &mut outbox.survey)
             && may_pass(&scene, &applicant, &outbox.survey, asking).is_ok();
         if may {
             self.give_surveyed(spot, since, &mut outbox);
@@ -173,7 +176,8 @@ impl World {
     /// Who stays within a merge for that is in nobody's way but of those who come after.
     pub(crate) fn may_after(&self, spot: Spot, asking: Asking, next: Spot, outbox: &mut Outbox) -> bool {
         let (scene, survey) = (self.scene(), &mut outbox.survey);
-        if !surveyed(&scene, spot, survey) {
+        let applicant = Applicant::at(&scene, spot);
+        if !surveyed(&scene, &applicant, survey) {
             return false;
         }
         let is_freed = stands_beyond(&scene, scene.viewpoint(spot), survey, next);
@@ -182,12 +186,13 @@ impl World {
             |it: &Hold| matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_));
         let fits = room >= survey.needed - asking.squeezes_into() || survey.holds.iter().all(is_merge);
         survey.room = f64::INFINITY;
-        is_freed && fits && may_pass(&scene, &Applicant::at(&scene, spot), survey, asking).is_ok()
+        is_freed && fits && may_pass(&scene, &applicant, survey, asking).is_ok()
     }
 
     /// Gives the driver at `spot`, who first asked in step `since`, the passage that it needs next.
     pub(crate) fn give_surveyed(&mut self, spot: Spot, since: u32, outbox: &mut Outbox) {
-        surveyed(&self.scene(), spot, &mut outbox.survey);
+        let scene = self.scene();
+        surveyed(&scene, &Applicant::at(&scene, spot), &mut outbox.survey);
         let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
         let length = f64::from(motion.length);
         mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);

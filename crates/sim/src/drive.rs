@@ -27,7 +27,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             upcoming.prefetch(index);
         }
         let leader = motions.get(index + 1).filter(|_| car.only_follows());
-        let leader = leader.filter(|it| road.reaches(motion.x, it.x));
+        let leader = leader.filter(|it| road.reaches(motion, it.x));
         let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
         let (acceleration, stretch) = match usual {
             Some(acceleration) => (acceleration, 1.0),

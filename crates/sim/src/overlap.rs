@@ -14,6 +14,8 @@ const TOLERANCE: f64 = 0.05;
 const HEIGHT: f64 = 2.0;
 /// Vehicles further apart along the road than this cannot touch [m].
 const REACH: f64 = 30.0;
+/// A body at an angle, or in a bend, reaches this much further along a lane [m].
+const ASKEW: f64 = 3.0;
 
 /// Notes the vehicles on `chain` that intersect each other, or vehicles on other chains that are near it.
 pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>) {
@@ -46,14 +48,34 @@ fn in_lane(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>)
     }
 }
 
-/// Vehicles on two lanes that come close to each other.
+/// Vehicles on two lanes that come close to each other, but for those that follow each other from the one to the other.
 fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, out: &mut Vec<Incident>) {
-    let there = within(scene.motions(nearby.chain), nearby.there);
+    let others = scene.motions(nearby.chain);
+    if others.is_empty() {
+        return;
+    }
+    let there = within(others, nearby.there);
     if there.is_empty() {
         return;
     }
-    for index in within(scene.motions(chain), nearby.here) {
-        for other in there.clone() {
+    let motions = scene.motions(chain);
+    let [one, other] = [(chain, nearby.chain), (nearby.chain, chain)]
+        .map(|(back, on)| scene.network.chain(back).following.contains(&on));
+    let is_apart = |here: usize, index: usize| {
+        let follows = |on: ChainIndex, index: usize, back: ChainIndex| {
+            scene.minds(on)[index].trail.last() == Some(back) || scene.motions(on)[index].rear() >= 0.0
+        };
+        let gap = |back: ChainIndex, ahead: &Motion, behind: &Motion| {
+            scene.network.chain(back).length - behind.x + ahead.rear()
+        };
+        (one && follows(nearby.chain, index, chain) && gap(chain, &others[index], &motions[here]) > 0.0)
+            || (other
+                && follows(chain, here, nearby.chain)
+                && gap(nearby.chain, &motions[here], &others[index]) > 0.0)
+    };
+    for index in within(motions, nearby.here).filter(|it| reaches(&motions[*it], nearby.here)) {
+        let near = there.clone().filter(|it| reaches(&others[*it], nearby.there) && !is_apart(index, *it));
+        for other in near {
             out.extend(incident(
                 scene,
                 Spot { chain, index },
@@ -62,6 +84,11 @@ fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, o
             ));
         }
     }
+}
+
+/// Whether a vehicle with its front on a stretch of fronts reaches back to where others are near.
+fn reaches(motion: &Motion, fronts: [f64; 2]) -> bool {
+    motion.rear() <= fronts[1] - LONGEST
 }
 
 /// The vehicles with their fronts on a stretch.
@@ -85,7 +112,10 @@ fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
         if places[..number].iter().flatten().any(|(earlier, _)| *earlier == chain) {
             continue;
         }
-        for index in within(scene.motions(chain), [x - REACH, x + REACH]) {
+        let motions = scene.motions(chain);
+        let rear = x - f64::from(motion.length);
+        let is_level = |it: &Motion| it.x > rear - ASKEW && it.rear() < x + ASKEW;
+        for index in within(motions, [x - REACH, x + REACH]).filter(|it| is_level(&motions[*it])) {
             out.extend(incident(scene, spot, Spot { chain, index }, time));
         }
     }

@@ -4,6 +4,7 @@ use laneweave_network::{ChainIndex, Gate, LaneletIndex, Network};
 
 use crate::demand::Demand;
 use crate::navigate::Navigator;
+use crate::scene::LONGEST;
 
 /// Where trips start or end.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,13 +88,13 @@ impl Places {
         for (chain, index) in network.chains.iter().zip(0..) {
             for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
                 let length = network.lanelets[lanelet.at()].length();
-                if is_wanted[lanelet.at()] && length >= Kerb::SHORTEST_LANELET {
-                    let station = start + Kerb::SHARE_BEFORE * length;
-                    kerbs.push(Kerb {
-                        id: network.lanelets[lanelet.at()].id,
-                        chain: ChainIndex(index),
-                        station,
-                    });
+                if !is_wanted[lanelet.at()] || length < Kerb::SHORTEST_LANELET {
+                    continue;
+                }
+                let chain = ChainIndex(index);
+                let usual = start + Kerb::SHARE_BEFORE * length;
+                if let Some(station) = clear_station(network, chain, [*start, start + length], usual) {
+                    kerbs.push(Kerb { id: network.lanelets[lanelet.at()].id, chain, station });
                 }
             }
         }
@@ -104,4 +105,25 @@ impl Places {
         let origins = kerbs.into_iter().map(Place::Kerb).collect();
         Places { origins, destinations }.reachable(network)
     }
+}
+
+/// The station nearest to `usual` on a lanelet, which reaches along a `chain` `from` one station `to` another, before which the longest
+/// vehicle stands in no conflict zone and on the lanelet [m].
+fn clear_station(network: &Network, chain: ChainIndex, [from, to]: [f64; 2], usual: f64) -> Option<f64> {
+    /// A vehicle keeps this distance to a zone [m].
+    const SPARE: f64 = 1.0;
+    let junctions = &network.junctions;
+    let taken: Vec<[f64; 2]> = junctions
+        .on(chain)
+        .crossings
+        .iter()
+        .map(|it| junctions.reach(*it))
+        .map(|it| [it.start - LONGEST - SPARE, it.end + SPARE])
+        .collect();
+    let is_clear = |station: &f64| {
+        let is_taken = taken.iter().any(|[start, end]| (*start..*end).contains(station));
+        (from..=to - LONGEST).contains(station) && !is_taken
+    };
+    let candidates = std::iter::once(usual).chain(taken.iter().flatten().copied());
+    candidates.filter(is_clear).min_by(|a, b| (a - usual).abs().total_cmp(&(b - usual).abs()))
 }

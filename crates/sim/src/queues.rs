@@ -96,7 +96,7 @@ impl World {
             return Held::Queue;
         };
         let mut survey = Survey::default();
-        if !surveyed(scene, spot, &mut survey) {
+        if !surveyed(scene, &Applicant::at(scene, spot), &mut survey) {
             return Held::Queue;
         }
         let applicant = Applicant::at(scene, spot);

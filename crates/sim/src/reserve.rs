@@ -5,7 +5,7 @@ use laneweave_network::{ZoneIndex, ZoneKind};
 
 use crate::clock::Clock;
 use crate::junction::{
-    Applicant, Asking, Hindrance, STANDS_BEFORE_A_ZONE, Survey, Turn, are_led_on, leader_of, lets_go,
+    Applicant, Asking, Hindrance, Hold, STANDS_BEFORE_A_ZONE, Survey, Turn, are_led_on, leader_of, lets_go,
     may_pass, survey, turns,
 };
 use crate::scene::{Scene, Viewpoint};
@@ -73,18 +73,26 @@ pub(crate) fn entry(
         }
         Ok(()) => {
             let ahead = leader_of(scene, out).map(|it| Ahead { gap: it.gap - WAITS_BEFORE - length, ..it });
-            Entry::Reserved { until: out.extent - WAITS_BEFORE, ahead }
+            Entry::Reserved { until: free_until(scene, out) - WAITS_BEFORE, ahead }
         }
     }
 }
 
 /// Whether nobody else may pass the crossings that begin within `reach` [m]: who comes onto the road stands in them at once.
 fn is_free(scene: &Scene, surveyed: &Survey, reach: f64) -> bool {
-    surveyed.holds.iter().filter(|it| it.enter <= reach).all(|hold| {
-        let zone = &scene.network.junctions.zones[hold.zone.at()];
-        let is_crossing = zone.kind == ZoneKind::Crossing;
-        !is_crossing || scene.passages.order(hold.zone).all(|(it, _)| it.side == hold.side)
-    })
+    free_until(scene, surveyed) > reach
+}
+
+/// How far what was surveyed leads without a stop for others who pass a crossing first [m].
+fn free_until(scene: &Scene, surveyed: &Survey) -> f64 {
+    /// Before the place where one stops for a crossing [m].
+    const BEFORE: f64 = 0.01;
+    let waits = |hold: &&Hold| {
+        let is_crossing = scene.network.junctions.zones[hold.zone.at()].kind == ZoneKind::Crossing;
+        is_crossing && scene.passages.order(hold.zone).any(|(it, _)| it.side != hold.side)
+    };
+    let taken = surveyed.holds.iter().filter(waits).map(|it| it.enter - BEFORE);
+    taken.fold(surveyed.extent, f64::min)
 }
 
 impl World {

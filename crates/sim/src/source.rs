@@ -18,6 +18,7 @@ use crate::rate::Rate;
 use crate::scene::Scene;
 use crate::traffic::{Motion, VehicleId};
 use crate::vehicle::Class;
+use crate::ways::Waypoint;
 
 /// Road per lane change that is still to go within which a driver comes onto the map in the lane of its route [m] (ours).
 pub const TAKES_LANE_WITHIN: f64 = 800.0;
@@ -189,8 +190,22 @@ impl Source {
         let last = self.destinations.last().map_or(0.0, |it| it.1);
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
-        let destination = navigator.seen_by(class, destination);
+        let destination = self.reachable_for(navigator, class, destination);
         Arrival { id, time, class, character, destination, is_through_town: false }
+    }
+
+    /// A destination as a class sees the way to it; where there is none for it, the destination of least time to which there is one.
+    fn reachable_for(&self, navigator: &Navigator, class: Class, destination: Destination) -> Destination {
+        let seen = |it: Destination| navigator.seen_by(class, it);
+        let time = |it: Destination| {
+            let waypoints = self.lanes.iter().map(|lane| navigator.waypoint(it, lane.chain));
+            waypoints.filter(|it| it.leads_there()).map(Waypoint::cost).reduce(f64::min)
+        };
+        if time(seen(destination)).is_some() {
+            return seen(destination);
+        }
+        let others = self.destinations.iter().map(|it| seen(it.0)).filter_map(|it| Some((it, time(it)?)));
+        others.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(seen(destination), |it| it.0)
     }
 
     /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long

@@ -93,7 +93,7 @@ impl World {
             return StandsFor::After(self.before_it(scene, spot));
         }
         let mut survey = Survey::default();
-        if !surveyed(scene, spot, &mut survey) {
+        if !surveyed(scene, &Applicant::at(scene, spot), &mut survey) {
             return StandsFor::After(self.before_it(scene, spot));
         }
         let applicant = Applicant::at(scene, spot);

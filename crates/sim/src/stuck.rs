@@ -51,7 +51,8 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
         None => Blocker::Other,
     };
     // It waits behind another, or for one who goes before it into a merge, or it is itself the head.
-    let is_head = surveyed(scene, at, survey) && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
+    let is_head = surveyed(scene, &Applicant::at(scene, at), survey)
+        && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
     if !is_head {
         return on_way();
     }

@@ -124,11 +124,19 @@ impl Planner<'_> {
         self.time(chain, place) - self.time(stretch.chain, stretch.across(place))
     }
 
-    /// What a change by `last_place` over `stretch` counts for in the choice of a route [s]: the shorter the road for it, the more of
-    /// those who try will miss it.
-    fn hurry(stretch: &Beside, last_place: f64) -> f64 {
-        let room = (last_place - stretch.start) / Planner::ROOM_FOR_A_CHANGE;
-        Planner::MISSED * (1.0 - room).max(0.0)
+    /// What a change counts for in the choice of a route for which there are `room` metres [s]: the shorter the road for it, the more
+    /// of those who try will miss it.
+    fn hurry(room: f64) -> f64 {
+        Planner::MISSED * (1.0 - room / Planner::ROOM_FOR_A_CHANGE).max(0.0)
+    }
+
+    /// Road on which a driver can change from `chain` to another one by `last_place` [m].
+    fn room_to_change(&self, chain: ChainIndex, to: ChainIndex, last_place: f64) -> f64 {
+        let here = self.network.chain(chain);
+        let leading =
+            Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).filter(|it| it.chain == to);
+        let windows = leading.map(|it| self.network.window(here, it, self.view > 0));
+        windows.map(|[start, end]| (end.min(last_place) - start).max(0.0)).sum()
     }
 
     /// What `chain` asks for from its start to its end.
@@ -156,59 +164,16 @@ impl Planner<'_> {
         }
     }
 
-    /// Best waypoints towards `place`, spread backwards from it until none improves.
+    /// Best waypoints towards `place`, spread backwards from it until none improves; then on from those to chains that have no way
+    /// unless its changes are made on less road than usual.
     pub(crate) fn plan(&self, place: &Place) -> Vec<Waypoint> {
-        let Planner { network, into, .. } = *self;
-        let chains = &network.chains;
-        let mut table = vec![Waypoint::NOWHERE; chains.len()];
-        let mut ranks = vec![rank(network, &Waypoint::NOWHERE); chains.len()];
-        let mut open = BinaryHeap::new();
-        for index in place.chains() {
-            let (until, end) = match place {
-                Place::Gate(_) => (network.chain(*index).length, f64::INFINITY),
-                Place::Kerb(kerb) => (kerb.station, kerb.station),
-            };
-            table[index.at()] = Waypoint {
-                changes: 0,
-                via: *index,
-                last_place: f64::INFINITY,
-                next: None,
-                time: self.time(*index, until),
-                distance: until,
-                end,
-                effort: Effort::until(network, *index, until),
-                ..Waypoint::NOWHERE
-            };
-            ranks[index.at()] = rank(network, &table[index.at()]);
-            open.push((Reverse(ranks[index.at()]), *index));
+        let mut search = Search::new(self, place);
+        if search.spread(self, Room::Usual) {
+            search.reopen();
+            search.spread(self, Room::Half);
         }
-        while let Some((Reverse(ranked), index)) = open.pop() {
-            let here = table[index.at()];
-            if ranked != ranks[index.at()] {
-                continue;
-            }
-            let ahead = changed_to(&table, index);
-            let mut offer = |to: ChainIndex, waypoint: Waypoint| {
-                let new = rank(network, &waypoint);
-                if new < ranks[to.at()] {
-                    (table[to.at()], ranks[to.at()]) = (waypoint, new);
-                    open.push((Reverse(new), to));
-                }
-            };
-            for back in &chains[index.at()].previous {
-                let waypoint = self.before(*back, index, &here);
-                offer(*back, Waypoint { time: waypoint.time + self.delay(*back), ..waypoint });
-            }
-            for (from, side, number) in &into[index.at()] {
-                let stretch = &network.chain(*from).stretches(*side)[*number];
-                let until = here.last_place.min(here.end) - Planner::ROOM_FOR_A_CHANGE;
-                let end = stretch.end.min(network.chain(*from).driven_until(self.view > 0));
-                let last_place = if until.is_finite() { end.min(stretch.back(until)) } else { end };
-                if last_place > stretch.start && !ahead.contains(from) {
-                    offer(*from, self.beside(*from, index, stretch, last_place, &here));
-                }
-            }
-        }
+        let mut table = search.table;
+        let chains = &self.network.chains;
         for index in 0..chains.len() {
             if table[index].changes > 0 || table[index].end.is_finite() {
                 let best = chains[index]
@@ -219,6 +184,39 @@ impl Planner<'_> {
             }
         }
         table
+    }
+
+    /// The waypoint of a chain on which trips to `place` end.
+    fn goal(&self, place: &Place, index: ChainIndex) -> Waypoint {
+        let (until, end) = match place {
+            Place::Gate(_) => (self.network.chain(index).length, f64::INFINITY),
+            Place::Kerb(kerb) => (kerb.station, kerb.station),
+        };
+        Waypoint {
+            changes: 0,
+            via: index,
+            last_place: f64::INFINITY,
+            next: None,
+            time: self.time(index, until),
+            distance: until,
+            end,
+            effort: Effort::until(self.network, index, until),
+            ..Waypoint::NOWHERE
+        }
+    }
+
+    /// The last place for a change within a window of `stretch` for who has the waypoint `onward` beyond [m]: so that road is left for
+    /// the next change.
+    fn last_place(stretch: &Beside, [start, end]: [f64; 2], onward: &Waypoint, room: Room) -> f64 {
+        let next = onward.last_place.min(onward.end);
+        if next == f64::INFINITY {
+            return end;
+        }
+        let latest = stretch.back(next);
+        match room {
+            Room::Usual => end.min(latest - Planner::ROOM_FOR_A_CHANGE),
+            Room::Half => end.min(0.5 * (start + latest)),
+        }
     }
 
     /// The waypoint of `chain` for who changes over `stretch` to the chain `to`, whose waypoint is `onward`.
@@ -236,7 +234,9 @@ impl Planner<'_> {
             via: to,
             last_place,
             next: self.network.chain(chain).following.first().copied(),
-            time: onward.time + self.lag(chain, stretch) + Planner::hurry(stretch, last_place),
+            time: onward.time
+                + self.lag(chain, stretch)
+                + Planner::hurry(self.room_to_change(chain, to, last_place)),
             distance: onward.distance - across,
             effort: onward.effort.beyond(Effort::until(self.network, to, across)),
             ..Waypoint::NOWHERE
@@ -258,7 +258,9 @@ impl Planner<'_> {
                 self.time(chain, it.length) + onward.time + self.delay(chain)
             } else {
                 let stretch = stretch_to(self.network.chain(chain), via, last_place);
-                let change = |it: &Beside| self.lag(chain, it) + Planner::hurry(it, last_place);
+                let change = |it: &Beside| {
+                    self.lag(chain, it) + Planner::hurry(self.room_to_change(chain, via, last_place))
+                };
                 onward.time + stretch.map_or(0.0, change)
             };
         }
@@ -288,6 +290,94 @@ impl Planner<'_> {
         for (waypoint, (time, effort)) in table.iter_mut().zip(alternatives) {
             (waypoint.alternative, waypoint.alternative_effort) = (time, effort);
         }
+    }
+}
+
+/// Road that is kept for the next change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Room {
+    /// What is usual.
+    Usual,
+    /// Half of what there is.
+    Half,
+}
+
+/// A search for the best ways, backwards from a destination.
+struct Search {
+    table: Vec<Waypoint>,
+    ranks: Vec<Rank>,
+    open: BinaryHeap<(Reverse<Rank>, ChainIndex)>,
+    /// Chains whose ways stay as they are.
+    is_settled: Vec<bool>,
+}
+
+impl Search {
+    fn new(planner: &Planner, place: &Place) -> Search {
+        let chains = planner.network.chains.len();
+        let mut search = Search {
+            table: vec![Waypoint::NOWHERE; chains],
+            ranks: vec![rank(planner.network, &Waypoint::NOWHERE); chains],
+            open: BinaryHeap::new(),
+            is_settled: vec![false; chains],
+        };
+        for index in place.chains() {
+            search.offer(planner.network, *index, planner.goal(place, *index));
+        }
+        search
+    }
+
+    /// Takes a waypoint of a chain if it is better than the one known.
+    fn offer(&mut self, network: &Network, to: ChainIndex, waypoint: Waypoint) {
+        let new = rank(network, &waypoint);
+        if new < self.ranks[to.at()] && !self.is_settled[to.at()] {
+            (self.table[to.at()], self.ranks[to.at()]) = (waypoint, new);
+            self.open.push((Reverse(new), to));
+        }
+    }
+
+    /// Looks on from all chains that have a way, whose ways stay as they are.
+    fn reopen(&mut self) {
+        self.is_settled = self.table.iter().map(Waypoint::leads_there).collect();
+        let settled = (0..).map(ChainIndex).zip(&self.is_settled).filter(|it| *it.1);
+        self.open = settled.map(|(index, _)| (Reverse(self.ranks[index.at()]), index)).collect();
+    }
+
+    /// Spreads until no waypoint improves. Returns whether there were changes for which there is less road than usual.
+    fn spread(&mut self, planner: &Planner, room: Room) -> bool {
+        let Planner { network, into, .. } = *planner;
+        let mut are_short = false;
+        while let Some((Reverse(ranked), index)) = self.open.pop() {
+            let here = self.table[index.at()];
+            if ranked != self.ranks[index.at()] {
+                continue;
+            }
+            let ahead = changed_to(&self.table, index);
+            for back in &network.chain(index).previous {
+                let waypoint = planner.before(*back, index, &here);
+                let time = waypoint.time + planner.delay(*back);
+                self.offer(network, *back, Waypoint { time, ..waypoint });
+            }
+            for stretches in into[index.at()].chunk_by(|a, b| a.0 == b.0) {
+                let from = stretches[0].0;
+                if ahead.contains(&from) {
+                    continue;
+                }
+                // Whichever stretch one takes, it leads to the same: the last that still does is the last chance.
+                let chain = network.chain(from);
+                let last = stretches.iter().rev().find_map(|(_, side, number)| {
+                    let stretch = &chain.stretches(*side)[*number];
+                    let window = network.window(chain, stretch, planner.view > 0);
+                    let last_place = Planner::last_place(stretch, window, &here, room);
+                    are_short |= last_place <= window[0] && window[0] < window[1];
+                    (last_place > window[0]).then_some((stretch, last_place))
+                });
+                if let Some((stretch, last_place)) = last {
+                    let waypoint = planner.beside(from, index, stretch, last_place, &here);
+                    self.offer(network, from, waypoint);
+                }
+            }
+        }
+        are_short
     }
 }
 
@@ -332,9 +422,12 @@ pub(crate) fn free_time(chain: &Chain, until: f64) -> f64 {
     pieces.map(|(limit, end)| (end.min(until) - limit.start) / limit.speed).sum()
 }
 
+/// See [`rank`].
+type Rank = (i64, i64, i64);
+
 /// Of two waypoints of a chain the one with the lower rank is better: less cost [µs, so that equal ways count as equal], then
 /// a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are stored.
-fn rank(network: &Network, waypoint: &Waypoint) -> (i64, i64, i64) {
+fn rank(network: &Network, waypoint: &Waypoint) -> Rank {
     let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(it, 0.0).0.id);
     ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)
 }
@@ -476,8 +569,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_change_counts_as_a_detour_the_more_the_less_road_there_is_for_it() {
-        let stretch = Beside { start: 10.0, end: 100.0, chain: ChainIndex(1), other_start: 10.0, scale: 1.0 };
-        let counted = [10.0, 20.0, 40.0, 50.0, 100.0].map(|last_place| Planner::hurry(&stretch, last_place));
+        let counted = [0.0, 10.0, 30.0, 40.0, 90.0].map(Planner::hurry);
         assert_eq!(counted, [120.0, 90.0, 30.0, 0.0, 0.0]);
     }
 

@@ -4,43 +4,42 @@
 use laneweave_network::{Beside, ChainIndex, Side};
 
 use crate::scene::{Scene, Spot};
+use crate::traffic::Car;
 
 /// A window is short up to this length [m]: a driver who looks for a gap only there finds none in time. Ours.
 const SHORT: f64 = 80.0;
 /// So far before a short window a driver looks for a gap [m]. Ours.
 const LOOKS_AHEAD: f64 = 60.0;
+/// Stretches that are no further apart are one window [m].
+const NEAR: f64 = 1.0;
 
 /// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which it has to change.
-#[inline]
+// Considering a lane begins with it.
+#[inline(always)]
 pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'a Beside> {
+    let stretches = scene.network.chain(spot.chain).stretches(side);
+    if stretches.is_empty() {
+        return None;
+    }
     let x = scene.motion(spot).x;
-    let chain = scene.network.chain(spot.chain);
-    match chain.beside(side, x) {
-        None if scene.car(spot).heeds_more => {
-            let last_place = scene.mind(spot).last_place;
-            coming(chain.stretches(side), x, last_place)
-        }
+    let after = stretches.partition_point(|it| it.start <= x);
+    match stretches[..after].last().filter(|it| x <= it.end) {
+        None if scene.car(spot).heeds_more => coming(scene, spot, stretches),
         found => found,
     }
 }
 
-/// The first of `stretches` beyond `x`, if it is near and short, and holds the `last_place` for a change.
+/// The first of `stretches` ahead of the driver at `spot`, if the short window in which it has to change lanes begins with it.
 #[inline(never)]
-fn coming(stretches: &[Beside], x: f64, last_place: f64) -> Option<&Beside> {
-    let place = stretches.iter().position(|it| it.start > x)?;
-    let next = &stretches[place];
-    let end =
-        stretches[place..].iter().fold(next.start, |end, it| if follows(it, end) { it.end } else { end });
-    let is_needed = last_place > next.start && last_place <= end;
-    let is_short = end - next.start < SHORT && next.start - x < LOOKS_AHEAD;
-    (is_needed && is_short && next.across(x) >= 0.0).then_some(next)
-}
-
-/// Whether a stretch goes on where another one ended, at `end` along the same chain [m].
-pub(crate) fn follows(stretch: &Beside, end: f64) -> bool {
-    /// Stretches that are no further apart are one window [m].
-    const NEAR: f64 = 1.0;
-    stretch.start - end < NEAR
+fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a Beside> {
+    let (x, last_place) = (scene.motion(spot).x, scene.mind(spot).last_place);
+    let next = stretches.iter().find(|it| it.start > x && last_place.is_finite() && it.start < last_place)?;
+    if next.start - x > LOOKS_AHEAD {
+        return None;
+    }
+    let window = Window::of(scene, spot)?;
+    let begins_it = next.start - x <= window.start + NEAR;
+    (begins_it && window.is_near_and_short() && next.across(x) >= 0.0).then_some(next)
 }
 
 /// A window ahead, or one that the driver is in. Distances are those from its front [m].
@@ -53,10 +52,15 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where it is not found.
+    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where that is far.
     pub(crate) fn of(scene: &Scene, spot: Spot) -> Option<Window> {
         let (x, place) = (scene.motion(spot).x, scene.mind(spot).last_place);
-        let destination = scene.car(spot).goal.destination();
+        // A short one is near, and a long one so far ahead is not worth the search.
+        if place - x > SHORT + LOOKS_AHEAD {
+            return None;
+        }
+        let Car { goal, class, .. } = scene.car(spot);
+        let (destination, is_long) = (goal.destination(), class.is_long());
         let (mut chain, mut base): (ChainIndex, f64) = (spot.chain, 0.0);
         // For each side the window that ends last so far, along the own chain.
         let mut runs = [[f64::NEG_INFINITY; 2]; 2];
@@ -64,10 +68,13 @@ impl Window {
             let here = scene.network.chain(chain);
             for (side, run) in Side::BOTH.into_iter().zip(&mut runs) {
                 for stretch in here.stretches(side) {
-                    let start = if follows(stretch, run[1] - base) { run[0] } else { base + stretch.start };
-                    *run = [start, base + stretch.end];
-                    if base + stretch.start < place && place <= run[1] {
-                        return Some(Window { start: start - x, end: place - x });
+                    let [from, until] = scene.network.window(here, stretch, is_long).map(|it| base + it);
+                    if from >= until {
+                        continue;
+                    }
+                    *run = [if from - run[1] < NEAR { run[0] } else { from }, until];
+                    if from < place && place <= until {
+                        return Some(Window { start: run[0] - x, end: place - x });
                     }
                 }
             }

@@ -21,7 +21,7 @@ fn world(network: Network, demand: Demand, step: f64) -> World {
 fn v27_arrivals_within_ten_seconds_are_poisson() {
     const BINS: u32 = 20_000;
     const MEAN: f64 = 2.5;
-    let network = Road { length: 60.0, ..Road::default() }.network();
+    let network = Road { length: 510.0, ..Road::default() }.network();
     let demand = drivers::demand(&network, 900.0, 0.0, &[0.5, 0.5]);
     let mut world = world(network, demand, 1.0);
     let counts: Vec<u64> = (0..BINS)
@@ -74,7 +74,7 @@ fn arrivals_in_each_lane_follow_the_law_of_headways() {
 
 #[test]
 fn the_rate_of_arrivals_changes_when_it_should() {
-    let network = Road { length: 60.0, ..Road::default() }.network();
+    let network = Road { length: 510.0, ..Road::default() }.network();
     for headways in
         [Headways::Exponential, Headways::Shifted { minimum: 1.0 }, Headways::Erlang { stages: 3 }]
     {

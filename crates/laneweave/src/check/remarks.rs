@@ -54,6 +54,8 @@ pub(crate) fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Rema
     let all = [
         closed(places),
         room_to_change(network),
+        shared_at_the_edge(network),
+        narrow_lanes(network),
         limits_of_law(map),
         extreme_limits(&network.lanelets),
         jumps(&network.lanelets),
@@ -130,6 +132,57 @@ fn beside_another(chain: &Chain) -> f64 {
         until = until.max(end);
     }
     total
+}
+
+/// Entrances that share ground with others that come onto the map, or leave it, there.
+fn shared_at_the_edge(network: &Network) -> Option<Remark> {
+    /// Ground that is entered right away begins within this distance [m].
+    const AT_ONCE: f64 = 15.0;
+    let junctions = &network.junctions;
+    let shares = |chain: &ChainIndex| {
+        let mut crossings = junctions.on(*chain).crossings.iter();
+        let near = crossings.find(|it| junctions.reach(**it).start < AT_ONCE)?;
+        let [one, other] = [*chain, junctions.other_side(*near).chain];
+        Some([(one, 0.0), (other, 0.0)].map(|(chain, station)| network.lanelet_at(chain, station).0.id))
+    };
+    let found: Vec<[i64; 2]> =
+        network.entrances.iter().flat_map(|it| &it.chains).filter_map(shares).collect();
+    let [one, other] = *found.first()?;
+    let what = format!(
+        "entrance {one}{} shares ground with others at the edge of the map, such as lanelet {other}: they take turns, and who has none \
+         waits outside",
+        and_more(found.len() - 1)
+    );
+    remark(what, "draw the road on to where vehicles can pass each other, if it goes on")
+}
+
+/// Lanes that are too narrow for cars or for long vehicles.
+fn narrow_lanes(network: &Network) -> Option<Remark> {
+    let first_id = |chain: &Chain| network.lanelets[chain.lanelets[0].at()].id;
+    let narrow = || network.chains.iter().filter(|it| it.is_narrow);
+    let is_closed = |it: &&Chain| it.open[0][0] > it.open[0][1];
+    let closed: Vec<i64> = narrow().filter(is_closed).map(first_id).collect();
+    let ends =
+        narrow().filter(|it| !is_closed(it) && !it.is_tight_for_long).map(first_id).collect::<Vec<_>>();
+    let tight: Vec<i64> =
+        narrow().filter(|it| !is_closed(it) && it.is_tight_for_long).map(first_id).collect();
+    let parts = [
+        (closed, "narrower than a car: nobody drives there"),
+        (ends, "begin or end where they are too narrow for a car (1.8 m) or a long vehicle (2.55 m)"),
+        (tight, "narrower than 2.55 m: long vehicles avoid them"),
+    ];
+    let told = parts
+        .iter()
+        .filter(|(ids, _)| !ids.is_empty())
+        .map(|(ids, what)| format!("{} {what} (as at lanelet {})", ids.len(), ids[0]));
+    let told: Vec<String> = told.collect();
+    if told.is_empty() {
+        return None;
+    }
+    remark(
+        format!("of {} lanes {}", network.chains.len(), told.join("; ")),
+        "correct their borders if it is not meant so",
+    )
 }
 
 /// The law gives limits that the map does not.

@@ -6,7 +6,7 @@ use laneweave_network::Side;
 use laneweave_sim::{Event, Kind, VehicleId};
 use laneweave_study::EdieRow;
 
-use crate::output::Boxes;
+use crate::output::{Boxes, ShortTrips};
 use crate::scenario::Prepared;
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
@@ -89,10 +89,12 @@ impl Outcome {
         let begin = world.clock().time();
         let mut boxes = Boxes::new(world, begin, f64::from(*steps) * world.clock().dt);
         let (mut changes, mut gaining, mut going_back) = (0, 0, 0);
+        let mut short_trips = ShortTrips::default();
         let mut last: BTreeMap<VehicleId, (f64, Side)> = BTreeMap::new();
         for _ in 0..*steps {
             world.step();
             boxes.observe(world);
+            short_trips.observe(world);
             for event in world.events() {
                 let Event::LaneChange(it) = event else { continue };
                 if !it.is_completed || it.time < begin {
@@ -121,7 +123,7 @@ impl Outcome {
             going_back: share(going_back),
             held_up_ratio: held_up.zip(free).map(|(held_up, free)| held_up / free),
             speed_mps: (tally.updates > 0).then(|| tally.distance / (tally.updates as f64 * dt)),
-            delay_s: (counts.planned > 0).then(|| counts.delay / counts.planned as f64),
+            delay_s: short_trips.means_without(counts).delay,
             missed_turns: per(tally.missed_turns, counts.entered as f64),
             emergencies: per(tally.emergency_brakings, veh_km),
             stuck: tally.stuck as f64,

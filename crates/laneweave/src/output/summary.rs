@@ -24,6 +24,8 @@ pub struct Summary {
     pub entered: u64,
     /// Vehicles that left.
     pub left: u64,
+    /// Of them, those whose trip began and ended on one lanelet, which are left out of the means over trips.
+    pub trips_of_one_lanelet: u64,
     /// Vehicles on the road at the end.
     pub on_road: u64,
     /// Vehicles that wait at the entrances at the end.
@@ -129,11 +131,13 @@ impl Summary {
         let Inputs { scenario, ending, wall_s, load_s, provenance } = inputs;
         let world: &World = &prepared.world;
         let (tally, counts) = (world.tally(), world.counts());
+        let trips = ending.short_trips.means_without(counts);
         let veh_km = tally.distance / METRES_PER_KM;
         let lane_changes = counts.discretionary_changes + counts.route_changes;
         Summary {
             entered: counts.entered,
             left: counts.left,
+            trips_of_one_lanelet: ending.short_trips.count,
             on_road: world.on_road() as u64,
             waiting: world.waiting() as u64,
             entrance_capacity: prepared.capacity.veh_h,
@@ -159,9 +163,9 @@ impl Summary {
             load_s,
             updates_per_s: ratio(tally.updates as f64, wall_s - load_s).unwrap_or(0.0),
             mean_speed_mps: ratio(tally.distance, tally.updates as f64 * scenario.run.step_s),
-            mean_trip_duration_s: ratio(counts.trip_time, counts.left as f64),
-            mean_delay_s: ratio(counts.delay, counts.planned as f64),
-            mean_stops: ratio(counts.stops as f64, counts.left as f64),
+            mean_trip_duration_s: trips.duration,
+            mean_delay_s: trips.delay,
+            mean_stops: trips.stops,
             queues: ending.queues.clone(),
             peak_rss_mb: peak_rss_mb(),
             state_hash: format!("{:016x}", world.state_hash()),

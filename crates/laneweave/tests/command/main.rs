@@ -13,6 +13,8 @@ mod demand;
 #[cfg(test)]
 mod explain;
 #[cfg(test)]
+mod gates;
+#[cfg(test)]
 mod generate;
 #[cfg(test)]
 mod golden;

@@ -9,7 +9,7 @@ use crate::program::Folder;
 /// The fields that everybody can rely on.
 const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
     lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
-    lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s peak_rss_mb \
+    lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
     state_hash route_changes";
 
 const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset_m,x_m,y_m,z_m,heading_rad,\

@@ -12,11 +12,13 @@ use crate::geometry::Point;
 pub(super) const LONGEST_VEHICLE: f64 = 12.0;
 const LONG_VEHICLE_WIDTH: f64 = 2.55;
 const CAR_WIDTH: f64 = 1.85;
-/// Space between vehicles whose ways cross at an angle [m]. Ours.
+/// Space between vehicles whose ways cross at an angle, or bend: there their corners swing out [m]. Ours.
 const SPACE: f64 = 0.15;
-/// Ways are side by side where their directions differ by no more than this [rad]: vehicles pass each other there as in
-/// lanes of a road. Ours.
+/// Ways lead side by side where their directions differ by no more than this [rad]. Ours.
 const SIDE_BY_SIDE: f64 = 0.2;
+/// They are straight lanes of a road, in which vehicles pass each other without space between, where their directions differ by no
+/// more than this, and change by no more along a vehicle [rad]. Ours.
+const STRAIGHT: f64 = 0.04;
 /// Distance of the samples along a chain [m].
 pub(super) const SAMPLE: f64 = 0.5;
 /// Successive samples that are looked around together: about as far as others are near.
@@ -35,6 +37,8 @@ pub(super) struct Contact {
     pub(super) touch: Option<Touch>,
     /// The ways lead in one direction, side by side.
     pub(super) is_along: bool,
+    /// They are straight lanes of a road there, of one direction or of both.
+    pub(super) is_road: bool,
     /// Only long vehicles would touch, which are half beyond the ends of a chain.
     pub(super) is_beyond: bool,
 }
@@ -48,6 +52,8 @@ struct Sample {
     inside: Point,
     /// Unit vector of the direction of travel.
     direction: [f64; 2],
+    /// The direction stays the same along a vehicle there.
+    is_straight: bool,
     /// Half of the vehicle would be beyond the chain's ends.
     is_beyond: bool,
     /// Cars, and long vehicles, drive there.
@@ -115,11 +121,25 @@ fn samples(network: &Network) -> Vec<Sample> {
                 insides.push(path);
             }
             let is_beyond = station < half || station + half > chain.length;
-            let (sin, cos) = chain.centre.heading(station).sin_cos();
+            let heading = chain.centre.heading(station);
+            let (sin, cos) = heading.sin_cos();
+            let turns = |at: f64| {
+                let turn = chain.centre.heading(at.clamp(0.0, chain.length)) - heading;
+                turn.sin().abs() > STRAIGHT
+            };
+            let is_straight = !turns(station - half) && !turns(station + half);
             let is_open_for = [false, true].map(|is_long| chain.is_open(station, is_long));
             let direction = [cos, sin];
-            let sample =
-                |inside| Sample { chain: index, station, path, inside, direction, is_beyond, is_open_for };
+            let sample = |inside| Sample {
+                chain: index,
+                station,
+                path,
+                inside,
+                direction,
+                is_straight,
+                is_beyond,
+                is_open_for,
+            };
             samples.extend(insides.into_iter().map(sample));
         }
     }
@@ -165,7 +185,8 @@ fn contact(here: &Sample, there: &Sample) -> Option<Contact> {
     let ([ax, ay], [bx, by]) = (here.direction, there.direction);
     let (along, across) = (ax * bx + ay * by, ax * by - ay * bx);
     let is_side_by_side = across.abs() <= SIDE_BY_SIDE.sin();
-    let space = if is_side_by_side { 0.0 } else { SPACE };
+    let is_road = here.is_straight && there.is_straight && across.abs() <= STRAIGHT;
+    let space = if is_road { 0.0 } else { SPACE };
     let touches = |[one, other]: [bool; 2]| {
         let width = |is_long| if is_long { LONG_VEHICLE_WIDTH } else { CAR_WIDTH };
         let distance = if one || other { nearest } else { of_paths };
@@ -183,6 +204,7 @@ fn contact(here: &Sample, there: &Sample) -> Option<Contact> {
         stations: [here.station, there.station],
         touch,
         is_along: is_side_by_side && along > 0.0,
+        is_road,
         is_beyond: of_paths >= LONG_VEHICLE_WIDTH + space && (here.is_beyond || there.is_beyond),
     })
 }

@@ -115,9 +115,11 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> V
                     (0..2).all(|side| (it.0.stations[side] - contact.0.stations[side]).abs() <= APART)
                 })
             };
-        match groups.iter_mut().find(fits) {
-            // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it.
-            Some(group) if contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any) => {}
+        // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it: that is one of its own.
+        let joins = |group: &&mut Vec<(&Contact, Touch)>| {
+            fits(group) && !(contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any))
+        };
+        match groups.iter_mut().find(joins) {
             Some(group) => group.push(contact),
             None => groups.push(vec![contact]),
         }
@@ -138,17 +140,24 @@ fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]
         Meeting::Forks => return None,
         Meeting::Merges(stations) => ZoneKind::Merging(stations),
         Meeting::Shares => ZoneKind::Merging(ends.map(|it| it + LONGEST_VEHICLE)),
-        Meeting::Crosses if is_along(group) => ZoneKind::Merging(ends.map(|it| it + LONGEST_VEHICLE)),
+        Meeting::Crosses if mostly(group, |it| it.is_along) => {
+            ZoneKind::Merging(ends.map(|it| it + LONGEST_VEHICLE))
+        }
         Meeting::Crosses => ZoneKind::Crossing,
     };
-    let touch = if matches!(kind, ZoneKind::Merging(_)) && !is_along(group) { Touch::Any } else { touch };
+    // Estimates are too coarse to tell two long vehicles from one where ways cross, or any from all where they lead into one.
+    let touch = match kind {
+        ZoneKind::Merging(_) if !mostly(group, |it| it.is_along) => Touch::Any,
+        ZoneKind::Crossing if !mostly(group, |it| it.is_road) => touch.min(Touch::OneLong),
+        _ => touch,
+    };
     let reach = |side: usize| Reach { chain: pair[side], start: starts[side].max(0.0), end: ends[side] };
     Some(Zone { kind, touch, sides: [reach(0), reach(1)], precedence: Precedence::Arrival })
 }
 
-/// Whether the ways lead side by side in one direction where they are close: by far most of their contacts are of that kind.
-fn is_along(group: &[(&Contact, Touch)]) -> bool {
+/// Whether by far most of the contacts are of a kind.
+fn mostly(group: &[(&Contact, Touch)], kind: impl Fn(&Contact) -> bool) -> bool {
     const MOST: f64 = 0.8;
-    let along = group.iter().filter(|it| it.0.is_along).count();
-    along as f64 > MOST * group.len() as f64
+    let found = group.iter().filter(|it| kind(it.0)).count();
+    found as f64 > MOST * group.len() as f64
 }

@@ -25,6 +25,7 @@ pub(crate) struct Applicant<'a> {
 
 impl<'a> Applicant<'a> {
     /// The driver at `spot`.
+    #[inline]
     pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Applicant<'a> {
         let (motion, car) = (scene.motion(spot), scene.car(spot));
         Applicant {

@@ -4,7 +4,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
 
 use super::passages::{Hold, Passage};
-use super::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead};
+use super::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead, stops_before};
 use crate::accelerate::ROOM_AT_A_STOP;
 use crate::appeal::STANDS;
 use crate::scene::{Scene, Spot};
@@ -78,7 +78,9 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         // Who has to leave the lane before does not go on along it.
         let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
         let is_settled = !car.is_shadow && !car.phase.is_between_lanes();
-        junction.asks = keeps_lane && is_settled && junction.gives_back.is_none();
+        // Who has others before it that have to stop waits until they are let go.
+        let is_first = || !stops_before(scene, scene.viewpoint(spot), stop);
+        junction.asks = keeps_lane && is_settled && junction.gives_back.is_none() && is_first();
         junction.is_held =
             matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
     }

@@ -152,13 +152,9 @@ fn concerns(place: &Place, is_long: bool) -> bool {
 }
 
 /// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
-/// `granted` [m] it has. None if a vehicle ahead has to stop first.
+/// `granted` [m] it has.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
-    if granted >= until {
-        return None;
-    }
-    let until = until.min(shield(scene, from, until));
-    if is_far(scene, from, until) {
+    if granted >= until || is_far(scene, from, until) {
         return None;
     }
     let mut found = None;
@@ -194,7 +190,12 @@ pub(super) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
     scene.network.junctions.free_way(from.chain, from.x, length) - ROUNDING > until
 }
 
-/// How far the way of the vehicle ahead is free [m]: who is behind it need not look further.
+/// Whether a vehicle ahead has to stop before who looks `from` comes to a place `distance` ahead [m].
+pub(crate) fn stops_before(scene: &Scene, from: Viewpoint, distance: f64) -> bool {
+    shield(scene, from, distance) < distance
+}
+
+/// How far the way of the vehicle ahead is free, as far as `until` [m].
 fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
     if let Some(rear) = scene.waits_beside_in_fork(from) {
@@ -362,11 +363,46 @@ pub(super) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
 mod tests {
     use laneweave_maps::generate::own_maps;
     use laneweave_maps::regulations;
+    use laneweave_models::Style;
+    use laneweave_models::change::{LaneChangeModel, Mcdm};
+    use laneweave_models::follow::{FollowingModel, Idm};
 
     use super::*;
     use crate::navigate::Navigator;
     use crate::snapshot::{Seen, Snapshot};
     use crate::vehicle::Class;
+
+    /// A truck that stands.
+    fn standing() -> Seen {
+        Seen {
+            id: 1,
+            chain: ChainIndex(0),
+            x: 0.0,
+            speed: 0.0,
+            acceleration: 0.0,
+            length: 12.0,
+            class: Class::Truck,
+            character: 0,
+            desired: 8.0,
+            destination: None,
+            change: None,
+        }
+    }
+
+    fn driver() -> Style {
+        Style {
+            name: "some".into(),
+            description: String::new(),
+            speed_factor: 1.0,
+            follow: FollowingModel::Idm(Idm::default()),
+            change: LaneChangeModel::Mcdm(Mcdm::default()),
+            safety: Default::default(),
+            attention: Default::default(),
+            manner: Default::default(),
+            yielding: Default::default(),
+            guidance: Default::default(),
+        }
+    }
 
     #[test]
     fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
@@ -380,21 +416,10 @@ mod tests {
             let destination = Some((number % 4) as u16);
             let chain = ChainIndex(number % network.chains.len() as u32);
             let x = network.chain(chain).length * f64::from(number) / 6000.0;
-            let truck = Seen {
-                id: 1,
-                chain,
-                x,
-                speed: 0.0,
-                acceleration: 0.0,
-                length: 12.0,
-                class: Class::Truck,
-                character: 0,
-                desired: 8.0,
-                destination,
-                change: None,
-            };
+            let truck = Seen { chain, x, destination, ..standing() };
             let snapshot = Snapshot::new(&network, [truck]);
-            let scene = snapshot.scene(&network, &navigator, &[]);
+            let styles = [driver()];
+            let scene = snapshot.scene(&network, &navigator, &styles);
             let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
             if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
                 continue;
@@ -409,5 +434,42 @@ mod tests {
             );
         }
         assert!(surveyed > 100, "{surveyed}");
+    }
+
+    #[test]
+    fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
+        let mut surveyed = 0;
+        for seed in 1..=12 {
+            let map = laneweave_maps::generate::random(seed).drawing.build().unwrap();
+            let rules = regulations(&map);
+            let network = map.network.regulated(&rules);
+            let navigator = Navigator::new(&network);
+            for number in 0..400_u32 {
+                let chain = ChainIndex(number % network.chains.len() as u32);
+                let x = network.chain(chain).length * f64::from(number) / 400.0;
+                let destination = Some((number % network.exits.len() as u32) as u16);
+                let class = if number % 2 == 0 { Class::Truck } else { Class::Car };
+                let length = class.body().length;
+                let seen = Seen { chain, x, length, class, destination, ..standing() };
+                let snapshot = Snapshot::new(&network, [seen]);
+                let styles = [driver()];
+                let scene = snapshot.scene(&network, &navigator, &styles);
+                let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
+                let mut out = Survey::default();
+                if !survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out) {
+                    continue;
+                }
+                surveyed += 1;
+                points(&scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
+                    if let What::Zone(crossing, ..) = point.what {
+                        let is_held =
+                            out.holds.iter().any(|it| (it.zone, it.side) == (crossing.zone, crossing.side));
+                        assert!(is_held, "seed {seed}: {crossing:?} at {at} of {} m", out.extent);
+                    }
+                    ControlFlow::Continue(())
+                });
+            }
+        }
+        assert!(surveyed > 200, "{surveyed}");
     }
 }

@@ -31,14 +31,17 @@ const TO_EDGE: [f64; 2] = [40.0, 150.0];
 const WIDTHS: [f64; 2] = [2.9, 3.75];
 const LIMITS: [f64; 4] = [30.0, 50.0, 70.0, 100.0];
 
-/// Elements for roads of one direction, and for streets of both; more likely ones stand there twice.
-const ONE_WAY: [Builder; 15] = [
+/// Elements for roads of one direction, and for streets of both; more likely ones stand there more than once.
+const ONE_WAY: [Builder; 18] = [
     lane_end::narrowing,
     lane_end::narrowing,
     lane_end::opening,
     lane_end::blunt,
     ramp::closing,
     ramp::closing,
+    ramp::closing,
+    ramp::closing,
+    ramp::opening,
     ramp::opening,
     strip::strip,
     fork::short_window,
@@ -102,8 +105,8 @@ impl Growth {
         let ahead = dice.chance(0.7);
         let lanes = dice.count(1, 3);
         let (edge, builder): (Mouth, Builder) = match dice.count(0, 9) {
-            0..4 => (Mouth::one_way(canvas, at, lanes, ahead, width), from_edge),
-            4..6 => (Mouth::one_way(canvas, at, 1, ahead, width), fork::from_edge),
+            0..3 => (Mouth::one_way(canvas, at, lanes, ahead, width), from_edge),
+            3..6 => (Mouth::one_way(canvas, at, 1, ahead, width), fork::from_edge),
             6 => (Mouth::two_way(canvas, at, 0.0, width), shared::from_edge),
             _ => (Mouth::two_way(canvas, at, 0.0, width), from_edge),
         };

@@ -27,7 +27,7 @@ use crate::drawing::Drawing;
 use crate::format::Map;
 
 /// A map is drawn anew until it has so many elements that are hard to drive on.
-const FEWEST_HAZARDS: usize = 3;
+const FEWEST_HAZARDS: usize = 5;
 /// And so much road [m].
 const LEAST_LENGTH: f64 = 600.0;
 /// It is drawn anew so often at most. None of some hundred seeds needs as many.

@@ -1,0 +1,60 @@
+//! Trips that begin and end on one lanelet: counted, and left out of means, to which they would say nothing of traffic.
+
+use laneweave_sim::{Counts, Event, World};
+use serde::{Deserialize, Serialize};
+
+/// The trips of one lanelet so far, with their parts of what is counted of all trips.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShortTrips {
+    /// Their number.
+    pub count: u64,
+    duration: f64,
+    planned: u64,
+    delay: f64,
+    stops: u64,
+}
+
+/// Means over the trips that ended, but for those of one lanelet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TripMeans {
+    /// Time on the map [s].
+    pub duration: Option<f64>,
+    /// What they took beyond the time on a free road, of those who had somewhere to go [s].
+    pub delay: Option<f64>,
+    /// Times that they came to a halt.
+    pub stops: Option<f64>,
+}
+
+impl ShortTrips {
+    /// Looks at those who left in the last step.
+    pub fn observe(&mut self, world: &World) {
+        for event in world.events() {
+            let Event::Left { duration, chain, motion, trip: Some(trip), .. } = event else { continue };
+            let network = world.network();
+            let x = motion.x.min(network.chain(*chain).length);
+            let id = |(chain, x)| network.lanelet_at(chain, x).0.id;
+            if id(trip.from) != id((*chain, x)) {
+                continue;
+            }
+            self.count += 1;
+            self.duration += duration;
+            self.stops += u64::from(trip.stops);
+            if let Some(free) = trip.free_time {
+                self.planned += 1;
+                // Free times are counted in tenths of a second.
+                self.delay += duration - (10.0 * free).round() / 10.0;
+            }
+        }
+    }
+
+    /// The means over the other trips of `counts`.
+    pub fn means_without(&self, counts: &Counts) -> TripMeans {
+        let mean = |sum: f64, count: u64| (count > 0).then(|| sum / count as f64);
+        let left = counts.left - self.count;
+        TripMeans {
+            duration: mean(counts.trip_time - self.duration, left),
+            delay: mean(counts.delay - self.delay, counts.planned - self.planned),
+            stops: mean((counts.stops - self.stops) as f64, left),
+        }
+    }
+}

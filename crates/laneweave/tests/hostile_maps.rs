@@ -1,0 +1,114 @@
+//! Maps that are hard to drive on: nobody is hit, stuck or lost, whatever the elements.
+
+use std::path::Path;
+
+use laneweave::maps::{generate, lanelet2};
+use laneweave::scenario::{Origin, Prepared, Scenario, prepare};
+use laneweave::sim::World;
+
+/// The world of a map file with so many vehicles an hour, or with `share` of its estimated capacity if that is less, audited.
+fn world(map: &Path, [demand, share]: [f64; 2]) -> World {
+    let mut scenario = Scenario::of_map(map.into());
+    scenario.run.audit = true;
+    scenario.demand.vehicles_per_hour = Some(1.0);
+    let prepared = |scenario: &Scenario| prepare(scenario, &Origin::default()).expect("the map is sound");
+    let Prepared { capacity, .. } = prepared(&scenario);
+    scenario.demand.vehicles_per_hour = Some(demand.min(share * capacity.veh_h));
+    prepared(&scenario).world
+}
+
+/// Drives for so many seconds. Nobody may be hit, stuck or lost, and hardly anybody misses a turn.
+fn drive(world: &mut World, seconds: u32, name: &str) {
+    (0..10 * seconds).for_each(|_| world.step());
+    let tally = world.tally();
+    assert_eq!((tally.collisions, tally.overlaps, tally.stuck, tally.lost), (0, 0, 0, 0), "{name}");
+    let missed = tally.missed_turns as f64 / world.counts().entered.max(1) as f64;
+    assert!(missed <= 0.02, "{name}: {missed}");
+}
+
+/// A minimal map of the shared data, if it is there.
+fn minimal(name: &str) -> Option<std::path::PathBuf> {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/minimal");
+    let map = data.join(name).with_extension("osm");
+    if !map.exists() {
+        eprintln!("skipped: {} is not there", map.display());
+    }
+    map.exists().then_some(map)
+}
+
+/// An hour on minimal maps.
+fn an_hour_on(names: &[&str]) {
+    for name in names {
+        if let Some(map) = minimal(name) {
+            drive(&mut world(&map, [800.0, 0.8]), 3600, name);
+        }
+    }
+}
+
+/// Vehicles that leave a minimal map within an hour at this demand [veh/h].
+fn left(name: &str, demand: f64) -> Option<f64> {
+    let mut world = world(&minimal(name)?, [demand, f64::INFINITY]);
+    drive(&mut world, 3600, name);
+    Some(world.counts().left as f64)
+}
+
+#[test]
+fn a_lane_that_narrows_to_nothing_ends_where_it_is_too_narrow() {
+    an_hour_on(&[
+        "taper",
+        "taper_100_2",
+        "taper_60_1",
+        "ramp_60",
+        "ramp_100",
+        "ramp_150",
+        "blunt_60",
+        "blunt_100",
+        "blunt_150",
+    ]);
+    for length in [60, 100, 150] {
+        let [ramp, blunt] = ["ramp", "blunt"].map(|it| left(&format!("{it}_{length}"), 800.0));
+        if let (Some(ramp), Some(blunt)) = (ramp, blunt) {
+            assert!(ramp >= 0.95 * blunt, "{length} m: {ramp} against {blunt}");
+        }
+    }
+}
+
+#[test]
+fn a_strip_is_no_lane_and_lanes_side_by_side_are_in_nobodys_way() {
+    an_hour_on(&["merge_in_strip", "strip0", "strip1", "narrow_2.6", "narrow_2.75"]);
+    if let (Some(narrow), Some(wide)) = (left("narrow_2.6", 3000.0), left("narrow_2.75", 3000.0)) {
+        assert!(narrow >= 0.95 * wide, "{narrow} against {wide}");
+    }
+}
+
+#[test]
+fn ground_that_is_shared_at_the_edge_of_the_map_is_entered_in_turns() {
+    an_hour_on(&[
+        "edgefork",
+        "one_lane_street",
+        "half_overlap",
+        "one_lane_40",
+        "one_lane_100",
+        "one_lane_300",
+    ]);
+}
+
+#[test]
+fn a_short_window_for_a_lane_change_is_used() {
+    an_hour_on(&["window16", "window60"]);
+}
+
+#[test]
+fn random_maps_break_nothing() {
+    let folder = std::env::temp_dir().join(format!("laneweave-random-maps-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("there is room");
+    for seed in 1..=24 {
+        let map = folder.join(format!("{seed}.osm"));
+        std::fs::write(&map, lanelet2::write(&generate::random(seed).drawing)).expect("there is room");
+        let mut world = world(&map, [f64::INFINITY, 0.7]);
+        (0..6000).for_each(|_| world.step());
+        let tally = world.tally();
+        assert_eq!((tally.collisions, tally.overlaps, tally.stuck, tally.lost), (0, 0, 0, 0), "seed {seed}");
+    }
+    std::fs::remove_dir_all(&folder).expect("it is ours");
+}
