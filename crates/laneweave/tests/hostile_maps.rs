@@ -26,14 +26,14 @@ fn drive(world: &mut World, seconds: u32, name: &str) {
     assert!(missed <= 0.02, "{name}: {missed}");
 }
 
-/// A minimal map of the shared data, if it is there.
+/// A minimal map of the shared data, if these are there.
 fn minimal(name: &str) -> Option<std::path::PathBuf> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/minimal");
-    let map = data.join(name).with_extension("osm");
-    if !map.exists() {
-        eprintln!("skipped: {} is not there", map.display());
+    if !data.exists() {
+        eprintln!("skipped: {} is not there", data.display());
+        return None;
     }
-    map.exists().then_some(map)
+    Some(data.join(format!("{name}.osm")))
 }
 
 /// An hour on minimal maps.
@@ -96,6 +96,13 @@ fn ground_that_is_shared_at_the_edge_of_the_map_is_entered_in_turns() {
 #[test]
 fn a_short_window_for_a_lane_change_is_used() {
     an_hour_on(&["window16", "window60"]);
+}
+
+#[test]
+fn a_window_of_16_m_passes_nearly_what_one_of_60_m_does_where_more_come_than_it_takes() {
+    if let (Some(short), Some(long)) = (left("window16", 3000.0), left("window60", 3000.0)) {
+        assert!(short >= 0.88 * long, "{short} against {long}");
+    }
 }
 
 #[test]
