@@ -6,10 +6,11 @@ use laneweave::maps::{generate, lanelet2};
 use laneweave::scenario::{Origin, Prepared, Scenario, prepare};
 use laneweave::sim::World;
 
-/// The world of a map file with so many vehicles an hour, or with `share` of its estimated capacity if that is less, audited.
-fn world(map: &Path, [demand, share]: [f64; 2]) -> World {
+/// The world of a map file with this seed and so many vehicles an hour, or with `share` of its estimated capacity if that is less, audited.
+fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
     let mut scenario = Scenario::of_map(map.into());
     scenario.run.audit = true;
+    scenario.run.seed = seed;
     scenario.demand.vehicles_per_hour = Some(1.0);
     let prepared = |scenario: &Scenario| prepare(scenario, &Origin::default()).expect("the map is sound");
     let Prepared { capacity, .. } = prepared(&scenario);
@@ -40,14 +41,14 @@ fn minimal(name: &str) -> Option<std::path::PathBuf> {
 fn an_hour_on(names: &[&str]) {
     for name in names {
         if let Some(map) = minimal(name) {
-            drive(&mut world(&map, [800.0, 0.8]), 3600, name);
+            drive(&mut world(&map, 1, [800.0, 0.8]), 3600, name);
         }
     }
 }
 
 /// Vehicles that leave a minimal map within an hour at this demand [veh/h].
-fn left(name: &str, demand: f64) -> Option<f64> {
-    let mut world = world(&minimal(name)?, [demand, f64::INFINITY]);
+fn left(name: &str, seed: u64, demand: f64) -> Option<f64> {
+    let mut world = world(&minimal(name)?, seed, [demand, f64::INFINITY]);
     drive(&mut world, 3600, name);
     Some(world.counts().left as f64)
 }
@@ -66,7 +67,7 @@ fn a_lane_that_narrows_to_nothing_ends_where_it_is_too_narrow() {
         "blunt_150",
     ]);
     for length in [60, 100, 150] {
-        let [ramp, blunt] = ["ramp", "blunt"].map(|it| left(&format!("{it}_{length}"), 800.0));
+        let [ramp, blunt] = ["ramp", "blunt"].map(|it| left(&format!("{it}_{length}"), 1, 800.0));
         if let (Some(ramp), Some(blunt)) = (ramp, blunt) {
             assert!(ramp >= 0.95 * blunt, "{length} m: {ramp} against {blunt}");
         }
@@ -76,7 +77,7 @@ fn a_lane_that_narrows_to_nothing_ends_where_it_is_too_narrow() {
 #[test]
 fn a_strip_is_no_lane_and_lanes_side_by_side_are_in_nobodys_way() {
     an_hour_on(&["merge_in_strip", "strip0", "strip1", "narrow_2.6", "narrow_2.75"]);
-    if let (Some(narrow), Some(wide)) = (left("narrow_2.6", 3000.0), left("narrow_2.75", 3000.0)) {
+    if let (Some(narrow), Some(wide)) = (left("narrow_2.6", 1, 3000.0), left("narrow_2.75", 1, 3000.0)) {
         assert!(narrow >= 0.95 * wide, "{narrow} against {wide}");
     }
 }
@@ -100,8 +101,11 @@ fn a_short_window_for_a_lane_change_is_used() {
 
 #[test]
 fn a_window_of_16_m_passes_nearly_what_one_of_60_m_does_where_more_come_than_it_takes() {
-    if let (Some(short), Some(long)) = (left("window16", 3000.0), left("window60", 3000.0)) {
-        assert!(short >= 0.88 * long, "{short} against {long}");
+    // Of single hours the share varies by 0.02 about its mean.
+    const SEEDS: std::ops::RangeInclusive<u64> = 1..=20;
+    let all = |name: &str| SEEDS.map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
+    if let (Some(short), Some(long)) = (all("window16"), all("window60")) {
+        assert!(short >= 0.9 * long, "{short} against {long}");
     }
 }
 
@@ -112,7 +116,7 @@ fn random_maps_break_nothing() {
     for seed in 1..=24 {
         let map = folder.join(format!("{seed}.osm"));
         std::fs::write(&map, lanelet2::write(&generate::random(seed).drawing)).expect("there is room");
-        let mut world = world(&map, [f64::INFINITY, 0.7]);
+        let mut world = world(&map, 1, [f64::INFINITY, 0.7]);
         (0..6000).for_each(|_| world.step());
         let tally = world.tally();
         assert_eq!((tally.collisions, tally.overlaps, tally.stuck, tally.lost), (0, 0, 0, 0), "seed {seed}");
