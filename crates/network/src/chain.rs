@@ -77,6 +77,9 @@ pub struct Beside {
 }
 
 impl Beside {
+    /// Stretches of a side that are no further apart are one for who changes lanes [m]. Ours.
+    pub const JOINED: f64 = 1.0;
+
     /// The station there that lies beside `station` here [m].
     #[inline]
     pub fn across(&self, station: f64) -> f64 {
@@ -129,6 +132,21 @@ impl Chain {
         let stretches = self.stretches(side);
         let after = stretches.partition_point(|it| it.start <= station);
         stretches[..after].last().filter(|it| station <= it.end)
+    }
+
+    /// Where the last stretch begins from which a change is allowed, to either side; stretches that go on in each other are one [m].
+    pub fn last_window(&self) -> Option<f64> {
+        let begin = |side: Side| {
+            let mut begin: Option<f64> = None;
+            for stretch in self.stretches(side).iter().rev() {
+                if begin.is_some_and(|it| it - stretch.end >= Beside::JOINED) {
+                    break;
+                }
+                begin = Some(stretch.start);
+            }
+            begin
+        };
+        Side::BOTH.into_iter().filter_map(begin).reduce(f64::min)
     }
 
     /// Whether it is wide enough at `station` [m] for a car, or for a long vehicle.

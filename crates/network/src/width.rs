@@ -8,6 +8,9 @@ use crate::lanelet::Lanelet;
 const BODIES: [f64; 2] = [1.8, 2.55];
 /// Widths are compared at stations this far apart [m].
 const STEP: f64 = 0.5;
+/// Whoever can come to a lane that ends can leave it: on this much road at least from where lanes may be changed, in which it gets no
+/// narrower than lanes are drawn [m]. Ours.
+const LEAST_WINDOW: f64 = 5.0;
 /// What is nowhere wider than this has been drawn without a width [m].
 const NO_WIDTH: f64 = 0.01;
 
@@ -31,7 +34,8 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
         let leads_nowhere = widths.iter().all(|(_, it)| *it < BODIES[0]);
         let opens = chain.previous.is_empty() && (leads_nowhere || !is_entrance[index]);
         let closes = chain.following.is_empty() && (leads_nowhere || !is_exit[index]);
-        chain.open = BODIES.map(|body| open(&widths, body, [opens, closes]));
+        let left_by = chain.last_window().map_or(f64::NEG_INFINITY, |start| start + LEAST_WINDOW);
+        chain.open = BODIES.map(|body| open(&widths, body, [opens, closes], left_by));
         let [from, until] = chain.open[1];
         let through = widths.iter().filter(|(station, _)| (from..=until).contains(station));
         chain.is_tight_for_long = through.map(|it| it.1).fold(f64::INFINITY, f64::min) < BODIES[1];
@@ -39,20 +43,19 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
     }
 }
 
-/// First and last station at which a lane of these `widths` is as wide as a body, where it begins or ends for the sake of that [m].
-fn open(widths: &[(f64, f64)], body: f64, [opens, closes]: [bool; 2]) -> [f64; 2] {
+/// First and last station at which a lane of these `widths` is as wide as a body, where it begins or ends for the sake of that [m]. It
+/// does not end before `left_by`, however narrow it is.
+fn open(widths: &[(f64, f64)], body: f64, [opens, closes]: [bool; 2], left_by: f64) -> [f64; 2] {
+    const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
     let mut wide = widths.iter().filter(|it| it.1 >= body).map(|it| it.0);
-    let (first, last) = (wide.next(), wide.next_back());
+    let first = wide.next();
+    let [from, until] = first.map_or(NOWHERE, |it| [it, wide.next_back().unwrap_or(it)]);
     let end = widths.last().map_or(0.0, |it| it.0);
-    let from = first.filter(|it| *it > 0.0 || !opens);
-    let until = last.or(first).filter(|it| *it < end || !closes);
-    match (first, opens, closes) {
-        (None, true, _) | (None, _, true) => [f64::INFINITY, f64::NEG_INFINITY],
-        _ => [
-            if opens { from.unwrap_or(f64::NEG_INFINITY) } else { f64::NEG_INFINITY },
-            if closes { until.unwrap_or(f64::INFINITY) } else { f64::INFINITY },
-        ],
-    }
+    let until = until.max(left_by);
+    [
+        if opens && from > 0.0 { from } else { f64::NEG_INFINITY },
+        if closes && until < end { until } else { f64::INFINITY },
+    ]
 }
 
 /// Whether a look now and then shows that a chain is by far wide enough for all.

@@ -166,7 +166,7 @@ fn stopping_speed(room: f64) -> f64 {
 
 /// Way on which a driver at `speed` [m/s] stops with comfort, and somewhat more [m].
 #[inline]
-fn stopping_way(speed: f64) -> f64 {
+pub(crate) fn stopping_way(speed: f64) -> f64 {
     /// A moment [s] and some room [m].
     const MOMENT: f64 = 1.0;
     const ROOM: f64 = 5.0;
@@ -203,7 +203,7 @@ fn heed(
         wish = wish.min(beyond_the_leader(scene, clock, spot));
     }
     if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
-        let end = lane_end.of_driver(car);
+        let end = lane_end.of_entry(scene, spot);
         let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
         wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
         obstacle = Some(Ahead::standing(end - motion.x));
@@ -227,20 +227,24 @@ impl LaneEnd {
     #[inline(never)]
     fn of(next: &Chain, start: f64) -> LaneEnd {
         let open = [false, true].map(|is_long| start + next.driven_until(is_long));
-        let begins = |side: Side| {
-            let stretches = next.stretches(side).iter().rev();
-            stretches.fold(f64::INFINITY, |begin, it| {
-                if begin - it.end < 1.0 || begin == f64::INFINITY { it.start } else { begin }
-            })
-        };
-        let window = Side::BOTH.map(begins).into_iter().fold(f64::INFINITY, f64::min);
-        let window = if window.is_finite() { start + window } else { f64::NEG_INFINITY };
+        let window = next.last_window().map_or(f64::NEG_INFINITY, |it| start + it);
         LaneEnd { drawn: start + next.length, open, window }
     }
 
-    /// Where it ends for a driver.
-    pub(crate) fn of_driver(&self, car: &Car) -> f64 {
-        if car.phase.is_between_lanes() { self.drawn } else { self.open[usize::from(car.class.is_long())] }
+    /// Where it ends for the entry at `spot`.
+    pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
+        let (car, has_crossed) = (scene.car(spot), scene.mind(spot).progress >= 0.5);
+        let is_leaving = match car.phase {
+            Phase::Changes => car.is_shadow == has_crossed,
+            Phase::Aborts => car.is_shadow,
+            Phase::Cruises | Phase::Wants => false,
+        };
+        if is_leaving { self.drawn } else { self.open_for(car.class.is_long()) }
+    }
+
+    /// Where it becomes too narrow for a car, or for a long vehicle [m].
+    pub(crate) fn open_for(&self, is_long: bool) -> f64 {
+        self.open[usize::from(is_long)]
     }
 }
 
@@ -328,9 +332,9 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     acceleration
 }
 
-/// How far ahead the driver at `spot` waits for its last chance to change lanes [m].
-pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let length = Window::of(scene, spot).map_or(f64::INFINITY, |it| it.length());
+/// How far ahead the driver at `spot` waits for its last chance to change lanes, in this `window` [m].
+pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Option<Window>) -> f64 {
+    let length = window.map_or(f64::INFINITY, |it| it.length());
     scene.mind(spot).last_place - within_window(kept_room(scene, clock, spot), length) - scene.motion(spot).x
 }
 
@@ -346,7 +350,7 @@ fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         let passing = window.speed_for(manner.duration(f64::from(mind.urgency)));
         return approach(motion.speed, window.start.max(0.0), passing);
     }
-    let room = place_to_wait(scene, clock, spot);
+    let room = place_to_wait(scene, clock, spot, window);
     let passing = 0.5 * (f64::from(car.desired) - WAITS_BELOW).max(0.0);
     let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.change_duration)));
     if passing > 0.0 && car.desired > WAITS_BELOW as f32 {

@@ -9,7 +9,7 @@ use laneweave_network::Side;
 
 use crate::attention::concentration;
 use crate::beliefs::Beliefs;
-use crate::decide::{Moment, abort_if_it_must, consider, go_or_ask, model};
+use crate::decide::{Moment, abort_if_it_must, consider, go_or_ask, has_last_chance, model};
 use crate::gap::{Hindrance, Pairing, gap};
 use crate::perceive::Outlook;
 use crate::plan::{Ask, Outbox, Plan};
@@ -39,6 +39,8 @@ pub struct Account<'a> {
     pub calm_for: f64,
     /// Epochs that pass from one turn to the next.
     pub epochs: f64,
+    /// It comes to the last place for a change that it has to make, which it then wants whatever it makes of it.
+    pub has_last_chance: bool,
     /// What was drawn for this turn, evenly from [0, 1).
     pub draw: f64,
     /// What it does.
@@ -47,6 +49,17 @@ pub struct Account<'a> {
     pub pairings: [Option<Pairing<'a>>; 2],
     /// The highest own speed for which the road left does for that change [m/s].
     pub fastest: f64,
+}
+
+impl Account<'_> {
+    /// It wants the change that it has to make at its last place, not by what it makes of it.
+    pub fn wants_its_last_chance(&self) -> bool {
+        let helps = |side: Side| {
+            let mut sides = self.sides.iter().flatten().filter(|it| it.side == side);
+            sides.any(|it| it.situation.there.route.changes < it.situation.here.route.changes)
+        };
+        self.has_last_chance && matches!(self.act, Act::Wants(side, _) if helps(side))
+    }
 }
 
 /// A side to which a driver may change.
@@ -134,6 +147,7 @@ impl World {
             sides,
             calm_for,
             epochs,
+            has_last_chance: has_last_chance(&style.change, motion, &waypoint),
             draw: self.random.uniform(motion.id, Purpose::Desire, self.clock.step),
             act: act(&scene, moment, spot),
             pairings: found.map_or([None; 2], |it| it.pairings(&scene, spot)),

@@ -126,7 +126,7 @@ pub(crate) fn consider(
     if leads_on && waypoint.last_place - motion.x < HEEDED_WITHIN {
         concern.last_place = waypoint.last_place;
     }
-    let is_last_chance = leads_on && style.change.follows_a_route() && comes_to_last_place(motion, &waypoint);
+    let is_last_chance = has_last_chance(&style.change, motion, &waypoint);
     if is_last_chance
         && car.phase == Phase::Cruises
         && let Some(note) = plan.notes.last_mut()
@@ -238,13 +238,14 @@ fn desire(
     drawn.and_then(|it| options.into_iter().nth(it)).flatten()
 }
 
-/// Whether the driver comes to the last place for a change that it has to make: there it looks for a gap at every step, and wants the
+/// Whether a driver comes to the last place for a change that it has to make: there it looks for a gap at every step, and wants the
 /// change whatever else speaks against it (ours).
-fn comes_to_last_place(motion: &Motion, waypoint: &Waypoint) -> bool {
+pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Motion, waypoint: &Waypoint) -> bool {
     /// Way before that place [m], and time [s].
     const WAY: f64 = 30.0;
     const TIME: f64 = 4.0;
-    waypoint.changes > 0 && waypoint.last_place - motion.x < (TIME * motion.speed).max(WAY)
+    let is_near = waypoint.last_place - motion.x < (TIME * motion.speed).max(WAY);
+    waypoint.changes > 0 && is_near && waypoint.leads_on(motion.x) && change.follows_a_route()
 }
 
 /// A driver keeps its way in mind if there is something about it to keep, or to forget.

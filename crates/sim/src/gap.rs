@@ -4,6 +4,7 @@ use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Side};
 
+use crate::accelerate::{lane_end, stopping_way};
 use crate::clock::Clock;
 use crate::junction::{Applicant, Asking, Refuge, is_place_ahead};
 use crate::perceive::driver;
@@ -143,6 +144,12 @@ impl Gap {
         let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
         let crossing = 0.5 * duration * speed;
         if self.room < crossing {
+            return Err(Hindrance::TooLittleRoad);
+        }
+        // Into a lane that ends nobody changes who could not stop before that.
+        let is_long = scene.car(spot).class.is_long();
+        let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
+        if end.is_some_and(|it| it < 2.0 * crossing + stopping_way(speed)) {
             return Err(Hindrance::TooLittleRoad);
         }
         if !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {

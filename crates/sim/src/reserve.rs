@@ -8,6 +8,7 @@ use crate::junction::{
     Applicant, Asking, Hindrance, Hold, STANDS_BEFORE_A_ZONE, Survey, Turn, are_led_on, leader_of, lets_go,
     may_pass, survey, turns,
 };
+use crate::metering::Metering;
 use crate::scene::{Scene, Viewpoint};
 use crate::source::{Arrival, Queue, Start};
 use crate::world::World;
@@ -99,10 +100,11 @@ impl World {
     /// The turns that those claim who wait to come onto the road because of others.
     pub(crate) fn claims_at_entrances(&self, claims: &mut Vec<(ZoneIndex, u8, Turn)>, out: &mut Survey) {
         let scene = self.scene();
+        let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
         let queues = self.sources.iter().flat_map(|it| it.lanes());
         for queue in queues {
-            let (Some(since), Some(first)) = (queue.asks_since, queue.waiting.front()) else { continue };
-            let applicant = applicant(&scene, queue, first);
+            let (Some(since), Some(first)) = (queue.asks_since, queue.first(is_full)) else { continue };
+            let applicant = applicant(&scene, queue, &queue.waiting[first]);
             let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
             if survey(&scene, &applicant, [0.0, reach], |_, _| false, out) {
                 let claim = Asking::of(&applicant, since, self.clock).claim;

@@ -7,6 +7,7 @@ use crate::appeal::surveyed;
 use crate::junction::{Applicant, Asking, Hindrance, Survey, look, may_pass, sight, stop_ahead};
 use crate::scene::{Scene, Spot};
 use crate::traffic::VehicleId;
+use crate::window::Window;
 use crate::world::World;
 
 /// What holds a vehicle.
@@ -67,8 +68,11 @@ impl World {
             .map(|(it, spot)| (it.gap, StandsFor::Leader { vehicle: scene.motion(spot).id, gap: it.gap }));
         let stop = junction.stop.map(|it| (it, self.before_a_junction(&scene, spot, it)));
         let merge = junction.leader.map(|it| (it.gap, StandsFor::After(self.before_it(&scene, spot))));
-        let end = lane_end(&scene, spot.chain).map(|it| it.of_driver(scene.car(spot)) - motion.x);
-        let place = mind.last_place.is_finite().then(|| place_to_wait(&scene, self.clock, spot));
+        let end = lane_end(&scene, spot.chain).map(|it| it.of_entry(&scene, spot) - motion.x);
+        let place = mind
+            .last_place
+            .is_finite()
+            .then(|| place_to_wait(&scene, self.clock, spot, Window::of(&scene, spot)));
         let lets_in = Some(f64::from(mind.lets_in.0)).filter(|it| it.is_finite());
         let all = [
             leader,
@@ -93,10 +97,10 @@ impl World {
             return StandsFor::After(self.before_it(scene, spot));
         }
         let mut survey = Survey::default();
-        if !surveyed(scene, &Applicant::at(scene, spot), &mut survey) {
+        let applicant = Applicant::at(scene, spot);
+        if !surveyed(scene, &applicant, &mut survey) {
             return StandsFor::After(self.before_it(scene, spot));
         }
-        let applicant = Applicant::at(scene, spot);
         let waiting = self.plans[spot.chain.at()].waiting.iter().find(|it| it.id == from.id);
         let since = waiting.map_or(self.clock.step, |it| it.since);
         let asking = Asking::of(&applicant, since, self.clock);

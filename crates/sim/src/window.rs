@@ -10,8 +10,6 @@ use crate::traffic::Car;
 const SHORT: f64 = 80.0;
 /// So far before a short window a driver looks for a gap [m]. Ours.
 const LOOKS_AHEAD: f64 = 60.0;
-/// Stretches that are no further apart are one window [m].
-const NEAR: f64 = 1.0;
 
 /// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which it has to change.
 // Considering a lane begins with it.
@@ -38,7 +36,7 @@ fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a 
         return None;
     }
     let window = Window::of(scene, spot)?;
-    let begins_it = next.start - x <= window.start + NEAR;
+    let begins_it = next.start - x <= window.start + Beside::JOINED;
     (begins_it && window.is_near_and_short() && next.across(x) >= 0.0).then_some(next)
 }
 
@@ -72,7 +70,7 @@ impl Window {
                     if from >= until {
                         continue;
                     }
-                    *run = [if from - run[1] < NEAR { run[0] } else { from }, until];
+                    *run = [if from - run[1] < Beside::JOINED { run[0] } else { from }, until];
                     if from < place && place <= until {
                         return Some(Window { start: run[0] - x, end: place - x });
                     }

@@ -53,6 +53,8 @@ impl Flip {
 /// first. Empty where there was nothing to decide, or no single number decides.
 pub fn flips(account: &Account, dt: f64) -> Vec<Flip> {
     let mut found = match account.act {
+        // At the last place for a change no number decides.
+        Act::Wants(..) if account.wants_its_last_chance() => Vec::new(),
         Act::Stays | Act::Wants(..) => of_desire(account),
         Act::Goes(side) | Act::Waits(side, Hindrance::Ahead(..) | Hindrance::Behind(..)) => {
             of_gap(account, side, dt)

@@ -18,6 +18,9 @@ pub fn act(account: &Account) -> String {
         Act::Wants(side, kind) => {
             let why = match kind {
                 Kind::Discretionary => leading(account, side),
+                Kind::Route if account.wants_its_last_chance() => {
+                    "for its route, as this is the last place for it".into()
+                }
                 Kind::Route => "for its route".into(),
             };
             format!("wants to change to the {}: {why}", name(side))
@@ -205,7 +208,8 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
     for side in account.sides.iter().flatten() {
         table(account, side).into_iter().for_each(&mut say);
     }
-    if account.sides.iter().flatten().next().is_some() && matches!(account.act, Act::Stays | Act::Wants(..)) {
+    let is_drawn = matches!(account.act, Act::Stays | Act::Wants(..)) && !account.wants_its_last_chance();
+    if is_drawn && account.sides.iter().flatten().next().is_some() {
         say(format!("  drawn {:.4}", account.draw));
     }
     for (who, pairing) in ["ahead", "behind"].into_iter().zip(account.pairings) {
@@ -242,6 +246,7 @@ fn table(account: &Account, side: &SideAccount) -> Vec<String> {
         }
     }
     let chance = match (&*account.change, account.act) {
+        _ if account.wants_its_last_chance() => String::new(),
         (_, Act::Stays | Act::Wants(..)) if side.is_out_of_question => ", calm".to_string(),
         (LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_), Act::Stays | Act::Wants(..)) => {
             format!(", desire with probability {:.4}", side.chance)

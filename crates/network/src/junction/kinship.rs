@@ -1,7 +1,8 @@
 //! How chains near each other are related: one behind the other, forking off together, leading into one.
 
 use crate::build::Network;
-use crate::chain::ChainIndex;
+use crate::chain::{Chain, ChainIndex};
+use crate::lanelet::Side;
 
 /// How far relations are followed along chains [m].
 const NEAR: f64 = 40.0;
@@ -55,6 +56,21 @@ impl<'a> Kinship<'a> {
             ways.map(|(_, between)| left + between + at_to).any(|way| way < BEHIND)
         };
         is_behind(a, at_a, b, at_b) || is_behind(b, at_b, a, at_a)
+    }
+
+    /// Whether lanes may be changed between these stations of two chains, of which one begins or ends beside the other.
+    pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
+        let chain = |it: ChainIndex| self.network.chain(it);
+        let is_partial = |it: ChainIndex| chain(it).is_lane_drop || chain(it).open != Chain::WIDE;
+        let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {
+            let mut stretches = Side::BOTH.into_iter().flat_map(|side| chain(from).stretches(side));
+            stretches.any(|it| {
+                it.chain == to
+                    && (it.start..=it.end).contains(&at)
+                    && (it.across(at) - at_there).abs() < BEHIND
+            })
+        };
+        (is_partial(a) || is_partial(b)) && (leads(a, at_a, b, at_b) || leads(b, at_b, a, at_a))
     }
 
     /// How two chains meet on the stretches from `starts` to `ends`.

@@ -69,14 +69,11 @@ fn fronts(network: &Network, chain: ChainIndex, stretch: [f64; 2]) -> Vec<(Chain
         at += 1;
         let here = network.chain(chain);
         if high > here.length {
-            for next in here
-                .following
-                .iter()
-                .filter(|next| found.iter().all(|it| it.0 != **next))
-                .copied()
-                .collect::<Vec<_>>()
-            {
-                found.push((next, [(low - here.length).max(0.0), high - here.length]));
+            let beyond = [(low - here.length).max(0.0), high - here.length];
+            for next in &here.following {
+                if found.iter().all(|it| it.0 != *next) {
+                    found.push((*next, beyond));
+                }
             }
         }
     }

@@ -105,7 +105,11 @@ pub(super) fn zones(kinship: &Kinship, contacts: &[([ChainIndex; 2], Vec<Contact
 /// The zones of two chains with these contacts, which are in the order of the first one's stations.
 fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> Vec<Zone> {
     let touching = contacts.iter().filter_map(|it| Some((it, it.touch?)));
-    let apart = touching.filter(|(it, _)| !kinship.is_one_behind_the_other(pair, it.stations));
+    // Where one of two lanes begins or ends, the change between them has to stay possible: cars would not touch there.
+    let apart = touching.filter(|(it, touch)| {
+        let is_changed = *touch != Touch::Any && kinship.is_left_beside(pair, it.stations);
+        !is_changed && !kinship.is_one_behind_the_other(pair, it.stations)
+    });
     let (beyond, usual): (Vec<_>, Vec<_>) = apart.partition(|(it, _)| it.is_beyond);
     let mut groups: Vec<Vec<(&Contact, Touch)>> = Vec::new();
     for contact in usual.into_iter().chain(beyond) {

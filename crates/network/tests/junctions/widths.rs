@@ -68,6 +68,39 @@ fn a_lane_that_narrows_to_nothing_ends_for_each_class_where_it_is_as_wide_as_tha
     assert_eq!(network.junctions.zones, [], "nobody drives where it touches the other lane");
 }
 
+/// A road of 400 m between borders 2.6 m apart, beside its first half on the right a lane. From 200 m this can be left for the first time,
+/// and narrows at once, to nothing in `taper` [m].
+fn late(taper: f64) -> Network {
+    let mut road = vec![
+        eastward(1, [0.0, 200.0], 2.6, 2.6),
+        eastward(2, [200.0, 200.0 + taper], 2.6, 2.6),
+        eastward(3, [200.0 + taper, 400.0], 2.6, 2.6),
+        eastward(4, [0.0, 200.0], 0.0, 2.6),
+        lanelet(5, &[(200.0, 2.6), (200.0 + taper, 2.6)], &[(200.0, 0.0), (200.0 + taper, 2.6)]),
+    ];
+    for (index, next) in [(0, 1), (1, 2), (3, 4)] {
+        road[index].following = vec![LaneletIndex(next)];
+    }
+    road[1].right = Some(LaneletIndex(4));
+    road[4].left = Some(LaneletIndex(1));
+    network(road)
+}
+
+#[test]
+fn a_lane_that_narrows_as_soon_as_it_can_be_left_ends_for_nobody_before_there_was_road_to_leave_it() {
+    for taper in [30.0, 45.0, 60.0] {
+        let network = late(taper);
+        let drop = network.chains.iter().find(|it| it.is_lane_drop).expect("a lane that ends");
+        let [stretch] = drop.stretches(Side::Left) else { panic!("{:?}", drop.stretches(Side::Left)) };
+        assert!((stretch.end - stretch.start - taper).abs() < 1.5, "no zone takes any of it: {stretch:?}");
+        for is_long in [false, true] {
+            let left_by = drop.driven_until(is_long) - stretch.start;
+            assert!(left_by >= 5.0, "{left_by} m to leave a taper of {taper} m");
+        }
+        assert!(drop.driven_until(false) >= drop.driven_until(true));
+    }
+}
+
 #[test]
 fn lanes_side_by_side_of_2_60_m_do_not_get_in_each_others_way() {
     let mut lanes = vec![eastward(1, [0.0, 400.0], 2.6, 2.6), eastward(2, [0.0, 400.0], 0.0, 2.6)];
