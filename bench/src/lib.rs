@@ -2,6 +2,7 @@
 //! compared.
 
 pub mod machine;
+pub mod trial;
 
 use std::io::Write;
 
