@@ -4,7 +4,7 @@ use laneweave_network::ChainIndex;
 
 use crate::accelerate::{lane_end, place_to_wait};
 use crate::appeal::surveyed;
-use crate::junction::{Applicant, Asking, Hindrance, Survey, look, may_pass, sight, stop_ahead};
+use crate::junction::{Applicant, Asking, Hindrance, Survey, earlier, look, may_pass, sight, stop_ahead};
 use crate::scene::{Scene, Spot};
 use crate::traffic::VehicleId;
 use crate::window::Window;
@@ -132,9 +132,8 @@ impl World {
     fn before_it(&self, scene: &Scene, spot: Spot) -> Vec<VehicleId> {
         let (own, slot) = (scene.passage(spot), scene.mind(spot).passage);
         let mut others: Vec<VehicleId> = Vec::new();
-        for hold in own.iter().flat_map(|it| &it.holds) {
-            let earlier = scene.passages.order(hold.zone).take_while(|(it, _)| it.slot != slot);
-            others.extend(earlier.filter(|(it, _)| it.side != hold.side).map(|(_, it)| it.vehicle));
+        if let Some(own) = own {
+            others.extend(own.holds.iter().flat_map(|it| earlier(scene, own, slot, it)).map(|it| it.vehicle));
         }
         others.sort_unstable();
         others.dedup();

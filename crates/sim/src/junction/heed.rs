@@ -11,7 +11,7 @@ use crate::scene::{Scene, Spot};
 use crate::stuck::STANDSTILL;
 
 /// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
-pub(super) const LONG: f64 = 7.0;
+pub(crate) const LONG: f64 = 7.0;
 /// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
 /// yellow times).
 pub const STOPS_AT_YELLOW: f64 = 3.0;
@@ -96,18 +96,29 @@ pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> 
     }
 }
 
-/// Those who go before it through a zone.
+/// Those on the other side of a zone that the `passage` in `slot` holds who go before it.
+pub(crate) fn earlier<'a>(
+    scene: &'a Scene,
+    passage: &'a Passage,
+    slot: u32,
+    hold: &Hold,
+) -> impl Iterator<Item = &'a Passage> {
+    let (side, touch) = (hold.side, scene.network.junctions.zones[hold.zone.at()].touch);
+    let matters = move |other: &Passage| touch.is_of([passage.length, other.length].map(|it| it >= LONG));
+    let before =
+        scene.passages.order(hold.zone).take_while(move |(it, _)| it.slot != slot || it.side != side);
+    let others = before.filter(move |(it, other)| it.side != side && it.slot != slot && matters(other));
+    others.map(|(_, other)| other)
+}
+
+/// Heeds those who go before it through a zone.
 fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
     for hold in &passage.holds {
-        let Zone { kind, touch, .. } = scene.network.junctions.zones[hold.zone.at()];
-        let matters = |other: &Passage| touch.is_of([passage.length, other.length].map(|it| it >= LONG));
-        let earlier =
-            scene.passages.order(hold.zone).take_while(|(it, _)| it.slot != slot || it.side != hold.side);
-        let mut others =
-            earlier.filter(|(it, other)| it.side != hold.side && it.slot != slot && matters(other));
+        let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
+        let mut others = earlier(scene, passage, slot, hold);
         match kind {
             ZoneKind::Merging(_) => {
-                if let Some((_, other)) = others.last() {
+                if let Some(other) = others.last() {
                     let ahead = leader_into(hold.leave - passage.travelled, hold, other);
                     let is_nearer =
                         junction.leader.is_none_or(|it| ahead.is_some_and(|new| new.gap < it.gap));
@@ -127,7 +138,7 @@ fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junc
 
 /// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road its speed is
 /// seen, and not whether it changes (ours).
-pub(super) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
+pub(crate) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
     let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead::steady(gap, other.speed))

@@ -24,7 +24,7 @@ mod turns;
 pub(crate) use applicant::Applicant;
 pub(crate) use conditions::{Asking, Hindrance, leader_of, may_pass};
 pub use heed::STOPS_AT_YELLOW;
-pub(crate) use heed::{Junction, is_nothing_near, lets_go, look, sight};
+pub(crate) use heed::{Junction, earlier, is_nothing_near, lets_go, look, sight};
 pub(crate) use mergers::are_led_on;
 pub use passages::Passages;
 pub(crate) use passages::{Claim, Hold, NO_PASSAGE, Passage};

@@ -13,7 +13,7 @@ use crate::accelerate::ROOM_AT_A_STOP;
 use crate::scene::{Scene, Spot, Viewpoint};
 
 /// How far before a zone a vehicle stops [m] (ours).
-pub(super) const BEFORE_A_ZONE: f64 = 1.0;
+pub(crate) const BEFORE_A_ZONE: f64 = 1.0;
 /// How far before a zone the first of a queue stands [m].
 pub const STANDS_BEFORE_A_ZONE: f64 = BEFORE_A_ZONE + ROOM_AT_A_STOP;
 /// How far before a line it stops [m] (ours).
@@ -22,6 +22,8 @@ const BEFORE_A_LINE: f64 = 0.3;
 pub const STANDS_BEFORE_A_LINE: f64 = BEFORE_A_LINE + ROOM_AT_A_STOP;
 /// Room that a vehicle needs beyond the zones beside its length [m] (ours).
 pub(crate) const SPARE_ROOM: f64 = 2.0;
+/// A reservation leads so far over the last place within it [m], more than distances are rounded (ours).
+const PAST_A_PLACE: f64 = 0.1;
 /// A line belongs to the zones that follow within this [m] (ours).
 const LINE_TO_ZONE: f64 = 30.0;
 
@@ -36,12 +38,12 @@ pub(crate) struct Survey {
     pub(crate) has_stop_sign: bool,
     /// Sides of zones.
     pub(crate) holds: Vec<Hold>,
-    /// Where its front has to get for the rear to be out of all zones.
+    /// Where its front has to get for the rear to be out of all zones, and for it to be past all lines that belong to them.
     pub(crate) extent: f64,
     /// Where it can stand then.
     pub(crate) refuge: Refuge,
     /// Where the chain of that begins.
-    pub(super) refuge_start: f64,
+    pub(crate) refuge_start: f64,
     /// Room that it needs there.
     pub(crate) needed: f64,
     /// Room that there is.
@@ -72,7 +74,7 @@ impl Default for Survey {
 pub(crate) struct Point {
     /// Where the front has to stay behind [m].
     pub(crate) stop: f64,
-    pub(super) what: What,
+    pub(crate) what: What,
 }
 
 impl Point {
@@ -90,7 +92,7 @@ impl Point {
 }
 
 #[derive(Clone, Copy)]
-pub(super) enum What {
+pub(crate) enum What {
     Sign(Sign),
     /// A zone, its end, and the place where the lanes become one, if they do [m].
     Zone(Crossing, f64, Option<f64>),
@@ -183,7 +185,7 @@ pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool
 
 /// Whether there is no place within `until` [m], whichever way one goes.
 #[inline]
-pub(super) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
+pub(crate) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
     /// Sums of lengths are not told apart closer than this [m].
     const ROUNDING: f64 = 0.001;
     let length = scene.network.chain(from.chain).length;
@@ -236,6 +238,8 @@ pub(crate) fn survey(
     let mut first: Option<f64> = None;
     let mut ends = false;
     let mut clear = f64::NEG_INFINITY;
+    // The last place that it leads over: nobody stops there any more, even where the rear would be out of the zones a little before.
+    let mut last = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
     // As far as the vehicle will need room: zones may be longer than anybody sees.
     let far = Cell::new(until + ROOM_SIGHT);
@@ -255,6 +259,7 @@ pub(crate) fn survey(
             next_stop = point.stop - ROOM_AT_A_STOP;
             return ControlFlow::Break(());
         }
+        last = at;
         match point.what {
             What::Sign(Sign::Light(light)) => {
                 out.lights.push((light, point.stop));
@@ -283,7 +288,7 @@ pub(crate) fn survey(
         return true;
     }
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
-    out.extent = clear + length;
+    out.extent = (clear + length).max(last + PAST_A_PLACE);
     out.needed = length + SPARE_ROOM;
     let beyond = chain_at(scene, from, clear);
     (out.refuge, out.refuge_start) =
@@ -344,11 +349,11 @@ fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64, i
 }
 
 /// Distances are not told apart closer than this [m].
-pub(super) const ROUNDING: f64 = 0.5;
+pub(crate) const ROUNDING: f64 = 0.5;
 
 /// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite if it
 /// goes on along it.
-pub(super) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
+pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     let own = scene.next(from.destination, spot.chain);
     let theirs = scene.next(scene.car(spot).goal.destination(), spot.chain);
     match theirs {
@@ -362,10 +367,13 @@ pub(super) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
 #[cfg(test)]
 mod tests {
     use laneweave_maps::generate::own_maps;
-    use laneweave_maps::regulations;
+    use laneweave_maps::{Drawing, regulations};
     use laneweave_models::Style;
     use laneweave_models::change::{LaneChangeModel, Mcdm};
     use laneweave_models::follow::{FollowingModel, Idm};
+    use laneweave_network::{
+        DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, StopKind, StopRule,
+    };
 
     use super::*;
     use crate::navigate::Navigator;
@@ -407,9 +415,7 @@ mod tests {
     #[test]
     fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
         let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
-        let map = drawing.build().unwrap();
-        let rules = regulations(&map);
-        let network = map.network.regulated(&rules);
+        let network = regulated(&drawing);
         let navigator = Navigator::new(&network);
         let mut surveyed = 0;
         for number in 0..6000_u32 {
@@ -436,31 +442,41 @@ mod tests {
         assert!(surveyed > 100, "{surveyed}");
     }
 
+    /// Visits what a standing vehicle surveys, at places all over a network.
+    fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, &Survey)) {
+        let navigator = Navigator::new(network);
+        for number in 0..400_u32 {
+            let chain = ChainIndex(number % network.chains.len() as u32);
+            let x = network.chain(chain).length * f64::from(number) / 400.0;
+            let destination = Some((number % network.exits.len() as u32) as u16);
+            let class = if number % 2 == 0 { Class::Truck } else { Class::Car };
+            let length = class.body().length;
+            let seen = Seen { chain, x, length, class, destination, ..standing() };
+            let snapshot = Snapshot::new(network, [seen]);
+            let styles = [driver()];
+            let scene = snapshot.scene(network, &navigator, &styles);
+            let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
+            let mut out = Survey::default();
+            if survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out) {
+                visit(&scene, &applicant, &out);
+            }
+        }
+    }
+
+    fn regulated(drawing: &Drawing) -> Network {
+        let map = drawing.build().unwrap();
+        let rules = regulations(&map);
+        map.network.regulated(&rules)
+    }
+
     #[test]
     fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
         let mut surveyed = 0;
         for seed in 1..=12 {
-            let map = laneweave_maps::generate::random(seed).drawing.build().unwrap();
-            let rules = regulations(&map);
-            let network = map.network.regulated(&rules);
-            let navigator = Navigator::new(&network);
-            for number in 0..400_u32 {
-                let chain = ChainIndex(number % network.chains.len() as u32);
-                let x = network.chain(chain).length * f64::from(number) / 400.0;
-                let destination = Some((number % network.exits.len() as u32) as u16);
-                let class = if number % 2 == 0 { Class::Truck } else { Class::Car };
-                let length = class.body().length;
-                let seen = Seen { chain, x, length, class, destination, ..standing() };
-                let snapshot = Snapshot::new(&network, [seen]);
-                let styles = [driver()];
-                let scene = snapshot.scene(&network, &navigator, &styles);
-                let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
-                let mut out = Survey::default();
-                if !survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out) {
-                    continue;
-                }
+            let network = regulated(&laneweave_maps::generate::random(seed).drawing);
+            survey_all_over(&network, |scene, applicant, out| {
                 surveyed += 1;
-                points(&scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
+                points(scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
                     if let What::Zone(crossing, ..) = point.what {
                         let is_held =
                             out.holds.iter().any(|it| (it.zone, it.side) == (crossing.zone, crossing.side));
@@ -468,8 +484,45 @@ mod tests {
                     }
                     ControlFlow::Continue(())
                 });
-            }
+            });
         }
         assert!(surveyed > 200, "{surveyed}");
+    }
+
+    /// A road of 200 m across two others, 25 m apart, with a line behind the first of them.
+    fn two_crossings(line: f64) -> Network {
+        let lane = |id, from: [f64; 2], to: [f64; 2], aside: [f64; 2]| {
+            let border = |by: f64| {
+                let points = [from, to].map(|[x, y]| Point::new(x + by * aside[0], y + by * aside[1], 0.0));
+                Polyline::new(points).unwrap()
+            };
+            Lanelet::alone(id, [1.5, -1.5, 0.0].map(border), 10.0)
+        };
+        let northward = |id, x| lane(id, [x, -50.0], [x, 50.0], [-1.0, 0.0]);
+        let road = lane(1, [0.0, 0.0], [200.0, 0.0], [0.0, 1.0]);
+        let line = [-2.0, 2.0].map(|y| Point::new(line, y, 0.0)).to_vec();
+        let stop =
+            StopRule { id: 9, kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
+        let lanelets = vec![road, northward(2, 50.0), northward(3, 75.0)];
+        let network = Network::new(lanelets, DrivingSide::Right).unwrap();
+        network.regulated(&Regulations { stops: vec![stop], priorities: Vec::new() })
+    }
+
+    #[test]
+    fn a_reservation_leads_over_every_line_before_which_the_rear_would_still_stand_in_a_zone() {
+        let drawings = (1..=12).map(|it| laneweave_maps::generate::random(it).drawing);
+        let own = own_maps().unwrap().into_iter().map(|it| it.1);
+        let drawn = drawings.chain(own).map(|it| regulated(&it));
+        // A truck has left the first crossing when its front is at some 64 m.
+        let lines = [55.0, 58.0, 61.0, 63.0, 64.0, 65.0, 68.0].map(two_crossings);
+        for network in drawn.chain(lines) {
+            survey_all_over(&network, |scene, applicant, out| {
+                let next = stop_ahead(scene, applicant.from, out.extent, out.extent + 20.0);
+                for hold in &out.holds {
+                    let is_out = next.is_none_or(|it| hold.leave <= it.stop - ROOM_AT_A_STOP);
+                    assert!(is_out, "{applicant:?}: {hold:?}, next stop at {:?}", next.map(|it| it.stop));
+                }
+            });
+        }
     }
 }
