@@ -6,7 +6,7 @@ mod drivers;
 use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::regulations;
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, Held, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Held, NewVehicle, Setup, World, entry_queues};
 
 const STEP: f64 = 0.1;
 
@@ -103,7 +103,7 @@ fn held(mut world: World) -> Vec<(Held, u32)> {
         if step % 10 > 0 {
             continue;
         }
-        let queues: Vec<_> = world.queues().collect();
+        let queues: Vec<_> = entry_queues(&world).collect();
         assert_eq!(queues.iter().map(|it| it.waiting).sum::<usize>(), world.waiting());
         assert!(queues.iter().all(|it| it.held.is_some() == (it.waiting > 0)));
         for held in queues.iter().filter_map(|it| it.held) {

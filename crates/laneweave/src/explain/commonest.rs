@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use laneweave_sim::{Act, Event, Phase, Spot, World};
+use laneweave_sim::{Act, Event, Phase, Spot, World, explain};
 
 use super::words::reason;
 
@@ -39,7 +39,7 @@ impl Commonest {
             .map(|it| it.spot)
             .collect();
         for spot in asked {
-            let account = world.explain(spot);
+            let account = explain(world, spot);
             if matches!(account.act, Act::Stays | Act::Waits(..)) {
                 *self.refusals.entry(reason(&account)).or_default() += 1;
             }

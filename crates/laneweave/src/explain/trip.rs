@@ -43,7 +43,7 @@ pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flip
             let (first, _) = seen.unwrap_or((now, now));
             seen = Some((first, now));
             if now > time - LONGEST_EPOCH && now <= time + 0.5 * world.clock().dt {
-                let account = world.explain(spot);
+                let account = laneweave_sim::explain(world, spot);
                 if account.act != Act::DrivesOn || told.is_none() {
                     told = Some(full(world, &account, with_flips));
                 }
@@ -70,7 +70,11 @@ fn full(world: &World, account: &Account, with_flips: bool) -> String {
     let mut told = story(account, world.network(), (motion.x, motion.speed), &found);
     if motion.speed < STANDS {
         // Writing to a string never fails.
-        let _ = writeln!(told, "  {}", stands_for(&world.stands_for(account.spot), world.network()));
+        let _ = writeln!(
+            told,
+            "  {}",
+            stands_for(&laneweave_sim::stands_for(world, account.spot), world.network())
+        );
     }
     told
 }
@@ -85,14 +89,14 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
         let now = world.clock().time();
         match spot_of(world, id) {
             Some(spot) => {
-                let account = world.explain(spot);
+                let account = laneweave_sim::explain(world, spot);
                 if lines.text.is_empty() {
                     lines.single(now, &format!("enters {}", place(world.network(), spot, world)));
                 }
                 lines.take(now, &account, with_flips, world.clock().dt);
                 stood = if world.scene().motion(spot).speed < STANDS { stood + 1 } else { 0 };
                 if stood == told_after {
-                    let why = stands_for(&world.stands_for(spot), world.network());
+                    let why = stands_for(&laneweave_sim::stands_for(world, spot), world.network());
                     lines.single(now, &format!("has stood for {TOLD_AFTER} s: {why}"));
                 }
             }

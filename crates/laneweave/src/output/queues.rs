@@ -1,6 +1,6 @@
 //! Who waits at the entrances, and what holds them: a part of the summary.
 
-use laneweave_sim::{EntryQueue, Held, World};
+use laneweave_sim::{EntryQueue, Held, World, entry_queues};
 use serde::{Deserialize, Serialize};
 
 /// Time between two looks at the queues [s].
@@ -86,7 +86,7 @@ impl HeldFor {
 impl Queues {
     /// Of `world`, before anybody was held.
     pub fn of(world: &World) -> Queues {
-        Queues { lanes: world.queues().map(|it| Queue::at(world, &it)).collect() }
+        Queues { lanes: entry_queues(world).map(|it| Queue::at(world, &it)).collect() }
     }
 
     /// Looks at them after a step.
@@ -95,7 +95,7 @@ impl Queues {
         if !clock.step.is_multiple_of(clock.steps(SAMPLING)) {
             return;
         }
-        for (lane, now) in self.lanes.iter_mut().zip(world.queues()) {
+        for (lane, now) in self.lanes.iter_mut().zip(entry_queues(world)) {
             lane.most_waiting = lane.most_waiting.max(now.waiting);
             if let Some(held) = now.held {
                 *lane.held_s.of(held) += f64::from(clock.steps(SAMPLING)) * clock.dt;
@@ -105,7 +105,7 @@ impl Queues {
 
     /// Those in which vehicles wait now, the longest first.
     pub fn left(self, world: &World) -> Vec<Queue> {
-        let now = self.lanes.into_iter().zip(world.queues());
+        let now = self.lanes.into_iter().zip(entry_queues(world));
         let with_numbers = now.map(|(lane, now)| Queue {
             waiting: now.waiting,
             most_waiting: lane.most_waiting.max(now.waiting),

@@ -101,7 +101,7 @@ fn every_change_and_a_thousand_refusals_are_explained_as_by_hand() {
         let mut said = Vec::new();
         let mut twin = None;
         for spot in deciding(&world) {
-            let account = world.explain(spot);
+            let account = laneweave::sim::explain(&world, spot);
             said.push(Said { id: account.vehicle, act: account.act });
             let is_chosen = random.uniform(account.vehicle, Purpose::Parameter, step) < 0.02;
             let is_change = matches!(account.act, Act::Wants(..));
@@ -230,7 +230,7 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
     for step in 0..4000_u32 {
         let mut saved = None;
         for spot in deciding(&world) {
-            let account = world.explain(spot);
+            let account = laneweave::sim::explain(&world, spot);
             let share = match account.act {
                 Act::Wants(..) => 0.3,
                 Act::Waits(..) | Act::Goes(_) => 0.1,

@@ -3,11 +3,12 @@
 use laneweave_network::{LightIndex, Network, ZoneIndex};
 use serde::{Deserialize, Serialize};
 
-use super::refuge::{Numbers, Refuge};
-use super::rings::Rings;
-use super::survey::Survey;
-use super::turns::Turn;
-use crate::traffic::VehicleId;
+use crate::junction::claim::Turn;
+use crate::junction::claim::{Claim, Hold};
+use crate::junction::need::Survey;
+use crate::junction::refuge::{Numbers, Refuge};
+use crate::junction::rings::Rings;
+use crate::state::traffic::VehicleId;
 
 /// A vehicle has no passage.
 pub(crate) const NO_PASSAGE: u32 = u32::MAX;
@@ -50,17 +51,6 @@ pub(crate) struct Passage {
     rooms: Vec<Room>,
 }
 
-/// A side of a zone that a vehicle may pass.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Hold {
-    pub(crate) zone: ZoneIndex,
-    pub(crate) side: u8,
-    /// Where the front comes in the way [m].
-    pub(crate) enter: f64,
-    /// Where it is no longer: the rear is out, or the lanes have become one [m].
-    pub(crate) leave: f64,
-}
-
 /// Room kept for a vehicle beyond the zones.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Room {
@@ -77,15 +67,6 @@ struct Room {
 pub(crate) struct Holder {
     pub(crate) slot: u32,
     pub(crate) side: u8,
-}
-
-/// A driver who waits because of others. Those out of patience come before all others, then who has waited longer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(crate) struct Claim {
-    pub(crate) is_patient: bool,
-    pub(crate) since: u32,
-    pub(crate) id: VehicleId,
-    pub(crate) is_long: bool,
 }
 
 impl Passages {
@@ -291,19 +272,19 @@ impl Passage {
     }
 
     /// What of it is left from the vehicle's front on, whatever lights show [m].
-    pub(super) fn left_for_certain(&self) -> f64 {
+    pub(crate) fn left_for_certain(&self) -> f64 {
         let ends = self.lights.iter().map(|(_, line)| self.zone_over(*line).unwrap_or(*line).min(*line));
         ends.filter(|it| *it > self.travelled).fold(self.extent, f64::min) - self.travelled
     }
 
     /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light: who stops at the line has to stop
     /// for these, too. From the beginning of the passage on [m].
-    pub(super) fn zone_over(&self, line: f64) -> Option<f64> {
+    pub(crate) fn zone_over(&self, line: f64) -> Option<f64> {
         self.holds.iter().filter(|it| it.leave > line).map(|it| it.enter).reduce(f64::min)
     }
 
     /// What it holds of the zone on the other side of `hold`.
-    pub(super) fn across(&self, hold: &Hold) -> Option<&Hold> {
+    pub(crate) fn across(&self, hold: &Hold) -> Option<&Hold> {
         self.holds.iter().find(|it| it.zone == hold.zone && it.side != hold.side)
     }
 

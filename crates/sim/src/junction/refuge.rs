@@ -25,21 +25,21 @@ impl Refuge {
     }
 
     /// Whether it leads on to the next chain.
-    pub(super) fn is_last(&self, junctions: &Junctions) -> bool {
+    pub(crate) fn is_last(&self, junctions: &Junctions) -> bool {
         self.places as usize == junctions.on(self.chain).places.len()
     }
 }
 
 /// Numbers of all refuges of a network, from 0 on; none where there are no zones.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Numbers {
+pub(crate) struct Numbers {
     /// Those of the first of each chain.
     first: Vec<u32>,
-    pub(super) count: usize,
+    pub(crate) count: usize,
 }
 
 impl Numbers {
-    pub(super) fn of(network: &Network) -> Numbers {
+    pub(crate) fn of(network: &Network) -> Numbers {
         let junctions = &network.junctions;
         if junctions.zones.is_empty() {
             return Numbers::default();
@@ -56,13 +56,13 @@ impl Numbers {
 
     /// Those of so many chains on which there is no place to stop.
     #[cfg(test)]
-    pub(super) fn of_chains(count: usize) -> Numbers {
+    pub(crate) fn of_chains(count: usize) -> Numbers {
         Numbers { first: (0..count as u32).collect(), count }
     }
 
     /// The number of a refuge, if it has one.
     #[inline]
-    pub(super) fn of_refuge(&self, refuge: Refuge) -> Option<usize> {
+    pub(crate) fn of_refuge(&self, refuge: Refuge) -> Option<usize> {
         self.first.get(refuge.chain.at()).map(|first| (first + refuge.places) as usize)
     }
 }

@@ -6,9 +6,10 @@
 use laneweave_network::{ChainIndex, Network, Sign};
 use serde::{Deserialize, Serialize};
 
-use super::passages::{Claim, Passages};
-use super::survey::SPARE_ROOM;
-use crate::traffic::Lane;
+use crate::junction::claim::Claim;
+use crate::junction::need::SPARE_ROOM;
+use crate::junction::passages::Passages;
+use crate::state::traffic::Lane;
 
 /// A ring is no longer than this [m] (ours; a roundabout of two lanes is some 60 m across).
 const LONGEST: f64 = 200.0;
@@ -75,7 +76,7 @@ impl Rings {
     }
 
     /// Forgets who waits.
-    pub(super) fn clear_claims(&mut self) {
+    pub(crate) fn clear_claims(&mut self) {
         self.rings.iter_mut().for_each(|it| it.claim = None);
     }
 

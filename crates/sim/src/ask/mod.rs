@@ -1,0 +1,5 @@
+//! Questions about a world, which change nothing.
+
+pub(crate) mod account;
+pub(crate) mod queues;
+pub(crate) mod standing;

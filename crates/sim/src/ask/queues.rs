@@ -1,0 +1,122 @@
+//! Who waits at the origins of the demand, and what holds them.
+
+use laneweave_network::ChainIndex;
+
+use crate::demand::metering::Metering;
+use crate::demand::source::{Queue, Start};
+use crate::driver::appeal::surveyed;
+use crate::junction::need::Survey;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
+use crate::step::reserve::{Entry, applicant, entry};
+use crate::step::world::World;
+use crate::view::scene::{Scene, Spot};
+
+/// The queue for one lane of an origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EntryQueue {
+    /// The origin's place in the demand.
+    pub origin: usize,
+    /// The lane.
+    pub chain: ChainIndex,
+    /// Where on it vehicles start [m].
+    pub station: f64,
+    /// How many wait.
+    pub waiting: usize,
+    /// What holds the first of them.
+    pub held: Option<Held>,
+}
+
+/// What holds the first of a queue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Held {
+    /// The traffic on the lane moves, but leaves no gap.
+    Traffic,
+    /// The vehicles ahead stand, for none of the following reasons.
+    Queue,
+    /// They stand because of a red light.
+    RedLight,
+    /// They stand because others go first at a junction, or a sign stops them.
+    Priority,
+    /// They stand because there is no room beyond a junction; or the room at a kerb is kept for others.
+    Room,
+    /// The whole map is full: no trip begins within it.
+    FullMap,
+}
+
+impl Held {
+    /// All of them.
+    pub const ALL: [Held; 6] =
+        [Held::Traffic, Held::Queue, Held::RedLight, Held::Priority, Held::Room, Held::FullMap];
+}
+
+/// Slower than this a vehicle is part of a queue [m/s], and so near to the one ahead [m]; ours.
+const QUEUES: f64 = 2.0;
+const NEAR: f64 = 15.0;
+
+/// The queues at all lanes of all origins, in the order of the demand.
+pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
+    let lanes = world.sources.iter().enumerate();
+    let lanes = lanes.flat_map(|(origin, source)| source.lanes().iter().map(move |it| (origin, it)));
+    lanes.map(|(origin, queue)| EntryQueue {
+        origin,
+        chain: queue.chain,
+        station: queue.start.station(),
+        waiting: queue.waiting.len(),
+        held: held(world, queue),
+    })
+}
+
+/// What holds the first of a queue.
+fn held(world: &World, queue: &Queue) -> Option<Held> {
+    let first = queue.waiting.front()?;
+    let scene = world.scene();
+    let is_kerb = matches!(queue.start, Start::FromRest(_));
+    if first.is_through_town && world.metering.as_ref().is_some_and(Metering::is_full) {
+        return Some(Held::FullMap);
+    }
+    if is_kerb && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
+        return Some(Held::Room);
+    }
+    match entry(&scene, queue, first, world.clock, &mut Survey::default()) {
+        Entry::Refused(Hindrance::Light) => return Some(Held::RedLight),
+        Entry::Refused(Hindrance::Sign | Hindrance::Others) => return Some(Held::Priority),
+        Entry::Refused(Hindrance::Room | Hindrance::Ring) => return Some(Held::Room),
+        Entry::Free | Entry::Reserved { .. } => {}
+    }
+    let from = scene.viewpoint_at(applicant(&scene, queue, first).from, queue.chain, queue.start.station());
+    let last = scene.leader_spot(from).filter(|it| scene.motion(*it).speed < QUEUES);
+    Some(last.map_or(Held::Traffic, |it| why_head_stands(world, &scene, head(&scene, it))))
+}
+
+/// Why the driver at the head of a queue stands.
+fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
+    let id = scene.motion(spot).id;
+    let Some(waiting) = world.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id) else {
+        return Held::Queue;
+    };
+    let mut survey = Survey::default();
+    if !surveyed(scene, &Applicant::at(scene, spot), &mut survey) {
+        return Held::Queue;
+    }
+    let applicant = Applicant::at(scene, spot);
+    match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, world.clock)) {
+        Ok(()) => Held::Queue,
+        Err(Hindrance::Light) => Held::RedLight,
+        Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,
+        Err(Hindrance::Room | Hindrance::Ring) => Held::Room,
+    }
+}
+
+/// The first of the queue in which the vehicle at `spot` stands.
+fn head(scene: &Scene, mut spot: Spot) -> Spot {
+    /// No queue within the map is followed further.
+    const MOST: usize = 1000;
+    for _ in 0..MOST {
+        let from = scene.viewpoint(spot);
+        let is_near = scene.ahead(from).is_some_and(|it| it.gap < NEAR && it.speed < QUEUES);
+        let Some(ahead) = scene.leader_spot(from).filter(|_| is_near) else { break };
+        spot = ahead;
+    }
+    spot
+}

@@ -1,0 +1,144 @@
+//! Why a vehicle stands, or can hardly move: of all that its driver heeds, the nearest.
+
+use laneweave_network::ChainIndex;
+
+use crate::driver::accelerate::{lane_end, place_to_wait};
+use crate::driver::appeal::surveyed;
+use crate::driver::window::Window;
+use crate::junction::need::Survey;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
+use crate::right_of_way::heed::{earlier, look, sight};
+use crate::right_of_way::survey::stop_ahead;
+use crate::state::traffic::VehicleId;
+use crate::step::world::World;
+use crate::view::scene::{Scene, Spot};
+
+/// What holds a vehicle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StandsFor {
+    /// The vehicle ahead.
+    Leader {
+        /// Who.
+        vehicle: VehicleId,
+        /// The gap to it [m].
+        gap: f64,
+    },
+    /// A light, by its id in the map.
+    Light(i64),
+    /// A stop sign, at which it has not stopped yet.
+    StopSign,
+    /// It waits for its reservation before a conflict area.
+    Junction {
+        /// The chains that share the ground, and where on each that begins [m].
+        areas: Vec<[(ChainIndex, f64); 2]>,
+        /// Why it is not given.
+        why: JunctionHindrance,
+        /// Who holds the area, or waits longer for it.
+        others: Vec<VehicleId>,
+    },
+    /// It has a reservation, and goes after these.
+    After(Vec<VehicleId>),
+    /// The end of its lane, so far ahead [m].
+    LaneEnd(f64),
+    /// The last place for a change that it has to make, so far ahead [m].
+    LastPlace(f64),
+    /// It lets in a vehicle so far ahead [m].
+    LetsIn(f64),
+    /// Nothing: it drives off.
+    Nothing,
+}
+
+/// Why a driver is not given its reservation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JunctionHindrance {
+    /// Others go first.
+    Others,
+    /// There is no storage space beyond.
+    Space,
+    /// A roundabout is full.
+    Roundabout,
+}
+
+/// What holds the vehicle at `spot`.
+pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
+    let scene = world.scene();
+    let junction = look(&scene, spot);
+    let (motion, mind) = (scene.motion(spot), scene.mind(spot));
+    let from = scene.viewpoint(spot);
+    let leader = scene.ahead(from).zip(scene.leader_spot(from));
+    let leader =
+        leader.map(|(it, spot)| (it.gap, StandsFor::Leader { vehicle: scene.motion(spot).id, gap: it.gap }));
+    let stop = junction.stop.map(|it| (it, before_a_junction(world, &scene, spot, it)));
+    let merge = junction.leader.map(|it| (it.gap, StandsFor::After(before_it(&scene, spot))));
+    let end = lane_end(&scene, spot.chain).map(|it| it.of_entry(&scene, spot) - motion.x);
+    let place = mind
+        .last_place
+        .is_finite()
+        .then(|| place_to_wait(&scene, world.clock, spot, Window::of(&scene, spot)));
+    let lets_in = Some(f64::from(mind.lets_in.0)).filter(|it| it.is_finite());
+    let all = [
+        leader,
+        stop,
+        merge,
+        end.map(|it| (it, StandsFor::LaneEnd(it))),
+        place.map(|it| (it, StandsFor::LastPlace(mind.last_place - motion.x))),
+        lets_in.map(|it| (it, StandsFor::LetsIn(it))),
+    ];
+    /// Nobody stands for what is further ahead [m].
+    const FAR: f64 = 30.0;
+    let near = all.into_iter().flatten().filter(|it| it.0 < FAR);
+    near.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(StandsFor::Nothing, |it| it.1)
+}
+
+/// Why the driver at `spot` stops `stop` ahead [m] at a junction.
+fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> StandsFor {
+    let granted = scene.passage(spot).map_or(0.0, |it| it.left().max(0.0));
+    let from = scene.viewpoint(spot);
+    let ahead = stop_ahead(scene, from, granted, sight(scene.motion(spot).speed));
+    if granted > stop || ahead.is_none() {
+        return StandsFor::After(before_it(scene, spot));
+    }
+    let mut survey = Survey::default();
+    let applicant = Applicant::at(scene, spot);
+    if !surveyed(scene, &applicant, &mut survey) {
+        return StandsFor::After(before_it(scene, spot));
+    }
+    let waiting = world.plans[spot.chain.at()].waiting.iter().find(|it| it.id == from.id);
+    let since = waiting.map_or(world.clock.step, |it| it.since);
+    let asking = Asking::of(&applicant, since, world.clock);
+    let why = match may_pass(scene, &applicant, &survey, asking) {
+        Ok(()) => return StandsFor::Nothing,
+        Err(Hindrance::Light) => {
+            let light = survey.lights.last().map(|it| world.network.junctions.lights[it.0.at()].id);
+            return light.map_or(StandsFor::Nothing, StandsFor::Light);
+        }
+        Err(Hindrance::Sign) => return StandsFor::StopSign,
+        Err(Hindrance::Room) => JunctionHindrance::Space,
+        Err(Hindrance::Ring) => JunctionHindrance::Roundabout,
+        Err(Hindrance::Others) => JunctionHindrance::Others,
+    };
+    let zones = &world.network.junctions.zones;
+    let areas = survey.holds.iter().map(|it| zones[it.zone.at()].sides.map(|it| (it.chain, it.start)));
+    let mut others: Vec<VehicleId> = Vec::new();
+    for hold in &survey.holds {
+        let holders = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+        others.extend(holders.map(|(_, it)| it.vehicle));
+        others.extend(scene.passages.claim(hold.zone, 1 - hold.side).map(|it| it.claim.id));
+    }
+    others.sort_unstable();
+    others.dedup();
+    StandsFor::Junction { areas: areas.collect(), why, others }
+}
+
+/// Those from other lanes who pass before the vehicle at `spot`, which has a reservation.
+fn before_it(scene: &Scene, spot: Spot) -> Vec<VehicleId> {
+    let (own, slot) = (scene.passage(spot), scene.mind(spot).passage);
+    let mut others: Vec<VehicleId> = Vec::new();
+    if let Some(own) = own {
+        others.extend(own.holds.iter().flat_map(|it| earlier(scene, own, slot, it)).map(|it| it.vehicle));
+    }
+    others.sort_unstable();
+    others.dedup();
+    others
+}

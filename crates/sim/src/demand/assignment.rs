@@ -1,0 +1,240 @@
+//! Where a demand leads: flows along the usual ways, as if no road were ever full.
+
+use std::collections::BinaryHeap;
+
+use laneweave_network::{Beside, ChainIndex, Network, Side};
+
+use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
+use crate::route::navigate::Navigator;
+use crate::route::place::Place;
+use crate::route::ways::{Waypoint, stretch_to};
+
+/// The flows of a demand on all chains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// By chain.
+    parts: Vec<Vec<Part>>,
+    /// Those who have to change lanes for their ways.
+    pub changes: Vec<Change>,
+    /// Of all origins together [veh/s].
+    pub total: f64,
+}
+
+/// A flow that has to leave a lane for the one beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// The lane, and from where to where on it this is possible and soon enough [m].
+    pub from: (ChainIndex, [f64; 2]),
+    /// The other one, and the same places on it [m].
+    pub to: (ChainIndex, [f64; 2]),
+    /// Vehicles [veh/s].
+    pub flow: f64,
+}
+
+/// A flow on a part of a chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// First station [m].
+    pub from: f64,
+    /// Last station; infinite where it goes on over the end of the chain [m].
+    pub to: f64,
+    /// Vehicles that drive over it [veh/s].
+    pub flow: f64,
+    /// Their way leads over this lane alone, and over none beside it.
+    pub is_bound: bool,
+}
+
+impl Assignment {
+    /// Of `demand` on average between two times [s]. Where lanes side by side lead to a destination, they share its drivers
+    /// evenly. If nobody comes in that time, as many come to each lane of the origins.
+    pub fn new(network: &Network, navigator: &Navigator, demand: &Demand, during: [f64; 2]) -> Assignment {
+        let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
+        let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
+        let rate = |it: &Origin| if comes_nobody { it.place.chains().len() as f64 } else { mean(it) };
+        let parts = vec![Vec::new(); network.chains.len()];
+        let mut assignment = Assignment { parts, changes: Vec::new(), total: 0.0 };
+        let shares: Vec<Vec<f64>> = demand.origins.iter().map(|it| shares(network, navigator, it)).collect();
+        for destination in 0..demand.destinations.len() {
+            let starts =
+                demand.origins.iter().zip(&shares).map(|(it, of)| (&it.place, rate(it) * of[destination]));
+            let mut spread = Spread::new(network, navigator, destination as u16, &mut assignment);
+            for (place, flow) in starts.filter(|it| it.1 > 0.0) {
+                spread.assignment.total += flow;
+                spread.begin(place, flow);
+            }
+            spread.drive();
+        }
+        assignment
+    }
+
+    /// The parts of a chain on which vehicles drive.
+    pub fn on(&self, chain: ChainIndex) -> &[Part] {
+        &self.parts[chain.at()]
+    }
+
+    /// Flow over a station of a chain [m]: of those who could not use another lane, and of all [veh/s].
+    pub fn flow(&self, chain: ChainIndex, station: f64) -> [f64; 2] {
+        let here = self.on(chain).iter().filter(|it| it.from <= station && station < it.to);
+        here.fold([0.0, 0.0], |[bound, all], it| {
+            [bound + if it.is_bound { it.flow } else { 0.0 }, all + it.flow]
+        })
+    }
+}
+
+/// The share of the drivers of an origin that each destination has.
+fn shares(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<f64> {
+    let weight = |(weight, destination): (&f64, u16)| {
+        if *weight > 0.0 && navigator.leads(network, &origin.place, destination) { *weight } else { 0.0 }
+    };
+    let weights: Vec<f64> = origin.weights.iter().zip(0..).map(weight).collect();
+    let sum: f64 = weights.iter().sum();
+    weights.into_iter().map(|it| if sum > 0.0 { it / sum } else { 0.0 }).collect()
+}
+
+/// A lane that drivers may use instead of another.
+struct Shared {
+    lane: ChainIndex,
+    /// From here on [m].
+    station: f64,
+    /// So far from the start of the other one [m].
+    after: f64,
+}
+
+/// Spreads the flow to one destination over the chains.
+struct Spread<'a> {
+    network: &'a Network,
+    navigator: &'a Navigator,
+    destination: u16,
+    assignment: &'a mut Assignment,
+    /// What comes to the start of each chain [veh/s].
+    coming: Vec<f64>,
+    /// Chains to which somebody comes, by the way that is left from there [mm].
+    open: BinaryHeap<(u64, ChainIndex)>,
+}
+
+impl<'a> Spread<'a> {
+    fn new(
+        network: &'a Network,
+        navigator: &'a Navigator,
+        destination: u16,
+        assignment: &'a mut Assignment,
+    ) -> Spread<'a> {
+        let coming = vec![0.0; network.chains.len()];
+        Spread { network, navigator, destination, assignment, coming, open: BinaryHeap::new() }
+    }
+
+    fn waypoint(&self, chain: ChainIndex) -> &'a Waypoint {
+        self.navigator.waypoint(Some(self.destination), chain)
+    }
+
+    /// Lets `flow` begin its trips at `place`: at the lanes of a gate from which the fewest changes are left.
+    fn begin(&mut self, place: &Place, flow: f64) {
+        match place {
+            Place::Gate(gate) => {
+                let changes = |it: &&ChainIndex| self.waypoint(**it).changes;
+                let fewest = gate.chains.iter().map(|it| changes(&it)).min();
+                let lanes: Vec<ChainIndex> =
+                    gate.chains.iter().filter(|it| Some(changes(it)) == fewest).copied().collect();
+                lanes.iter().for_each(|it| self.come(*it, flow / lanes.len() as f64));
+            }
+            Place::Kerb(kerb) => self.go_on(kerb.chain, kerb.station, flow, true),
+        }
+    }
+
+    fn come(&mut self, chain: ChainIndex, flow: f64) {
+        if self.coming[chain.at()] == 0.0 {
+            let millimetres = (self.waypoint(chain).distance.max(0.0) * 1e3) as u64;
+            self.open.push((millimetres, chain));
+        }
+        self.coming[chain.at()] += flow;
+    }
+
+    /// Lets all drive to the destination, those who come from furthest first.
+    fn drive(mut self) {
+        while let Some((_, chain)) = self.open.pop() {
+            let flow = std::mem::take(&mut self.coming[chain.at()]);
+            let lanes = self.lanes_to_share(chain);
+            let share = flow / lanes.len() as f64;
+            for Shared { lane, station, after } in &lanes {
+                if *after > 0.0 {
+                    self.note(chain, [0.0, *after], share, false);
+                }
+                self.go_on(*lane, *station, share, lanes.len() == 1);
+            }
+        }
+    }
+
+    /// The lanes that those at the start of `chain` may use to go on without another change for the route.
+    fn lanes_to_share(&self, chain: ChainIndex) -> Vec<Shared> {
+        /// Ways whose times differ by less are equally good [s].
+        const EQUAL: f64 = 2.0;
+        let mut lanes = vec![Shared { lane: chain, station: 0.0, after: 0.0 }];
+        if self.waypoint(chain).changes > 0 {
+            return lanes;
+        }
+        let time = |lane, x| self.waypoint(lane).time - self.navigator.time_to(self.network, lane, x);
+        let mut number = 0;
+        while let Some(&Shared { lane, station, after }) = lanes.get(number) {
+            number += 1;
+            for side in Side::BOTH {
+                let stretches = self.network.chain(lane).stretches(side);
+                let Some(stretch) = stretches.iter().find(|it| it.end > station) else { continue };
+                let (from, there) = (stretch.start.max(station), stretch.chain);
+                let beside = stretch.across(from).max(0.0);
+                let waypoint = self.waypoint(there);
+                let is_as_good = waypoint.changes == 0
+                    && waypoint.leads_on(beside)
+                    && (time(there, beside) - time(lane, from)).abs() < EQUAL;
+                if is_as_good && lanes.iter().all(|it| it.lane != there) {
+                    lanes.push(Shared { lane: there, station: beside, after: after + from - station });
+                }
+            }
+        }
+        lanes
+    }
+
+    /// Lets `flow` go on from a station of a chain [m] to the start of the next one, over changes of lane.
+    fn go_on(&mut self, mut chain: ChainIndex, mut station: f64, flow: f64, is_bound: bool) {
+        let to = Some(self.destination);
+        loop {
+            let here = self.network.chain(chain);
+            let way = self.navigator.waypoint_from(self.network, to, chain, station).into_owned();
+            let Some(via) = way.goes_on() else { return };
+            let stretch =
+                stretch_to(here, via, way.last_place).filter(|_| way.changes > self.waypoint(via).changes);
+            match stretch {
+                Some(stretch) => {
+                    let place = way.last_place.max(station);
+                    self.note(chain, [station, place], flow, is_bound);
+                    self.note_change(chain, stretch, [station.max(stretch.start).min(place), place], flow);
+                    (chain, station) = (via, stretch.across(place).max(0.0));
+                }
+                None => {
+                    self.note(chain, [station, way.end], flow, is_bound);
+                    // A lane may lead round to its own start.
+                    let arrives = via == chain && (way.next.is_none() || way.end.is_finite());
+                    if !arrives {
+                        self.come(via, flow);
+                    }
+                    return;
+                }
+            }
+        }
+    }
+
+    fn note(&mut self, chain: ChainIndex, [from, to]: [f64; 2], flow: f64, is_bound: bool) {
+        let parts = &mut self.assignment.parts[chain.at()];
+        match parts.iter_mut().find(|it| (it.from, it.to, it.is_bound) == (from, to, is_bound)) {
+            Some(part) => part.flow += flow,
+            None => parts.push(Part { from, to, flow, is_bound }),
+        }
+    }
+
+    fn note_change(&mut self, chain: ChainIndex, stretch: &Beside, on: [f64; 2], flow: f64) {
+        let (from, to) = ((chain, on), (stretch.chain, on.map(|it| stretch.across(it))));
+        match self.assignment.changes.iter_mut().find(|it| (it.from, it.to) == (from, to)) {
+            Some(change) => change.flow += flow,
+            None => self.assignment.changes.push(Change { from, to, flow }),
+        }
+    }
+}

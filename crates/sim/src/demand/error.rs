@@ -1,0 +1,48 @@
+//! Why a world cannot be made.
+
+use thiserror::Error;
+
+use crate::demand::headways::HeadwayError;
+
+/// Why a world cannot be made.
+#[derive(Debug, Error, PartialEq)]
+pub enum WorldError {
+    /// The step is not a sensible length of time.
+    #[error("a step of {0} s: it must lie between 0.01 and 1 s")]
+    Step(f64),
+    /// Other characters are not as many as those in whose places they are to be.
+    #[error("{found} characters in place of {expected}")]
+    Characters {
+        /// The new ones.
+        found: usize,
+        /// The present ones.
+        expected: usize,
+    },
+    /// There are no characters.
+    #[error("there is no style to drive with")]
+    NoCharacters,
+    /// A rate, weight or share is not a sensible number.
+    #[error("{what} is {value}: it must be a number not below 0{limit}")]
+    Demand {
+        /// Which.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its upper limit, in words.
+        limit: String,
+    },
+    /// Headways cannot be as they should.
+    #[error(transparent)]
+    Headways(#[from] HeadwayError),
+    /// More destinations than a vehicle can tell apart.
+    #[error("{0} destinations: there can be {1} at most")]
+    Destinations(usize, usize),
+    /// The ways to all destinations would not fit into memory.
+    #[error("the ways to {destinations} destinations over {chains} lanes would not fit into memory")]
+    Ways {
+        /// Number of destinations.
+        destinations: usize,
+        /// Number of chains.
+        chains: usize,
+    },
+}

@@ -1,0 +1,134 @@
+//! Demand: who drives, where from and where to, how many come, and at which headways.
+
+pub(crate) mod assignment;
+pub(crate) mod error;
+pub(crate) mod headways;
+pub(crate) mod metering;
+pub(crate) mod places;
+pub(crate) mod rate;
+pub(crate) mod source;
+
+use laneweave_network::Network;
+
+use crate::demand::error::WorldError;
+use crate::demand::headways::Headways;
+use crate::demand::places::Places;
+use crate::demand::rate::Rate;
+use crate::route::place::Place;
+use crate::state::vehicle::Fleet;
+
+/// Who drives, where from and where to, and how many come.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Demand {
+    /// Where trips start.
+    pub origins: Vec<Origin>,
+    /// Where they end.
+    pub destinations: Vec<Place>,
+    /// Law of the headways in each lane.
+    pub headways: Headways,
+    /// Shares of the classes of vehicles.
+    pub fleet: Fleet,
+    /// The styles and their weights.
+    pub population: Vec<Share>,
+}
+
+/// A place at which trips start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// Where it is.
+    pub place: Place,
+    /// How many vehicles come per hour.
+    pub rate: Rate,
+    /// Weight of each of the destinations; those that cannot be reached from here do not count.
+    pub weights: Vec<f64>,
+}
+
+/// A style's share of the drivers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// Its weight.
+    pub weight: f64,
+    /// Place of its first character in the table of characters.
+    pub first: u32,
+    /// Number of its characters.
+    pub count: u32,
+}
+
+impl Demand {
+    /// `total` vehicles per hour over all entrances, by their number of lanes; destinations with equal weights.
+    pub fn even(network: &Network, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
+        Demand::over(Places::at_gates(network), total, Fleet::with_trucks(trucks), population)
+    }
+
+    /// `total` vehicles per hour over all origins, by their number of lanes; destinations with equal weights.
+    pub fn over(places: Places, total: f64, fleet: Fleet, population: Vec<Share>) -> Demand {
+        let Places { origins, destinations } = places;
+        let lanes: usize = origins.iter().map(|place| place.chains().len()).sum();
+        let weights = vec![1.0; destinations.len()];
+        let origin = |place: Place| {
+            let rate = total * place.chains().len() as f64 / lanes as f64;
+            Origin { place, rate: Rate::constant(rate), weights: weights.clone() }
+        };
+        Demand {
+            origins: origins.into_iter().map(origin).collect(),
+            destinations,
+            headways: Headways::default(),
+            fleet,
+            population,
+        }
+    }
+}
+
+impl Demand {
+    /// Whether all its numbers make sense.
+    ///
+    /// # Errors
+    /// The first that does not.
+    pub(crate) fn check(&self) -> Result<(), WorldError> {
+        let rates = self.origins.iter().flat_map(|it| it.rate.values());
+        let rates = rates.map(|it| ("a demand in veh/h", it, Demand::LARGEST_RATE));
+        let weights = self.origins.iter().flat_map(|it| &it.weights);
+        let exits = weights.map(|it| ("the weight of an exit", *it, f64::MAX));
+        let styles = self.population.iter().map(|it| ("the weight of a style", it.weight, f64::MAX));
+        let Fleet { trucks, buses, motorcycles } = self.fleet;
+        let [(_, cars), ..] = self.fleet.shares();
+        let classes = [
+            ("the share of trucks", trucks, 1.0),
+            ("the share of buses", buses, 1.0),
+            ("the share of motorcycles", motorcycles, 1.0),
+            ("the share of cars", cars, 1.0),
+        ];
+        for (what, value, largest) in rates.chain(exits).chain(styles).chain(classes) {
+            if !(0.0..=largest).contains(&value) {
+                let limit =
+                    if largest == f64::MAX { String::new() } else { format!(" and not above {largest}") };
+                return Err(WorldError::Demand { what, value, limit });
+            }
+        }
+        if self.population.iter().map(|it| it.weight).sum::<f64>() <= 0.0 {
+            return Err(WorldError::NoCharacters);
+        }
+        for origin in &self.origins {
+            self.headways.check(origin.rate_of_a_lane())?;
+        }
+        if self.destinations.len() > Demand::MOST_DESTINATIONS {
+            return Err(WorldError::Destinations(self.destinations.len(), Demand::MOST_DESTINATIONS));
+        }
+        Ok(())
+    }
+
+    /// More vehicles per hour than this at one origin are a mistake.
+    const LARGEST_RATE: f64 = 100_000.0;
+    /// A vehicle keeps in two bytes where it goes and how its class sees the roads.
+    pub(crate) const MOST_DESTINATIONS: usize = 32_000;
+}
+
+impl Origin {
+    /// The highest rate in each of its lanes [1/s].
+    pub fn rate_of_a_lane(&self) -> f64 {
+        self.rate.highest() / (SECONDS_PER_HOUR * self.place.chains().len() as f64)
+    }
+}
+
+/// Seconds in an hour.
+pub(crate) const SECONDS_PER_HOUR: f64 = 3600.0;

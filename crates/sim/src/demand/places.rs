@@ -1,0 +1,84 @@
+//! The places of a map at which trips start and end.
+
+use laneweave_network::{ChainIndex, Gate, LaneletIndex, Network};
+
+use crate::demand::Demand;
+use crate::route::navigate::Navigator;
+use crate::route::place::{Kerb, Place};
+use crate::state::vehicle::LONGEST;
+
+/// The places of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Places {
+    /// Where trips start.
+    pub origins: Vec<Place>,
+    /// Where they end.
+    pub destinations: Vec<Place>,
+}
+
+impl Places {
+    /// Most waypoints that are planned on a map without gates; of more destinations an even choice remains. Ours: 260 MB.
+    const MOST_WAYPOINTS: usize = 4_000_000;
+
+    /// The entrances and exits of `network`.
+    pub fn at_gates(network: &Network) -> Places {
+        let places = |gates: &[Gate]| gates.iter().cloned().map(Place::Gate).collect();
+        Places { origins: places(&network.entrances), destinations: places(&network.exits) }
+    }
+
+    /// The same without origins from which no destination can be reached.
+    pub fn reachable(mut self, network: &Network) -> Places {
+        let navigator = Navigator::towards(network, &self.destinations);
+        let count = self.destinations.len() as u16;
+        self.origins.retain(|place| (0..count).any(|it| navigator.leads(network, place, it)));
+        self
+    }
+
+    /// For a map without entrance or exit: kerbs along those of `lanelets` that are long enough. Who starts at one of the
+    /// origins can reach a destination.
+    pub fn along(network: &Network, lanelets: impl IntoIterator<Item = LaneletIndex>) -> Places {
+        let mut is_wanted = vec![false; network.lanelets.len()];
+        lanelets.into_iter().for_each(|it| is_wanted[it.at()] = true);
+        let mut kerbs: Vec<Kerb> = Vec::new();
+        for (chain, index) in network.chains.iter().zip(0..) {
+            for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
+                let length = network.lanelets[lanelet.at()].length();
+                if !is_wanted[lanelet.at()] || length < Kerb::SHORTEST_LANELET {
+                    continue;
+                }
+                let chain = ChainIndex(index);
+                let usual = start + Kerb::SHARE_BEFORE * length;
+                if let Some(station) = clear_station(network, chain, [*start, start + length], usual) {
+                    kerbs.push(Kerb { id: network.lanelets[lanelet.at()].id, chain, station });
+                }
+            }
+        }
+        kerbs.sort_by_key(|kerb| kerb.id);
+        let most = (Places::MOST_WAYPOINTS / network.chains.len()).clamp(1, Demand::MOST_DESTINATIONS);
+        let one_in = kerbs.len().div_ceil(most).max(1);
+        let destinations: Vec<Place> = kerbs.iter().step_by(one_in).map(|kerb| Place::Kerb(*kerb)).collect();
+        let origins = kerbs.into_iter().map(Place::Kerb).collect();
+        Places { origins, destinations }.reachable(network)
+    }
+}
+
+/// The station nearest to `usual` on a lanelet, which reaches along a `chain` `from` one station `to` another, before which the longest
+/// vehicle stands in no conflict zone and on the lanelet [m].
+fn clear_station(network: &Network, chain: ChainIndex, [from, to]: [f64; 2], usual: f64) -> Option<f64> {
+    /// A vehicle keeps this distance to a zone [m].
+    const SPARE: f64 = 1.0;
+    let junctions = &network.junctions;
+    let taken: Vec<[f64; 2]> = junctions
+        .on(chain)
+        .crossings
+        .iter()
+        .map(|it| junctions.reach(*it))
+        .map(|it| [it.start - LONGEST - SPARE, it.end + SPARE])
+        .collect();
+    let is_clear = |station: &f64| {
+        let is_taken = taken.iter().any(|[start, end]| (*start..*end).contains(station));
+        (from..=to - LONGEST).contains(station) && !is_taken
+    };
+    let candidates = std::iter::once(usual).chain(taken.iter().flatten().copied());
+    candidates.filter(is_clear).min_by(|a, b| (a - usual).abs().total_cmp(&(b - usual).abs()))
+}

@@ -1,0 +1,309 @@
+//! Sources: vehicles arrive at the origins of the demand, and wait there.
+//!
+//! An arrival that finds no room waits in the queue of its lane, and never delays the draw of the next.
+
+use std::collections::VecDeque;
+
+use laneweave_network::{ChainIndex, Gate, Network};
+use serde::{Deserialize, Serialize};
+
+use crate::demand::headways::Headways;
+use crate::demand::metering::Metering;
+use crate::demand::rate::Rate;
+use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
+use crate::junction::refuge::Refuge;
+use crate::route::navigate::Navigator;
+use crate::route::place::Place;
+use crate::route::ways::Waypoint;
+use crate::state::goal::Destination;
+use crate::state::random::{Purpose, Random};
+use crate::state::traffic::{Motion, VehicleId};
+use crate::state::vehicle::Class;
+use crate::view::scene::Scene;
+
+/// Road per lane change that is still to go within which a driver comes onto the map in the lane of its route [m] (ours).
+pub const TAKES_LANE_WITHIN: f64 = 800.0;
+
+/// A vehicle at the moment of its arrival.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Arrival {
+    pub(crate) id: VehicleId,
+    /// When it came [s].
+    pub(crate) time: f64,
+    pub(crate) class: Class,
+    pub(crate) character: u32,
+    pub(crate) destination: Destination,
+    /// Its way leads through a town, which may be full.
+    pub(crate) is_through_town: bool,
+}
+
+/// An origin with its queues.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Source {
+    headways: Headways,
+    /// Arrivals per hour in each stream.
+    rate: Rate,
+    /// What comes together here. Memoryless streams are one; of others there is one for each lane.
+    streams: Vec<Stream>,
+    /// Its lanes from the slow side to the fast one.
+    lanes: Vec<Queue>,
+    /// Destinations with their cumulated weights.
+    destinations: Vec<(Destination, f64)>,
+}
+
+/// Vehicles that come one after the other.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Stream {
+    /// Subject of its draws.
+    number: u32,
+    arrived: u32,
+    /// When the next one comes [s].
+    next: f64,
+}
+
+/// The vehicles that wait for one lane.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Queue {
+    pub(crate) chain: ChainIndex,
+    pub(crate) start: Start,
+    pub(crate) waiting: VecDeque<Arrival>,
+    /// Step from which on the first of them has had to wait for others that use the same ground.
+    pub(crate) asks_since: Option<u32>,
+}
+
+/// How vehicles come onto a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Start {
+    /// They come driving from before its start.
+    Driving,
+    /// They start from rest, with the rear bumper at this station [m].
+    FromRest(f64),
+}
+
+impl Queue {
+    /// The stretch of its lane on which its vehicles start.
+    pub(crate) fn refuge(&self, network: &Network) -> Refuge {
+        Refuge::at(&network.junctions, self.chain, self.start.station())
+    }
+
+    /// The place in the queue of the first who may enter, if the town `is_full` or not.
+    pub(crate) fn first(&self, is_full: bool) -> Option<usize> {
+        self.waiting.iter().position(|it| !(is_full && it.is_through_town))
+    }
+}
+
+impl Start {
+    /// Where the rear bumper of a vehicle is when it comes [m].
+    pub(crate) fn station(self) -> f64 {
+        match self {
+            Start::Driving => 0.0,
+            Start::FromRest(station) => station,
+        }
+    }
+}
+
+impl Source {
+    /// The sources of all origins.
+    pub(crate) fn all(
+        network: &Network,
+        navigator: &Navigator,
+        demand: &Demand,
+        random: &Random,
+    ) -> Vec<Source> {
+        // The first stream of each source is called like it; further ones follow.
+        let mut further = demand.origins.len() as u32..;
+        let sources = demand.origins.iter().zip(0..).map(|(origin, number)| {
+            let lanes = queues(network, &origin.place);
+            let count = if demand.headways == Headways::Exponential { 1 } else { lanes.len() };
+            let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
+            let mut source = Source {
+                headways: demand.headways,
+                rate: origin.rate.times(&Rate::constant(1.0 / count as f64)),
+                streams: numbers.map(|number| Stream { number, arrived: 0, next: 0.0 }).collect(),
+                lanes,
+                destinations: destinations(network, navigator, origin),
+            };
+            (0..count).for_each(|stream| source.draw_next(stream, random));
+            source
+        });
+        sources.collect()
+    }
+
+    /// Draws when the next vehicle of a stream comes after the last one.
+    fn draw_next(&mut self, stream: usize, random: &Random) {
+        let Stream { number, arrived, next } = self.streams[stream];
+        let chance = random.uniform(number, Purpose::Arrival, arrived);
+        self.streams[stream].next = next_arrival(self.headways, &self.rate, next, chance);
+    }
+
+    /// Lets those arrive who are due by `time` [s] and queue up; `next_id` names them.
+    pub(crate) fn arrive(
+        &mut self,
+        scene: &Scene,
+        demand: &Demand,
+        metering: Option<&Metering>,
+        random: &Random,
+        time: f64,
+        next_id: &mut VehicleId,
+    ) {
+        let due = |source: &Source| {
+            let streams = source.streams.iter().enumerate();
+            let (index, first) = streams.min_by(|(_, a), (_, b)| a.next.total_cmp(&b.next))?;
+            (first.next <= time).then_some(index)
+        };
+        while let Some(stream) = due(self) {
+            let came = self.streams[stream].next;
+            let mut arrival = self.draw(scene.navigator, demand, random, (*next_id, came));
+            *next_id += 1;
+            self.streams[stream].arrived += 1;
+            self.draw_next(stream, random);
+            let lane = self.lane_for(scene, &arrival);
+            let lane = &mut self.lanes[lane];
+            let is_on_way = |it: &Metering| it.is_on_way(scene.navigator, lane.chain, arrival.destination);
+            arrival.is_through_town = metering.is_some_and(is_on_way);
+            lane.waiting.push_back(arrival);
+        }
+    }
+
+    /// Draws the vehicle `id` that comes at `time` [s].
+    fn draw(
+        &self,
+        navigator: &Navigator,
+        demand: &Demand,
+        random: &Random,
+        (id, time): (VehicleId, f64),
+    ) -> Arrival {
+        let uniform = |purpose| random.uniform(id, purpose, 0);
+        let class = demand.fleet.class(uniform(Purpose::Class));
+        let total: f64 = demand.population.iter().map(|it| it.weight).sum();
+        let mut at = uniform(Purpose::Style) * total;
+        let share = demand
+            .population
+            .iter()
+            .find(|it| {
+                at -= it.weight;
+                at < 0.0
+            })
+            .or(demand.population.last());
+        let character = share.map_or(0, |it| {
+            it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
+        });
+        let last = self.destinations.last().map_or(0.0, |it| it.1);
+        let wanted = uniform(Purpose::Destination) * last;
+        let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
+        let destination = self.reachable_for(navigator, class, destination);
+        Arrival { id, time, class, character, destination, is_through_town: false }
+    }
+
+    /// A destination as a class sees the way to it; where there is none for it, the destination of least time to which there is one.
+    fn reachable_for(&self, navigator: &Navigator, class: Class, destination: Destination) -> Destination {
+        let seen = |it: Destination| navigator.seen_by(class, it);
+        let time = |it: Destination| {
+            let waypoints = self.lanes.iter().map(|lane| navigator.waypoint(it, lane.chain));
+            waypoints.filter(|it| it.leads_there()).map(Waypoint::cost).reduce(f64::min)
+        };
+        if time(seen(destination)).is_some() {
+            return seen(destination);
+        }
+        let others = self.destinations.iter().map(|it| seen(it.0)).filter_map(|it| Some((it, time(it)?)));
+        others.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(seen(destination), |it| it.0)
+    }
+
+    /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long
+    /// vehicles on the slow side, others where fewer wait and where there is more room.
+    fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
+        let key = |queue: &Queue| {
+            let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
+            let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
+            let (queued, room) = if arrival.class.is_long() { (0, 0.0) } else { (queue.waiting.len(), room) };
+            let is_pressing = waypoint.last_place < TAKES_LANE_WITHIN * f64::from(waypoint.changes);
+            (if is_pressing { waypoint.changes } else { 0 }, queued, -room)
+        };
+        let order = |a: &(u32, usize, f64), b: &(u32, usize, f64)| {
+            (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
+        };
+        let keys = self.lanes.iter().map(key).enumerate();
+        keys.min_by(|a, b| order(&a.1, &b.1)).map_or(0, |(index, _)| index)
+    }
+
+    /// Its queues.
+    pub(crate) fn queues(&mut self) -> &mut [Queue] {
+        &mut self.lanes
+    }
+
+    /// The same, to look at.
+    pub(crate) fn lanes(&self) -> &[Queue] {
+        &self.lanes
+    }
+
+    /// Vehicles that wait.
+    pub(crate) fn waiting(&self) -> usize {
+        self.lanes.iter().map(|queue| queue.waiting.len()).sum()
+    }
+
+    /// Vehicles that have arrived.
+    pub(crate) fn arrived(&self) -> u64 {
+        self.streams.iter().map(|it| u64::from(it.arrived)).sum()
+    }
+}
+
+/// When the vehicle after the one at `last` [s] comes, whose headway is exceeded with `chance`, in a stream of `rate` [veh/h].
+///
+/// Where the rate changes in the meantime, the share of the headway that is left goes on at the new rate. So Poisson
+/// arrivals stay Poisson at any time, and the shortest headway of a law is kept.
+fn next_arrival(headways: Headways, rate: &Rate, last: f64, chance: f64) -> f64 {
+    let (mut time, mut left) = (last, 1.0);
+    while time < f64::INFINITY {
+        let (now, until) = (rate.at(time) / SECONDS_PER_HOUR, rate.changes_after(time));
+        if now > 0.0 {
+            let headway = headways.exceeded(chance, now);
+            if time + left * headway <= until {
+                return time + left * headway;
+            }
+            left -= (until - time) / headway;
+        }
+        time = until;
+    }
+    f64::INFINITY
+}
+
+/// The queues of a place, ordered from the slow side.
+fn queues(network: &Network, place: &Place) -> Vec<Queue> {
+    let queue = |chain, start| Queue { chain, start, waiting: VecDeque::new(), asks_since: None };
+    match place {
+        Place::Gate(gate) => {
+            from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving)).collect()
+        }
+        Place::Kerb(kerb) => vec![queue(kerb.chain, Start::FromRest(kerb.station))],
+    }
+}
+
+/// The gate's lanes, ordered from the slow side.
+fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<ChainIndex> {
+    let slow = network.driving_side.overtaking().opposite();
+    let lanes_beyond = |chain: ChainIndex| {
+        let mut count = 0;
+        let mut at = chain;
+        while let Some(beside) = network.chain(at).beside(slow, 0.0).filter(|_| count < gate.chains.len()) {
+            (at, count) = (beside.chain, count + 1);
+        }
+        count
+    };
+    let mut chains = gate.chains.clone();
+    chains.sort_by_key(|chain| lanes_beyond(*chain));
+    chains
+}
+
+/// The destinations that can be reached from an origin, with cumulated weights.
+fn destinations(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<(Destination, f64)> {
+    let weighted = (0u16..)
+        .zip(&origin.weights)
+        .filter(|(number, weight)| **weight > 0.0 && navigator.leads(network, &origin.place, *number));
+    let mut sum = 0.0;
+    weighted
+        .map(|(number, weight)| {
+            sum += weight;
+            (Some(number), sum)
+        })
+        .collect()
+}

@@ -1,0 +1,391 @@
+//! Drivers choose accelerations: behind their leaders, towards the ends of lanes, into and out of lanes, and above all
+//! that emergency braking.
+
+use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
+use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
+use laneweave_network::{Chain, ChainIndex, Side};
+
+use crate::driver::gap::gap;
+use crate::driver::window::{self, Window};
+use crate::right_of_way::heed as junction;
+use crate::right_of_way::heed::Junction;
+use crate::state::clock::Clock;
+use crate::state::standstill::ROOM_AT_A_STOP;
+use crate::state::standstill::STANDS;
+use crate::state::traffic::{Car, Motion, Phase};
+use crate::view::scene::{Scene, Spot};
+
+/// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
+const COMFORTABLE_BRAKING: f64 = 2.0;
+/// Road kept before the end of a lane, and before the last place for a change, to steer on [m]: what a truck needs to
+/// get past another vehicle and into the lane.
+const ROOM_AT_THE_END: f64 = 16.0;
+/// What is left of it when it is used [m].
+const LEAST_ROOM: f64 = 1.0;
+/// Who has waited this long [s] for a gap, and hardly moves [m/s], uses that room.
+const WAITS: f64 = 8.0;
+const HARDLY_MOVES: f64 = 3.0;
+/// Drivers who desire no more than this stop at the last place for a change [m/s]; the faster slow down to half of
+/// what they desire beyond it (ours: in a town one waits for a gap, on a motorway one does not stop).
+const WAITS_BELOW: f64 = 17.0;
+
+/// The acceleration that a driver chose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chosen {
+    /// Acceleration [m/s²].
+    pub(crate) acceleration: f64,
+    /// Kinematics, not the model, decided, and the driver brakes.
+    pub(crate) by_kinematics: bool,
+    /// The vehicle touches its leader.
+    pub(crate) touches: bool,
+    /// What the driver heeds at a junction.
+    pub(crate) junction: Junction,
+}
+
+/// Where along a chain who only follows a leader on it heeds nothing else: beyond a fork, and where the leader is not beyond
+/// the next place to stop.
+#[derive(Clone, Copy)]
+pub(crate) struct OpenRoad {
+    /// From here on whatever the leader does [m].
+    from: f64,
+    fork_clearance: f64,
+    first_place: f64,
+}
+
+impl OpenRoad {
+    /// That of `chain`, which ends at `lane_end` if it is a lane that ends: there it has none.
+    #[inline]
+    pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<LaneEnd>) -> OpenRoad {
+        let [first_place, last_place] = scene.network.junctions.places(chain);
+        let fork_clearance =
+            if lane_end.is_some() { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
+        OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
+    }
+
+    /// Whether it reaches from a driver to a leader at `leader` [m].
+    #[inline]
+    pub(crate) fn reaches(&self, motion: &Motion, leader: f64) -> bool {
+        // Where it may have to stop behind its leader, or where that will have gone on, it looks more closely.
+        let stays_before = || self.first_place - motion.x >= stopping_way(motion.speed);
+        motion.x >= self.from
+            || (motion.x >= self.fork_clearance && leader <= self.first_place && stays_before())
+    }
+}
+
+/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it with room to spare. `None` if it
+/// is not.
+// The most frequent call of a motorway.
+#[inline(always)]
+pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
+    let ahead = leader.ahead(leader.rear() - motion.x);
+    let follow = &scene.characters[car.character as usize].follow;
+    let wish = follow.acceleration(pace(motion, car), Some(ahead));
+    let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
+    let next = motion.speed + acceleration * dt;
+    let next = if next > 0.0 { next } else { 0.0 };
+    let clear = ahead.nearer(FollowingModel::LARGEST_CLEARANCE);
+    (ahead.gap >= 0.0 && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
+}
+
+/// Every case. A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
+pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
+    let chosen = in_lane(scene, clock, spot, lane_end);
+    if !scene.car(spot).phase.is_between_lanes() {
+        return chosen;
+    }
+    let Some(twin) = scene.mind(spot).twin else { return chosen };
+    let id = scene.motion(spot).id;
+    let Some(index) = scene.lanes[twin.chain.at()].find(id, twin.x) else { return chosen };
+    let lane_end = self::lane_end(scene, twin.chain);
+    let other = in_lane(scene, clock, Spot { chain: twin.chain, index }, lane_end);
+    Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
+}
+
+/// For one entry: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may
+/// have to decide.
+#[inline(never)]
+fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let heeds_more = car.phase == Phase::Wants || car.heeds_more;
+    let next = scene.motions(spot.chain).get(spot.index + 1).filter(|it| !heeds_more && it.id != motion.id);
+    let road = OpenRoad::on(scene, spot.chain, lane_end);
+    let is_usual = |it: &&Motion| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
+    let usual = next.filter(is_usual);
+    if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, car, it, clock.dt)) {
+        return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
+    }
+    let leader = scene.ahead(scene.viewpoint(spot));
+    let follow = &scene.characters[car.character as usize].follow;
+    let wish = follow.acceleration(pace(motion, car), leader);
+    let (wish, end) = heed(scene, clock, spot, wish, lane_end);
+    let junction = junction::look(scene, spot);
+    let (wish, stop) = heed_junction(motion, car, follow, &junction, wish, clock.dt);
+    let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
+    let clear = |it: Ahead| it.nearer(follow.clearance());
+    let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
+    let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
+    let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
+    let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
+    Chosen {
+        acceleration,
+        // To accelerate less is no braking.
+        by_kinematics: acceleration < wish && acceleration < 0.0,
+        touches: leader.is_some_and(|it| it.gap < 0.0),
+        junction,
+    }
+}
+
+/// What a driver accelerates who heeds a junction, and where it has to stop there.
+fn heed_junction(
+    motion: &Motion,
+    car: &Car,
+    follow: &FollowingModel,
+    junction: &Junction,
+    wish: f64,
+    dt: f64,
+) -> (f64, Option<Ahead>) {
+    let mut wish = wish;
+    if junction.leader.is_some() {
+        wish = wish.min(follow.acceleration(pace(motion, car), junction.leader));
+    }
+    let Some(stop) = junction.stop else { return (wish, None) };
+    wish = wish.min(to_stop_at(motion.speed, stop - ROOM_AT_A_STOP, dt));
+    (wish, Some(Ahead::standing(stop)))
+}
+
+/// Acceleration that keeps to the speed from which comfortable braking stops `room` metres ahead.
+fn to_stop_at(speed: f64, room: f64, dt: f64) -> f64 {
+    let next = stopping_speed(room - speed * dt);
+    ((next - speed) / dt).max(-2.0 * COMFORTABLE_BRAKING)
+}
+
+/// Speed from which comfortable braking stops within `room` [m/s].
+fn stopping_speed(room: f64) -> f64 {
+    (2.0 * COMFORTABLE_BRAKING * room.max(0.0)).sqrt()
+}
+
+/// Way on which a driver at `speed` [m/s] stops with comfort, and somewhat more [m].
+#[inline]
+pub(crate) fn stopping_way(speed: f64) -> f64 {
+    /// A moment [s] and some room [m].
+    const MOMENT: f64 = 1.0;
+    const ROOM: f64 = 5.0;
+    speed * speed / (2.0 * COMFORTABLE_BRAKING) + MOMENT * speed + ROOM
+}
+
+/// Speed at which a driver enters who may have to stop `distance` ahead [m/s].
+pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
+    stopping_speed(distance - ROOM_AT_A_STOP)
+}
+
+fn pace(motion: &Motion, car: &Car) -> Pace {
+    Pace { speed: motion.speed, desired: f64::from(car.desired), tightness: f64::from(motion.tightness) }
+}
+
+/// `clamp` for bounds in order.
+#[inline]
+fn within(value: f64, low: f64, high: f64) -> f64 {
+    let value = if value < high { value } else { high };
+    if value > low { value } else { low }
+}
+
+/// What a driver accelerates who heeds more than its leader, and the end of its lane.
+fn heed(
+    scene: &Scene,
+    clock: Clock,
+    spot: Spot,
+    behind_leader: f64,
+    lane_end: Option<LaneEnd>,
+) -> (f64, Option<Ahead>) {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let (mut wish, mut obstacle) = (behind_leader, None);
+    if car.phase == Phase::Wants || car.heeds_more {
+        wish = wish.min(beyond_the_leader(scene, clock, spot));
+    }
+    if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
+        let end = lane_end.of_entry(scene, spot);
+        let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
+        wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
+        obstacle = Some(Ahead::standing(end - motion.x));
+    }
+    (wish, obstacle)
+}
+
+/// Where a lane ends beside another one, along a chain [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LaneEnd {
+    /// Where it ends as it is drawn: who changes lanes has to be across by then.
+    drawn: f64,
+    /// Where it becomes too narrow for a car, and for a long vehicle: who does not change lanes stops before.
+    open: [f64; 2],
+    /// From where on one may change lanes to leave it.
+    window: f64,
+}
+
+impl LaneEnd {
+    /// That of `next`, which begins at `start`.
+    #[inline(never)]
+    fn of(next: &Chain, start: f64) -> LaneEnd {
+        let open = [false, true].map(|is_long| start + next.driven_until(is_long));
+        let window = next.last_window().map_or(f64::NEG_INFINITY, |it| start + it);
+        LaneEnd { drawn: start + next.length, open, window }
+    }
+
+    /// Where it ends for the entry at `spot`.
+    pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
+        let (car, has_crossed) = (scene.car(spot), scene.mind(spot).progress >= 0.5);
+        let is_leaving = match car.phase {
+            Phase::Changes => car.is_shadow == has_crossed,
+            Phase::Aborts => car.is_shadow,
+            Phase::Cruises | Phase::Wants => false,
+        };
+        if is_leaving { self.drawn } else { self.open_for(car.class.is_long()) }
+    }
+
+    /// Where it becomes too narrow for a car, or for a long vehicle [m].
+    pub(crate) fn open_for(&self, is_long: bool) -> f64 {
+        self.open[usize::from(is_long)]
+    }
+}
+
+/// Where the lane ends for all that are on it.
+#[inline]
+pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
+    let here = scene.network.chain(chain);
+    match here.following[..] {
+        [] => here.is_lane_drop.then(|| LaneEnd::of(here, 0.0)),
+        [only] => {
+            let next = scene.network.chain(only);
+            next.is_lane_drop.then(|| LaneEnd::of(next, here.length))
+        }
+        _ => None,
+    }
+}
+
+/// A vehicle whose centre has left the lane need not mind its end.
+fn is_leaving(scene: &Scene, spot: Spot) -> bool {
+    let car = scene.car(spot);
+    car.is_shadow && car.phase == Phase::Changes && scene.mind(spot).progress >= 0.5
+}
+
+/// Road that a driver keeps before the place where it has to have left its lane [m]. Who changes already uses it; so
+/// does who has waited there in vain, if only the vehicle behind is in the way: of two drivers side by side who want
+/// each other's lane the one ahead moves on, and both can go.
+fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let (car, mind) = (scene.car(spot), scene.mind(spot));
+    let moves_up = match car.phase {
+        Phase::Changes => true,
+        Phase::Wants => {
+            let waited = clock.since(mind.since);
+            let least = scene.characters[car.character as usize].safety.min_gap;
+            waited > WAITS
+                && scene.motion(spot).speed < HARDLY_MOVES
+                && leader_beside(scene, spot, mind.side).is_none_or(|it| it.gap >= least)
+        }
+        Phase::Cruises | Phase::Aborts => false,
+    };
+    if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
+}
+
+/// Of the room that a driver keeps before a place, as much as leaves it within the `window` [m] in which lanes may be changed: where
+/// that is short, one waits at its beginning.
+fn within_window(kept: f64, window: f64) -> f64 {
+    /// So far into it one waits [m].
+    const INTO: f64 = 3.0;
+    kept.min((window - INTO).max(LEAST_ROOM))
+}
+
+/// What a driver heeds beside its leader.
+fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+    let pace = pace(motion, car);
+    let style = &scene.characters[car.character as usize];
+    let mut acceleration = f64::INFINITY;
+    if car.phase == Phase::Wants {
+        let beside = leader_beside(scene, spot, mind.side);
+        // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
+        let drives_on = motion.speed < HARDLY_MOVES && beside.is_some_and(|it| it.speed < STANDS);
+        let falls_in = f64::from(mind.urgency) >= style.change.synchronizes_from();
+        if falls_in && !drives_on {
+            let falling_in = style.follow.acceleration(pace, beside);
+            acceleration = falling_in.max(-style.manner.adjust_deceleration);
+        }
+    }
+    if style.change.minds_offside() {
+        let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
+        if offside.is_some_and(|it| style.change.stays_behind(motion.speed, it)) {
+            let staying_behind = style.follow.acceleration(pace, offside);
+            acceleration = acceleration.min(staying_behind.max(-style.manner.adjust_deceleration));
+        }
+    }
+    let (gap, speed) = mind.lets_in;
+    if gap < f32::INFINITY {
+        let ahead = Ahead::steady(f64::from(gap).max(0.1), f64::from(speed));
+        let giving_way = style.follow.acceleration(pace, Some(ahead));
+        acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
+    }
+    // Who is on its way through a junction waits for no gap there.
+    let may_wait = matches!(car.phase, Phase::Cruises | Phase::Wants) && scene.passage(spot).is_none();
+    if mind.last_place.is_finite() && may_wait {
+        acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
+    }
+    acceleration
+}
+
+/// How far ahead the driver at `spot` waits for its last chance to change lanes, in this `window` [m].
+pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Option<Window>) -> f64 {
+    let length = window.map_or(f64::INFINITY, |it| it.length());
+    scene.mind(spot).last_place - within_window(kept_room(scene, clock, spot), length) - scene.motion(spot).x
+}
+
+/// How a driver comes to the last place for a change. Into a short window it drives slowly enough to change there, and on through it if
+/// it has a gap; else it stops within it, or on a motorway slows down.
+fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+    let manner = &scene.characters[car.character as usize].manner;
+    let window = Window::of(scene, spot);
+    if let Some(window) = window.filter(|it| car.phase == Phase::Wants && it.is_near_and_short())
+        && gap(scene, spot, mind.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())
+    {
+        let passing = window.speed_for(manner.duration(f64::from(mind.urgency)));
+        return approach(motion.speed, window.start.max(0.0), passing);
+    }
+    let room = place_to_wait(scene, clock, spot, window);
+    let passing = 0.5 * (f64::from(car.desired) - WAITS_BELOW).max(0.0);
+    let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.change_duration)));
+    if passing > 0.0 && car.desired > WAITS_BELOW as f32 {
+        approach(motion.speed, room, passing)
+    } else {
+        to_stop_at(motion.speed, room, clock.dt)
+    }
+}
+
+/// The leader on the lane beside, on `side`.
+fn leader_beside(scene: &Scene, spot: Spot, side: Side) -> Option<Ahead> {
+    let from = scene.viewpoint(spot);
+    let beside = window::beside(scene, spot, side)?;
+    scene.ahead(scene.viewpoint_at(from, beside.chain, beside.across(from.x)))
+}
+
+/// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.
+fn approach(speed: f64, room: f64, passing: f64) -> f64 {
+    if speed <= passing {
+        return f64::INFINITY;
+    }
+    let needed = (speed * speed - passing * passing) / (2.0 * room.max(0.1));
+    if needed > COMFORTABLE_BRAKING { -needed.min(2.0 * COMFORTABLE_BRAKING) } else { f64::INFINITY }
+}
+
+/// The acceleration, or what kinematics leaves of it behind `obstacle`.
+#[inline]
+fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64 {
+    let next = speed + acceleration * dt;
+    let next = if next > 0.0 { next } else { 0.0 };
+    match obstacle {
+        Some(obstacle) if !stays_secure(speed, next, obstacle, dt) => {
+            let slowed = (secure_speed(speed, obstacle, dt) - speed) / dt;
+            acceleration.min(slowed.max(-HARDEST_BRAKING))
+        }
+        _ => acceleration,
+    }
+}

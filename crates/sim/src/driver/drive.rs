@@ -1,0 +1,110 @@
+//! Drivers drive on: how everybody moves at the end of the step, written down on the snapshot.
+
+use laneweave_network::ChainIndex;
+
+use crate::driver::accelerate::{Chosen, LaneEnd, OpenRoad, behind, lane_end, with_care};
+use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
+use crate::junction::passages::NO_PASSAGE;
+use crate::record::overlap::touch;
+use crate::state::clock::Clock;
+use crate::state::tight::push_tight;
+use crate::state::traffic::{Lane, Motion};
+use crate::view::scene::{Scene, Spot};
+
+/// All drivers of a lane accelerate and move.
+// The busiest loop of a motorway has the registers to itself.
+#[inline(never)]
+pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
+    let lane = &scene.lanes[chain.at()];
+    let (motions, end) = (lane.motions(), lane_end(scene, chain));
+    if plan.next.capacity() < motions.len() {
+        plan.next.reserve_exact(lane.capacity());
+    }
+    let upcoming = upcoming(scene, chain);
+    let road = OpenRoad::on(scene, chain, end);
+    let mut updates = 0;
+    for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
+        if let Some(upcoming) = upcoming {
+            upcoming.prefetch(index);
+        }
+        let leader = motions.get(index + 1).filter(|_| car.only_follows());
+        let leader = leader.filter(|it| road.reaches(motion, it.x));
+        let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
+        let (acceleration, stretch) = match usual {
+            Some(acceleration) => (acceleration, 1.0),
+            None => drive_with_care(scene, clock, Spot { chain, index }, end, plan, outbox),
+        };
+        let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
+        if next.tightness < 1.0 {
+            let manner = &scene.characters[car.character as usize].manner;
+            next.tightness = manner.relaxed(f64::from(next.tightness), clock.dt) as f32;
+        }
+        plan.next.push(next);
+        if !car.is_shadow {
+            plan.distance += distance;
+            updates += 1;
+        }
+    }
+    outbox.tally.updates += updates;
+}
+
+/// The lane that those beside it will look into next, if it is worth asking for: few lanes stay in the cache anyway.
+fn upcoming<'a>(scene: &Scene<'a>, chain: ChainIndex) -> Option<&'a Lane> {
+    const FEW: usize = 100;
+    scene.lanes.get(chain.at() + 2).filter(|_| scene.lanes.len() > FEW)
+}
+
+/// A driver who does not only follow, or whose vehicle kinematics has to slow down. Returns its acceleration [m/s²],
+/// and the metres along the chain for a metre driven.
+#[inline(never)]
+fn drive_with_care(
+    scene: &Scene,
+    clock: Clock,
+    spot: Spot,
+    lane_end: Option<LaneEnd>,
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) -> (f64, f64) {
+    let car = scene.car(spot);
+    let chosen = with_care(scene, clock, spot, lane_end);
+    let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
+    let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
+    // A shadow counts as well: kinematics in either lane is kinematics.
+    outbox.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
+    if touches && let Some(leader) = scene.leader_spot(scene.viewpoint(spot)) {
+        touch(scene, spot, leader, clock.time(), &mut outbox.incidents);
+    }
+    let index = spot.index as u32;
+    if !car.only_follows() || in_emergency {
+        let motion = scene.motion(spot);
+        let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
+        let slot = scene.mind(spot).passage;
+        let passage_is_over = slot != NO_PASSAGE && scene.passages.of(slot, motion.id).is_none();
+        push_tight(&mut plan.upkeep, Upkeep { index, distance, in_emergency, passage_is_over });
+    }
+    if junction.asks {
+        let id = scene.motion(spot).id;
+        let since = plan.waited.iter().find(|it| it.id == id).map_or(clock.step, |it| it.since);
+        plan.waiting.push(Waiting { index, id, since, is_held: junction.is_held });
+    }
+    outbox.returns.extend(junction.gives_back.map(|from| (index, from)));
+    (acceleration, stretch(scene, spot))
+}
+
+/// Metres along the chain for a metre driven.
+fn stretch(scene: &Scene, spot: Spot) -> f64 {
+    if scene.car(spot).phase.is_between_lanes() { f64::from(scene.mind(spot).stretch) } else { 1.0 }
+}
+
+/// How a vehicle moves after a step, and the distance driven [m].
+#[inline]
+fn moved(motion: &Motion, acceleration: f64, stretch: f64, dt: f64) -> (Motion, f64) {
+    let next = motion.speed + acceleration * dt;
+    let (speed, distance, acceleration) = if next >= 0.0 {
+        (next, 0.5 * (motion.speed + next) * dt, acceleration)
+    } else {
+        (0.0, -0.5 * motion.speed * motion.speed / acceleration, -motion.speed / dt)
+    };
+    let x = motion.x + distance * stretch;
+    (Motion { x, speed, acceleration: acceleration as f32, ..*motion }, distance)
+}

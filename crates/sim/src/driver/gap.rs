@@ -1,0 +1,288 @@
+//! The gap in the lane beside: whether a driver takes it, and who could make it larger.
+
+use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_network::{ChainIndex, Side};
+
+use crate::driver::accelerate::{lane_end, stopping_way};
+use crate::driver::perceive::driver;
+use crate::driver::window;
+use crate::junction::refuge::Refuge;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::Asking;
+use crate::right_of_way::survey::is_place_ahead;
+use crate::state::clock::Clock;
+use crate::state::standstill::STANDSTILL;
+use crate::state::traffic::Phase;
+use crate::view::scene::{Found, Scene, Spot, Viewpoint};
+
+/// Desire that a voluntary change counts for in the time gap accepted (ours).
+const VOLUNTARY_DESIRE: f64 = 0.3;
+/// What a driver who lets another in leaves beyond its usual gap [m].
+pub(crate) const ROOM_TO_YIELD: f64 = 1.0;
+
+/// Why a driver who wants to change does not go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hindrance {
+    /// A change to that side is not allowed here.
+    NotAllowed,
+    /// It is not allowed for as long as it takes to cross the line.
+    TooLittleRoad,
+    /// It would not be over before a place where somebody may have to stop, or would take room there that is kept for others.
+    Junction,
+    /// It is on its way through a junction, and keeps its lane.
+    InPassage,
+    /// Somebody waits longer for the room in that lane.
+    WantedBefore,
+    /// The gap to the new leader.
+    Ahead(Refusal, GapPair),
+    /// The gap to the new follower.
+    Behind(Refusal, GapPair),
+}
+
+/// A gap in the lane beside, as it would be taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    /// The chain.
+    pub(crate) chain: ChainIndex,
+    /// Where the own front bumper would be on it [m].
+    pub(crate) x: f64,
+    /// It is looked at ahead of the place from which on the change is allowed.
+    pub(crate) is_coming: bool,
+    /// Metres there for a metre here.
+    pub(crate) scale: f64,
+    /// Road on which the centre can still cross [m].
+    pub(crate) room: f64,
+    /// The new leader.
+    pub(crate) ahead: Option<Ahead>,
+    /// The new follower.
+    pub(crate) follower: Option<Found>,
+}
+
+/// The gap beside; `None` where a change to `side` is not allowed.
+pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
+    let motion = scene.motion(spot);
+    let beside = window::beside(scene, spot, side)?;
+    let x = beside.across(motion.x);
+    let from = scene.viewpoint_at(scene.viewpoint(spot), beside.chain, x);
+    scene.network.chain(beside.chain).takes(x, from.is_long).then(|| Gap {
+        chain: beside.chain,
+        x,
+        is_coming: motion.x < beside.start,
+        scale: beside.scale,
+        room: permitted_ahead(scene, spot, side),
+        ahead: scene.ahead(from),
+        follower: scene.follower(from),
+    })
+}
+
+/// How far on a change to `side` stays allowed [m], as far as a change needs.
+fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
+    const ENOUGH: f64 = 150.0;
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let start = window::beside(scene, spot, side).map_or(motion.x, |it| it.start.max(motion.x));
+    let (mut chain, mut x, mut permitted) = (spot.chain, start, 0.0);
+    while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
+        permitted += stretch.end - x;
+        if permitted > ENOUGH || stretch.end < scene.network.chain(chain).length - 1e-6 {
+            // Joined stretches of one chain follow each other without a break.
+            match scene.network.chain(chain).beside(side, stretch.end + 1e-6) {
+                Some(next) if permitted <= ENOUGH && next.start > stretch.start => {
+                    x = next.start;
+                    continue;
+                }
+                _ => break,
+            }
+        }
+        match scene.next(car.goal.destination(), chain) {
+            Some(next) => (chain, x) = (next, 0.0),
+            None => break,
+        }
+    }
+    permitted
+}
+
+/// Two vehicles that would follow each other after a change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairing<'a> {
+    /// Who would follow.
+    pub follower: Driver<'a>,
+    /// Whom it would follow.
+    pub leader: Ahead,
+}
+
+impl Pairing<'_> {
+    /// Whether `safety` accepts it, with time step `dt` [s].
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn accepted(&self, safety: &Safety, dt: f64) -> Result<(), (Refusal, GapPair)> {
+        let Pairing { follower, leader } = *self;
+        let demanded = follower.follow.acceleration(follower.pace, Some(leader));
+        let pair = GapPair { gap: leader.gap, follower: follower.pace.speed, leader: leader.speed, demanded };
+        safety.accept(pair, dt).map_err(|why| (why, pair))
+    }
+}
+
+impl Gap {
+    /// Whether the driver, its new leader and its new follower can live with the change.
+    ///
+    /// # Errors
+    /// Why not.
+    pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Hindrance> {
+        self.has_road(scene, spot, scene.motion(spot).speed)?;
+        let style = &scene.characters[scene.car(spot).character as usize];
+        let [ahead, behind] = self.pairings(scene, spot);
+        ahead
+            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
+            .map_err(|(why, pair)| Hindrance::Ahead(why, pair))?;
+        behind
+            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
+            .map_err(|(why, pair)| Hindrance::Behind(why, pair))
+    }
+
+    /// Whether the road left does for the change at that `speed` [m/s] of the driver at `spot`.
+    fn has_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<(), Hindrance> {
+        let style = &scene.characters[scene.car(spot).character as usize];
+        let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
+        let crossing = 0.5 * duration * speed;
+        if self.room < crossing {
+            return Err(Hindrance::TooLittleRoad);
+        }
+        // Into a lane that ends nobody changes who could not stop before that.
+        let is_long = scene.car(spot).class.is_long();
+        let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
+        if end.is_some_and(|it| it < 2.0 * crossing + stopping_way(speed)) {
+            return Err(Hindrance::TooLittleRoad);
+        }
+        if !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {
+            return Err(Hindrance::Junction);
+        }
+        Ok(())
+    }
+
+    /// The highest speed of the driver at `spot` for which the road left does, to the last bit [m/s]; infinite where that is more than
+    /// anybody drives, 0 where it does for no speed.
+    pub(crate) fn fastest(&self, scene: &Scene, spot: Spot) -> f64 {
+        const NOBODY: f64 = 128.0;
+        let does = |speed: f64| self.has_road(scene, spot, speed).is_ok();
+        let (mut does_for, mut too_fast) = (0.0, NOBODY);
+        if does(too_fast) {
+            return f64::INFINITY;
+        }
+        loop {
+            let middle = 0.5 * (does_for + too_fast);
+            if middle <= does_for || middle >= too_fast {
+                return does_for;
+            }
+            if does(middle) { does_for = middle } else { too_fast = middle }
+        }
+    }
+
+    /// Who would follow whom: the driver its new leader, its new follower the driver.
+    pub(crate) fn pairings<'a>(&self, scene: &Scene<'a>, spot: Spot) -> [Option<Pairing<'a>>; 2] {
+        let me = driver(scene, spot);
+        let ahead = self.ahead.map(|leader| {
+            let follower = Driver { pace: self.pace(spot, scene), ..me };
+            Pairing { follower, leader }
+        });
+        let behind = self.follower.map(|it| {
+            let gap = it.distance - me.length;
+            let leader = Ahead { gap, speed: me.pace.speed, acceleration: me.acceleration };
+            Pairing { follower: driver(scene, it.spot), leader }
+        });
+        [ahead, behind]
+    }
+
+    /// Whether the driver at `spot`, who waits for this gap, takes it now.
+    ///
+    /// # Errors
+    /// Why not.
+    pub(crate) fn taken(&self, scene: &Scene, spot: Spot, clock: Clock) -> Result<(), Hindrance> {
+        if scene.has_passage(spot, f64::NEG_INFINITY) {
+            return Err(Hindrance::InPassage);
+        }
+        if self.is_wanted_before(scene, spot, clock) {
+            return Err(Hindrance::WantedBefore);
+        }
+        self.accepted(scene, spot, clock.dt)?;
+        if self.is_coming { Err(Hindrance::NotAllowed) } else { Ok(()) }
+    }
+
+    /// Whether somebody who waits before a junction for room on that stretch comes first to it.
+    fn is_wanted_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
+        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
+        let claim = Asking::of(&Applicant::at(scene, spot), scene.mind(spot).since, clock).claim;
+        scene.passages.wanted_before(refuge, claim) > 0.0
+    }
+
+    /// The first behind who makes room by braking no harder than it does to let others in: those nearer drive past.
+    pub(crate) fn who_can_let_in(&self, scene: &Scene, spot: Spot) -> Option<Found> {
+        /// So many behind see who wants in.
+        const SEE_IT: usize = 10;
+        let motion = scene.motion(spot);
+        let room = scene.characters[scene.car(spot).character as usize].safety.min_gap + ROOM_TO_YIELD;
+        let can = |it: &Found| {
+            let (behind, car) = (scene.motion(it.spot), scene.car(it.spot));
+            let gentle = scene.characters[car.character as usize].manner.yield_deceleration;
+            let gap = it.distance - f64::from(motion.length);
+            // Who stands beside or right behind a standing vehicle cannot make room for it.
+            let is_beside = gap < room && motion.speed <= STANDSTILL;
+            let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
+            // Nobody may come before who has a reservation: it lets in nobody.
+            let is_free = !scene.has_passage(it.spot, gap);
+            car.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle
+        };
+        std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
+    }
+
+    /// Whether the change, which takes `way` [m], is over before the next place where somebody may have to stop, and
+    /// nobody who has a passage already comes behind.
+    fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
+        /// Least way before such a place on which a lane is still changed, at walking speed [m].
+        const LEAST: f64 = 15.0;
+        /// So far into a chain a junction may reach [m].
+        const JUNCTION: f64 = 15.0;
+        let motion = scene.motion(spot);
+        let here = scene.viewpoint(spot);
+        let there = Viewpoint { chain: self.chain, x: self.x, ..here };
+        let way = way.max(LEAST);
+        let has_passage = |it: &Found| scene.has_passage(it.spot, it.distance - f64::from(motion.length));
+        // Room that is kept for others beyond a junction stays theirs.
+        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
+        let kept = scene.passages.kept_on(refuge);
+        let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
+        let is_in_fork = self.x - f64::from(motion.length) < scene.network.chain(self.chain).fork_clearance;
+        !takes_room
+            && !is_in_fork
+            && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
+            && !self.follower.as_ref().is_some_and(has_passage)
+    }
+
+    /// The driver's pace with the time gap that it accepts for this change.
+    fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
+        let (motion, car) = (scene.motion(spot), scene.car(spot));
+        let style = &scene.characters[car.character as usize];
+        let desire = f64::from(scene.mind(spot).urgency).max(VOLUNTARY_DESIRE);
+        let tightness = style.manner.tightness(desire).min(f64::from(motion.tightness));
+        Pace { speed: motion.speed, desired: f64::from(car.desired), tightness }
+    }
+
+    /// Share of the usual time gap that the driver accepts for this change.
+    pub(crate) fn tightness(&self, scene: &Scene, spot: Spot) -> f64 {
+        self.pace(spot, scene).tightness
+    }
+
+    /// Gaps [m] and times to collision [s] ahead and behind; infinite where there is nobody.
+    pub(crate) fn measures(&self, scene: &Scene, spot: Spot) -> [f64; 4] {
+        let motion = scene.motion(spot);
+        let (gap_ahead, ttc_ahead) = self.ahead.map_or((f64::INFINITY, f64::INFINITY), |it| {
+            (it.gap, time_to_collision(it.gap, motion.speed, it.speed))
+        });
+        let (gap_behind, ttc_behind) = self.follower.map_or((f64::INFINITY, f64::INFINITY), |it| {
+            let gap = it.distance - f64::from(motion.length);
+            (gap, time_to_collision(gap, scene.motion(it.spot).speed, motion.speed))
+        });
+        [gap_ahead, gap_behind, ttc_ahead, ttc_behind]
+    }
+}

@@ -1,0 +1,83 @@
+//! Drivers leave their route for the recommended one.
+
+use laneweave_models::change::LaneChangeModel;
+
+use crate::driver::beliefs::Beliefs;
+use crate::driver::perceive::Outlook;
+use crate::state::goal::Destination;
+use crate::state::moment::Moment;
+use crate::state::random::Purpose;
+use crate::view::scene::{Scene, Spot};
+
+/// Braking with which a driver could still stop before its new way parts from its old one [m/s²], and what it keeps
+/// beside [m]; ours.
+const EASY_BRAKING: f64 = 2.0;
+const ROOM: f64 = 5.0;
+
+/// A way on that a driver goes over to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Departure {
+    /// The same destination by the other way.
+    pub(crate) to: Destination,
+    /// The ways are not the same: its route changes.
+    pub(crate) is_change: bool,
+}
+
+/// The way that a driver goes over to, if it does so within `epochs`: the better one that it finds, by the same rule by which
+/// it changes lanes; or the same way, newly planned.
+#[inline]
+pub(crate) fn departure(
+    scene: &Scene,
+    moment: Moment,
+    spot: Spot,
+    outlook: &Outlook,
+    change: &LaneChangeModel,
+    epochs: f64,
+) -> Option<Departure> {
+    let own = scene.car(spot).goal.destination();
+    let new = scene.navigator.recommended(own)?;
+    towards(scene, moment, spot, [own, Some(new)], outlook, change, epochs)
+}
+
+/// The same for a driver who is recommended another way than its own.
+#[inline(never)]
+fn towards(
+    scene: &Scene,
+    moment: Moment,
+    spot: Spot,
+    [own, new]: [Destination; 2],
+    outlook: &Outlook,
+    change: &LaneChangeModel,
+    epochs: f64,
+) -> Option<Departure> {
+    let departure = if !scene.navigator.is_usual(own) && goes_on_alike(scene, spot, [own, new]) {
+        Departure { to: new, is_change: false }
+    } else {
+        let Beliefs { band, .. } = outlook.beliefs();
+        let route = &outlook.here().route;
+        let appraisal = change.appraise_leaving(route.onward, route.alternative?, band)?;
+        let draw = moment.random.uniform(scene.motion(spot).id, Purpose::Route, moment.clock.step);
+        change.drawn([Some(&appraisal), None], epochs, draw)?;
+        Departure { to: new, is_change: true }
+    };
+    can_go_over(scene, spot, [own, new]).then_some(departure)
+}
+
+/// Two ways are the same from here on, as far as their times tell.
+fn goes_on_alike(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
+    let [own, new] = ways.map(|it| scene.navigator.waypoint(it, spot.chain));
+    own.goes_like(new) && own.time == new.time
+}
+
+/// Who has a passage goes the way that it was given for; others could still stop before the ways part, and are in a lane
+/// that leads on over its end.
+fn can_go_over(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
+    let Scene { network, navigator, .. } = scene;
+    let motion = scene.motion(spot);
+    let way = motion.speed * motion.speed / (2.0 * EASY_BRAKING) + ROOM;
+    let [own, new] = ways.map(|it| navigator.waypoint(it, spot.chain));
+    let is_in_lane = new.last_place > network.chain(spot.chain).length || new.goes_like(own);
+    is_in_lane
+        && !scene.has_passage(spot, f64::NEG_INFINITY)
+        && navigator.part_beyond(network, ways, spot.chain, motion.x, way)
+}

@@ -1,0 +1,15 @@
+//! What a driver does: it perceives, decides and accelerates, and writes that into a plan.
+
+pub(crate) mod accelerate;
+pub(crate) mod appeal;
+pub(crate) mod attention;
+pub(crate) mod beliefs;
+pub(crate) mod decide;
+pub(crate) mod drive;
+pub(crate) mod gap;
+pub(crate) mod leave;
+pub(crate) mod perceive;
+pub(crate) mod plan;
+pub(crate) mod stuck;
+pub(crate) mod turn;
+pub(crate) mod window;

@@ -1,0 +1,250 @@
+//! Traffic as one driver sees it. The only bridge from traffic to models, for simulated and for recorded drivers.
+
+mod glance;
+
+use std::borrow::Cow;
+
+use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
+use laneweave_models::follow::{Ahead, Pace};
+use laneweave_network::{Beside, Side};
+
+use crate::driver::beliefs::Beliefs;
+use crate::driver::window;
+use crate::route::ways::Waypoint;
+use crate::state::traffic::{Car, Phase};
+use crate::view::scene::{LaneSight, Scene, Spot, Viewpoint, nearer};
+
+pub(crate) use glance::Dismissed;
+
+/// Who stands at the end of its lane has this much road left to drive on [m].
+const LEAST_ROOM: f64 = 0.1;
+
+/// What a concentrated driver knows when it considers the lane on `side`; `None` where it may not change to one.
+pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation<'a>> {
+    let Viewpoint { chain, x, destination, .. } = scene.viewpoint(me);
+    let here = scene.network.chain(chain);
+    let ahead = |it: &Beside| scene.lanes[it.chain.at()].ahead_of(it.across(x));
+    let mut hints = Side::BOTH.map(|side| here.beside(side, x).map_or(0, ahead));
+    let waypoint = scene.navigator.waypoint_from(scene.network, destination, chain, x);
+    let style = &scene.characters[scene.car(me).character as usize];
+    let beliefs = Beliefs::settled(&style.guidance);
+    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, beliefs, &mut hints);
+    Some(outlook.situation(side, outlook.beside(side)?))
+}
+
+/// A driver with its vehicle.
+#[inline]
+pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    Driver {
+        pace: Pace {
+            speed: motion.speed,
+            desired: f64::from(car.desired),
+            tightness: f64::from(motion.tightness),
+        },
+        acceleration: f64::from(motion.acceleration),
+        follow: &scene.characters[car.character as usize].follow,
+        length: f64::from(motion.length),
+    }
+}
+
+/// A driver's view of its own lane, from which it considers both sides.
+pub(crate) struct Outlook<'s, 'a> {
+    scene: &'s Scene<'a>,
+    car: &'a Car,
+    me: Driver<'a>,
+    from: Viewpoint,
+    /// How far ahead it sees [m].
+    reach: f64,
+    beliefs: Beliefs<'a>,
+    sight: LaneSight,
+    here: LaneView<'a>,
+    /// Its usual way is over, and it goes round.
+    goes_round: bool,
+    /// Where it would be in the lanes beside, left and right, where it may change to them.
+    beside: [Option<Viewpoint>; 2],
+}
+
+impl<'s, 'a> Outlook<'s, 'a> {
+    /// Looks along the own lane of a driver whose waypoint is `waypoint`, and who sees `reach` [m] ahead. The first entries
+    /// ahead in the lanes beside are sought from `hints` on, left and right, and kept in them.
+    pub(crate) fn new(
+        scene: &'s Scene<'a>,
+        spot: Spot,
+        waypoint: &Waypoint,
+        reach: f64,
+        beliefs: Beliefs<'a>,
+        hints: &mut [usize; 2],
+    ) -> Outlook<'s, 'a> {
+        let me = driver(scene, spot);
+        let from = scene.viewpoint(spot);
+        let sight = scene.look(from, me.pace.desired, me.length, reach);
+        let here = lane_view(scene, &me, &sight, route_view(scene, from, waypoint, beliefs));
+        let beside = Side::BOTH.map(|side| {
+            let beside = window::beside(scene, spot, side)?;
+            let there = scene.network.chain(beside.chain);
+            // Into a lane that is tight for it a long vehicle changes for its route only.
+            let is_tight = from.is_long && there.is_tight_for_long && waypoint.changes == 0;
+            if is_tight || !there.takes(beside.across(from.x), from.is_long) {
+                return None;
+            }
+            let (x, hint) = (beside.across(from.x), &mut hints[side.at()]);
+            *hint = scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
+            Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })
+        });
+        let goes_round = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
+        Outlook { scene, car: scene.car(spot), me, from, reach, beliefs, sight, here, goes_round, beside }
+    }
+
+    /// The driver's own vehicle.
+    pub(crate) fn car(&self) -> &'a Car {
+        self.car
+    }
+
+    /// What it believes of travel times.
+    pub(crate) fn beliefs(&self) -> Beliefs<'a> {
+        self.beliefs
+    }
+
+    /// The own lane.
+    pub(crate) fn here(&self) -> &LaneView<'a> {
+        &self.here
+    }
+
+    /// Where the driver would be in the lane on `side`; `None` where it may not change to one.
+    pub(crate) fn beside(&self, side: Side) -> Option<Viewpoint> {
+        self.beside[side.at()]
+    }
+
+    /// What the driver knows about the lane on `side`, where it would look `from`.
+    pub(crate) fn situation(&self, side: Side, from: Viewpoint) -> Situation<'a> {
+        let sight = self.scene.look(from, self.me.pace.desired, self.me.length, self.reach);
+        let (section, [route_here, route_there]) = self.routes(from);
+        let here = LaneView { route: route_here, ..self.here };
+        let there = lane_view(self.scene, &self.me, &sight, route_there);
+        let offside = self.scene.network.driving_side.overtaking();
+        let toward = if side == offside { Toward::Offside } else { Toward::Nearside };
+        let (me, band, merging) = (self.me, self.beliefs.band, self.merging(side, from, &sight));
+        Situation { toward, me, here, there, section, band, merging }
+    }
+
+    /// The length over which the speeds of the own lane and of the one where the driver would be at `from` differ for it [m], and
+    /// what the two lanes mean for its route beyond.
+    #[inline]
+    fn routes(&self, from: Viewpoint) -> (f64, [RouteView; 2]) {
+        let there = route_view(self.scene, from, &self.waypoint_beside(from), self.beliefs);
+        let section = self.here.route.remaining.min(there.remaining).min(self.reach);
+        let [on_section_here, on_section_there] = self.times_on(section, from);
+        let here = self.beyond(on_section_here, self.here.route);
+        let mut there = self.beyond(on_section_there, there);
+        if there.changes == Waypoint::NO_WAY {
+            there.onward = here.onward;
+        }
+        (section, [here, there])
+    }
+
+    /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would be at
+    /// `there`: on the free road the same.
+    #[inline]
+    fn times_on(&self, section: f64, there: Viewpoint) -> [f64; 2] {
+        let Scene { network, navigator, .. } = self.scene;
+        if navigator.links().are_free() {
+            return [section / network.chain(self.from.chain).limit(self.from.x); 2];
+        }
+        [self.from, there].map(|it| navigator.time_ahead(network, it.destination, it.chain, it.x, section))
+    }
+
+    /// What a lane means for the route beyond a section that takes `on_section` [s].
+    #[inline]
+    fn beyond(&self, on_section: f64, route: RouteView) -> RouteView {
+        let Beliefs { own, other, .. } = self.beliefs;
+        RouteView {
+            onward: (route.onward - own * on_section).max(0.0),
+            alternative: route.alternative.map(|time| (time - other * on_section).max(0.0)),
+            ..route
+        }
+    }
+
+    /// The way on from beside. Only a driver who goes round already would go round from there.
+    fn waypoint_beside(&self, there: Viewpoint) -> Cow<'a, Waypoint> {
+        let Scene { network, navigator, .. } = self.scene;
+        let Viewpoint { destination, chain, x, .. } = there;
+        if self.goes_round {
+            navigator.waypoint_from(network, destination, chain, x)
+        } else {
+            Cow::Borrowed(navigator.waypoint(destination, chain))
+        }
+    }
+
+    /// Who signals a change into the lane that the driver would leave to `side`, where it would look `from` and see
+    /// `there`: on the other side the next one behind, or else ahead; on this side the new leader. The new follower counts
+    /// as such.
+    fn merging(&self, side: Side, from: Viewpoint, there: &LaneSight) -> [Option<Merging<'a>>; 2] {
+        let across = self.beside(side.opposite()).and_then(|Viewpoint { chain, x, ahead, .. }| {
+            let cars = self.scene.cars(chain);
+            let at = |index: usize| {
+                let signals = cars.get(index)?.phase == Phase::Wants;
+                signals.then(|| self.merging_from(Spot { chain, index }, side.opposite(), x)).flatten()
+            };
+            ahead.checked_sub(1).and_then(at).or_else(|| at(ahead))
+        });
+        let signals = |it: &Spot| it.chain == from.chain && self.scene.car(*it).phase == Phase::Wants;
+        let leader = there.leader.filter(signals);
+        [across, leader.and_then(|it| self.merging_from(it, side, from.x))]
+    }
+
+    /// The vehicle at `spot` on `side`, which signals a change and beside whose lane the driver is at `x` [m], if it wants
+    /// into the driver's lane and nobody is between it and the driver there.
+    #[inline(never)]
+    fn merging_from(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
+        let mind = self.scene.mind(spot);
+        if mind.side != side.opposite() {
+            return None;
+        }
+        let forward = self.scene.motion(spot).x - x;
+        let is_next = if forward > 0.0 {
+            self.sight.ahead.is_none_or(|it| it.gap > forward)
+        } else {
+            self.sight.follower.is_none_or(|it| it.distance > -forward)
+        };
+        if !is_next {
+            return None;
+        }
+        let Driver { pace, acceleration, length, .. } = self.me;
+        let me_ahead = Ahead { gap: -forward - length, speed: pace.speed, acceleration };
+        let blocked = if me_ahead.gap > 0.0 { Some(me_ahead) } else { self.held_in_its_lane(spot) };
+        let freed = self.sight.ahead.map(|it| Ahead { gap: it.gap - forward, ..it });
+        Some(Merging { driver: driver(self.scene, spot), blocked, freed, urgency: f64::from(mind.urgency) })
+    }
+
+    /// What the vehicle at `spot` has ahead as long as it cannot change: its leader, or where it has to have left its lane.
+    fn held_in_its_lane(&self, spot: Spot) -> Option<Ahead> {
+        let room = self.scene.mind(spot).last_place - self.scene.motion(spot).x;
+        let end = room.is_finite().then(|| Ahead::standing(room.max(LEAST_ROOM)));
+        nearer(self.scene.ahead(self.scene.viewpoint(spot)), end)
+    }
+}
+
+fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: RouteView) -> LaneView<'a> {
+    let behind =
+        sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, it.spot) });
+    LaneView { ahead: sight.ahead, behind, flow: sight.flow, prospect: sight.prospect, route }
+}
+
+/// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place on.
+#[inline(always)]
+fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beliefs) -> RouteView {
+    if !waypoint.leads_on(from.x) {
+        return RouteView { changes: Waypoint::NO_WAY, remaining: 0.0, onward: 0.0, alternative: None };
+    }
+    let behind = scene.navigator.time_to(scene.network, from.chain, from.x);
+    let alternative = Some(waypoint.alternative).filter(|it| it.is_finite());
+    let ways = [waypoint.effort, waypoint.alternative_effort];
+    let [added, added_beside] = beliefs.added(scene.network, from.chain, from.x, ways);
+    RouteView {
+        changes: waypoint.changes,
+        remaining: waypoint.last_place - from.x,
+        onward: beliefs.own * (waypoint.time - behind).max(0.0) + added,
+        alternative: alternative.map(|it| beliefs.other * (it - behind).max(0.0) + added_beside),
+    }
+}

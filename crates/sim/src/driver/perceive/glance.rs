@@ -1,0 +1,85 @@
+//! A glance at the lanes beside. Most drivers on most occasions see by the next vehicles there that neither lane can be worth a
+//! change, and look no further; what they decide is the same to the last bit.
+
+use laneweave_models::change::{Behind, Glance, Mcdm, anticipated_speed};
+use laneweave_models::follow::Ahead;
+use laneweave_network::Side;
+
+use super::{Outlook, driver};
+use crate::state::traffic::Phase;
+use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
+
+/// What a driver has seen who looks no further.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Dismissed {
+    /// Best speed that may be anticipated in a lane beside that leads to the same place [m/s]; `None` where there is none.
+    pub(crate) best_prospect: Option<f64>,
+}
+
+impl Outlook<'_, '_> {
+    /// Whether neither side can gain as much as `reach`. `None` where it can, or a glance does not tell.
+    #[inline]
+    pub(crate) fn dismisses(&self, model: &Mcdm, reach: f64) -> Option<Dismissed> {
+        if self.here.route.changes != 0
+            || self.goes_round
+            || Side::BOTH.into_iter().any(|it| self.signals(it))
+        {
+            return None;
+        }
+        let is_courteous = model.courtesy.weight != 0.0;
+        let relief = if is_courteous { model.courtesy.relief(&self.me, &self.here) } else { 0.0 };
+        let mut best_prospect = None;
+        for from in self.beside.into_iter().flatten() {
+            let (section, routes) = self.routes(from);
+            if routes[1].changes != 0 {
+                return None;
+            }
+            let (ahead, follower) = self.next_to(from)?;
+            let desired = self.me.pace.desired;
+            let prospect = ahead.map_or(desired, |it| anticipated_speed(it, desired));
+            let harm = follower.filter(|_| is_courteous).map_or(0.0, |it| {
+                let behind =
+                    Behind { gap: it.distance - self.me.length, driver: driver(self.scene, it.spot) };
+                model.courtesy.harm(&self.me, ahead, &behind)
+            });
+            let glance = Glance {
+                desired,
+                prospects: [self.here.prospect, prospect],
+                routes,
+                section,
+                band: self.beliefs.band,
+                courtesy: relief + harm,
+            };
+            if model.gain_at_most(&glance) >= reach {
+                return None;
+            }
+            best_prospect = Some(best_prospect.map_or(prospect, |it: f64| it.max(prospect)));
+        }
+        Some(Dismissed { best_prospect })
+    }
+
+    /// Whether one of the next vehicles on `side` signals a change, perhaps into the driver's lane.
+    #[inline]
+    fn signals(&self, side: Side) -> bool {
+        self.beside[side.at()].is_some_and(|from| {
+            let cars = self.scene.cars(from.chain);
+            let signals = |index: usize| cars.get(index).is_some_and(|it| it.phase == Phase::Wants);
+            signals(from.ahead) || from.ahead.checked_sub(1).is_some_and(signals)
+        })
+    }
+
+    /// The leader and the follower where the driver would be at `from`; `None` where they are not on that chain.
+    #[inline]
+    fn next_to(&self, from: Viewpoint) -> Option<(Option<Ahead>, Option<Found>)> {
+        let motions = self.scene.motions(from.chain);
+        let (index, leader) = (from.ahead.checked_sub(1)?, motions.get(from.ahead)?);
+        let follower = &motions[index];
+        if [leader.id, follower.id].contains(&from.id) {
+            return None;
+        }
+        let ahead = leader.ahead(leader.rear() - from.x);
+        let found = Found { spot: Spot { chain: from.chain, index }, distance: from.x - follower.x };
+        let is_seen = |it: &Found| it.distance < REAR_SIGHT;
+        Some((Some(ahead).filter(|it| it.gap <= self.reach), Some(found).filter(is_seen)))
+    }
+}

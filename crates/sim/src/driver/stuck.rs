@@ -1,0 +1,72 @@
+//! Who is stuck: it has stood for long, and nothing that is bound to end holds it.
+
+use crate::driver::appeal::surveyed;
+use crate::junction::need::Survey;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
+use crate::right_of_way::heed::look;
+use crate::state::clock::Clock;
+use crate::state::standstill::STANDSTILL;
+use crate::view::scene::{Scene, Spot};
+
+/// A light that was green within this time will be so again [s].
+const RECENTLY: f64 = 180.0;
+/// A longer chain of blocked vehicles leads back to itself.
+const LONGEST: usize = 1000;
+
+/// What holds a standing vehicle.
+enum Blocker {
+    /// The vehicle at a spot.
+    Vehicle(Spot),
+    /// A light that was green not long ago.
+    Light,
+    /// Nothing any more: it is about to drive off.
+    Nothing,
+    /// Something else.
+    Other,
+}
+
+/// Whether the vehicle at `spot`, which has stood for long, is stuck: it is not if the head of those who block it moves, is about
+/// to, or waits at a red light that was green not long ago. Those who wait for each other are stuck, all of them.
+#[inline(never)]
+pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
+    let mut at = spot;
+    for _ in 0..LONGEST {
+        match blocker(scene, at, clock, survey) {
+            Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
+            Blocker::Vehicle(next) => at = next,
+            Blocker::Light => return false,
+            // Who is itself about to drive off has stood for no reason of another.
+            Blocker::Nothing => return at == spot,
+            Blocker::Other => return true,
+        }
+    }
+    true
+}
+
+fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocker {
+    let from = scene.viewpoint(at);
+    let is_let_go = || scene.passage(at).is_some_and(|it| it.left() > 0.0) && look(scene, at).stop.is_none();
+    let on_way = || match scene.leader_spot(from) {
+        Some(leader) => Blocker::Vehicle(leader),
+        None if is_let_go() => Blocker::Nothing,
+        None => Blocker::Other,
+    };
+    // It waits behind another, or for one who goes before it into a merge, or it is itself the head.
+    let is_head = surveyed(scene, &Applicant::at(scene, at), survey)
+        && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
+    if !is_head {
+        return on_way();
+    }
+    let applicant = Applicant::at(scene, at);
+    match may_pass(scene, &applicant, survey, Asking::of(&applicant, clock.step, clock)) {
+        Err(Hindrance::Room | Hindrance::Ring) => on_way(),
+        Err(Hindrance::Light) => {
+            let since = |it| f64::from(clock.step - scene.signals.green_at(it, clock)) * clock.dt;
+            let was_green = survey.lights.iter().all(|(it, _)| since(*it) <= RECENTLY);
+            if was_green { Blocker::Light } else { Blocker::Other }
+        }
+        Ok(()) => Blocker::Nothing,
+        Err(Hindrance::Sign | Hindrance::Others) => Blocker::Other,
+    }
+}

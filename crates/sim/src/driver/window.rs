@@ -1,0 +1,100 @@
+//! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short one looks at the lane beside before it
+//! may change there, so that it comes to the window with a gap, and slowly enough to use it.
+
+use laneweave_network::{Beside, ChainIndex, Side};
+
+use crate::state::traffic::Car;
+use crate::view::scene::{Scene, Spot};
+
+/// A window is short up to this length [m]: a driver who looks for a gap only there finds none in time. Ours.
+const SHORT: f64 = 80.0;
+/// So far before a short window a driver looks for a gap [m]. Ours.
+const LOOKS_AHEAD: f64 = 60.0;
+
+/// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which it has to change.
+// Considering a lane begins with it.
+#[inline(always)]
+pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'a Beside> {
+    let stretches = scene.network.chain(spot.chain).stretches(side);
+    if stretches.is_empty() {
+        return None;
+    }
+    let x = scene.motion(spot).x;
+    let after = stretches.partition_point(|it| it.start <= x);
+    match stretches[..after].last().filter(|it| x <= it.end) {
+        None if scene.car(spot).heeds_more => coming(scene, spot, stretches),
+        found => found,
+    }
+}
+
+/// The first of `stretches` ahead of the driver at `spot`, if the short window in which it has to change lanes begins with it.
+#[inline(never)]
+fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a Beside> {
+    let (x, last_place) = (scene.motion(spot).x, scene.mind(spot).last_place);
+    let next = stretches.iter().find(|it| it.start > x && last_place.is_finite() && it.start < last_place)?;
+    if next.start - x > LOOKS_AHEAD {
+        return None;
+    }
+    let window = Window::of(scene, spot)?;
+    let begins_it = next.start - x <= window.start + Beside::JOINED;
+    (begins_it && window.is_near_and_short() && next.across(x) >= 0.0).then_some(next)
+}
+
+/// A window ahead, or one that the driver is in. Distances are those from its front [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Window {
+    /// Where it begins; negative within it.
+    pub(crate) start: f64,
+    /// The last place for the change.
+    pub(crate) end: f64,
+}
+
+impl Window {
+    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where that is far.
+    pub(crate) fn of(scene: &Scene, spot: Spot) -> Option<Window> {
+        let (x, place) = (scene.motion(spot).x, scene.mind(spot).last_place);
+        // A short one is near, and a long one so far ahead is not worth the search.
+        if place - x > SHORT + LOOKS_AHEAD {
+            return None;
+        }
+        let Car { goal, class, .. } = scene.car(spot);
+        let (destination, is_long) = (goal.destination(), class.is_long());
+        let (mut chain, mut base): (ChainIndex, f64) = (spot.chain, 0.0);
+        // For each side the window that ends last so far, along the own chain.
+        let mut runs = [[f64::NEG_INFINITY; 2]; 2];
+        loop {
+            let here = scene.network.chain(chain);
+            for (side, run) in Side::BOTH.into_iter().zip(&mut runs) {
+                for stretch in here.stretches(side) {
+                    let [from, until] = scene.network.window(here, stretch, is_long).map(|it| base + it);
+                    if from >= until {
+                        continue;
+                    }
+                    *run = [if from - run[1] < Beside::JOINED { run[0] } else { from }, until];
+                    if from < place && place <= until {
+                        return Some(Window { start: run[0] - x, end: place - x });
+                    }
+                }
+            }
+            base += here.length;
+            chain = scene.next(destination, chain).filter(|_| base < place)?;
+        }
+    }
+
+    /// Its length [m].
+    pub(crate) fn length(&self) -> f64 {
+        self.end - self.start
+    }
+
+    /// Whether it is short, and the driver near it or in it.
+    pub(crate) fn is_near_and_short(&self) -> bool {
+        self.length() < SHORT && self.start < LOOKS_AHEAD
+    }
+
+    /// The speed at which a change of this `duration` [s] fits into it [m/s].
+    pub(crate) fn speed_for(&self, duration: f64) -> f64 {
+        /// Of the length for which the change is allowed, what it takes to the crossing at most. Ours.
+        const SHARE: f64 = 0.7;
+        2.0 * SHARE * self.length() / duration
+    }
+}

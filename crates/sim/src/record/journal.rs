@@ -1,0 +1,220 @@
+//! Trips as they are recorded until they end, where somebody asks for it: what cannot be seen in the traffic of one instant.
+//!
+//! They lie cold. Only what is rare is written to them: a vehicle enters, halts, drives on, goes over to the next chain,
+//! changes lanes, takes another route, leaves.
+
+use std::collections::VecDeque;
+
+use laneweave_network::ChainIndex;
+use serde::{Deserialize, Serialize};
+
+use crate::record::ledger::Mark;
+use crate::state::traffic::VehicleId;
+use crate::state::vehicle::Class;
+
+/// A trip up to now.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TripRecord {
+    /// Who.
+    pub vehicle: VehicleId,
+    /// Its class.
+    pub class: Class,
+    /// Its driver's place in the table of characters.
+    pub character: u32,
+    /// Where it comes from: place in the list of origins of the demand; none outside of it.
+    pub origin: Option<usize>,
+    /// Where it goes: place in the list of destinations; none for who drives on as the road leads.
+    pub destination: Option<usize>,
+    /// When it came, and would have liked to enter [s].
+    pub arrived: f64,
+    /// When it entered [s].
+    pub entered: f64,
+    /// Where its front bumper was then: chain and station [m].
+    pub from: (ChainIndex, f64),
+    /// Its speed then [m/s].
+    pub speed: f64,
+    /// Time that its way takes on a free road at the speeds that the driver desires [s]; none without a destination.
+    pub free_time: Option<f64>,
+    /// What the station on its present chain is to be increased by to give the way that it has driven [m].
+    pub way_to_start: f64,
+    /// Times that it came to a halt.
+    pub stops: u32,
+    /// Time for which it stood, without a halt that is not over [s].
+    pub stood: f64,
+    /// Times that its centre crossed the line to another lane.
+    pub lane_changes: u32,
+    /// Times that its driver left the route for a better one.
+    pub route_changes: u32,
+    /// Times that its driver missed a turn.
+    pub missed_turns: u32,
+    /// Up to where it is put down what it did on the lanelets.
+    pub(crate) mark: Mark,
+}
+
+impl TripRecord {
+    /// An empty record.
+    pub(crate) fn of(vehicle: VehicleId, class: Class, character: u32) -> TripRecord {
+        TripRecord {
+            vehicle,
+            class,
+            character,
+            origin: None,
+            destination: None,
+            arrived: 0.0,
+            entered: 0.0,
+            from: (ChainIndex(0), 0.0),
+            speed: 0.0,
+            free_time: None,
+            way_to_start: 0.0,
+            stops: 0,
+            stood: 0.0,
+            lane_changes: 0,
+            route_changes: 0,
+            missed_turns: 0,
+            mark: Mark::default(),
+        }
+    }
+
+    /// The way that its front bumper has driven when it is at `x` on its chain [m].
+    pub fn way(&self, x: f64) -> f64 {
+        self.way_to_start + x
+    }
+}
+
+/// Why a driver took another route.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rerouting {
+    /// It missed a turn.
+    MissedTurn,
+    /// The other is better.
+    Choice,
+}
+
+/// The records of all vehicles on the road.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Journal {
+    /// The oldest vehicle whose trip is not over.
+    oldest: VehicleId,
+    /// For each since then where its record is.
+    slots: VecDeque<u32>,
+    records: Vec<TripRecord>,
+    free: Vec<u32>,
+}
+
+/// In place of a slot: the trip has not begun, or is over.
+const AHEAD: u32 = u32::MAX;
+const OVER: u32 = u32::MAX - 1;
+
+impl Journal {
+    /// A trip begins.
+    pub(crate) fn begin(&mut self, mut record: TripRecord) {
+        record.way_to_start = -record.from.1;
+        let place = (record.vehicle - self.oldest) as usize;
+        if place >= self.slots.len() {
+            self.slots.resize(place + 1, AHEAD);
+        }
+        self.slots[place] = match self.free.pop() {
+            Some(slot) => {
+                self.records[slot as usize] = record;
+                slot
+            }
+            None => {
+                self.records.push(record);
+                self.records.len() as u32 - 1
+            }
+        };
+    }
+
+    /// The record of a vehicle on the road.
+    pub(crate) fn of(&self, id: VehicleId) -> Option<&TripRecord> {
+        self.records.get(self.slot(id)? as usize)
+    }
+
+    /// The same, to change.
+    pub(crate) fn of_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
+        let slot = self.slot(id)?;
+        self.records.get_mut(slot as usize)
+    }
+
+    fn slot(&self, id: VehicleId) -> Option<u32> {
+        let place = id.checked_sub(self.oldest)?;
+        self.slots.get(place as usize).copied()
+    }
+
+    /// The vehicle came to a halt.
+    pub(crate) fn stop(&mut self, id: VehicleId) {
+        if let Some(record) = self.of_mut(id) {
+            record.stops += 1;
+        }
+    }
+
+    /// The vehicle drives on after it stood for so long [s].
+    pub(crate) fn set_off(&mut self, id: VehicleId, stood: f64) {
+        if let Some(record) = self.of_mut(id) {
+            record.stood += stood;
+        }
+    }
+
+    /// The driver took another route.
+    pub(crate) fn reroute(&mut self, id: VehicleId, why: Rerouting) {
+        if let Some(record) = self.of_mut(id) {
+            match why {
+                Rerouting::MissedTurn => record.missed_turns += 1,
+                Rerouting::Choice => record.route_changes += 1,
+            }
+        }
+    }
+
+    /// A trip ends.
+    pub(crate) fn end(&mut self, id: VehicleId) -> Option<TripRecord> {
+        let ended = *self.of(id)?;
+        let place = (id - self.oldest) as usize;
+        self.free.push(std::mem::replace(&mut self.slots[place], OVER));
+        while self.slots.front() == Some(&OVER) {
+            self.slots.pop_front();
+            self.oldest += 1;
+        }
+        Some(ended)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(vehicle: VehicleId, x: f64) -> TripRecord {
+        TripRecord { from: (ChainIndex(0), x), ..TripRecord::of(vehicle, Class::Car, 0) }
+    }
+
+    #[test]
+    fn who_waits_to_enter_while_later_ones_leave_is_recorded_all_the_same() {
+        let mut journal = Journal::default();
+        journal.begin(record(1, 5.0));
+        assert_eq!(journal.end(1).map(|it| it.vehicle), Some(1));
+        assert_eq!((journal.of(0), journal.of(1)), (None, None));
+        journal.begin(record(0, 4.5));
+        journal.begin(record(7, 12.0));
+        assert_eq!(journal.of(0).map(|it| it.way(104.5)), Some(100.0));
+        assert_eq!(journal.end(0).map(|it| it.vehicle), Some(0));
+        assert_eq!((journal.oldest, journal.of(7).map(|it| it.vehicle)), (2, Some(7)));
+        assert_eq!((journal.end(0), journal.of(1), journal.of(6), journal.of(8)), (None, None, None, None));
+    }
+
+    #[test]
+    fn halts_and_the_time_at_rest_add_up() {
+        let mut journal = Journal::default();
+        journal.begin(record(0, 0.0));
+        for stood in [2.0, 3.5] {
+            journal.stop(0);
+            journal.set_off(0, stood);
+        }
+        journal.stop(0);
+        journal.reroute(0, Rerouting::Choice);
+        journal.stop(4);
+        let trip = journal.of(0).copied();
+        assert_eq!(
+            trip.map(|it| (it.stops, it.stood, it.route_changes, it.missed_turns)),
+            Some((3, 5.5, 1, 0))
+        );
+    }
+}

@@ -1,0 +1,197 @@
+//! What vehicles do on every lanelet, as it is added up where somebody asks for it: the time that they spend there, the way that
+//! they drive, and who passes the end.
+//!
+//! Where a vehicle was is put down once a second, and whenever it leaves its chain: between two such instants it drives at
+//! constant speed, as far as the lanelets know.
+
+use laneweave_network::{Chain, Network};
+use serde::{Deserialize, Serialize};
+
+use crate::record::journal::Journal;
+use crate::state::clock::Clock;
+use crate::state::standstill::STANDSTILL;
+use crate::state::traffic::{Lane, Motion};
+
+/// What vehicles did on a lanelet, by their front bumpers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stay {
+    /// Σt: time that they spent on it [s].
+    pub time: f64,
+    /// Σd: way that they drove on it [m].
+    pub way: f64,
+    /// Of the time, that of those who stood at its end: slower than 0.1 m/s [s].
+    pub standing: f64,
+    /// Vehicles that passed its end.
+    pub passed: u32,
+}
+
+impl Stay {
+    /// The sum of both.
+    pub fn plus(self, other: Stay) -> Stay {
+        Stay {
+            time: self.time + other.time,
+            way: self.way + other.way,
+            standing: self.standing + other.standing,
+            passed: self.passed + other.passed,
+        }
+    }
+
+    /// What was added since it was as `before`.
+    pub fn since(self, before: Stay) -> Stay {
+        Stay {
+            time: self.time - before.time,
+            way: self.way - before.way,
+            standing: self.standing - before.standing,
+            passed: self.passed - before.passed,
+        }
+    }
+}
+
+/// Up to where and when it is put down what a vehicle did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Mark {
+    /// Station on its chain [m].
+    pub(crate) x: f64,
+    /// When [s].
+    pub(crate) time: f64,
+}
+
+impl Mark {
+    /// Where a vehicle, which is beyond it now, was at the station `x` [m] of its chain in the last step.
+    pub(crate) fn at(x: f64, motion: &Motion, clock: Clock) -> Mark {
+        // Its speed changed evenly.
+        let driven = (motion.speed - 0.5 * f64::from(motion.acceleration) * clock.dt) * clock.dt;
+        let share = if driven > 0.0 { ((motion.x - x) / driven).clamp(0.0, 1.0) } else { 0.0 };
+        Mark { x, time: clock.time() - share * clock.dt }
+    }
+}
+
+/// Sums by lanelet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Ledger {
+    pub(crate) stays: Vec<Stay>,
+}
+
+impl Ledger {
+    /// Nothing yet.
+    pub(crate) fn new(network: &Network) -> Ledger {
+        Ledger { stays: vec![Stay::default(); network.lanelets.len()] }
+    }
+
+    /// Puts down where all vehicles are.
+    pub(crate) fn look(&mut self, network: &Network, lanes: &[Lane], journal: &mut Journal, clock: Clock) {
+        let time = clock.time();
+        for (chain, lane) in network.chains.iter().zip(lanes) {
+            // They stand in driving order, so that their lanelets follow each other.
+            let mut place = 0;
+            for (motion, car) in lane.motions().iter().zip(lane.cars()) {
+                if car.is_shadow {
+                    continue;
+                }
+                while chain.starts.get(place + 1).is_some_and(|it| *it <= motion.x) {
+                    place += 1;
+                }
+                if let Some(record) = journal.of_mut(motion.id) {
+                    let now = Mark { x: motion.x, time };
+                    let before = std::mem::replace(&mut record.mark, now);
+                    self.put_down(chain, place, [before, now], motion.speed < STANDSTILL);
+                }
+            }
+        }
+    }
+
+    /// Puts down what a vehicle did on `chain` between two marks.
+    pub(crate) fn note(&mut self, chain: &Chain, [from, to]: [Mark; 2]) {
+        let place = chain.starts.partition_point(|it| *it <= to.x).max(1) - 1;
+        self.put_down(chain, place, [from, to], false);
+    }
+
+    /// A vehicle passed the end of `chain`.
+    pub(crate) fn pass_end(&mut self, chain: &Chain) {
+        if let Some(last) = chain.lanelets.last() {
+            self.stays[last.at()].passed += 1;
+        }
+    }
+
+    /// Puts down what a vehicle did between two marks on `chain`, the second of which is on its lanelet number `place`.
+    #[inline]
+    fn put_down(&mut self, chain: &Chain, place: usize, marks: [Mark; 2], stands: bool) {
+        let [from, to] = marks;
+        if from.x < chain.starts[place] && place > 0 {
+            return self.share_out(chain, place, marks);
+        }
+        let stay = &mut self.stays[chain.lanelets[place].at()];
+        let time = to.time - from.time;
+        stay.time += time;
+        stay.way += to.x - from.x;
+        if stands {
+            stay.standing += time;
+        }
+    }
+
+    /// The same for a vehicle that passed from one lanelet to another.
+    #[cold]
+    fn share_out(&mut self, chain: &Chain, mut place: usize, [from, to]: [Mark; 2]) {
+        let pace = (to.time - from.time) / (to.x - from.x);
+        let mut end = to.x;
+        loop {
+            let is_first = from.x >= chain.starts[place] || place == 0;
+            let start = if is_first { from.x } else { chain.starts[place] };
+            let stay = &mut self.stays[chain.lanelets[place].at()];
+            stay.way += end - start;
+            stay.time += (end - start) * pace;
+            if is_first {
+                return;
+            }
+            end = start;
+            place -= 1;
+            self.stays[chain.lanelets[place].at()].passed += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_maps::generate::{Motorway, motorway};
+
+    use super::*;
+
+    /// What is put down of a way from one mark to another on a road of five lanelets of 100 m: time, way and passings of each.
+    fn stays(marks: [Mark; 2]) -> Vec<(f64, f64, u32)> {
+        let plan = Motorway { lanes: 1, length_m: 500.0, ..Motorway::default() };
+        let network = motorway(&plan).unwrap().build().unwrap().network;
+        let chain = &network.chains[0];
+        let mut ledger = Ledger::new(&network);
+        let place = chain.starts.partition_point(|it| *it <= marks[1].x) - 1;
+        ledger.put_down(chain, place, marks, false);
+        let rounded = |it: f64| (it * 1e6).round() / 1e6;
+        let of = |it: &Stay| (rounded(it.time), rounded(it.way), it.passed);
+        chain.lanelets.iter().map(|it| of(&ledger.stays[it.at()])).collect()
+    }
+
+    fn mark(x: f64, time: f64) -> Mark {
+        Mark { x, time }
+    }
+
+    const NOTHING: (f64, f64, u32) = (0.0, 0.0, 0);
+
+    #[test]
+    fn who_stays_on_a_lanelet_spends_all_its_time_there() {
+        let one = stays([mark(120.0, 7.0), mark(150.0, 8.0)]);
+        assert_eq!(one, [NOTHING, (1.0, 30.0, 0), NOTHING, NOTHING, NOTHING]);
+    }
+
+    #[test]
+    fn who_passes_from_one_to_another_is_shared_as_at_constant_speed() {
+        let two = stays([mark(90.0, 7.0), mark(130.0, 8.0)]);
+        assert_eq!(two, [(0.25, 10.0, 1), (0.75, 30.0, 0), NOTHING, NOTHING, NOTHING]);
+        let all = stays([mark(50.0, 0.0), mark(450.0, 4.0)]);
+        assert_eq!(all, [(0.5, 50.0, 1), (1.0, 100.0, 1), (1.0, 100.0, 1), (1.0, 100.0, 1), (0.5, 50.0, 0)]);
+    }
+
+    #[test]
+    fn who_stands_on_the_line_is_on_the_lanelet_beyond_it() {
+        assert_eq!(stays([mark(100.0, 1.0), mark(100.0, 2.0)])[1], (1.0, 0.0, 0));
+        assert_eq!(stays([mark(90.0, 1.0), mark(100.0, 2.0)])[..2], [(1.0, 10.0, 1), NOTHING]);
+    }
+}

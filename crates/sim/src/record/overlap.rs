@@ -1,0 +1,205 @@
+//! Overlaps: vehicles are kept apart by gaps along lanes and by reservations where lanes meet; whether they are, is seen by holding
+//! their rectangles against each other, whatever lanes they are in.
+
+use laneweave_network::{ChainIndex, Nearby, Pose, Side};
+
+use crate::record::incidents::{Incident, IncidentKind};
+use crate::state::traffic::Motion;
+use crate::state::vehicle::LONGEST;
+use crate::view::pose::pose;
+use crate::view::scene::{Scene, Spot};
+
+/// Rectangles that intersect less than this do not overlap [m].
+const TOLERANCE: f64 = 0.05;
+/// Vehicles on levels further apart do not touch [m].
+const HEIGHT: f64 = 2.0;
+/// Vehicles further apart along the road than this cannot touch [m].
+const REACH: f64 = 30.0;
+/// A body at an angle, or in a bend, reaches this much further along a lane [m].
+const ASKEW: f64 = 3.0;
+
+/// Notes the vehicles on `chain` that intersect each other, or vehicles on other chains that are near it.
+pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>) {
+    in_lane(scene, chain, time, out);
+    for nearby in scene.network.junctions.nearby(chain) {
+        between_lanes(scene, chain, nearby, time, out);
+    }
+    for (index, car) in scene.cars(chain).iter().enumerate() {
+        if !car.is_shadow && car.phase.is_between_lanes() {
+            beside(scene, Spot { chain, index }, time, out);
+        }
+    }
+}
+
+/// The vehicle at `spot` touches the one at `leader` on its way, by their gap: notes it, if their rectangles do.
+pub(crate) fn touch(scene: &Scene, spot: Spot, leader: Spot, time: f64, out: &mut Vec<Incident>) {
+    let incident = incident(scene, spot, leader, time);
+    out.extend(incident.map(|it| Incident { kind: IncidentKind::Collision, ..it }));
+}
+
+/// Vehicles one behind the other in a lane.
+fn in_lane(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>) {
+    let motions = scene.motions(chain);
+    for (index, behind) in motions.iter().enumerate() {
+        let ahead =
+            motions[index + 1..].iter().zip(index + 1..).take_while(|(it, _)| it.x - LONGEST < behind.x);
+        for (_, other) in ahead.filter(|(it, _)| it.rear() < behind.x) {
+            out.extend(incident(scene, Spot { chain, index }, Spot { chain, index: other }, time));
+        }
+    }
+}
+
+/// Vehicles on two lanes that come close to each other, but for those that follow each other from the one to the other.
+fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, out: &mut Vec<Incident>) {
+    let others = scene.motions(nearby.chain);
+    if others.is_empty() {
+        return;
+    }
+    let there = within(others, nearby.there);
+    if there.is_empty() {
+        return;
+    }
+    let motions = scene.motions(chain);
+    let [one, other] = [(chain, nearby.chain), (nearby.chain, chain)]
+        .map(|(back, on)| scene.network.chain(back).following.contains(&on));
+    let is_apart = |here: usize, index: usize| {
+        let follows = |on: ChainIndex, index: usize, back: ChainIndex| {
+            scene.minds(on)[index].trail.last() == Some(back) || scene.motions(on)[index].rear() >= 0.0
+        };
+        let gap = |back: ChainIndex, ahead: &Motion, behind: &Motion| {
+            scene.network.chain(back).length - behind.x + ahead.rear()
+        };
+        (one && follows(nearby.chain, index, chain) && gap(chain, &others[index], &motions[here]) > 0.0)
+            || (other
+                && follows(chain, here, nearby.chain)
+                && gap(nearby.chain, &motions[here], &others[index]) > 0.0)
+    };
+    for index in within(motions, nearby.here).filter(|it| reaches(&motions[*it], nearby.here)) {
+        let near = there.clone().filter(|it| reaches(&others[*it], nearby.there) && !is_apart(index, *it));
+        for other in near {
+            out.extend(incident(
+                scene,
+                Spot { chain, index },
+                Spot { chain: nearby.chain, index: other },
+                time,
+            ));
+        }
+    }
+}
+
+/// Whether a vehicle with its front on a stretch of fronts reaches back to where others are near.
+fn reaches(motion: &Motion, fronts: [f64; 2]) -> bool {
+    motion.rear() <= fronts[1] - LONGEST
+}
+
+/// The vehicles with their fronts on a stretch.
+fn within(motions: &[Motion], [from, to]: [f64; 2]) -> std::ops::Range<usize> {
+    motions.partition_point(|it| it.x < from)..motions.partition_point(|it| it.x <= to)
+}
+
+/// A vehicle between two lanes, and all around it on these and on those beside them.
+fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
+    let lane = &scene.lanes[spot.chain.at()];
+    let (motion, mind) = (&lane.motions()[spot.index], &lane.minds()[spot.index]);
+    let own = [Some((spot.chain, motion.x)), mind.twin.map(|twin| (twin.chain, twin.x))];
+    let beside = |side, place: Option<(ChainIndex, f64)>| {
+        let (chain, x) = place?;
+        scene.network.chain(chain).beside(side, x).map(|it| (it.chain, it.across(x)))
+    };
+    let [left, right] = Side::BOTH.map(|side| own.map(|place| beside(side, place)));
+    let places = [own[0], own[1], left[0], left[1], right[0], right[1]];
+    for (number, place) in places.iter().enumerate() {
+        let Some((chain, x)) = *place else { continue };
+        if places[..number].iter().flatten().any(|(earlier, _)| *earlier == chain) {
+            continue;
+        }
+        let motions = scene.motions(chain);
+        let rear = x - f64::from(motion.length);
+        let is_level = |it: &Motion| it.x > rear - ASKEW && it.rear() < x + ASKEW;
+        for index in within(motions, [x - REACH, x + REACH]).filter(|it| is_level(&motions[*it])) {
+            out.extend(incident(scene, spot, Spot { chain, index }, time));
+        }
+    }
+}
+
+/// What two entries are to each other: nothing if they are of one vehicle, or their vehicles are apart.
+fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident> {
+    if scene.motion(one).id == scene.motion(other).id {
+        return None;
+    }
+    let mut spots = [main_entry(scene, one)?, main_entry(scene, other)?];
+    spots.sort_by_key(|it| scene.motion(*it).id);
+    let [a, b] = spots.map(|it| Rectangle::of(scene, it));
+    let depth = a.depth(&b);
+    if depth <= TOLERANCE || (a.pose.at.z - b.pose.at.z).abs() > HEIGHT {
+        return None;
+    }
+    Some(Incident {
+        kind: if a.closes(&b) { IncidentKind::Collision } else { IncidentKind::Overlap },
+        time,
+        vehicles: spots.map(|it| scene.motion(it).id),
+        characters: spots.map(|it| scene.car(it).character),
+        classes: spots.map(|it| scene.car(it).class),
+        places: spots.map(|it| (it.chain, scene.motion(it).x)),
+        at: a.pose.at.midpoint(&b.pose.at),
+        speeds: [a.speed, b.speed],
+        depth,
+    })
+}
+
+/// The main entry of the vehicle whose entry is at `spot`.
+fn main_entry(scene: &Scene, spot: Spot) -> Option<Spot> {
+    if !scene.car(spot).is_shadow {
+        return Some(spot);
+    }
+    let twin = scene.mind(spot).twin?;
+    let index = scene.lanes[twin.chain.at()].find(scene.motion(spot).id, twin.x)?;
+    Some(Spot { chain: twin.chain, index })
+}
+
+/// A vehicle seen from above.
+struct Rectangle {
+    pose: Pose,
+    speed: f64,
+    length: f64,
+    width: f64,
+}
+
+impl Rectangle {
+    fn of(scene: &Scene, spot: Spot) -> Rectangle {
+        let (Motion { length, speed, .. }, class) = (*scene.motion(spot), scene.car(spot).class);
+        Rectangle { pose: pose(scene, spot), speed, length: f64::from(length), width: class.body().width }
+    }
+
+    /// Half its extent along the direction (`x`, `y`).
+    fn reach(&self, x: f64, y: f64) -> f64 {
+        let (sin, cos) = self.pose.heading.sin_cos();
+        0.5 * (self.length * (cos * x + sin * y).abs() + self.width * (cos * y - sin * x).abs())
+    }
+
+    /// How deep two rectangles intersect, by separating axes; not positive where they are apart.
+    fn depth(&self, other: &Rectangle) -> f64 {
+        let (dx, dy) = self.to(other);
+        let axes = [self, other].into_iter().flat_map(|it| {
+            let (sin, cos) = it.pose.heading.sin_cos();
+            [(cos, sin), (-sin, cos)]
+        });
+        axes.map(|(x, y)| self.reach(x, y) + other.reach(x, y) - (dx * x + dy * y).abs())
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    fn to(&self, other: &Rectangle) -> (f64, f64) {
+        (other.pose.at.x - self.pose.at.x, other.pose.at.y - self.pose.at.y)
+    }
+
+    /// Whether the centres come closer to each other.
+    fn closes(&self, other: &Rectangle) -> bool {
+        let (dx, dy) = self.to(other);
+        let velocity = |it: &Rectangle| {
+            let (sin, cos) = it.pose.heading.sin_cos();
+            (it.speed * cos, it.speed * sin)
+        };
+        let ((ax, ay), (bx, by)) = (velocity(self), velocity(other));
+        dx * (bx - ax) + dy * (by - ay) < 0.0
+    }
+}

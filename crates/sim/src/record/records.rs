@@ -1,0 +1,34 @@
+//! Records of lane changes under way, kept in slots that are used again.
+
+use crate::record::events::LaneChange;
+use crate::state::tight::push_tight;
+use serde::{Deserialize, Serialize};
+
+/// The records.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Records {
+    kept: Vec<LaneChange>,
+    free: Vec<u32>,
+}
+
+impl Records {
+    /// Keeps a record; returns its slot.
+    pub(crate) fn keep(&mut self, record: LaneChange) -> u32 {
+        if let Some(slot) = self.free.pop() {
+            self.kept[slot as usize] = record;
+            return slot;
+        }
+        push_tight(&mut self.kept, record);
+        self.kept.len() as u32 - 1
+    }
+
+    /// The record in `slot`.
+    pub(crate) fn get_mut(&mut self, slot: u32) -> &mut LaneChange {
+        &mut self.kept[slot as usize]
+    }
+
+    /// The record in `slot` is no longer needed.
+    pub(crate) fn release(&mut self, slot: u32) {
+        self.free.push(slot);
+    }
+}

@@ -1,0 +1,85 @@
+//! Counts of a run.
+
+use crate::record::signs::Sign;
+use serde::{Deserialize, Serialize};
+
+/// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on who did what.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tally {
+    /// Times that a driver considered lanes.
+    pub considerations: u64,
+    /// Of them, by drivers on a free road.
+    pub free_considerations: u64,
+    /// Desires that came to them.
+    pub free_desires: u64,
+    /// Of them, by drivers held up beside a free lane.
+    pub held_up_considerations: u64,
+    /// Desires that came to them.
+    pub held_up_desires: u64,
+    /// Vehicles moved, summed over steps.
+    pub updates: u64,
+    /// Distance driven [m].
+    pub distance: f64,
+    /// Braking events that kinematics, not the model, decided.
+    pub emergency_brakings: u64,
+    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each other.
+    pub collisions: u64,
+    /// Other times that two vehicles came to overlap.
+    pub overlaps: u64,
+    /// Vehicles that stood for 300 s.
+    pub stuck: u64,
+    /// Drivers who passed the last place for a change without reaching a lane of their route.
+    pub missed_turns: u64,
+    /// Drivers who had no way left to any destination.
+    pub lost: u64,
+    /// Times that a driver left its route for a better one.
+    pub route_changes: u64,
+}
+
+impl Tally {
+    /// Counts a consideration of a driver with `sign`, and whether the desire came.
+    #[inline]
+    pub(crate) fn count_sign(&mut self, sign: Option<Sign>, has_come: bool) {
+        let (considerations, desires) = match sign {
+            None => return,
+            Some(Sign::Free) => (&mut self.free_considerations, &mut self.free_desires),
+            Some(Sign::HeldUp) => (&mut self.held_up_considerations, &mut self.held_up_desires),
+        };
+        *considerations += 1;
+        *desires += u64::from(has_come);
+    }
+
+    /// Adds `other`.
+    pub fn add(&mut self, other: &Tally) {
+        let Tally {
+            considerations,
+            free_considerations,
+            free_desires,
+            held_up_considerations,
+            held_up_desires,
+            updates,
+            distance,
+            emergency_brakings,
+            collisions,
+            overlaps,
+            stuck,
+            missed_turns,
+            lost,
+            route_changes,
+        } = other;
+        self.considerations += considerations;
+        self.free_considerations += free_considerations;
+        self.free_desires += free_desires;
+        self.held_up_considerations += held_up_considerations;
+        self.held_up_desires += held_up_desires;
+        self.updates += updates;
+        self.distance += distance;
+        self.emergency_brakings += emergency_brakings;
+        self.collisions += collisions;
+        self.overlaps += overlaps;
+        self.stuck += stuck;
+        self.missed_turns += missed_turns;
+        self.lost += lost;
+        self.route_changes += route_changes;
+    }
+}

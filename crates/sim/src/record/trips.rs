@@ -1,0 +1,141 @@
+//! What is kept of each trip until it ends: the time that it would take on a free road, and how often the vehicle stopped.
+//! It lies cold, by the vehicle's id.
+
+use std::collections::VecDeque;
+
+use laneweave_network::{Chain, ChainIndex, Network, Side};
+use serde::{Deserialize, Serialize};
+
+use crate::route::navigate::Navigator;
+use crate::route::ways::Waypoint;
+use crate::state::goal::Destination;
+use crate::state::traffic::VehicleId;
+
+/// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours; above it
+/// the number of times that the vehicle came to a halt; and whether it is over.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Trip(u32);
+
+impl Trip {
+    const TENTHS: u32 = (1 << 20) - 1;
+    const STOP: u32 = 1 << 20;
+    const STOPS: u32 = (1 << 11) - 1;
+    const OVER: u32 = 1 << 31;
+    /// Not begun, or to nowhere.
+    const AHEAD: Trip = Trip(Trip::TENTHS);
+
+    fn begin(&mut self, free_time: Option<f64>) {
+        let tenths =
+            free_time.map_or(Trip::TENTHS, |it| (10.0 * it).round().min(f64::from(Trip::TENTHS)) as u32);
+        self.0 = (self.0 & !Trip::TENTHS) | tenths;
+    }
+
+    fn stop(&mut self) {
+        if self.stops() < Trip::STOPS {
+            self.0 += Trip::STOP;
+        }
+    }
+
+    fn is_over(self) -> bool {
+        self.0 & Trip::OVER != 0
+    }
+
+    /// Times that the vehicle came to a halt, 2047 at most.
+    pub(crate) fn stops(self) -> u32 {
+        (self.0 / Trip::STOP) & Trip::STOPS
+    }
+
+    /// What a trip of `duration` [s] took beyond the time on a free road [s], if it went anywhere.
+    pub(crate) fn delay(self, duration: f64) -> Option<f64> {
+        let tenths = self.0 & Trip::TENTHS;
+        (tenths < Trip::TENTHS).then(|| duration - 0.1 * f64::from(tenths))
+    }
+}
+
+/// The trips of all vehicles since the oldest one that is not over.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Trips {
+    oldest: VehicleId,
+    trips: VecDeque<Trip>,
+}
+
+impl Trips {
+    /// A trip begins.
+    pub(crate) fn begin(&mut self, id: VehicleId, free_time: Option<f64>) {
+        let place = (id - self.oldest) as usize;
+        if place >= self.trips.len() {
+            // Doubling would leave half of the memory unused.
+            let more = place + 1 - self.trips.len();
+            if self.trips.capacity() <= place {
+                self.trips.reserve_exact(more + self.trips.len() / 16);
+            }
+            self.trips.resize(place + 1, Trip::AHEAD);
+        }
+        self.trips[place].begin(free_time);
+    }
+
+    /// The vehicle came to a halt.
+    pub(crate) fn stop(&mut self, id: VehicleId) {
+        self.trips[(id - self.oldest) as usize].stop();
+    }
+
+    /// A trip ends.
+    pub(crate) fn end(&mut self, id: VehicleId) -> Trip {
+        let trip = &mut self.trips[(id - self.oldest) as usize];
+        trip.0 |= Trip::OVER;
+        let ended = *trip;
+        while self.trips.front().is_some_and(|it| it.is_over()) {
+            self.trips.pop_front();
+            self.oldest += 1;
+        }
+        ended
+    }
+}
+
+/// Time [s] that a driver takes from `x` on `chain` to its destination on a free road, who drives at `speed` [m/s] under
+/// each limit and changes lanes where it last can. None without a destination, or a way to it.
+pub(crate) fn free_time(
+    network: &Network,
+    navigator: &Navigator,
+    destination: Destination,
+    (mut chain, mut x): (ChainIndex, f64),
+    speed: impl Fn(f64) -> f64,
+) -> Option<f64> {
+    destination?;
+    let mut time = 0.0;
+    // No way passes a chain twice but for a detour at its beginning.
+    for _ in 0..=2 * network.chains.len() {
+        let here = network.chain(chain);
+        let waypoint = navigator.waypoint_from(network, destination, chain, x);
+        let Waypoint { changes, last_place, next, end, .. } = *waypoint;
+        if changes >= Waypoint::NO_WAY {
+            return None;
+        }
+        let until = end.min(last_place).min(here.length).max(x);
+        time += time_between(here, [x, until], &speed);
+        if end <= here.length {
+            return Some(time);
+        }
+        (chain, x) = if last_place <= here.length {
+            let beside = Side::BOTH.into_iter().filter_map(|side| here.beside(side, until));
+            let changes_from = |it: ChainIndex| navigator.waypoint(destination, it).changes;
+            let best = beside
+                .min_by_key(|it| changes_from(it.chain))
+                .filter(|it| changes_from(it.chain) < changes)?;
+            (best.chain, best.across(until))
+        } else {
+            match next {
+                Some(next) => (next, 0.0),
+                None => return Some(time),
+            }
+        };
+    }
+    None
+}
+
+/// Time from one station of `chain` to another [s].
+fn time_between(chain: &Chain, [from, to]: [f64; 2], speed: &impl Fn(f64) -> f64) -> f64 {
+    let ends = chain.limits.iter().skip(1).map(|it| it.start).chain([chain.length]);
+    let pieces = chain.limits.iter().zip(ends);
+    pieces.map(|(limit, end)| (end.min(to) - limit.start.max(from)).max(0.0) / speed(limit.speed)).sum()
+}

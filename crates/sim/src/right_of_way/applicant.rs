@@ -1,0 +1,45 @@
+//! Who asks to pass a junction: all that the right of way depends on, whether it is on the road or waits to come onto it.
+
+use laneweave_models::Style;
+use laneweave_models::yielding::time_to_cover;
+
+use crate::junction::passages::Passage;
+use crate::view::scene::{Scene, Spot, Viewpoint};
+
+/// Who asks to pass a junction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Applicant<'a> {
+    /// Where it is, and where it goes.
+    pub(crate) from: Viewpoint,
+    /// Length [m].
+    pub(crate) length: f64,
+    /// Speed [m/s].
+    pub(crate) speed: f64,
+    /// Desired speed [m/s].
+    pub(crate) desired: f64,
+    /// Its driver's style.
+    pub(crate) style: &'a Style,
+    /// What it has been given already.
+    pub(crate) passage: Option<&'a Passage>,
+}
+
+impl<'a> Applicant<'a> {
+    /// The driver at `spot`.
+    #[inline]
+    pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Applicant<'a> {
+        let (motion, car) = (scene.motion(spot), scene.car(spot));
+        Applicant {
+            from: scene.viewpoint(spot),
+            length: f64::from(motion.length),
+            speed: motion.speed,
+            desired: f64::from(car.desired),
+            style: &scene.characters[car.character as usize],
+            passage: scene.passages.of(scene.mind(spot).passage, motion.id),
+        }
+    }
+
+    /// Time until its front is `distance` ahead [s].
+    pub(crate) fn time_to(&self, distance: f64) -> f64 {
+        time_to_cover(distance, self.speed, self.desired)
+    }
+}

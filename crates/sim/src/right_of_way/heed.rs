@@ -1,0 +1,177 @@
+//! What a driver heeds at a junction while it drives on.
+
+use laneweave_models::follow::Ahead;
+use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
+
+use crate::junction::claim::Hold;
+use crate::junction::passages::Passage;
+use crate::right_of_way::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead, stops_before};
+use crate::state::standstill::ROOM_AT_A_STOP;
+use crate::state::standstill::STANDS;
+use crate::state::standstill::STANDSTILL;
+use crate::view::scene::{Scene, Spot};
+
+/// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
+pub(crate) const LONG: f64 = 7.0;
+/// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
+/// yellow times).
+pub const STOPS_AT_YELLOW: f64 = 3.0;
+/// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s] (ours).
+const GENTLE: f64 = 1.5;
+const EARLY: f64 = 1.5;
+/// And never later than at this distance [m].
+const NEAR: f64 = 10.0;
+
+/// What a driver heeds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Junction {
+    /// Distance of the front to where it has to stop [m].
+    pub(crate) stop: Option<f64>,
+    /// Whom it follows into a merge.
+    pub(crate) leader: Option<Ahead>,
+    /// It would like to pass, and waits for it.
+    pub(crate) asks: bool,
+    /// It does not go on at the light there as long as this shows what it shows.
+    pub(crate) is_held: bool,
+    /// What it cannot use of its passage now, from so far beyond its beginning on [m]: a light that it meant to pass is no longer
+    /// green, and it can stop there; or somebody without a passage came before it, and it stands.
+    pub(crate) gives_back: Option<f64>,
+}
+
+/// How far ahead a driver at `speed` [m/s] heeds junctions [m].
+#[inline]
+pub(crate) fn sight(speed: f64) -> f64 {
+    speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
+}
+
+/// Whether the driver at `spot` is far from all junctions and has no passage: there is nothing to heed.
+#[inline]
+pub(crate) fn is_nothing_near(scene: &Scene, spot: Spot) -> bool {
+    let until = sight(scene.motion(spot).speed);
+    is_far(scene, scene.viewpoint(spot), until) && scene.passage(spot).is_none()
+}
+
+/// What the driver at `spot` heeds.
+#[inline]
+pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
+    if is_nothing_near(scene, spot) {
+        return Junction::default();
+    }
+    look_closely(scene, spot, sight(scene.motion(spot).speed))
+}
+
+/// What it heeds within `until` [m].
+#[inline(never)]
+fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
+    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let mut junction = Junction::default();
+    let mut granted = 0.0;
+    if let Some(passage) = scene.passage(spot) {
+        heed_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
+        junction.gives_back = to_give_back(scene, passage, motion.speed)
+            .or_else(|| if motion.speed < STANDSTILL { cut_off_from(scene, spot, passage) } else { None });
+        // What is given back is not used any more from now on.
+        let left = junction.gives_back.map_or(passage.left(), |from| from - passage.travelled);
+        granted = left.max(0.0);
+    }
+    if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
+        junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
+        // Who has to leave the lane before does not go on along it.
+        let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
+        let is_settled = !car.is_shadow && !car.phase.is_between_lanes();
+        // Who has others before it that have to stop waits until they are let go.
+        let is_first = || !stops_before(scene, scene.viewpoint(spot), stop);
+        junction.asks = keeps_lane && is_settled && junction.gives_back.is_none() && is_first();
+        junction.is_held =
+            matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
+    }
+    junction
+}
+
+/// Whether a driver at `speed` [m/s] drives past a light at which it would stop `at` metres ahead.
+pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> bool {
+    match scene.light(light) {
+        LightState::Green => true,
+        LightState::Yellow => !stops_gently(speed, at),
+        LightState::Red => false,
+    }
+}
+
+/// Those on the other side of a zone that the `passage` in `slot` holds who go before it.
+pub(crate) fn earlier<'a>(
+    scene: &'a Scene,
+    passage: &'a Passage,
+    slot: u32,
+    hold: &Hold,
+) -> impl Iterator<Item = &'a Passage> {
+    let (side, touch) = (hold.side, scene.network.junctions.zones[hold.zone.at()].touch);
+    let matters = move |other: &Passage| touch.is_of([passage.length, other.length].map(|it| it >= LONG));
+    let before =
+        scene.passages.order(hold.zone).take_while(move |(it, _)| it.slot != slot || it.side != side);
+    let others = before.filter(move |(it, other)| it.side != side && it.slot != slot && matters(other));
+    others.map(|(_, other)| other)
+}
+
+/// Heeds those who go before it through a zone.
+fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
+    for hold in &passage.holds {
+        let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
+        let mut others = earlier(scene, passage, slot, hold);
+        match kind {
+            ZoneKind::Merging(_) => {
+                if let Some(other) = others.last() {
+                    let ahead = leader_into(hold.leave - passage.travelled, hold, other);
+                    let is_nearer =
+                        junction.leader.is_none_or(|it| ahead.is_some_and(|new| new.gap < it.gap));
+                    junction.leader = if is_nearer { ahead.or(junction.leader) } else { junction.leader };
+                }
+            }
+            ZoneKind::Crossing => {
+                let distance = hold.enter - passage.travelled;
+                if distance > 0.0 && others.next().is_some() {
+                    let stop = distance - BEFORE_A_ZONE;
+                    junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
+                }
+            }
+        }
+    }
+}
+
+/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road its speed is
+/// seen, and not whether it changes (ours).
+pub(crate) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
+    let theirs = other.across(hold)?;
+    let gap = to_merge - (theirs.leave - other.travelled) - other.length;
+    Some(Ahead::steady(gap, other.speed))
+}
+
+/// From where on, along the `passage` of the driver at `spot`, somebody is in its way who has none, as who changed into its lane before
+/// it: whom it lets go first could wait for others, and they for it [m].
+fn cut_off_from(scene: &Scene, spot: Spot, passage: &Passage) -> Option<f64> {
+    let from = scene.viewpoint(spot);
+    let leader =
+        scene.leader_spot(from).filter(|it| scene.passage(*it).is_none_or(|own| own.left() <= 0.0))?;
+    let gap = scene.ahead(from)?.gap;
+    let until = parts(scene, from, leader, gap - scene.motion(leader).rear());
+    let zones = passage.holds.iter().map(|it| it.enter - passage.travelled);
+    let next = zones.filter(|it| *it > gap.max(0.0)).fold(f64::INFINITY, f64::min);
+    (next < f64::INFINITY && gap < until).then_some(passage.travelled + gap.max(0.0))
+}
+
+/// Where a driver stops, from the beginning of its passage on [m], for the first light ahead that is no longer green if it
+/// can do so with comfort and outside of all zones.
+fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
+    let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
+    let (_, at) = passage.lights().find(is_red)?;
+    let line = passage.travelled + at;
+    let zone = passage.zone_over(line);
+    let from = zone.map_or(line, |it| it.min(line));
+    let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - passage.travelled;
+    (from > passage.travelled && stops_gently(speed, stop)).then_some(from)
+}
+
+/// Whether a driver at `speed` [m/s] can stop where one stops for a place `at` metres ahead without hard braking.
+fn stops_gently(speed: f64, at: f64) -> bool {
+    let way = if speed < STANDS { at } else { at - ROOM_AT_A_STOP };
+    speed * speed <= 2.0 * STOPS_AT_YELLOW * way.max(0.0)
+}

@@ -1,0 +1,86 @@
+//! Who comes on the other side of a zone, and when.
+
+use laneweave_models::yielding::time_to_cover;
+use laneweave_network::{ChainIndex, LightState, Reach, Sign, ZoneIndex};
+
+use crate::view::scene::{Scene, Spot};
+
+/// Others are looked for so far along their way [m] (ours).
+const SIGHT: f64 = 130.0;
+/// Most chains that are looked along.
+const MOST_CHAINS: usize = 24;
+/// Who stands, slower than this [m/s], claims its turn where it has one; nobody need wait for it to start.
+const STANDS: f64 = 0.5;
+
+/// Least time [s] in which somebody who has no passage there arrives at the stretch `reach`, a side of `zone`; infinite
+/// if nobody is in sight.
+pub(crate) fn lag(scene: &Scene, zone: ZoneIndex, reach: &Reach) -> f64 {
+    let mut open: [(ChainIndex, f64, f64); MOST_CHAINS] = [(reach.chain, reach.start, 0.0); MOST_CHAINS];
+    let (mut at, mut count) = (0, 1);
+    let mut least = f64::INFINITY;
+    while at < count {
+        // Stations before `end` of the chain are looked at; that is `base` before the zone.
+        let (chain, end, base) = open[at];
+        at += 1;
+        let is_before_it = at > 1;
+        let red = red_before(scene, chain, end);
+        let lane = &scene.lanes[chain.at()];
+        let from = lane.motions().partition_point(|it| it.x < end);
+        let mut is_shielded = false;
+        for index in (0..from).rev() {
+            let (motion, car) = (&lane.motions()[index], &lane.cars()[index]);
+            let distance = base + end - motion.x;
+            if distance > SIGHT || red.is_some_and(|red| motion.x < red) {
+                is_shielded = true;
+                break;
+            }
+            let spot = Spot { chain, index };
+            if car.is_shadow || holds(scene, spot, zone) || (is_before_it && !comes(scene, spot, &open[..at]))
+            {
+                continue;
+            }
+            is_shielded = true;
+            if motion.speed >= STANDS {
+                least = least.min(time_to_cover(distance, motion.speed, f64::from(car.desired)));
+            }
+            break;
+        }
+        if is_shielded || red.is_some() || base + end > SIGHT {
+            continue;
+        }
+        for back in &scene.network.chain(chain).previous {
+            let known = open[..count].iter().any(|it| it.0 == *back);
+            if count < MOST_CHAINS && !known {
+                open[count] = (*back, scene.network.chain(*back).length, base + end);
+                count += 1;
+            }
+        }
+    }
+    least
+}
+
+/// Last station before `end` at which a light of the chain stops its drivers [m].
+fn red_before(scene: &Scene, chain: ChainIndex, end: f64) -> Option<f64> {
+    let stops = scene.network.junctions.on(chain).stops.iter().rev();
+    let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if scene.light(it) == LightState::Red);
+    stops.filter(|it| it.station < end && is_red(it.sign)).map(|it| it.station).next()
+}
+
+fn holds(scene: &Scene, spot: Spot, zone: ZoneIndex) -> bool {
+    let passage = scene.passages.of(scene.mind(spot).passage, scene.motion(spot).id);
+    passage.is_some_and(|it| it.holds.iter().any(|hold| hold.zone == zone))
+}
+
+/// Whether the way of a vehicle leads over the chains that were looked along to get to it.
+fn comes(scene: &Scene, spot: Spot, looked: &[(ChainIndex, f64, f64)]) -> bool {
+    let destination = scene.car(spot).goal.destination();
+    let (mut chain, zone_chain) = (spot.chain, looked[0].0);
+    for _ in 0..looked.len() {
+        match scene.next(destination, chain) {
+            Some(next) if next == zone_chain => return true,
+            Some(next) => chain = next,
+            None => return false,
+        }
+    }
+    false
+}

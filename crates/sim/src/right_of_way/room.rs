@@ -1,0 +1,87 @@
+//! How much room there is for a vehicle where it would stand beyond zones.
+
+use laneweave_network::Side;
+
+use crate::junction::need::SPARE_ROOM;
+use crate::junction::refuge::Refuge;
+use crate::right_of_way::survey::{ROUNDING, parts};
+use crate::state::traffic::Phase;
+use crate::view::scene::{Scene, Spot, Viewpoint};
+
+/// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).
+pub(crate) const ROOM_SIGHT: f64 = 120.0;
+/// Braking that is expected of who is beyond the zones [m/s²] (ours).
+const EXPECTED_BRAKING: f64 = 4.0;
+
+/// Where a vehicle would stand after its passage. Distances are those from its front now [m].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beyond {
+    pub(crate) refuge: Refuge,
+    /// Where the zones end.
+    pub(crate) clear: f64,
+    /// Where the next place, or the end of the way, lets it go no further.
+    pub(crate) limit: f64,
+    /// Time until it is out of the zones [s].
+    pub(crate) arrival: f64,
+}
+
+/// Room from where the zones end [m], to the limit or to where the vehicles that are out of the zones will all be; none if somebody
+/// ahead who is not out of them, and of the way, has no passage out.
+pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
+    const NONE: f64 = f64::NEG_INFINITY;
+    let Beyond { refuge, clear, limit, arrival } = beyond;
+    if scene.waits_beside_in_fork(from).is_some() {
+        return NONE;
+    }
+    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+    let mut taken = scene.passages.kept_on(refuge);
+    let mut end = f64::INFINITY;
+    loop {
+        let lane = &scene.lanes[chain.at()];
+        for (motion, index) in lane.motions()[index..].iter().zip(index..) {
+            let rear = base + motion.rear();
+            if motion.id == from.id {
+                continue;
+            }
+            if rear > limit || rear > clear + ROOM_SIGHT {
+                return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear;
+            }
+            let spot = Spot { chain, index };
+            let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
+            let gets_to = rear + passage.map_or(0.0, |it| it.left_for_certain().max(0.0));
+            if rear >= clear {
+                // Whose passage leads beyond the room does not stop in it.
+                if gets_to < limit {
+                    let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
+                    let moves_to =
+                        if moves_up(scene, from, spot) { rear + motion.speed * arrival } else { rear };
+                    end = end.min(moves_to.max(stops_at).max(gets_to) - taken);
+                    taken += f64::from(motion.length) + SPARE_ROOM;
+                }
+                continue;
+            }
+            if gets_to < clear.min(parts(scene, from, spot, base)) - ROUNDING {
+                return NONE;
+            }
+        }
+        base += scene.network.chain(chain).length;
+        match scene.next(from.destination, chain) {
+            Some(next) if base < clear + ROOM_SIGHT => {
+                if base < clear && scene.waits_in_fork(chain, next, from.id).is_some() {
+                    return NONE;
+                }
+                (chain, index) = (next, 0);
+            }
+            _ => return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear,
+        }
+    }
+}
+
+/// Whether the vehicle at `spot` drives on as long as those before it on the way of who looks `from` do: it goes the same way, and
+/// has to do with no other lane.
+fn moves_up(scene: &Scene, from: Viewpoint, spot: Spot) -> bool {
+    let (x, car, chain) = (scene.motion(spot).x, scene.car(spot), scene.network.chain(spot.chain));
+    let is_alone = || [Side::Left, Side::Right].iter().all(|it| chain.beside(*it, x).is_none());
+    let stays = !car.is_shadow && car.phase == Phase::Cruises && is_alone();
+    stays && parts(scene, from, spot, 0.0) == f64::INFINITY
+}

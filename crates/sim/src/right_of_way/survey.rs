@@ -1,0 +1,485 @@
+//! What a driver sees of the junction ahead: where it has to stop without a passage, and what passage it needs.
+
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
+use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
+
+use crate::junction::claim::Hold;
+use crate::junction::need::{SPARE_ROOM, Survey};
+use crate::junction::refuge::Refuge;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::room::{Beyond, ROOM_SIGHT, room};
+use crate::state::standstill::ROOM_AT_A_STOP;
+use crate::view::scene::{Scene, Spot, Viewpoint};
+
+/// How far before a zone a vehicle stops [m] (ours).
+pub(crate) const BEFORE_A_ZONE: f64 = 1.0;
+/// How far before a zone the first of a queue stands [m].
+pub const STANDS_BEFORE_A_ZONE: f64 = BEFORE_A_ZONE + ROOM_AT_A_STOP;
+/// How far before a line it stops [m] (ours).
+const BEFORE_A_LINE: f64 = 0.3;
+/// How far before a line the first of a queue stands [m].
+pub const STANDS_BEFORE_A_LINE: f64 = BEFORE_A_LINE + ROOM_AT_A_STOP;
+/// A reservation leads so far over the last place within it [m], more than distances are rounded (ours).
+const PAST_A_PLACE: f64 = 0.1;
+/// A line belongs to the zones that follow within this [m] (ours).
+const LINE_TO_ZONE: f64 = 30.0;
+
+/// A place on a driver's way where it may have to stop.
+#[derive(Clone, Copy)]
+pub(crate) struct Point {
+    /// Where the front has to stay behind [m].
+    pub(crate) stop: f64,
+    pub(crate) what: What,
+}
+
+impl Point {
+    /// `place` on a chain whose start is `base` ahead [m].
+    fn of(place: &Place, base: f64) -> Point {
+        let at = base + place.station;
+        match place.what {
+            PlaceKind::Sign(sign) => Point { stop: at - BEFORE_A_LINE, what: What::Sign(sign) },
+            PlaceKind::Zone { crossing, end, merge, .. } => {
+                let what = What::Zone(crossing, base + end, merge.map(|it| base + it));
+                Point { stop: at - BEFORE_A_ZONE, what }
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(crate) enum What {
+    Sign(Sign),
+    /// A zone, its end, and the place where the lanes become one, if they do [m].
+    Zone(Crossing, f64, Option<f64>),
+}
+
+/// Visits the places on the way of who looks `from`, in order, up to `until` [m], which may grow on the way. Returns how far the way
+/// goes on.
+fn points(
+    scene: &Scene,
+    from: Viewpoint,
+    until: &Cell<f64>,
+    mut visit: impl FnMut(Point, f64, ChainIndex) -> ControlFlow<()>,
+) -> f64 {
+    let junctions = &scene.network.junctions;
+    let (mut chain, mut base) = (from.chain, -from.x);
+    loop {
+        let places = &junctions.on(chain).places[..];
+        let trip_end = base + scene.navigator.trip_end(from.destination, chain);
+        let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
+        // Who has its front beyond a place has passed it.
+        let passed = places.partition_point(|it| base + it.station <= 0.0);
+        for place in &places[passed..] {
+            let at = base + place.station;
+            if at > trip_end {
+                return f64::INFINITY;
+            }
+            if at > until.get() {
+                return until.get();
+            }
+            if !concerns(place, from.is_long) {
+                continue;
+            }
+            if visit(Point::of(place, base), at, chain).is_break() {
+                return at;
+            }
+        }
+        if trip_end < f64::INFINITY {
+            return f64::INFINITY;
+        }
+        let here = scene.network.chain(chain);
+        base += here.length;
+        if base > until.get() {
+            return until.get();
+        }
+        match scene.next(from.destination, chain) {
+            Some(next) => chain = next,
+            None if here.is_lane_drop => return base - here.length + here.driven_until(from.is_long),
+            None => return f64::INFINITY,
+        }
+    }
+}
+
+/// Whether a place matters to vehicles that are long or not.
+fn concerns(place: &Place, is_long: bool) -> bool {
+    match place.what {
+        PlaceKind::Sign(_) => true,
+        PlaceKind::Zone { touch, .. } => touch.concerns(is_long),
+    }
+}
+
+/// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
+/// `granted` [m] it has.
+pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
+    if granted >= until || is_far(scene, from, until) {
+        return None;
+    }
+    let mut found = None;
+    points(scene, from, &Cell::new(until), |point, at, _| {
+        if at <= granted {
+            return ControlFlow::Continue(());
+        }
+        found = Some(point);
+        ControlFlow::Break(())
+    });
+    found
+}
+
+/// Whether there is a place within `until` [m] where who looks `from` might have to stop.
+pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool {
+    if is_far(scene, from, until) {
+        return false;
+    }
+    let mut is_there = false;
+    points(scene, from, &Cell::new(until), |_, _, _| {
+        is_there = true;
+        ControlFlow::Break(())
+    });
+    is_there
+}
+
+/// Whether there is no place within `until` [m], whichever way one goes.
+#[inline]
+pub(crate) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
+    /// Sums of lengths are not told apart closer than this [m].
+    const ROUNDING: f64 = 0.001;
+    let length = scene.network.chain(from.chain).length;
+    scene.network.junctions.free_way(from.chain, from.x, length) - ROUNDING > until
+}
+
+/// Whether a vehicle ahead has to stop before who looks `from` comes to a place `distance` ahead [m].
+pub(crate) fn stops_before(scene: &Scene, from: Viewpoint, distance: f64) -> bool {
+    shield(scene, from, distance) < distance
+}
+
+/// How far the way of the vehicle ahead is free, as far as `until` [m].
+fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
+    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+    if let Some(rear) = scene.waits_beside_in_fork(from) {
+        return rear - from.x;
+    }
+    loop {
+        let lane = &scene.lanes[chain.at()];
+        let ahead = lane.motions()[index..].iter().zip(index..).find(|(it, _)| it.id != from.id);
+        if let Some((motion, index)) = ahead {
+            let passage = scene.passage(Spot { chain, index });
+            return base + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
+        }
+        base += scene.network.chain(chain).length;
+        let Some(next) = scene.next(from.destination, chain).filter(|_| base < until) else {
+            return f64::INFINITY;
+        };
+        // Who waits within the fork is in the way of all that come after.
+        if let Some(rear) = scene.waits_in_fork(chain, next, from.id) {
+            return base + rear;
+        }
+        (chain, index) = (next, 0);
+    }
+}
+
+/// Surveys the passage that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one within
+/// `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
+pub(crate) fn survey(
+    scene: &Scene,
+    applicant: &Applicant,
+    [granted, until]: [f64; 2],
+    is_held: impl Fn(LightIndex, f64) -> bool,
+    out: &mut Survey,
+) -> bool {
+    let Applicant { from, length, .. } = *applicant;
+    out.lights.clear();
+    out.holds.clear();
+    out.has_stop_sign = false;
+    let mut first: Option<f64> = None;
+    let mut ends = false;
+    let mut clear = f64::NEG_INFINITY;
+    // The last place that it leads over: nobody stops there any more, even where the rear would be out of the zones a little before.
+    let mut last = f64::NEG_INFINITY;
+    let mut next_stop = f64::INFINITY;
+    // As far as the vehicle will need room: zones may be longer than anybody sees.
+    let far = Cell::new(until + ROOM_SIGHT);
+    let way_end = points(scene, from, &far, |point, at, _| {
+        if at <= granted {
+            return ControlFlow::Continue(());
+        }
+        if first.is_none() && at > until {
+            return ControlFlow::Break(());
+        }
+        let start = *first.get_or_insert(point.stop);
+        let is_apart = match point.what {
+            _ if clear > f64::NEG_INFINITY => point.stop - ROOM_AT_A_STOP >= clear + length + SPARE_ROOM,
+            _ => point.stop > start + LINE_TO_ZONE,
+        };
+        if is_apart {
+            next_stop = point.stop - ROOM_AT_A_STOP;
+            return ControlFlow::Break(());
+        }
+        last = at;
+        match point.what {
+            What::Sign(Sign::Light(light)) => {
+                out.lights.push((light, point.stop));
+                ends = is_held(light, point.stop);
+                if ends {
+                    return ControlFlow::Break(());
+                }
+            }
+            What::Sign(Sign::Stop) => out.has_stop_sign |= point.stop < start + LINE_TO_ZONE,
+            What::Sign(Sign::Line) => {}
+            What::Zone(crossing, end, merge) => {
+                let leave = merge.unwrap_or(end + length);
+                let Crossing { zone, side } = crossing;
+                out.holds.push(Hold { zone, side, enter: at, leave });
+                clear = clear.max(end.min(merge.unwrap_or(f64::INFINITY)));
+                far.set(far.get().max(clear + length + ROOM_SIGHT));
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    let Some(start) = first else { return false };
+    out.stop = start;
+    if ends {
+        out.holds.clear();
+        out.extent = f64::NEG_INFINITY;
+        return true;
+    }
+    let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
+    out.extent = (clear + length).max(last + PAST_A_PLACE);
+    out.needed = length + SPARE_ROOM;
+    let beyond = chain_at(scene, from, clear);
+    (out.refuge, out.refuge_start) =
+        (Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1), beyond.1);
+    let limit = if next_stop < f64::INFINITY || way_end >= far.get() { next_stop } else { way_end };
+    // Whose trip ends before the next place is behind others who stop there.
+    let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
+    let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
+    out.most = (limit - clear).max(out.needed);
+    let arrival = applicant.time_to(out.extent);
+    out.room = room(scene, from, Beyond { refuge: out.refuge, clear, limit, arrival });
+    true
+}
+
+/// The chain on the way on which the place `distance` ahead lies, and how far ahead its start is [m].
+fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) {
+    let (mut chain, mut start) = (from.chain, -from.x);
+    loop {
+        let end = start + scene.network.chain(chain).length;
+        let Some(next) = scene.next(from.destination, chain).filter(|_| end <= distance) else {
+            return (chain, start);
+        };
+        (chain, start) = (next, end);
+    }
+}
+
+/// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
+pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl Iterator<Item = Refuge> {
+    let front = survey.extent;
+    let next = move |(at, start): &(Refuge, f64)| {
+        let end = start + scene.network.chain(at.chain).length;
+        let next = scene.next(from.destination, at.chain).filter(|_| end < front)?;
+        Some((Refuge::first_of(next), end))
+    };
+    std::iter::successors(Some((survey.refuge, survey.refuge_start)), next).map(|(at, _)| at)
+}
+
+/// Whether the vehicle at `spot` stands where the one that looks `from` would after the passage that it surveyed, or ahead of that
+/// before the next place: if it drives off, those between them move up.
+pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spot: Spot) -> bool {
+    /// Most chains that are looked along.
+    const MOST_CHAINS: usize = 24;
+    let junctions = &scene.network.junctions;
+    let next = |at: &Refuge| {
+        let next = scene.next(from.destination, at.chain).filter(|_| at.is_last(junctions));
+        next.map(Refuge::first_of)
+    };
+    let stands_on = Refuge::at(junctions, spot.chain, scene.motion(spot).x);
+    std::iter::successors(Some(survey.refuge), next).take(MOST_CHAINS).any(|it| it == stands_on)
+}
+
+/// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have to
+/// stop [m].
+fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64, is_long: bool) -> f64 {
+    let places = scene.network.junctions.on(chain).places.iter();
+    let stops = places.filter(|it| concerns(it, is_long)).map(|it| start + Point::of(it, 0.0).stop);
+    stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
+}
+
+/// Distances are not told apart closer than this [m].
+pub(crate) const ROUNDING: f64 = 0.5;
+
+/// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite if it
+/// goes on along it.
+pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
+    let own = scene.next(from.destination, spot.chain);
+    let theirs = scene.next(scene.car(spot).goal.destination(), spot.chain);
+    match theirs {
+        Some(next) if theirs != own => {
+            base + scene.network.chain(spot.chain).length + scene.network.chain(next).fork_clearance
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_maps::generate::own_maps;
+    use laneweave_maps::{Drawing, regulations};
+    use laneweave_models::Style;
+    use laneweave_models::change::{LaneChangeModel, Mcdm};
+    use laneweave_models::follow::{FollowingModel, Idm};
+    use laneweave_network::{
+        DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, StopKind, StopRule,
+    };
+
+    use super::*;
+    use crate::route::navigate::Navigator;
+    use crate::state::vehicle::Class;
+    use crate::view::snapshot::{Seen, Snapshot};
+
+    /// A truck that stands.
+    fn standing() -> Seen {
+        Seen {
+            id: 1,
+            chain: ChainIndex(0),
+            x: 0.0,
+            speed: 0.0,
+            acceleration: 0.0,
+            length: 12.0,
+            class: Class::Truck,
+            character: 0,
+            desired: 8.0,
+            destination: None,
+            change: None,
+        }
+    }
+
+    fn driver() -> Style {
+        Style {
+            name: "some".into(),
+            description: String::new(),
+            speed_factor: 1.0,
+            follow: FollowingModel::Idm(Idm::default()),
+            change: LaneChangeModel::Mcdm(Mcdm::default()),
+            safety: Default::default(),
+            attention: Default::default(),
+            manner: Default::default(),
+            yielding: Default::default(),
+            guidance: Default::default(),
+        }
+    }
+
+    #[test]
+    fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
+        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
+        let network = regulated(&drawing);
+        let navigator = Navigator::new(&network);
+        let mut surveyed = 0;
+        for number in 0..6000_u32 {
+            let destination = Some((number % 4) as u16);
+            let chain = ChainIndex(number % network.chains.len() as u32);
+            let x = network.chain(chain).length * f64::from(number) / 6000.0;
+            let truck = Seen { chain, x, destination, ..standing() };
+            let snapshot = Snapshot::new(&network, [truck]);
+            let styles = [driver()];
+            let scene = snapshot.scene(&network, &navigator, &styles);
+            let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
+            if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
+                continue;
+            }
+            let from = scene.viewpoint(spot);
+            let last = refuges(&scene, from, &out).last().unwrap();
+            surveyed += 1;
+            assert_eq!(
+                last.chain,
+                chain_at(&scene, from, out.extent).0,
+                "{chain:?} at {x} m to {destination:?}"
+            );
+        }
+        assert!(surveyed > 100, "{surveyed}");
+    }
+
+    /// Visits what a standing vehicle surveys, at places all over a network.
+    fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, &Survey)) {
+        let navigator = Navigator::new(network);
+        for number in 0..400_u32 {
+            let chain = ChainIndex(number % network.chains.len() as u32);
+            let x = network.chain(chain).length * f64::from(number) / 400.0;
+            let destination = Some((number % network.exits.len() as u32) as u16);
+            let class = if number % 2 == 0 { Class::Truck } else { Class::Car };
+            let length = class.body().length;
+            let seen = Seen { chain, x, length, class, destination, ..standing() };
+            let snapshot = Snapshot::new(network, [seen]);
+            let styles = [driver()];
+            let scene = snapshot.scene(network, &navigator, &styles);
+            let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
+            let mut out = Survey::default();
+            if survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out) {
+                visit(&scene, &applicant, &out);
+            }
+        }
+    }
+
+    fn regulated(drawing: &Drawing) -> Network {
+        let map = drawing.build().unwrap();
+        let rules = regulations(&map);
+        map.network.regulated(&rules)
+    }
+
+    #[test]
+    fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
+        let mut surveyed = 0;
+        for seed in 1..=12 {
+            let network = regulated(&laneweave_maps::generate::random(seed).drawing);
+            survey_all_over(&network, |scene, applicant, out| {
+                surveyed += 1;
+                points(scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
+                    if let What::Zone(crossing, ..) = point.what {
+                        let is_held =
+                            out.holds.iter().any(|it| (it.zone, it.side) == (crossing.zone, crossing.side));
+                        assert!(is_held, "seed {seed}: {crossing:?} at {at} of {} m", out.extent);
+                    }
+                    ControlFlow::Continue(())
+                });
+            });
+        }
+        assert!(surveyed > 200, "{surveyed}");
+    }
+
+    /// A road of 200 m across two others, 25 m apart, with a line behind the first of them.
+    fn two_crossings(line: f64) -> Network {
+        let lane = |id, from: [f64; 2], to: [f64; 2], aside: [f64; 2]| {
+            let border = |by: f64| {
+                let points = [from, to].map(|[x, y]| Point::new(x + by * aside[0], y + by * aside[1], 0.0));
+                Polyline::new(points).unwrap()
+            };
+            Lanelet::alone(id, [1.5, -1.5, 0.0].map(border), 10.0)
+        };
+        let northward = |id, x| lane(id, [x, -50.0], [x, 50.0], [-1.0, 0.0]);
+        let road = lane(1, [0.0, 0.0], [200.0, 0.0], [0.0, 1.0]);
+        let line = [-2.0, 2.0].map(|y| Point::new(line, y, 0.0)).to_vec();
+        let stop =
+            StopRule { id: 9, kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
+        let lanelets = vec![road, northward(2, 50.0), northward(3, 75.0)];
+        let network = Network::new(lanelets, DrivingSide::Right).unwrap();
+        network.regulated(&Regulations { stops: vec![stop], priorities: Vec::new() })
+    }
+
+    #[test]
+    fn a_reservation_leads_over_every_line_before_which_the_rear_would_still_stand_in_a_zone() {
+        let drawings = (1..=12).map(|it| laneweave_maps::generate::random(it).drawing);
+        let own = own_maps().unwrap().into_iter().map(|it| it.1);
+        let drawn = drawings.chain(own).map(|it| regulated(&it));
+        // A truck has left the first crossing when its front is at some 64 m.
+        let lines = [55.0, 58.0, 61.0, 63.0, 64.0, 65.0, 68.0].map(two_crossings);
+        for network in drawn.chain(lines) {
+            survey_all_over(&network, |scene, applicant, out| {
+                let next = stop_ahead(scene, applicant.from, out.extent, out.extent + 20.0);
+                for hold in &out.holds {
+                    let is_out = next.is_none_or(|it| hold.leave <= it.stop - ROOM_AT_A_STOP);
+                    assert!(is_out, "{applicant:?}: {hold:?}, next stop at {:?}", next.map(|it| it.stop));
+                }
+            });
+        }
+    }
+}

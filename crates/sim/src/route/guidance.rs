@@ -1,0 +1,123 @@
+//! Guidance: link times from the traffic itself, and ways planned with them.
+//!
+//! At an interval the time of each link becomes max(BPR(q), L/v̄), with q and v̄ by Edie's definitions over the link and the
+//! interval, from vehicle-metres and vehicle-seconds sampled once a second. Then the ways to all destinations that
+//! somebody drives to are planned anew, so many in a step that the work of a step is bounded.
+
+use laneweave_models::change::link_time;
+use laneweave_models::follow::{FollowingModel, Idm};
+use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
+
+use crate::route::links::{Link, Links};
+use crate::route::navigate::Navigator;
+use crate::route::place::Place;
+use crate::state::traffic::Lane;
+use crate::state::vehicle::Class;
+
+/// Waypoints that are planned in a step, ours: some milliseconds.
+const WAYPOINTS_A_STEP: usize = 4000;
+/// Time between two samples of the traffic [s].
+pub(crate) const SAMPLED_EVERY: f64 = 1.0;
+
+/// What guides drivers.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Guidance {
+    /// Steps between two measurements.
+    pub(crate) period: u32,
+    /// By link, in the order of the links.
+    meters: Vec<Meter>,
+    /// Tables of usual ways whose destinations are to be planned, the next one last.
+    due: Vec<usize>,
+    /// For each table whether somebody follows it.
+    in_use: Vec<bool>,
+    /// Waypoints that may be planned by now.
+    credit: usize,
+}
+
+/// What is measured on a link.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Meter {
+    /// Capacity [veh/s].
+    capacity: f64,
+    /// Vehicle-seconds since the last measurement.
+    seconds: f64,
+    /// Vehicle-metres since the last measurement.
+    metres: f64,
+}
+
+impl Meter {
+    fn of(link: &Link) -> Meter {
+        Meter { capacity: capacity(link.limit), seconds: 0.0, metres: 0.0 }
+    }
+
+    /// Time [s] on `link` by what was counted in `interval` [s], and a new beginning.
+    fn read(&mut self, link: &Link, interval: f64) -> f64 {
+        let Meter { capacity, seconds, metres } = *self;
+        (self.seconds, self.metres) = (0.0, 0.0);
+        if seconds == 0.0 {
+            return link.free_time;
+        }
+        let flow = metres / (link.length * interval);
+        link_time(link.free_time, flow / capacity, link.length, metres / seconds)
+    }
+}
+
+impl Guidance {
+    /// Guides drivers over `links` by measurements every `period` steps.
+    pub(crate) fn new(links: &Links, period: u32) -> Guidance {
+        let meters = links.all().iter().map(Meter::of).collect();
+        Guidance { period, meters, due: Vec::new(), in_use: Vec::new(), credit: 0 }
+    }
+
+    /// Counts who is where.
+    pub(crate) fn sample(&mut self, lanes: &[Lane], links: &Links) {
+        for (lane, chain) in lanes.iter().zip(0..) {
+            let all = lane.motions().iter().zip(lane.cars());
+            for (motion, _) in all.filter(|(_, car)| !car.is_shadow) {
+                let meter = &mut self.meters[links.at(ChainIndex(chain), motion.x)];
+                meter.seconds += SAMPLED_EVERY;
+                meter.metres += SAMPLED_EVERY * motion.speed;
+            }
+        }
+    }
+
+    /// The link times since the last measurement [s].
+    pub(crate) fn measure(&mut self, links: &Links, dt: f64) -> Vec<f64> {
+        let interval = f64::from(self.period) * dt;
+        let all = self.meters.iter_mut().zip(links.all());
+        all.map(|(meter, link)| meter.read(link, interval)).collect()
+    }
+
+    /// Notes which ways somebody follows, and whose destinations are to be planned.
+    pub(crate) fn look_who_drives(&mut self, lanes: &[Lane], navigator: &Navigator) {
+        let Guidance { due, in_use, .. } = self;
+        in_use.clear();
+        in_use.resize(navigator.tables(), false);
+        let goals = lanes.iter().flat_map(|lane| lane.cars()).filter_map(|car| car.goal.destination());
+        goals.for_each(|table| in_use[usize::from(table)] = true);
+        if due.is_empty() {
+            let is_active = |table: &usize| navigator.ways(*table).iter().any(|way| in_use[*way]);
+            due.extend(navigator.usual_tables().rev().filter(is_active));
+        }
+    }
+
+    /// Plans as many of the ways that are due as may be in a step.
+    pub(crate) fn plan(&mut self, network: &Network, destinations: &[Place], navigator: &mut Navigator) {
+        let cost = network.chains.len();
+        self.credit = (self.credit + WAYPOINTS_A_STEP).min(cost.max(WAYPOINTS_A_STEP));
+        while self.credit >= cost {
+            let Some(table) = self.due.pop() else { return };
+            self.credit -= cost;
+            let ways = navigator.ways(table);
+            if let Some(place) = navigator.number(Some(table as u16)).and_then(|it| destinations.get(it)) {
+                navigator.renew(network, place, ways, ways.map(|way| self.in_use[way]));
+            }
+        }
+    }
+}
+
+/// Capacity of a lane under `limit` [m/s], in veh/s: that of cars that follow by the usual IDM; ours.
+fn capacity(limit: f64) -> f64 {
+    FollowingModel::Idm(Idm::default()).capacity(limit, Class::Car.body().length)
+}

@@ -1,0 +1,10 @@
+//! Which lanes lead where, and what the way costs.
+
+pub(crate) mod effort;
+pub(crate) mod guidance;
+pub(crate) mod links;
+pub(crate) mod navigate;
+pub(crate) mod onward;
+pub(crate) mod place;
+pub(crate) mod views;
+pub(crate) mod ways;

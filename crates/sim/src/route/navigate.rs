@@ -1,0 +1,469 @@
+//! Which lanes lead where: for every destination the usual way, that of the free road, and where drivers are guided the
+//! recommended one.
+//!
+//! A driver's goal names a table of waypoints: one of its destination as its class sees the roads, in one of three *ways*.
+//! The ways of a table that somebody follows stay as they are; only their times change. A new recommendation
+//! is planned in the table that nobody follows.
+
+use std::borrow::Cow;
+
+use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
+
+use crate::route::links::Links;
+use crate::route::onward::Onward;
+use crate::route::place::{Kerb, Place};
+use crate::route::views::Views;
+use crate::route::ways::{Into, Planner, Waypoint, beside_into, wander};
+use crate::state::goal::{Destination, Goal, TripEnd};
+use crate::state::vehicle::Class;
+
+/// The waypoints of all destinations.
+#[derive(Clone, Debug)]
+pub struct Navigator {
+    /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one. All
+    /// that for the usual way; then for the recommended ones, which are empty as long as nobody needs them.
+    tables: Vec<Vec<Waypoint>>,
+    onward: Onward,
+    /// Number of tables of each view.
+    of_view: usize,
+    /// For each table of a usual way that with the newest recommendation; empty where nobody is guided.
+    recommended: Vec<u16>,
+    links: Links,
+    /// How often they were measured.
+    measurements: u32,
+    into: Vec<Into>,
+    views: Views,
+    /// For each chain where trips end before its end.
+    trip_ends: Vec<Vec<TripEnd>>,
+}
+
+/// What guidance has changed of a navigator.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Guided {
+    tables: Vec<Vec<Waypoint>>,
+    recommended: Vec<u16>,
+    links: Links,
+    measurements: u32,
+}
+
+impl Navigator {
+    /// Waypoints that may be planned, ours: 3.2 GB.
+    pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
+    /// Ways to one destination: the usual one, and two of which the one is recommended while others may still follow the other.
+    pub(crate) const WAYS: usize = 3;
+    /// Nobody starts for a place on the same map that is nearer [m], ours.
+    const SHORTEST_TRIP: f64 = 100.0;
+
+    /// Plans all routes to the exits of `network`.
+    pub fn new(network: &Network) -> Navigator {
+        let exits: Vec<Place> = network.exits.iter().cloned().map(Place::Gate).collect();
+        Navigator::towards(network, &exits)
+    }
+
+    /// Plans all routes to `destinations`, for classes that avoid nothing.
+    pub fn towards(network: &Network, destinations: &[Place]) -> Navigator {
+        Navigator::with_views(network, destinations, Views::default())
+    }
+
+    /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with their
+    /// views of the roads.
+    pub(crate) fn with_views(network: &Network, destinations: &[Place], views: Views) -> Navigator {
+        let mut navigator = Navigator {
+            tables: Vec::new(),
+            onward: Onward::default(),
+            of_view: destinations.len() + 1,
+            recommended: Vec::new(),
+            links: Links::default(),
+            measurements: 0,
+            into: beside_into(network),
+            views,
+            trip_ends: vec![Vec::new(); network.chains.len()],
+        };
+        for view in 0..navigator.views.count() {
+            for place in destinations {
+                let planner = navigator.planner(network, view);
+                let mut table = planner.plan(place);
+                planner.note_alternatives(&mut table, None);
+                navigator.end_trips(place, navigator.tables.len());
+                navigator.tables.push(table);
+            }
+            navigator.tables.push(wander(network));
+        }
+        navigator.look_onward(network);
+        navigator
+    }
+
+    /// Notes anew what comes next on all ways.
+    fn look_onward(&mut self, network: &Network) {
+        self.onward = Onward::new(network, self.tables.len());
+        for (number, table) in self.tables.iter().enumerate() {
+            self.onward.take(network, number, table);
+        }
+    }
+
+    /// What guidance has changed.
+    pub(crate) fn guided(&self) -> Guided {
+        let Navigator { tables, recommended, links, measurements, .. } = self.clone();
+        Guided { tables, recommended, links, measurements }
+    }
+
+    /// Goes on from what guidance had changed of a navigator of the same network.
+    pub(crate) fn go_on(&mut self, network: &Network, guided: Guided) {
+        let Guided { tables, recommended, links, measurements } = guided;
+        *self = Navigator { tables, recommended, links, measurements, ..self.clone() };
+        self.look_onward(network);
+    }
+
+    fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {
+        let Navigator { into, links, views, .. } = self;
+        Planner { network, into, links, views, view }
+    }
+
+    /// Trips of those who drive by `table` end at `place`.
+    fn end_trips(&mut self, place: &Place, table: usize) {
+        if let Place::Kerb(Kerb { chain, station, .. }) = place {
+            let goal = Goal::from(Some(table as u16));
+            self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
+        }
+    }
+
+    /// Number of tables.
+    pub(crate) fn tables(&self) -> usize {
+        self.tables.len()
+    }
+
+    /// The tables of usual ways to a destination.
+    pub(crate) fn usual_tables(&self) -> impl DoubleEndedIterator<Item = usize> {
+        let of_view = self.of_view;
+        (0..self.usual()).filter(move |it| it % of_view < of_view - 1)
+    }
+
+    /// Number of tables of usual ways.
+    fn usual(&self) -> usize {
+        self.views.count() * self.of_view
+    }
+
+    /// Whether anywhere a driver has more than one way to go.
+    pub(crate) fn offers_a_choice(&self) -> bool {
+        self.tables.iter().flatten().any(|it| it.leads_there() && it.alternative.is_finite())
+    }
+
+    /// Lets drivers be guided to `destinations`, by the link times of the free road for the time being.
+    ///
+    /// # Errors
+    /// If there are more destinations than [`Navigator::WAYS`] ways to each could be told apart: how many can be.
+    pub(crate) fn guide(&mut self, network: &Network, destinations: &[Place]) -> Result<(), usize> {
+        let usual = self.usual();
+        if usual * Navigator::WAYS > usize::from(Goal::NONE) {
+            return Err(usize::from(Goal::NONE) / Navigator::WAYS / self.views.count() - 1);
+        }
+        self.recommended = (0..usual as u16).collect();
+        self.links = Links::of(network);
+        self.tables.resize(usual * Navigator::WAYS, Vec::new());
+        for table in usual..self.tables.len() {
+            if let Some(place) = destinations.get(table % self.of_view) {
+                self.end_trips(place, table);
+            }
+        }
+        self.look_onward(network);
+        Ok(())
+    }
+
+    /// Takes over measured times of all links [s]. Tables have them when they are guided next.
+    pub(crate) fn take_link_times(&mut self, times: impl Iterator<Item = f64>) {
+        self.links.take(times);
+        self.measurements += 1;
+    }
+
+    /// How often link times were measured.
+    pub(crate) fn measurements(&self) -> u32 {
+        self.measurements
+    }
+
+    /// The tables of the ways to the same destination, as seen by the same class, as `table`; the usual one first.
+    pub(crate) fn ways(&self, table: usize) -> [usize; Navigator::WAYS] {
+        let usual = table % self.usual();
+        std::array::from_fn(|way| usual + way * self.usual())
+    }
+
+    /// The table of the newest recommendation for those who follow `destination`, if they are guided and follow another.
+    #[inline]
+    pub(crate) fn recommended(&self, destination: Destination) -> Destination {
+        let table = destination.filter(|_| !self.recommended.is_empty())?;
+        Some(self.recommended[usize::from(table) % self.usual()]).filter(|it| *it != table)
+    }
+
+    /// `destination` by the usual way.
+    pub(crate) fn is_usual(&self, destination: Destination) -> bool {
+        destination.is_none_or(|it| usize::from(it) < self.usual())
+    }
+
+    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present link
+    /// times; and recommends the best way anew, if there is room for it.
+    pub(crate) fn renew(
+        &mut self,
+        network: &Network,
+        place: &Place,
+        ways: [usize; Navigator::WAYS],
+        in_use: [bool; Navigator::WAYS],
+    ) {
+        let [usual, ..] = ways;
+        let planner = self.planner(network, usual / self.of_view);
+        let newest = usize::from(self.recommended[usual]);
+        let mut best = planner.plan(place);
+        planner.note_alternatives(&mut best, None);
+        let is_new = best.iter().zip(&self.tables[newest]).any(|(new, old)| !new.goes_like(old));
+        let mut spare = ways.into_iter().zip(in_use).skip(1);
+        let spare = spare.find(|(way, in_use)| is_new && !in_use && *way != newest);
+        if is_new && spare.is_none() {
+            // What cannot be recommended is nobody's alternative.
+            best.clone_from(&self.tables[newest]);
+            planner.retime(&mut best, place);
+            planner.note_alternatives(&mut best, None);
+        }
+        let mut renewed = Vec::new();
+        for (way, in_use) in ways.into_iter().zip(in_use) {
+            let is_followed = in_use || way == usual || way == newest;
+            if is_followed && spare.is_none_or(|it| it.0 != way) {
+                let mut table = self.tables[way].clone();
+                planner.retime(&mut table, place);
+                planner.note_alternatives(&mut table, Some(&best));
+                renewed.push((way, table));
+            }
+        }
+        renewed.extend(spare.map(|(way, _)| (way, best)));
+        for (way, table) in renewed {
+            self.onward.take(network, way, &table);
+            self.tables[way] = table;
+        }
+        if let Some((way, _)) = spare {
+            self.recommended[usual] = way as u16;
+        }
+    }
+
+    /// The links.
+    #[inline]
+    pub(crate) fn links(&self) -> &Links {
+        &self.links
+    }
+
+    /// Travel time from the start of `chain` to `x` on it [s], as it counts in the waypoints.
+    #[inline]
+    pub(crate) fn time_to(&self, network: &Network, chain: ChainIndex, x: f64) -> f64 {
+        if self.links.are_free() { x / network.chain(chain).limit(x) } else { self.links.time_to(chain, x) }
+    }
+
+    /// Measured travel time on the next `distance` [m] of the way to `destination` from `x` on `chain` on [s].
+    #[inline(never)]
+    pub(crate) fn time_ahead(
+        &self,
+        network: &Network,
+        destination: Destination,
+        chain: ChainIndex,
+        x: f64,
+        distance: f64,
+    ) -> f64 {
+        let (mut at, mut from, mut left, mut time) = (chain, x, distance, 0.0);
+        loop {
+            let here = left.min(network.chain(at).length - from).max(0.0);
+            time += self.links.time_to(at, from + here) - self.links.time_to(at, from);
+            left -= here;
+            match self.next(network, destination, at).filter(|_| left > 0.0) {
+                Some(next) => (at, from) = (next, 0.0),
+                None => return time,
+            }
+        }
+    }
+
+    /// Whether the ways `one` and `other` go on alike from `x` on `chain` for at least `distance` [m].
+    pub(crate) fn part_beyond(
+        &self,
+        network: &Network,
+        [one, other]: [Destination; 2],
+        chain: ChainIndex,
+        x: f64,
+        distance: f64,
+    ) -> bool {
+        let (mut at, mut gone) = (chain, -x);
+        loop {
+            gone += network.chain(at).length;
+            if gone >= distance {
+                return true;
+            }
+            let [next, other] = [one, other].map(|it| self.next(network, it, at));
+            match next.filter(|_| next == other) {
+                Some(next) => at = next,
+                None => return next.is_none() && other.is_none(),
+            }
+        }
+    }
+
+    /// A destination as a class sees the way to it.
+    pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
+        let number = usize::from(destination?) % self.of_view;
+        Some((self.views.of_class(class) * self.of_view + number) as u16)
+    }
+
+    /// The view of the roads of a table.
+    fn view(&self, table: u16) -> usize {
+        usize::from(table) / self.of_view % self.views.count()
+    }
+
+    /// The destination's place in the list of destinations, whoever sees it.
+    pub fn number(&self, destination: Destination) -> Option<usize> {
+        destination.map(|it| usize::from(it) % self.of_view)
+    }
+
+    /// The chains on the way from the start of `chain` to `destination`, over changes of lane as well.
+    pub(crate) fn way(
+        &self,
+        chain: ChainIndex,
+        destination: Destination,
+    ) -> impl Iterator<Item = ChainIndex> + '_ {
+        let next = move |at: &ChainIndex| self.waypoint(destination, *at).goes_on().filter(|it| it != at);
+        std::iter::successors(Some(chain), next)
+    }
+
+    /// The waypoint of `chain`, from its start, on the way to `destination`.
+    #[inline]
+    pub fn waypoint(&self, destination: Destination, chain: ChainIndex) -> &Waypoint {
+        &self.tables[self.table(destination)][chain.at()]
+    }
+
+    /// The table by which those drive who go to `destination`.
+    #[inline]
+    fn table(&self, destination: Destination) -> usize {
+        destination.map_or(self.of_view - 1, usize::from)
+    }
+
+    /// The chain that comes after `chain` on the way to `destination`.
+    #[inline]
+    pub(crate) fn next(
+        &self,
+        network: &Network,
+        destination: Destination,
+        chain: ChainIndex,
+    ) -> Option<ChainIndex> {
+        self.onward.next(network, chain, self.table(destination))
+    }
+
+    /// Where on `chain` the trips to `destination` end [m]; infinite where they go on.
+    #[inline]
+    pub(crate) fn trip_end(&self, destination: Destination, chain: ChainIndex) -> f64 {
+        if self.trip_ends(chain).is_empty() { f64::INFINITY } else { self.waypoint(destination, chain).end }
+    }
+
+    /// The waypoint of `chain` from `x` on: where that is too late for the usual way, of the way round over its end.
+    #[inline]
+    pub fn waypoint_from(
+        &self,
+        network: &Network,
+        destination: Destination,
+        chain: ChainIndex,
+        x: f64,
+    ) -> Cow<'_, Waypoint> {
+        let usual = self.waypoint(destination, chain);
+        if usual.leads_on(x) {
+            Cow::Borrowed(usual)
+        } else {
+            Cow::Owned(self.detour(network, destination, chain))
+        }
+    }
+
+    /// The way to `destination` over the end of `chain`.
+    #[inline(never)]
+    fn detour(&self, network: &Network, destination: Destination, chain: ChainIndex) -> Waypoint {
+        let here = network.chain(chain);
+        let onward = here.following.iter().map(|it| (*it, self.waypoint(destination, *it)));
+        let best = onward.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
+        let possible = best.filter(|(_, it)| it.leads_there());
+        let view = destination.map_or(0, |it| self.view(it));
+        let planner = self.planner(network, view);
+        possible.map_or(Waypoint::NOWHERE, |(next, waypoint)| planner.before(chain, next, waypoint))
+    }
+
+    /// The destinations that can be reached from `x` on `chain`, with their free travel times [s].
+    pub fn reachable(&self, chain: ChainIndex, x: f64) -> impl Iterator<Item = (Destination, f64)> {
+        self.reachable_in(0, chain, x)
+    }
+
+    fn reachable_in(
+        &self,
+        view: usize,
+        chain: ChainIndex,
+        x: f64,
+    ) -> impl Iterator<Item = (Destination, f64)> {
+        let first = view * self.of_view;
+        let tables = self.tables[first..].iter().zip(first..).take(self.of_view - 1);
+        tables.filter_map(move |(table, number)| {
+            let waypoint = &table[chain.at()];
+            waypoint.leads_on(x).then_some((Some(number as u16), waypoint.time))
+        })
+    }
+
+    /// The destination of least time that can be reached from `x` on `chain`, over its end, too, for one who was on its way to `before`; of none, to wander.
+    pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+        let first = before.map_or(0, |it| self.view(it)) * self.of_view;
+        let all = (first..first + self.of_view - 1).map(|it| Some(it as u16));
+        let reachable = all.filter_map(|it| {
+            let waypoint = self.waypoint_from(network, it, chain, x);
+            waypoint.leads_on(x).then_some((it, waypoint.time))
+        });
+        reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
+    }
+
+    /// The destination of least time to which the usual way leads from `x` on `chain`, for one who was on its way to `before`.
+    pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+        let view = before.map_or(0, |it| self.view(it));
+        let reachable = self.reachable_in(view, chain, x);
+        reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
+    }
+
+    /// Whether a destination can be reached from `place`; from a kerb, whether it is worth a trip, too.
+    pub(crate) fn leads(&self, network: &Network, place: &Place, destination: u16) -> bool {
+        match place {
+            Place::Gate(gate) => {
+                let waypoint = |chain: &ChainIndex| self.waypoint(Some(destination), *chain);
+                gate.chains.iter().any(|chain| waypoint(chain).leads_there())
+            }
+            Place::Kerb(Kerb { chain, station, .. }) => {
+                let waypoint = self.waypoint_from(network, Some(destination), *chain, *station);
+                let distance = waypoint.distance - station;
+                waypoint.leads_there() && distance >= Navigator::SHORTEST_TRIP
+            }
+        }
+    }
+
+    /// Where on `chain` trips end.
+    #[inline]
+    pub(crate) fn trip_ends(&self, chain: ChainIndex) -> &[TripEnd] {
+        &self.trip_ends[chain.at()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_network::DrivingSide;
+
+    use super::*;
+    use crate::route::ways::tests::lanelet;
+
+    #[test]
+    fn of_two_equal_ways_drivers_go_that_of_the_smaller_lanelet_id_however_chains_are_stored() {
+        let network = |[one, other]: [i64; 2]| {
+            let (first, last) = (lanelet(1, [0.0, 100.0], &[1, 2]), lanelet(9, [200.0, 300.0], &[]));
+            let between = [one, other].map(|id| lanelet(id, [100.0, 200.0], &[3]));
+            let [one, other] = between;
+            Network::new(vec![first, one, other, last], DrivingSide::Right).unwrap()
+        };
+        for ids in [[4, 5], [5, 4]] {
+            for network in [network(ids), network(ids).with_chains_reversed()] {
+                let start = network.entrances[0].chains[0];
+                let waypoint = *Navigator::new(&network).waypoint(Some(0), start);
+                assert_eq!(network.lanelet_at(waypoint.next.unwrap(), 0.0).0.id, 4);
+                assert_eq!((waypoint.time, waypoint.distance, waypoint.changes), (30.0, 300.0, 0));
+            }
+        }
+    }
+}

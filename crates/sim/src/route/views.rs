@@ -1,0 +1,149 @@
+//! How classes of vehicles see the roads: which lanes they avoid where there is another way, as too tight or too narrow.
+
+use laneweave_network::{Chain, ChainIndex, Network, Point, Polyline};
+
+use crate::state::vehicle::{Class, Fleet};
+
+/// Long vehicles avoid lanes whose centre line turns tighter than this [m]: the mean of the radii 5.3 and 12.5 m of the ring in
+/// which each vehicle of the European Union can turn (Directive 96/53/EC, annex I, 1.5; from memory).
+const TIGHTEST_TURN: f64 = 8.9;
+/// A turn is measured over at least this length on either side [m], ours, so that a crooked drawing is no turn.
+const ARM: f64 = 3.0;
+
+/// Chains that classes avoid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Views {
+    /// What long vehicles avoid, by chain; `None` if nothing, so that they see the roads as all others do.
+    of_long: Option<Vec<bool>>,
+}
+
+impl Views {
+    /// How a fleet sees `network`.
+    pub(crate) fn of(network: &Network, fleet: &Fleet) -> Views {
+        let has_long = fleet.shares().iter().any(|(class, share)| class.is_long() && *share > 0.0);
+        if !has_long {
+            return Views::default();
+        }
+        let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&it.centre) < TIGHTEST_TURN;
+        let is_tight: Vec<bool> = network.chains.iter().map(is_tight).collect();
+        let differs = is_tight.contains(&true) || network.chains.iter().any(|it| it.is_narrow);
+        Views { of_long: differs.then_some(is_tight) }
+    }
+
+    /// Number of different views.
+    pub(crate) fn count(&self) -> usize {
+        1 + usize::from(self.of_long.is_some())
+    }
+
+    /// The view of a class, from 0 on.
+    pub(crate) fn of_class(&self, class: Class) -> usize {
+        usize::from(self.of_long.is_some() && class.is_long())
+    }
+
+    /// Whether `chain` is avoided in a view.
+    pub(crate) fn avoids(&self, view: usize, chain: ChainIndex) -> bool {
+        view > 0 && self.of_long.as_ref().is_some_and(|it| it[chain.at()])
+    }
+}
+
+/// The least radius of a line [m], of circles through its points and what lies an arm before and behind.
+fn tightest_turn(line: &Polyline) -> f64 {
+    let (mut station, mut tightest) = (0.0, f64::INFINITY);
+    for points in line.points().windows(3) {
+        let arms = [points[0].distance(&points[1]), points[1].distance(&points[2])];
+        station += arms[0];
+        let (before, behind) = (station - arms[0].max(ARM), station + arms[1].max(ARM));
+        if before >= 0.0 && behind <= line.length() {
+            tightest = tightest.min(radius(&line.at(before), &points[1], &line.at(behind)));
+        }
+    }
+    tightest
+}
+
+/// Radius of the circle through three points [m].
+fn radius(a: &Point, b: &Point, c: &Point) -> f64 {
+    let double_area = ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)).abs();
+    a.distance(b) * b.distance(c) * c.distance(a) / (2.0 * double_area)
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::FRAC_PI_2;
+
+    use laneweave_network::{DrivingSide, Lanelet, LaneletIndex};
+
+    use super::*;
+    use crate::route::navigate::Navigator;
+    use crate::route::place::Place;
+
+    /// A quarter of a circle, with points about so far apart [m], between two straight pieces of 20 m.
+    fn turn(radius: f64, spacing: f64) -> Polyline {
+        let pieces = (radius * FRAC_PI_2 / spacing).ceil() as usize;
+        let arc = (0..=pieces).map(|it| {
+            let (sin, cos) = (it as f64 / pieces as f64 * FRAC_PI_2).sin_cos();
+            Point::new(radius * sin, radius * (1.0 - cos), 0.0)
+        });
+        let (before, behind) = (Point::new(-20.0, 0.0, 0.0), Point::new(radius, radius + 20.0, 0.0));
+        Polyline::new(std::iter::once(before).chain(arc).chain([behind])).unwrap()
+    }
+
+    #[test]
+    fn a_turn_has_its_radius_however_finely_it_is_drawn() {
+        for drawn in [6.0, 9.0, 15.0, 40.0] {
+            for spacing in [0.3, 1.0, 2.0, 3.0] {
+                let found = tightest_turn(&turn(drawn, spacing));
+                assert!((0.85 * drawn..1.2 * drawn).contains(&found), "{found}, not {drawn}, at {spacing} m");
+            }
+        }
+    }
+
+    #[test]
+    fn a_straight_line_turns_nowhere() {
+        let line = Polyline::new((0..9).map(|it| Point::new(2.0 * f64::from(it), 0.0, 0.0))).unwrap();
+        assert_eq!(tightest_turn(&line), f64::INFINITY);
+    }
+
+    /// A lanelet along `line`, followed by `following`.
+    fn lanelet(id: i64, line: Polyline, following: &[u32]) -> Lanelet {
+        let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
+        lanelet.following = following.iter().map(|it| LaneletIndex(*it)).collect();
+        lanelet
+    }
+
+    /// Where vehicles of `class` go on from a road that leads into `turns`, of which each has a radius [m] and is
+    /// followed by the same road.
+    fn chosen(class: Class, turns: &[f64]) -> Option<ChainIndex> {
+        let straight = |y| Polyline::new([Point::new(0.0, y, 0.0), Point::new(200.0, y, 0.0)]).unwrap();
+        let last = turns.len() as u32 + 1;
+        let numbers: Vec<u32> = (1..last).collect();
+        let mut all = vec![lanelet(1, straight(0.0), &numbers)];
+        all.extend(turns.iter().zip(2..).map(|(it, id)| lanelet(id, turn(*it, 1.0), &[last])));
+        all.push(lanelet(99, straight(100.0), &[]));
+        let network = Network::new(all, DrivingSide::Right).unwrap();
+        let views = Views::of(&network, &Fleet { trucks: 0.2, buses: 0.2, motorcycles: 0.2 });
+        let navigator = Navigator::with_views(&network, &[Place::Gate(network.exits[0].clone())], views);
+        let goal = navigator.seen_by(class, Some(0));
+        assert_eq!((navigator.number(goal), navigator.seen_by(class, goal)), (Some(0), goal));
+        navigator.waypoint(goal, ChainIndex(0)).next
+    }
+
+    #[test]
+    fn long_vehicles_go_round_a_tight_turn_and_short_ones_take_it() {
+        for (class, expected) in [(Class::Car, 1), (Class::Motorcycle, 1), (Class::Truck, 2), (Class::Bus, 2)]
+        {
+            assert_eq!(chosen(class, &[5.0, 50.0]), Some(ChainIndex(expected)), "{class:?}");
+        }
+    }
+
+    #[test]
+    fn long_vehicles_take_a_tight_turn_where_there_is_no_wider_one() {
+        assert_eq!(chosen(Class::Bus, &[5.0, 7.0]), Some(ChainIndex(1)));
+    }
+
+    #[test]
+    fn who_avoids_nothing_sees_the_roads_as_all_do() {
+        let network = Network::new(vec![lanelet(1, turn(5.0, 1.0), &[])], DrivingSide::Right).unwrap();
+        assert_eq!(Views::of(&network, &Fleet::default()).count(), 1);
+        assert_eq!(Views::of(&network, &Fleet::with_trucks(0.1)).count(), 2);
+    }
+}

@@ -1,0 +1,15 @@
+//! What there is: vehicles, lanes, time and chance, as plain data.
+
+pub(crate) mod busy;
+pub(crate) mod clock;
+pub(crate) mod gamma;
+pub(crate) mod goal;
+pub(crate) mod moment;
+pub(crate) mod normal;
+pub(crate) mod prefetch;
+pub(crate) mod random;
+pub(crate) mod standstill;
+pub(crate) mod tight;
+pub(crate) mod traffic;
+pub(crate) mod trail;
+pub(crate) mod vehicle;

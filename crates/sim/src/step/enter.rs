@@ -1,0 +1,158 @@
+//! Vehicles come onto the road: at the edge of the map with the traffic there, at a kerb from rest.
+
+use laneweave_models::Style;
+use laneweave_models::braking::is_secure;
+use laneweave_models::change::deceleration_to_avoid;
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+
+use crate::demand::metering::Metering;
+use crate::demand::source::{Arrival, Queue, Start};
+use crate::driver::accelerate::speed_before_a_stop;
+use crate::driver::perceive::driver;
+use crate::record::events::Event;
+use crate::right_of_way::conditions::Hindrance;
+use crate::right_of_way::heed::sight;
+use crate::right_of_way::survey::stop_ahead;
+use crate::step::reserve::{Entry, applicant, entry};
+use crate::step::world::{NewVehicle, World};
+use crate::view::scene::{Found, Scene, nearer};
+
+impl World {
+    /// Vehicles arrive, queue up, and enter where there is room.
+    pub(crate) fn enter(&mut self) {
+        let mut sources = std::mem::take(&mut self.sources);
+        if self.begins_a_second()
+            && let Some(metering) = &mut self.metering
+        {
+            metering.measure(&self.lanes);
+        }
+        let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
+        let time = self.clock.time();
+        for (origin, source) in sources.iter_mut().enumerate() {
+            let scene = self.scene();
+            let mut next_id = self.next_id;
+            let metering = self.metering.as_ref();
+            source.arrive(&scene, &self.demand, metering, &self.random, time, &mut next_id);
+            self.next_id = next_id;
+            for queue in source.queues() {
+                while let Some(place) = queue.first(is_full)
+                    && self.let_in(origin, queue, place)
+                {}
+            }
+        }
+        self.sources = sources;
+    }
+
+    /// Lets the vehicle at a `place` of a queue onto the road, if there is room for it. Returns whether it came.
+    fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize) -> bool {
+        let mut survey = std::mem::take(&mut self.outboxes[0].survey);
+        let needs = entry(&self.scene(), queue, &queue.waiting[place], self.clock, &mut survey);
+        if let Entry::Refused(Hindrance::Others) = needs {
+            queue.asks_since.get_or_insert(self.clock.step);
+        }
+        let admitted = self.admit(queue, &queue.waiting[place], needs);
+        if let Some(vehicle) = admitted
+            && let Some(arrival) = queue.waiting.remove(place)
+        {
+            self.put(vehicle, arrival.id, arrival.time);
+            if matches!(needs, Entry::Reserved { .. }) {
+                self.reserve(queue, &arrival, &survey);
+            }
+            queue.asks_since = None;
+            if let Some(record) = self.record_mut(arrival.id) {
+                record.origin = Some(origin);
+            }
+            self.events.push(Event::Entered(arrival.id));
+        }
+        self.outboxes[0].survey = survey;
+        admitted.is_some()
+    }
+
+    /// The vehicle as it comes onto the lane of `queue`, if there is room for it and it has what it needs.
+    fn admit(&self, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<NewVehicle> {
+        let (granted, before) = match needs {
+            Entry::Refused(_) => return None,
+            Entry::Free => (0.0, None),
+            Entry::Reserved { until, ahead } => (until, ahead),
+        };
+        let Arrival { class, character, destination, .. } = *arrival;
+        let chain = queue.chain;
+        let rear = queue.start.station();
+        let length = class.body().length;
+        let x = rear + length;
+        let style = &self.characters[character as usize];
+        let scene = self.scene();
+        let from = scene.viewpoint_at(applicant(&scene, queue, arrival).from, chain, rear);
+        let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
+        let ahead = nearer(ahead, before);
+        let dt = self.clock.dt;
+        let speed = match queue.start {
+            Start::Driving => {
+                let desired = class.desired_speed(style, self.network.chain(chain).limit(x));
+                let speed = entry_speed(style, desired, ahead, dt)?;
+                let stop = stop_ahead(&scene, from, granted, sight(desired));
+                stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
+            }
+            Start::FromRest(_) => {
+                let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));
+                let follower = scene.follower(from);
+                let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
+                // Room that is kept for others stays theirs.
+                let is_free = scene.passages.kept_on(queue.refuge(&self.network)) == 0.0;
+                (leaves_room && is_let_in && is_free).then_some(0.0)?
+            }
+        };
+        Some(NewVehicle { chain, x, speed, class, character, destination })
+    }
+}
+
+/// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
+fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
+    /// Who would have to enter slower than its leader, and than this share of its desired speed, waits (ours).
+    const LEAST_SHARE: f64 = 0.8;
+    let Some(ahead) = ahead else { return Some(desired) };
+    /// Nobody minds a vehicle so far ahead [m].
+    const FAR: f64 = 1e4;
+    let fits = |speed: f64| {
+        let behind = |gap| style.follow.acceleration(Pace::new(speed, desired), Some(Ahead { gap, ..ahead }));
+        // Who would have to brake at once holds up those behind; there are models that brake even on a free road.
+        let least = behind(FAR).min(0.0);
+        ahead.gap >= style.safety.min_gap && behind(ahead.gap) >= least && is_secure(speed, ahead, dt)
+    };
+    if fits(desired) {
+        return Some(desired);
+    }
+    let (mut slow, mut fast) = (ahead.speed.min(LEAST_SHARE * desired), desired);
+    if !fits(slow) {
+        return None;
+    }
+    for _ in 0..20 {
+        let middle = 0.5 * (slow + fast);
+        if fits(middle) { slow = middle } else { fast = middle }
+    }
+    Some(slow)
+}
+
+/// Gap to a leader [m] with which a driver starts from a kerb: into a queue nobody squeezes.
+fn room_to_start(style: &Style, ahead: Ahead) -> f64 {
+    /// Who drives slower than this [m/s] queues, and so much way to a queue is left free [m]; ours.
+    const QUEUES: f64 = 2.0;
+    const WAY_TO_A_QUEUE: f64 = 30.0;
+    if ahead.speed < QUEUES { WAY_TO_A_QUEUE } else { style.safety.min_gap }
+}
+
+/// Whether a vehicle at rest may appear before `follower`: it must be secure, and neither its model nor kinematics may
+/// demand more than moderate braking.
+fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
+    /// Braking that one may expect of who drives behind [m/s²], ours.
+    const MODERATE: f64 = 2.0;
+    if scene.has_passage(follower.spot, follower.distance) {
+        return false;
+    }
+    let behind = driver(scene, follower.spot);
+    let ahead = Ahead::standing(follower.distance);
+    ahead.gap >= min_gap
+        && is_secure(behind.pace.speed, ahead, dt)
+        && deceleration_to_avoid(ahead.gap, behind.pace.speed, 0.0) <= MODERATE
+        && behind.follow.acceleration(behind.pace, Some(ahead)) >= -MODERATE
+}

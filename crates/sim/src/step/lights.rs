@@ -1,0 +1,10 @@
+//! The lights switch.
+
+use crate::step::world::World;
+
+impl World {
+    /// The lights show what they show from now on.
+    pub(crate) fn switch_lights(&mut self) {
+        self.signals.switch(&self.network, &self.lanes, self.clock);
+    }
+}

@@ -1,0 +1,133 @@
+//! Entrances that share ground with others: a vehicle comes onto the road there with a reservation of the zones in which it would stand.
+
+use laneweave_models::follow::Ahead;
+use laneweave_network::{ZoneIndex, ZoneKind};
+
+use crate::demand::metering::Metering;
+use crate::demand::source::{Arrival, Queue, Start};
+use crate::junction::claim::Hold;
+use crate::junction::claim::Turn;
+use crate::junction::need::Survey;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::{Asking, Hindrance, leader_of, may_pass};
+use crate::right_of_way::heed::lets_go;
+use crate::right_of_way::mergers::are_led_on;
+use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
+use crate::right_of_way::turns::turns;
+use crate::state::clock::Clock;
+use crate::step::world::World;
+use crate::view::scene::{Scene, Viewpoint};
+
+/// How far before the road a vehicle waits for its reservation [m].
+const WAITS_BEFORE: f64 = STANDS_BEFORE_A_ZONE;
+
+/// What a vehicle needs to come onto the road beside a gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Entry {
+    /// Nothing: it would stand in no zone.
+    Free,
+    /// The reservation that was surveyed; it reaches so far from the start of the lane, behind a vehicle from elsewhere if there is one.
+    Reserved {
+        /// How far it reaches [m].
+        until: f64,
+        /// Who goes before it over the same ground, seen from its front as it comes.
+        ahead: Option<Ahead>,
+    },
+    /// It cannot come now.
+    Refused(Hindrance),
+}
+
+/// The vehicle `arrival` as it waits before the lane of `queue`.
+pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival) -> Applicant<'a> {
+    let Arrival { id, class, character, destination, .. } = *arrival;
+    let style = &scene.characters[character as usize];
+    let desired = class.desired_speed(style, scene.network.chain(queue.chain).limit(0.0));
+    let x = queue.start.station() - WAITS_BEFORE;
+    let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, is_long: class.is_long() };
+    Applicant { from, length: class.body().length, speed: desired, desired, style, passage: None }
+}
+
+/// What `arrival` needs to come onto the lane of `queue` now.
+pub(crate) fn entry(
+    scene: &Scene,
+    queue: &Queue,
+    arrival: &Arrival,
+    clock: Clock,
+    out: &mut Survey,
+) -> Entry {
+    let length = arrival.class.body().length;
+    let reach = WAITS_BEFORE + length + STANDS_BEFORE_A_ZONE;
+    let [first_place, _] = scene.network.junctions.places(queue.chain);
+    if queue.start != Start::Driving || first_place > reach {
+        return Entry::Free;
+    }
+    let mut applicant = applicant(scene, queue, arrival);
+    if !survey(scene, &applicant, [0.0, reach], |light, at| !lets_go(scene, light, at, applicant.speed), out)
+    {
+        return Entry::Free;
+    }
+    if out.has_stop_sign {
+        applicant.speed = 0.0;
+        out.stop = 0.0;
+    }
+    let asking = Asking::of(&applicant, queue.asks_since.unwrap_or(clock.step), clock);
+    let may = may_pass(scene, &applicant, out, asking);
+    match may {
+        Err(why) => Entry::Refused(why),
+        Ok(()) if !is_free(scene, out, reach) || !are_led_on(scene, &applicant, out) => {
+            Entry::Refused(Hindrance::Others)
+        }
+        Ok(()) => {
+            let ahead = leader_of(scene, out).map(|it| Ahead { gap: it.gap - WAITS_BEFORE - length, ..it });
+            Entry::Reserved { until: free_until(scene, out) - WAITS_BEFORE, ahead }
+        }
+    }
+}
+
+/// Whether nobody else may pass the crossings that begin within `reach` [m]: who comes onto the road stands in them at once.
+fn is_free(scene: &Scene, surveyed: &Survey, reach: f64) -> bool {
+    free_until(scene, surveyed) > reach
+}
+
+/// How far what was surveyed leads without a stop for others who pass a crossing first [m].
+fn free_until(scene: &Scene, surveyed: &Survey) -> f64 {
+    /// Before the place where one stops for a crossing [m].
+    const BEFORE: f64 = 0.01;
+    let waits = |hold: &&Hold| {
+        let is_crossing = scene.network.junctions.zones[hold.zone.at()].kind == ZoneKind::Crossing;
+        is_crossing && scene.passages.order(hold.zone).any(|(it, _)| it.side != hold.side)
+    };
+    let taken = surveyed.holds.iter().filter(waits).map(|it| it.enter - BEFORE);
+    taken.fold(surveyed.extent, f64::min)
+}
+
+impl World {
+    /// The turns that those claim who wait to come onto the road because of others.
+    pub(crate) fn claims_at_entrances(&self, claims: &mut Vec<(ZoneIndex, u8, Turn)>, out: &mut Survey) {
+        let scene = self.scene();
+        let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
+        let queues = self.sources.iter().flat_map(|it| it.lanes());
+        for queue in queues {
+            let (Some(since), Some(first)) = (queue.asks_since, queue.first(is_full)) else { continue };
+            let applicant = applicant(&scene, queue, &queue.waiting[first]);
+            let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
+            if survey(&scene, &applicant, [0.0, reach], |_, _| false, out) {
+                let claim = Asking::of(&applicant, since, self.clock).claim;
+                claims.extend(turns(&scene, &applicant, &out.holds, claim));
+            }
+        }
+    }
+
+    /// Gives the vehicle that has just come onto the road the reservation that was surveyed before.
+    pub(crate) fn reserve(&mut self, queue: &Queue, arrival: &Arrival, out: &Survey) {
+        let length = arrival.class.body().length;
+        let lane = &mut self.lanes[queue.chain.at()];
+        let Some(index) = lane.find(arrival.id, length) else { return };
+        let (motion, car, mind) = lane.entry_mut(index);
+        mind.passage = self.passages.give(mind.passage, arrival.id, length, out);
+        self.passages.note_since(mind.passage, queue.asks_since.unwrap_or(self.clock.step));
+        car.heeds_more = true;
+        let (speed, desired) = (motion.speed, f64::from(car.desired));
+        self.passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
+    }
+}

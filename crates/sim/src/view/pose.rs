@@ -1,0 +1,141 @@
+//! Where a vehicle's body is. Computed when somebody asks.
+
+use laneweave_models::change::moved_share;
+use laneweave_network::{ChainIndex, Network, Point, Pose};
+
+use crate::state::traffic::{Entry, Motion};
+use crate::state::trail::Trail;
+use crate::view::scene::{Scene, Spot};
+
+/// Pose of the centre of the vehicle whose main entry is `spot`.
+pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
+    between(bumpers(scene, spot))
+}
+
+/// Pose of the centre of a vehicle between the middles of its front and its rear bumper.
+pub fn between([front, rear]: [Point; 2]) -> Pose {
+    Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
+}
+
+/// The middles of the front and the rear bumper of the vehicle whose main entry is `spot`.
+///
+/// In a lane change both lie on the path: the rear bumper follows the front one, so that a long vehicle does not swing out.
+pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
+    let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
+    let Entry { motion, mind, .. } = &entry;
+    match mind.twin {
+        Some(twin) => {
+            let [share_of_front, share_of_rear] = shares(scene, &entry);
+            let between = |x: f64, twin_x: f64, share: f64| {
+                let here = on_path(network, spot.chain, mind.trail, x, 0.0);
+                here.towards(&on_path(network, twin.chain, Trail::NONE, twin_x, 0.0), share)
+            };
+            let [length, twin_length] = lengths(motion, mind.progress, twin.stretch);
+            let (rear, twin_rear) = (motion.x - length, twin.x - twin_length);
+            [between(motion.x, twin.x, share_of_front), between(rear, twin_rear, share_of_rear)]
+        }
+        None => {
+            let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
+            let at = |x: f64, offset: f64| on_path(network, spot.chain, mind.trail, x, offset);
+            [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
+        }
+    }
+}
+
+/// The middles of the front and the rear bumper of a vehicle that moves on `chain` and keeps its lane, and came there over
+/// `trail`.
+pub fn bumpers_in_lane(network: &Network, chain: ChainIndex, trail: Trail, motion: &Motion) -> [Point; 2] {
+    [motion.x, motion.rear()].map(|it| on_path(network, chain, trail, it, 0.0))
+}
+
+/// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres for
+/// one [m]: true in the old lane when the change begins, and in the new one when it ends.
+fn lengths(motion: &Motion, progress: f32, stretch: f32) -> [f64; 2] {
+    let (length, progress, stretch) = (f64::from(motion.length), f64::from(progress), f64::from(stretch));
+    let is_across = progress >= 0.5;
+    let here = if is_across { progress } else { 1.0 - progress };
+    [length * (here + (1.0 - here) / stretch), length * (here * stretch + (1.0 - here))]
+}
+
+/// How far the vehicle's centre is to the left of the centre of its lane [m].
+pub(crate) fn lateral_offset(scene: &Scene, spot: Spot) -> f64 {
+    let entry = scene.lanes[spot.chain.at()].entry(spot.index);
+    let [front, rear] = offsets(scene, spot.chain, &entry);
+    0.5 * (front + rear)
+}
+
+/// Offsets of the front and the rear bumper to the left [m].
+fn offsets(scene: &Scene, chain: ChainIndex, entry: &Entry) -> [f64; 2] {
+    let has_crossed = entry.mind.progress >= 0.5;
+    let spacing = entry.mind.side.sign() * lane_spacing(scene, chain, entry);
+    shares(scene, entry).map(|share| if has_crossed { -spacing * share } else { spacing * share })
+}
+
+/// Shares of the way to its other lane that the front and the rear bumper are away from the lane in which it is.
+fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
+    let Entry { motion, car, mind } = entry;
+    let progress = f64::from(mind.progress).clamp(0.0, 1.0);
+    if progress == 0.0 {
+        return [0.0; 2];
+    }
+    // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
+    let manner = &scene.characters[car.character as usize].manner;
+    let duration = manner.duration(f64::from(mind.urgency));
+    let way = (motion.speed * duration).max(least_way(motion));
+    let half = 0.5 * f64::from(motion.length) / way * 4.0 * progress * (1.0 - progress);
+    let moved = [progress + half, progress - half].map(moved_share);
+    if mind.progress < 0.5 { moved } else { moved.map(|it| 1.0 - it) }
+}
+
+/// Shortest way on which a vehicle can change lanes [m].
+pub(crate) fn least_way(motion: &Motion) -> f64 {
+    const OF_A_SHORT_ONE: f64 = 25.0;
+    const LENGTHS: f64 = 3.0;
+    (LENGTHS * f64::from(motion.length)).max(OF_A_SHORT_ONE)
+}
+
+/// Distance between the centre lines of the two lanes [m].
+fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
+    let x = entry.motion.x;
+    match entry.mind.twin {
+        Some(twin) => {
+            let here = scene.network.chain(chain).centre.at(x);
+            here.distance(&scene.network.chain(twin.chain).centre.at(twin.x))
+        }
+        None => {
+            let (lanelet, along) = scene.network.lanelet_at(chain, x);
+            lanelet.width(along)
+        }
+    }
+}
+
+/// The point at `x` along the path that came over `trail` onto `chain`, `offset` to the left [m].
+fn on_path(network: &Network, chain: ChainIndex, trail: Trail, x: f64, offset: f64) -> Point {
+    let (mut here, mut x) = (network.chain(chain), x);
+    let mut back = trail.back(network, chain);
+    while x < 0.0
+        && let Some(previous) = back.next()
+    {
+        here = network.chain(previous);
+        x += here.length;
+    }
+    here.centre.beside(x, offset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vehicle_has_the_same_length_in_both_lanes_just_before_and_after_it_crosses() {
+        let motion = Motion { x: 0.0, speed: 10.0, acceleration: 0.0, tightness: 1.0, length: 12.0, id: 1 };
+        for stretch in [0.7, 1.0, 1.3] {
+            assert_eq!(lengths(&motion, 0.0, stretch)[0], 12.0, "true in the old lane when it begins");
+            assert_eq!(lengths(&motion, 1.0, 1.0 / stretch)[0], 12.0, "true in the new one when it ends");
+            let [old, new] = lengths(&motion, 0.499_999, stretch);
+            // Its main entry is in the other lane now.
+            let [new_after, old_after] = lengths(&motion, 0.5, 1.0 / stretch);
+            assert!((old - old_after).abs() < 1e-4 && (new - new_after).abs() < 1e-4, "{stretch}");
+        }
+    }
+}

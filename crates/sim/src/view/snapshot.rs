@@ -1,0 +1,162 @@
+//! A scene without a world: one instant of traffic from plain data, such as a recorded frame.
+
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Network, Side};
+
+use crate::junction::passages::{NO_PASSAGE, Passages};
+use crate::junction::signals::Signals;
+use crate::route::navigate::Navigator;
+use crate::state::clock::Clock;
+use crate::state::goal::Destination;
+use crate::state::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
+use crate::state::trail::Trail;
+use crate::state::vehicle::Class;
+use crate::view::scene::{Scene, Spot};
+
+/// A vehicle as it was seen at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Who it is; nobody else at this instant has the same.
+    pub id: VehicleId,
+    /// The chain in which its centre is.
+    pub chain: ChainIndex,
+    /// Front bumper along it [m].
+    pub x: f64,
+    /// Speed [m/s].
+    pub speed: f64,
+    /// Acceleration [m/s²].
+    pub acceleration: f64,
+    /// Length [m].
+    pub length: f64,
+    /// Class.
+    pub class: Class,
+    /// Its driver's place in the table of characters.
+    pub character: u32,
+    /// Speed that its driver desires [m/s].
+    pub desired: f64,
+    /// Where it goes.
+    pub destination: Destination,
+    /// The lane change that it is about.
+    pub change: Option<Across>,
+}
+
+/// A lane change under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Across {
+    /// To which side.
+    pub side: Side,
+    /// Share of its time that has passed, 0…1.
+    pub progress: f64,
+    /// The chain of the other of its two lanes, and where its front bumper is along that [m].
+    pub other: (ChainIndex, f64),
+}
+
+/// One instant of traffic. A vehicle that changes lanes stands in both, as in a [`crate::World`].
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    lanes: Vec<Lane>,
+    passages: Passages,
+    signals: Signals,
+    /// The main entries in order of ids.
+    spots: Vec<(VehicleId, Spot)>,
+}
+
+impl Snapshot {
+    /// The instant at which `vehicles` are on `network`.
+    ///
+    /// # Panics
+    /// If a chain is none of the network's.
+    pub fn new(network: &Network, vehicles: impl IntoIterator<Item = Seen>) -> Snapshot {
+        let mut lanes = vec![Lane::default(); network.chains.len()];
+        for seen in vehicles {
+            lanes[seen.chain.at()].insert(main_entry(network, &seen));
+            if let Some(change) = seen.change {
+                lanes[change.other.0.at()].insert(shadow(network, &seen, &change));
+            }
+        }
+        let mut spots: Vec<(VehicleId, Spot)> = Vec::new();
+        for (chain, lane) in lanes.iter().enumerate() {
+            let main =
+                lane.motions().iter().zip(lane.cars()).enumerate().filter(|(_, (_, it))| !it.is_shadow);
+            let chain = ChainIndex(chain as u32);
+            spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
+        }
+        spots.sort_by_key(|(id, _)| *id);
+        let (passages, signals) = (Passages::new(network), Signals::new(network, Clock { step: 0, dt: 1.0 }));
+        Snapshot { lanes, passages, signals, spots }
+    }
+
+    /// The instant as drivers with `characters`, who find their ways by `navigator`, see it.
+    pub fn scene<'a>(
+        &'a self,
+        network: &'a Network,
+        navigator: &'a Navigator,
+        characters: &'a [Style],
+    ) -> Scene<'a> {
+        let Snapshot { lanes, passages, signals, .. } = self;
+        Scene { network, navigator, lanes, characters, passages, signals }
+    }
+
+    /// The main entry of a vehicle.
+    pub fn spot(&self, id: VehicleId) -> Option<Spot> {
+        self.spots.binary_search_by_key(&id, |(it, _)| *it).ok().map(|it| self.spots[it].1)
+    }
+
+    /// The main entries of all vehicles, in order of their ids.
+    pub fn spots(&self) -> &[(VehicleId, Spot)] {
+        &self.spots
+    }
+}
+
+fn main_entry(network: &Network, seen: &Seen) -> Entry {
+    let motion = Motion {
+        x: seen.x,
+        speed: seen.speed,
+        acceleration: seen.acceleration as f32,
+        tightness: 1.0,
+        length: seen.length as f32,
+        id: seen.id,
+    };
+    let car = Car {
+        desired: seen.desired as f32,
+        limit_desired: seen.desired as f32,
+        standing: 0.0,
+        character: seen.character,
+        due: 0,
+        calm_until: 0,
+        goal: seen.destination.into(),
+        class: seen.class,
+        phase: if seen.change.is_some() { Phase::Changes } else { Phase::Cruises },
+        is_shadow: false,
+        in_emergency: false,
+        heeds_more: false,
+    };
+    let twin = |change: Across| Twin { chain: change.other.0, x: change.other.1, stretch: 1.0 };
+    let mind = Mind {
+        side: seen.change.map_or(network.driving_side.overtaking(), |it| it.side),
+        kind: Kind::Discretionary,
+        entered: 0,
+        since: 0,
+        stretch: 1.0,
+        progress: seen.change.map_or(0.0, |it| it.progress as f32),
+        urgency: 0.0,
+        record: 0,
+        trail: Trail::NONE,
+        twin: seen.change.map(twin),
+        last_place: f64::INFINITY,
+        lets_in: Mind::NOBODY,
+        passage: NO_PASSAGE,
+    };
+    Entry { motion, car, mind }
+}
+
+/// The entry in the other lane.
+fn shadow(network: &Network, seen: &Seen, change: &Across) -> Entry {
+    let Entry { motion, car, mind } = main_entry(network, seen);
+    let (_, x) = change.other;
+    Entry {
+        motion: Motion { x, ..motion },
+        car: Car { is_shadow: true, ..car },
+        mind: Mind { twin: Some(Twin { chain: seen.chain, x: seen.x, stretch: 1.0 }), ..mind },
+    }
+}
