@@ -194,14 +194,16 @@ fn fill(world: &mut World) {
         let draw = |purpose| random.uniform(number, purpose, 0);
         let character = (draw(Purpose::Character) * 512.0) as u32;
         let is_aggressive = draw(Purpose::Style) < 1.0 / 8.4;
-        world.place(NewVehicle {
-            chain,
-            x,
-            speed: SPEED,
-            class: if draw(Purpose::Class) < TRUCKS { Class::Truck } else { Class::Car },
-            character: if is_aggressive { character } else { 512 + character },
-            destination: Some(0),
-        });
+        world
+            .place(NewVehicle {
+                chain,
+                x,
+                speed: SPEED,
+                class: if draw(Purpose::Class) < TRUCKS { Class::Truck } else { Class::Car },
+                character: if is_aggressive { character } else { 512 + character },
+                destination: Some(0),
+            })
+            .expect("it fits on the road");
     }
 }
 

@@ -113,7 +113,9 @@ fn gap_when_noticed(style: &str, seed: u64) -> f64 {
     let mut world = world(own_map("motorway_2_lanes.osm"), &drivers, &drivers.shares, 0.0, seed);
     let mut put = |x, speed, class, character| {
         let (chain, destination) = (ChainIndex(0), Some(0));
-        world.place(NewVehicle { chain, x, speed, class, character, destination })
+        world
+            .place(NewVehicle { chain, x, speed, class, character, destination })
+            .expect("it fits on the road")
     };
     let mut coming = Vec::new();
     for pair in 0..PAIRS {
@@ -223,14 +225,16 @@ fn vehicles_that_merge_lose_less_speed_beside_altruists_than_beside_egoists() {
             drive(&mut world, 120, |_, _| ());
             let mut lost = Sum::default();
             for number in 0..60 {
-                world.place(NewVehicle {
-                    chain: ramp,
-                    x: 5.0,
-                    speed: 15.0,
-                    class: Class::Car,
-                    character: on_the_ramp.first + number % on_the_ramp.count,
-                    destination: Some(0),
-                });
+                world
+                    .place(NewVehicle {
+                        chain: ramp,
+                        x: 5.0,
+                        speed: 15.0,
+                        class: Class::Car,
+                        character: on_the_ramp.first + number % on_the_ramp.count,
+                        destination: Some(0),
+                    })
+                    .expect("it fits on the road");
                 drive(&mut world, HEADWAY, |world, _| {
                     let come = world.vehicles().filter(|it| it.car.character >= on_the_ramp.first);
                     let merge = come.filter(|it| it.spot.chain == ramp || it.mind.last_place.is_finite());

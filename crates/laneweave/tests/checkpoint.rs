@@ -5,9 +5,14 @@ use std::path::Path;
 
 use laneweave::scenario::{MadeSignals, Origin, Scenario, prepare};
 use laneweave::sim::{CheckpointError, World};
+use xxhash_rust::xxh3::xxh3_64;
 
 /// A world on one of our maps, with guidance every 30 s and actuated lights.
 fn world(map: &str, demand: f64, threads: usize) -> World {
+    prepare(&scenario(map, demand, threads), &Origin::default()).expect("the map is sound").world
+}
+
+fn scenario(map: &str, demand: f64, threads: usize) -> Scenario {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
     let mut scenario = Scenario::of_map(map);
     scenario.demand.vehicles_per_hour = Some(demand);
@@ -15,7 +20,7 @@ fn world(map: &str, demand: f64, threads: usize) -> World {
     scenario.guidance.interval_s = 30.0;
     scenario.made_signals = MadeSignals::Actuated;
     scenario.run.threads = NonZero::new(threads);
-    prepare(&scenario, &Origin::default()).expect("the map is sound").world
+    scenario
 }
 
 /// A few maps of different kinds, each with a demand that fills it [veh/h].
@@ -60,9 +65,69 @@ fn what_is_no_state_of_this_world_is_refused_and_the_world_left_as_it_was() {
     (0..300).for_each(|_| untouched.step());
     let before = untouched.state_hash();
     let told = |error: Result<(), CheckpointError>| error.expect_err("it is refused").to_string();
-    assert!(told(untouched.restore(&saved)).starts_with("it is the state of another world: of "));
+    assert!(
+        told(untouched.restore(&saved)).starts_with("it is the state of another world, with other lanes")
+    );
     assert!(told(untouched.restore(&saved[..saved.len() / 2])).starts_with("it is no state of a world: "));
     assert!(told(untouched.restore(&[])).starts_with("it is no state of a world: "));
     assert_eq!(untouched.state_hash(), before);
     untouched.step();
+}
+
+#[test]
+fn the_state_of_a_world_with_other_drivers_is_refused() {
+    let mut one_style = scenario("ramps.osm", 3000.0, 1);
+    one_style.styles = [("paper-aggressive".to_owned(), 1.0)].into();
+    let mut one = prepare(&one_style, &Origin::default()).expect("the style is there").world;
+    let saved = world("ramps.osm", 3000.0, 1).save().expect("it can be saved");
+    let error = one.restore(&saved).expect_err("it has other drivers");
+    assert_eq!(error.to_string(), "it is the state of another world, with other drivers");
+}
+
+/// A saved world in which much is under way, and one to give it to.
+fn busy() -> (Vec<u8>, World) {
+    let mut busy = world("town.osm", 6000.0, 1).with_journal();
+    (0..1800).for_each(|_| busy.step());
+    assert!(busy.on_road() > 50 && busy.waiting() > 0, "{} {}", busy.on_road(), busy.waiting());
+    (busy.save().expect("it can be saved"), world("town.osm", 6000.0, 1))
+}
+
+/// Numbers that look like chance, the same ones every time.
+fn numbers() -> impl Iterator<Item = u64> {
+    let next =
+        |it: &u64| Some(it.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));
+    std::iter::successors(Some(1), next).map(|it| it >> 24)
+}
+
+#[test]
+fn with_any_one_byte_changed_a_saved_world_is_refused() {
+    let (mut saved, mut world) = busy();
+    let before = world.state_hash();
+    let mut numbers = numbers();
+    for _ in 0..10_000 {
+        let (place, by) = (numbers.next().unwrap() as usize % saved.len(), numbers.next().unwrap() as u8 | 1);
+        saved[place] ^= by;
+        assert!(world.restore(&saved).is_err(), "byte {place}");
+        saved[place] ^= by;
+    }
+    assert_eq!(world.state_hash(), before);
+    world.restore(&saved).expect("nothing is changed any more");
+}
+
+#[test]
+fn what_is_changed_and_hashed_anew_is_refused_or_driven_on_from_but_breaks_nothing() {
+    let (saved, mut world) = busy();
+    let mut body = saved[..saved.len() - 8].to_vec();
+    let (mut numbers, mut accepted) = (numbers(), 0);
+    for _ in 0..2000 {
+        let (place, by) = (numbers.next().unwrap() as usize % body.len(), numbers.next().unwrap() as u8 | 1);
+        body[place] ^= by;
+        let whole = [&body[..], &xxh3_64(&body).to_le_bytes()].concat();
+        if world.restore(&whole).is_ok() {
+            accepted += 1;
+            (0..12).for_each(|_| world.step());
+        }
+        body[place] ^= by;
+    }
+    assert!(accepted > 100, "{accepted}");
 }

@@ -39,14 +39,17 @@ impl Run {
         let mut prepared = prepare(&self.scenario, &Origin::default()).expect("the map is sound");
         let chain = prepared.world.network().entrances[0].chains[0];
         for x in [102.5, 100.0, 500.0] {
-            prepared.world.place(NewVehicle {
-                chain,
-                x,
-                speed: 20.0,
-                class: Class::Car,
-                character: 0,
-                destination: None,
-            });
+            prepared
+                .world
+                .place(NewVehicle {
+                    chain,
+                    x,
+                    speed: 20.0,
+                    class: Class::Car,
+                    character: 0,
+                    destination: None,
+                })
+                .expect("it fits on the road");
         }
         prepared
     }

@@ -69,7 +69,9 @@ fn steps_of_traffic_that_stays_in_its_lanes_allocate_nothing() {
         let x = 30.0 * f64::from(number) + 10.0;
         let (chain, character) = (ChainIndex(0), number % 2);
         let class = if number % 10 == 0 { Class::Truck } else { Class::Car };
-        world.place(NewVehicle { chain, x, speed: 15.0, class, character, destination: None });
+        world
+            .place(NewVehicle { chain, x, speed: 15.0, class, character, destination: None })
+            .expect("it fits on the road");
     }
     (0..600).for_each(|_| world.step());
     assert_eq!((0..3000).map(|_| allocations_of_a_step(&mut world)).sum::<u64>(), 0);

@@ -25,7 +25,7 @@ fn world(network: Network, styles: Vec<Style>, demand: Demand) -> World {
 
 fn put(world: &mut World, chain: u32, x: f64, speed: f64, character: u32) -> VehicleId {
     let (chain, class, destination) = (ChainIndex(chain), Class::Car, Some(0));
-    world.place(NewVehicle { chain, x, speed, class, character, destination })
+    world.place(NewVehicle { chain, x, speed, class, character, destination }).expect("it fits on the road")
 }
 
 /// What a test follows of a driver.

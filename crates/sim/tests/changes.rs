@@ -114,14 +114,16 @@ fn v37_identical_drivers_in_equilibrium_on_equal_lanes_feel_no_desire() {
             let setup = Setup { step: 0.1, seed: 1, threads: 1 };
             let mut world = World::new(network, vec![threshold(style.clone(), 0.0)], nobody, setup).unwrap();
             for number in 0..2 * CARS {
-                world.place(NewVehicle {
-                    chain: ChainIndex((number % 2) as u32),
-                    x: ((number / 2) as f64 + if number % 2 == 1 { ahead } else { 0.0 }) * spacing + 1.0,
-                    speed: SPEED,
-                    class: Class::Car,
-                    character: 0,
-                    destination: None,
-                });
+                world
+                    .place(NewVehicle {
+                        chain: ChainIndex((number % 2) as u32),
+                        x: ((number / 2) as f64 + if number % 2 == 1 { ahead } else { 0.0 }) * spacing + 1.0,
+                        speed: SPEED,
+                        class: Class::Car,
+                        character: 0,
+                        destination: None,
+                    })
+                    .expect("it fits on the road");
             }
             for _ in 0..1000 {
                 world.step();
@@ -152,7 +154,9 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
             let (chain, start) = *starts.iter().rev().find(|(_, start)| *start < x).unwrap();
             let destination = Some(0);
             let class = Class::Car;
-            world.place(NewVehicle { chain, x: x - start, speed: 20.0, class, character: 0, destination });
+            world
+                .place(NewVehicle { chain, x: x - start, speed: 20.0, class, character: 0, destination })
+                .expect("it fits on the road");
         }
         let steps_per_epoch = world.clock().steps(1.0);
         let mut epochs = vec![0_u32; CARS as usize];
@@ -233,7 +237,7 @@ fn held_up(style: Style, lanes: usize, seed: u64) -> World {
 
 fn put(world: &mut World, lane: u32, x: f64, speed: f64, character: u32) {
     let (chain, class, destination) = (ChainIndex(lane), Class::Car, Some(0));
-    world.place(NewVehicle { chain, x, speed, class, character, destination });
+    world.place(NewVehicle { chain, x, speed, class, character, destination }).expect("it fits on the road");
 }
 
 fn phase_of_the_first(world: &World) -> Phase {
@@ -326,7 +330,9 @@ fn truck_beside(passing: Style) -> World {
     let mut world = World::new(network, vec![drivers::conservative(), passing], nobody, setup)
         .expect("the set-up makes sense");
     let mut put = |chain, x, speed, class, character| {
-        world.place(NewVehicle { chain, x, speed, class, character, destination: Some(0) })
+        world
+            .place(NewVehicle { chain, x, speed, class, character, destination: Some(0) })
+            .expect("it fits on the road")
     };
     put(ChainIndex(0), END - 18.0, 0.0, Class::Truck, 0);
     for number in 0..PASSING {

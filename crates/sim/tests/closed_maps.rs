@@ -119,7 +119,7 @@ fn a_driver_beyond_its_kerb_goes_round() {
         character: 1,
         destination: Some(0),
     };
-    world.place(new);
+    world.place(new).expect("it fits on the road");
     (0..620).for_each(|_| world.step());
     assert_eq!((world.on_road(), world.counts().left), (1, 0));
     (0..60).for_each(|_| world.step());
@@ -141,9 +141,11 @@ fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
         character: 1,
         destination: Some(0),
     };
-    world.place(car);
+    world.place(car).expect("it fits on the road");
     for x in [100.0, 116.0, 132.0, 148.0, 164.0] {
-        world.place(NewVehicle { chain: ChainIndex(0), x, class: Class::Truck, destination: None, ..car });
+        world
+            .place(NewVehicle { chain: ChainIndex(0), x, class: Class::Truck, destination: None, ..car })
+            .expect("it fits on the road");
     }
     (0..600).for_each(|_| world.step());
     assert_eq!((world.tally().missed_turns, world.counts().left), (1, 0));

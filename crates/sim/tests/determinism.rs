@@ -78,14 +78,16 @@ fn hash_of_a_ring(is_reversed: bool, threads: usize) -> u64 {
     let mut world = World::new(network, styles(), nobody, setup).expect("the set-up makes sense");
     for number in 0..CARS {
         let lane = number % 3;
-        world.place(NewVehicle {
-            chain: ChainIndex(if is_reversed { 2 - lane } else { lane }),
-            x: 15.0 + 16.0 * f64::from(number),
-            speed: 12.0,
-            class: if number % 10 == 0 { Class::Truck } else { Class::Car },
-            character: number % 2,
-            destination: None,
-        });
+        world
+            .place(NewVehicle {
+                chain: ChainIndex(if is_reversed { 2 - lane } else { lane }),
+                x: 15.0 + 16.0 * f64::from(number),
+                speed: 12.0,
+                class: if number % 10 == 0 { Class::Truck } else { Class::Car },
+                character: number % 2,
+                destination: None,
+            })
+            .expect("it fits on the road");
     }
     for _ in 0..STEPS {
         world.step();
@@ -132,14 +134,16 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
         let mut number_of = Vec::new();
         for number in order {
             number_of.push(number);
-            world.place(NewVehicle {
-                chain: ChainIndex(number % 2),
-                x: 20.0 + 40.0 * f64::from(number),
-                speed: 18.0 + f64::from(number * 7 % 9),
-                class: if number % 10 == 0 { Class::Truck } else { Class::Car },
-                character: u32::from(number % 4 != 0),
-                destination: Some(0),
-            });
+            world
+                .place(NewVehicle {
+                    chain: ChainIndex(number % 2),
+                    x: 20.0 + 40.0 * f64::from(number),
+                    speed: 18.0 + f64::from(number * 7 % 9),
+                    class: if number % 10 == 0 { Class::Truck } else { Class::Car },
+                    character: u32::from(number % 4 != 0),
+                    destination: Some(0),
+                })
+                .expect("it fits on the road");
         }
         (0..STEPS).for_each(|_| world.step());
         let mut state: Vec<_> = world

@@ -89,7 +89,9 @@ fn place(world: &mut World, x: f64, speed: f64, character: u32) {
         x -= world.network().chain(chain).length;
         chain = world.network().chain(chain).following[0];
     }
-    world.place(NewVehicle { chain, x, speed, class: Class::Car, character, destination: None });
+    world
+        .place(NewVehicle { chain, x, speed, class: Class::Car, character, destination: None })
+        .expect("it fits on the road");
 }
 
 fn car(world: &World, id: u32) -> Motion {

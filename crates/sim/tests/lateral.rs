@@ -38,7 +38,9 @@ fn world(network: Network, styles: Vec<Style>, threads: usize) -> World {
 
 fn put(world: &mut World, lane: u32, x: f64, speed: f64, class: Class, character: u32) {
     let destination: Destination = Some(0);
-    world.place(NewVehicle { chain: ChainIndex(lane), x, speed, class, character, destination });
+    world
+        .place(NewVehicle { chain: ChainIndex(lane), x, speed, class, character, destination })
+        .expect("it fits on the road");
 }
 
 fn changes(world: &World) -> impl Iterator<Item = &LaneChange> {

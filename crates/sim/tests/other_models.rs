@@ -27,14 +27,16 @@ fn among_heedless(network: Network, style: Style, places: &[(u32, f64, f64)]) ->
     let setup = Setup { step: 0.1, seed: 1, threads: 1 };
     let mut world = World::new(network, styles, nobody, setup).expect("the set-up makes sense");
     for (number, (lane, x, speed)) in places.iter().enumerate() {
-        world.place(NewVehicle {
-            chain: ChainIndex(*lane),
-            x: *x,
-            speed: *speed,
-            class: Class::Car,
-            character: u32::from(number > 0),
-            destination: Some(0),
-        });
+        world
+            .place(NewVehicle {
+                chain: ChainIndex(*lane),
+                x: *x,
+                speed: *speed,
+                class: Class::Car,
+                character: u32::from(number > 0),
+                destination: Some(0),
+            })
+            .expect("it fits on the road");
     }
     world
 }

@@ -42,7 +42,9 @@ fn straight(length: f64) -> World {
 
 fn put(world: &mut World, chain: u32, x: f64, speed: f64, class: Class) -> u32 {
     let (chain, destination) = (ChainIndex(chain), Some(0));
-    world.place(NewVehicle { chain, x, speed, class, character: 0, destination })
+    world
+        .place(NewVehicle { chain, x, speed, class, character: 0, destination })
+        .expect("it fits on the road")
 }
 
 fn car(world: &mut World, chain: u32, x: f64, speed: f64) -> u32 {
@@ -184,7 +186,7 @@ fn a_route_counts_the_changes_and_the_road_that_remains_for_them() {
             character: 0,
             destination: Some(ramp),
         };
-        let id = world.place(new);
+        let id = world.place(new).expect("it fits on the road");
         let side = if chain == 2 { Side::Right } else { Side::Left };
         let scene = world.scene();
         let Situation { here, there, .. } = look(&scene, &world, id, side);
@@ -206,7 +208,7 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
     let chain = ChainIndex(0);
     let destination = Some(0);
     let changer = NewVehicle { chain, x: 300.0, speed: 20.0, class: Class::Car, character: 1, destination };
-    let changer = world.place(changer);
+    let changer = world.place(changer).expect("it fits on the road");
     let mut seen_from = std::collections::BTreeSet::new();
     for _ in 0..60 {
         world.step();
@@ -248,7 +250,9 @@ impl Waiting {
         let me = car(&mut world, 1, 500.0, 20.0);
         let (chain, destination) = (ChainIndex(lane), Some(0));
         let (x, class) = (500.0 + forward, Class::Car);
-        let waiting = world.place(NewVehicle { chain, x, speed: 20.0, class, character: 1, destination });
+        let waiting = world
+            .place(NewVehicle { chain, x, speed: 20.0, class, character: 1, destination })
+            .expect("it fits on the road");
         for (lane, ahead) in others {
             car(&mut world, *lane, 500.0 + ahead, 20.0);
         }

@@ -175,7 +175,9 @@ fn a_driver_who_would_still_accelerate_when_kinematics_sets_in_is_counted_once()
         World::new(network, vec![follower, leader], demand, setup).expect("the set-up makes sense");
     for (character, x) in [(0, 20.0), (1, 120.0)] {
         let (chain, class, destination) = (ChainIndex(0), Class::Car, Some(0));
-        world.place(NewVehicle { chain, x, speed: 5.0, class, character, destination });
+        world
+            .place(NewVehicle { chain, x, speed: 5.0, class, character, destination })
+            .expect("it fits on the road");
     }
     (0..1500).for_each(|_| world.step());
     assert_eq!(world.tally().collisions, 0);

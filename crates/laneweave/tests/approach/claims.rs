@@ -37,8 +37,9 @@ fn missed(seed: u64) -> (u64, u64) {
             if is_free {
                 let character = (number * 7919 + seed as u32) % drivers;
                 let (class, destination) = (Class::Car, Some(exit));
-                let id =
-                    world.place(NewVehicle { chain, x: 5.0, speed: 12.0, class, character, destination });
+                let id = world
+                    .place(NewVehicle { chain, x: 5.0, speed: 12.0, class, character, destination })
+                    .expect("it fits on the road");
                 come.insert(id, (exit, chain));
             }
         }

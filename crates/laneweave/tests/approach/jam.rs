@@ -92,7 +92,11 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
                 let character = (number * 7919 + seed as u32) % count;
                 let (class, destination) = (Class::Car, Some(common));
                 let speed = 10.0;
-                come.insert(world.place(NewVehicle { chain, x: 5.0, speed, class, character, destination }));
+                come.insert(
+                    world
+                        .place(NewVehicle { chain, x: 5.0, speed, class, character, destination })
+                        .expect("it fits on the road"),
+                );
             }
         }
         world.step();

@@ -103,24 +103,25 @@ pub enum Act {
 
 /// What the driver of the vehicle at `spot` makes of its lanes now, and does in the next step.
 pub fn explain(world: &World, spot: Spot) -> Account<'_> {
-    let overtaking = world.network.driving_side.overtaking();
-    let moment = Moment { clock: world.clock, random: world.random, overtaking };
+    let overtaking = world.roads.network.driving_side.overtaking();
+    let moment = Moment { clock: world.traffic.clock, random: world.roads.random, overtaking };
     let scene = world.scene();
     let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let style: &Style = &world.characters[car.character as usize];
-    let time = world.clock.time();
-    let state = concentration(&style.attention, world.random, motion.id, time);
+    let style: &Style = &world.roads.characters[car.character as usize];
+    let time = world.traffic.clock.time();
+    let state = concentration(&style.attention, world.roads.random, motion.id, time);
     let alertness = style.attention.alertness(state);
     let change = model(style, state);
     let goal = car.goal.destination();
-    let waypoint = world.navigator.waypoint_from(&world.network, goal, spot.chain, motion.x);
-    let beliefs = Beliefs::of(&style.guidance, &world.navigator, world.random, motion.id, goal);
+    let waypoint = world.roads.navigator.waypoint_from(&world.roads.network, goal, spot.chain, motion.x);
+    let beliefs = Beliefs::of(&style.guidance, &world.roads.navigator, world.roads.random, motion.id, goal);
     let mut hints = Side::BOTH.map(|side| {
-        let beside = world.network.chain(spot.chain).beside(side, motion.x);
-        beside.map_or(0, |it| world.lanes[it.chain.at()].ahead_of(it.across(motion.x)))
+        let beside = world.roads.network.chain(spot.chain).beside(side, motion.x);
+        beside.map_or(0, |it| world.traffic.lanes[it.chain.at()].ahead_of(it.across(motion.x)))
     });
     let outlook = Outlook::new(&scene, spot, &waypoint, alertness.sight, beliefs, &mut hints);
-    let calm_for = f64::from(car.calm_until.saturating_sub(world.clock.step)) * world.clock.dt;
+    let calm_for =
+        f64::from(car.calm_until.saturating_sub(world.traffic.clock.step)) * world.traffic.clock.dt;
     let mut sides = [overtaking, overtaking.opposite()].map(|side| {
         let situation = outlook.situation(side, outlook.beside(side)?);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
@@ -128,7 +129,8 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         let is_out_of_question = calm_for > 0.0 && !helps_the_route;
         Some(SideAccount { side, situation, appraisal, chance: 0.0, is_out_of_question })
     });
-    let epochs = f64::from(world.clock.steps(alertness.epoch)) * world.clock.dt / alertness.epoch;
+    let epochs =
+        f64::from(world.traffic.clock.steps(alertness.epoch)) * world.traffic.clock.dt / alertness.epoch;
     let weighed =
         sides.each_ref().map(|it| it.as_ref().filter(|it| !it.is_out_of_question).map(|it| &it.appraisal));
     let chances = change.choose(weighed).map(|it| at_least_once_in(epochs, it));
@@ -147,7 +149,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         calm_for,
         epochs,
         has_last_chance: has_last_chance(&style.change, motion, &waypoint),
-        draw: world.random.uniform(motion.id, Purpose::Desire, world.clock.step),
+        draw: world.roads.random.uniform(motion.id, Purpose::Desire, world.traffic.clock.step),
         act: act(&scene, moment, spot),
         pairings: found.map_or([None; 2], |it| it.pairings(&scene, spot)),
         fastest: found.map_or(f64::INFINITY, |it| it.fastest(&scene, spot)),

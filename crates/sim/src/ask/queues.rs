@@ -56,7 +56,7 @@ const NEAR: f64 = 15.0;
 
 /// The queues at all lanes of all origins, in the order of the demand.
 pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
-    let lanes = world.sources.iter().enumerate();
+    let lanes = world.arrivals.sources.iter().enumerate();
     let lanes = lanes.flat_map(|(origin, source)| source.lanes().iter().map(move |it| (origin, it)));
     lanes.map(|(origin, queue)| EntryQueue {
         origin,
@@ -72,13 +72,13 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
     let first = queue.waiting.front()?;
     let scene = world.scene();
     let is_kerb = matches!(queue.start, Start::FromRest(_));
-    if first.is_through_town && world.metering.as_ref().is_some_and(Metering::is_full) {
+    if first.is_through_town && world.arrivals.metering.as_ref().is_some_and(Metering::is_full) {
         return Some(Held::FullMap);
     }
     if is_kerb && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
         return Some(Held::Room);
     }
-    match entry(&scene, queue, first, world.clock, &mut Survey::default()) {
+    match entry(&scene, queue, first, world.traffic.clock, &mut Survey::default()) {
         Entry::Refused(Hindrance::Light) => return Some(Held::RedLight),
         Entry::Refused(Hindrance::Sign | Hindrance::Others) => return Some(Held::Priority),
         Entry::Refused(Hindrance::Room | Hindrance::Ring) => return Some(Held::Room),
@@ -92,7 +92,7 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
 /// Why the driver at the head of a queue stands.
 fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
     let id = scene.motion(spot).id;
-    let Some(waiting) = world.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id) else {
+    let Some(waiting) = world.work.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id) else {
         return Held::Queue;
     };
     let mut survey = Survey::default();
@@ -100,7 +100,7 @@ fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
         return Held::Queue;
     }
     let applicant = Applicant::at(scene, spot);
-    match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, world.clock)) {
+    match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, world.traffic.clock)) {
         Ok(()) => Held::Queue,
         Err(Hindrance::Light) => Held::RedLight,
         Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,

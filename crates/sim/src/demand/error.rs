@@ -21,6 +21,9 @@ pub enum WorldError {
     /// There are no characters.
     #[error("there is no style to drive with")]
     NoCharacters,
+    /// A vehicle cannot be put there, or is not known.
+    #[error("a vehicle cannot be put on the road: {0}")]
+    Vehicle(&'static str),
     /// A rate, weight or share is not a sensible number.
     #[error("{what} is {value}: it must be a number not below 0{limit}")]
     Demand {

@@ -39,6 +39,11 @@ impl Metering {
         (length >= LEAST_TOWN).then_some(Metering { is_town, length, is_full: false })
     }
 
+    /// Whether it is of the same town, full or not.
+    pub(crate) fn fits(&self, other: &Metering) -> bool {
+        self.is_town == other.is_town && self.length == other.length
+    }
+
     /// Whether a chain is part of the town.
     pub fn is_town(&self, chain: ChainIndex) -> bool {
         self.is_town[chain.at()]

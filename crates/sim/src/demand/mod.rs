@@ -1,5 +1,6 @@
 //! Demand: who drives, where from and where to, how many come, and at which headways.
 
+pub(crate) mod arrivals;
 pub(crate) mod assignment;
 pub(crate) mod error;
 pub(crate) mod headways;

@@ -15,6 +15,7 @@ use crate::junction::refuge::Refuge;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::ways::Waypoint;
+use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::random::{Purpose, Random};
 use crate::state::traffic::{Motion, VehicleId};
@@ -127,6 +128,33 @@ impl Source {
             source
         });
         sources.collect()
+    }
+
+    /// Whether it is that of the same origin as `other` at `clock`, for so many drivers, and for ways that are known.
+    pub(crate) fn fits(
+        &self,
+        other: &Source,
+        clock: Clock,
+        characters: usize,
+        is_known: impl Fn(Destination) -> bool,
+    ) -> bool {
+        let Source { headways, rate, streams, lanes, destinations } = self;
+        let arrival_fits = |it: &Arrival| (it.character as usize) < characters && is_known(it.destination);
+        let queue_fits = |(one, other): (&Queue, &Queue)| {
+            one.chain == other.chain
+                && one.start == other.start
+                && one.waiting.iter().all(arrival_fits)
+                && one.asks_since.is_none_or(|it| it <= clock.step)
+        };
+        let stream_fits =
+            |(one, other): (&Stream, &Stream)| one.number == other.number && one.next >= clock.time();
+        headways == &other.headways
+            && rate == &other.rate
+            && destinations == &other.destinations
+            && streams.len() == other.streams.len()
+            && streams.iter().zip(&other.streams).all(stream_fits)
+            && lanes.len() == other.lanes.len()
+            && lanes.iter().zip(&other.lanes).all(queue_fits)
     }
 
     /// Draws when the next vehicle of a stream comes after the last one.

@@ -36,7 +36,7 @@ enum Stage {
 }
 
 /// A turn with its times in steps.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Timed {
     lights: Vec<LightIndex>,
     /// Nobody has to call it, and nobody extends it.
@@ -70,6 +70,20 @@ impl Controller {
         let turns = plan.turns.iter().map(|it| Timed::of(it, clock)).collect();
         let step = clock.step;
         Controller { turns, turn: 0, stage: Stage::Green, since: step, seen: step, called: Some(step) }
+    }
+
+    /// Whether it is that of the same program, wherever this is at `clock`.
+    pub(crate) fn fits(&self, other: &Controller, clock: Clock) -> bool {
+        let Controller { turns, turn, stage, since, seen, called } = self;
+        let stage_fits = match stage {
+            Stage::Green => true,
+            Stage::Yellow(to) | Stage::AllRed(to) => *to < turns.len(),
+        };
+        let steps = [Some(*since), Some(*seen), *called];
+        turns == &other.turns
+            && *turn < turns.len()
+            && stage_fits
+            && steps.into_iter().flatten().all(|it| it <= clock.step)
     }
 
     /// Its lights; those of several turns several times.

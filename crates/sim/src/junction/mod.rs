@@ -7,3 +7,4 @@ pub(crate) mod passages;
 pub(crate) mod refuge;
 pub(crate) mod rings;
 pub(crate) mod signals;
+pub(crate) mod state;

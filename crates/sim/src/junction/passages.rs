@@ -8,6 +8,7 @@ use crate::junction::claim::{Claim, Hold};
 use crate::junction::need::Survey;
 use crate::junction::refuge::{Numbers, Refuge};
 use crate::junction::rings::Rings;
+use crate::state::clock::Clock;
 use crate::state::traffic::VehicleId;
 
 /// A vehicle has no passage.
@@ -83,6 +84,37 @@ impl Passages {
             rings: Rings::of(network),
             ..Passages::default()
         }
+    }
+
+    /// Whether it is of the same network as `other`, and names nothing that is not there.
+    pub(crate) fn fits(&self, other: &Passages, lights: usize, clock: Clock) -> bool {
+        let Passages { given, free, queues, claims, claimed, numbers, wanted, wanted_on, kept, rings } = self;
+        let is_zone = |it: &ZoneIndex| it.at() < queues.len();
+        let is_slot = |it: u32| (it as usize) < given.len();
+        let is_held = |zone: usize, it: &Holder| {
+            is_slot(it.slot)
+                && given[it.slot as usize]
+                    .holds
+                    .iter()
+                    .any(|hold| hold.zone.at() == zone && hold.side == it.side)
+        };
+        let is_given = |it: &Passage| {
+            it.since <= clock.step
+                && it.holds.iter().all(|it| is_zone(&it.zone) && it.side < 2)
+                && it.lights.iter().all(|it| it.0.at() < lights)
+                && it.rooms.iter().all(|it| it.on < kept.len() && it.length <= kept[it.on])
+        };
+        queues.len() == other.queues.len()
+            && claims.len() == other.claims.len()
+            && wanted.len() == other.wanted.len()
+            && kept.len() == other.kept.len()
+            && numbers == &other.numbers
+            && rings.fits(&other.rings)
+            && given.iter().all(is_given)
+            && free.iter().all(|it| is_slot(*it))
+            && claimed.iter().all(is_zone)
+            && wanted_on.iter().all(|it| *it < wanted.len())
+            && queues.iter().enumerate().all(|(zone, it)| it.iter().all(|it| is_held(zone, it)))
     }
 
     /// The passage in `slot`, if it is still that of `vehicle`.

@@ -31,7 +31,7 @@ impl Refuge {
 }
 
 /// Numbers of all refuges of a network, from 0 on; none where there are no zones.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Numbers {
     /// Those of the first of each chain.
     first: Vec<u32>,

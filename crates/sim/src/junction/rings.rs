@@ -64,6 +64,16 @@ impl Rings {
         if rings.rings.is_empty() { Rings::default() } else { rings }
     }
 
+    /// Whether they are those of the same network, whoever waits for them.
+    pub(crate) fn fits(&self, other: &Rings) -> bool {
+        let alike = |(one, other): (&Ring, &Ring)| {
+            one.chains == other.chains && one.entries == other.entries && one.length == other.length
+        };
+        self.of == other.of
+            && self.rings.len() == other.rings.len()
+            && self.rings.iter().zip(&other.rings).all(alike)
+    }
+
     /// The ring that is entered from one chain to another.
     fn entered(&self, [from, to]: [ChainIndex; 2]) -> Option<u32> {
         let ring = |it: ChainIndex| self.of.get(it.at()).copied().flatten();

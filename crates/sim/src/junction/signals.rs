@@ -65,6 +65,22 @@ impl Signals {
         signals
     }
 
+    /// Whether they are those of the same network and programs, whatever they show.
+    pub(crate) fn fits(&self, other: &Signals, clock: Clock) -> bool {
+        let Signals { shown, was_green, steady_until: _, controllers, detectors } = self;
+        shown.len() == other.shown.len()
+            && was_green.len() == other.was_green.len()
+            && was_green.iter().all(|it| *it <= clock.step)
+            && detectors == &other.detectors
+            && controllers.len() == other.controllers.len()
+            && controllers.iter().zip(&other.controllers).all(|(one, other)| one.fits(other, clock))
+    }
+
+    /// How many lights there are.
+    pub(crate) fn count(&self) -> usize {
+        self.shown.len()
+    }
+
     /// What a light shows.
     #[inline]
     pub fn shown(&self, light: LightIndex) -> LightState {

@@ -106,6 +106,26 @@ const AHEAD: u32 = u32::MAX;
 const OVER: u32 = u32::MAX - 1;
 
 impl Journal {
+    /// Whether its slots are there, and its records lie on so many chains.
+    pub(crate) fn fits(&self, chains: usize) -> bool {
+        let Journal { oldest: _, slots, records, free } = self;
+        let is_there = |it: u32| (it as usize) < records.len();
+        slots.iter().all(|it| *it >= OVER || is_there(*it))
+            && free.iter().all(|it| is_there(*it))
+            && records.iter().all(|it| it.from.0.at() < chains)
+    }
+
+    /// Whether all who have come before the vehicle `next` have a slot, but for so many at most.
+    pub(crate) fn reaches(&self, next: VehicleId, but_for: usize) -> bool {
+        let left = next.checked_sub(self.oldest).and_then(|it| (it as usize).checked_sub(self.slots.len()));
+        left.is_some_and(|it| it <= but_for)
+    }
+
+    /// Whether a vehicle has a record that has not ended.
+    pub(crate) fn has(&self, id: VehicleId) -> bool {
+        self.of(id).is_some()
+    }
+
     /// A trip begins.
     pub(crate) fn begin(&mut self, mut record: TripRecord) {
         record.way_to_start = -record.from.1;

@@ -1,9 +1,11 @@
 //! What is remembered: events, trips, counts and incidents.
 
+pub(crate) mod counts;
 pub(crate) mod events;
 pub(crate) mod incidents;
 pub(crate) mod journal;
 pub(crate) mod ledger;
+pub(crate) mod log;
 pub(crate) mod overlap;
 pub(crate) mod records;
 pub(crate) mod signs;

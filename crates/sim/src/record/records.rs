@@ -12,6 +12,16 @@ pub(crate) struct Records {
 }
 
 impl Records {
+    /// Whether there is something in a slot.
+    pub(crate) fn has(&self, slot: u32) -> bool {
+        (slot as usize) < self.kept.len()
+    }
+
+    /// Whether every free slot is there.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.free.iter().all(|it| self.has(*it))
+    }
+
     /// Keeps a record; returns its slot.
     pub(crate) fn keep(&mut self, record: LaneChange) -> u32 {
         if let Some(slot) = self.free.pop() {

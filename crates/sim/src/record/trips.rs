@@ -60,6 +60,22 @@ pub(crate) struct Trips {
 }
 
 impl Trips {
+    /// Whether a vehicle has one that has begun.
+    pub(crate) fn has(&self, id: VehicleId) -> bool {
+        id.checked_sub(self.oldest).is_some_and(|it| (it as usize) < self.trips.len())
+    }
+
+    /// Whether a vehicle can still begin one.
+    pub(crate) fn can_begin(&self, id: VehicleId) -> bool {
+        id >= self.oldest
+    }
+
+    /// Whether all who have come before the vehicle `next` have one, but for so many at most.
+    pub(crate) fn reach(&self, next: VehicleId, but_for: usize) -> bool {
+        let left = next.checked_sub(self.oldest).and_then(|it| (it as usize).checked_sub(self.trips.len()));
+        left.is_some_and(|it| it <= but_for)
+    }
+
     /// A trip begins.
     pub(crate) fn begin(&mut self, id: VehicleId, free_time: Option<f64>) {
         let place = (id - self.oldest) as usize;

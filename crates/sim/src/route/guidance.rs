@@ -70,6 +70,18 @@ impl Guidance {
         Guidance { period, meters, due: Vec::new(), in_use: Vec::new(), credit: 0 }
     }
 
+    /// Whether it is of so many links and ways.
+    pub(crate) fn fits(&self, links: usize, tables: usize) -> bool {
+        let Guidance { period, meters, due, in_use, credit } = self;
+        let is_use = in_use.is_empty() || in_use.len() == tables;
+        *period > 0
+            && meters.len() == links
+            && due.iter().all(|it| *it < tables)
+            && is_use
+            && (due.is_empty() || !in_use.is_empty())
+            && *credit <= usize::MAX / 2
+    }
+
     /// Counts who is where.
     pub(crate) fn sample(&mut self, lanes: &[Lane], links: &Links) {
         for (lane, chain) in lanes.iter().zip(0..) {

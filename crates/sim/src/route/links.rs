@@ -48,6 +48,14 @@ impl Links {
         it
     }
 
+    /// Whether they are those of the same network, whatever their times.
+    pub(crate) fn fits(&self, other: &Links) -> bool {
+        let place = |it: &Link| (it.start, it.length, it.limit, it.free_time);
+        self.first == other.first
+            && self.links.len() == other.links.len()
+            && self.links.iter().zip(&other.links).all(|(one, other)| place(one) == place(other))
+    }
+
     /// There are none: times are those of the free road.
     #[inline]
     pub(crate) fn are_free(&self) -> bool {

@@ -6,5 +6,6 @@ pub(crate) mod links;
 pub(crate) mod navigate;
 pub(crate) mod onward;
 pub(crate) mod place;
+pub(crate) mod roads;
 pub(crate) mod views;
 pub(crate) mod ways;

@@ -47,6 +47,18 @@ pub(crate) struct Guided {
     measurements: u32,
 }
 
+impl Guided {
+    /// Whether the way to a destination is planned.
+    pub(crate) fn has(&self, destination: Destination) -> bool {
+        is_planned(&self.tables, destination)
+    }
+}
+
+/// Whether the way to a destination is planned in `tables`; who has none drives on as the road leads.
+fn is_planned(tables: &[Vec<Waypoint>], destination: Destination) -> bool {
+    destination.is_none_or(|it| tables.get(usize::from(it)).is_some_and(|it| !it.is_empty()))
+}
+
 impl Navigator {
     /// Waypoints that may be planned, ours: 3.2 GB.
     pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
@@ -108,6 +120,23 @@ impl Navigator {
         Guided { tables, recommended, links, measurements }
     }
 
+    /// Whether it can go on from that.
+    pub(crate) fn accepts(&self, guided: &Guided) -> bool {
+        let Guided { tables, recommended, links, measurements: _ } = guided;
+        let chains = self.trip_ends.len();
+        let alike =
+            |(one, other): (&Vec<Waypoint>, &Vec<Waypoint>)| one.len() == other.len() || one.len() == chains;
+        let is_chain = |it: ChainIndex| it.at() < chains;
+        tables.len() == self.tables.len()
+            && tables.iter().zip(&self.tables).all(alike)
+            && tables.iter().flatten().all(|it| it.chains().all(is_chain))
+            && recommended.len() == self.recommended.len()
+            && recommended
+                .iter()
+                .all(|it| usize::from(*it) < tables.len() && !tables[usize::from(*it)].is_empty())
+            && links.fits(&self.links)
+    }
+
     /// Goes on from what guidance had changed of a navigator of the same network.
     pub(crate) fn go_on(&mut self, network: &Network, guided: Guided) {
         let Guided { tables, recommended, links, measurements } = guided;
@@ -126,6 +155,11 @@ impl Navigator {
             let goal = Goal::from(Some(table as u16));
             self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
         }
+    }
+
+    /// Whether the way to a destination is planned.
+    pub(crate) fn has(&self, destination: Destination) -> bool {
+        is_planned(&self.tables, destination)
     }
 
     /// Number of tables.

@@ -39,6 +39,11 @@ pub struct Waypoint {
 }
 
 impl Waypoint {
+    /// The chains that it names.
+    pub(crate) fn chains(&self) -> impl Iterator<Item = ChainIndex> {
+        [Some(self.via), self.next].into_iter().flatten()
+    }
+
     /// More changes than any road has lanes: there is no way.
     pub const NO_WAY: u32 = 1000;
     /// What a lane change counts for in the choice of a route [s].

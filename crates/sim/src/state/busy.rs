@@ -20,6 +20,13 @@ impl Busy {
         Busy { marks: vec![0; count.div_ceil(64)], chosen: Vec::new(), has_changed: false }
     }
 
+    /// Whether it is of so many lanes.
+    pub(crate) fn is_of(&self, count: usize) -> bool {
+        let Busy { marks, chosen, has_changed: _ } = self;
+        let last = marks.last().map_or(0, |it| marks.len() * 64 - it.leading_zeros() as usize);
+        marks.len() == count.div_ceil(64) && last <= count && chosen.iter().all(|it| (*it as usize) < count)
+    }
+
     /// A vehicle comes onto `chain`.
     #[inline]
     pub(crate) fn note(&mut self, chain: ChainIndex) {

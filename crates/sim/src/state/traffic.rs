@@ -223,6 +223,17 @@ pub struct Lane {
 }
 
 impl Lane {
+    /// Whether its arrays go together, and its vehicles stand in driving order.
+    pub(crate) fn is_sound(&self) -> bool {
+        let Lane { motions, cars, minds } = self;
+        let is_number = |it: &Motion| it.x.is_finite() && it.speed.is_finite() && it.length > 0.0;
+        let is_in_order = motions.windows(2).all(|it| it[0].x <= it[1].x);
+        cars.len() == motions.len()
+            && minds.len() == motions.len()
+            && motions.iter().all(is_number)
+            && is_in_order
+    }
+
     /// How they move.
     #[inline]
     pub fn motions(&self) -> &[Motion] {

@@ -13,42 +13,43 @@ use crate::record::events::Event;
 use crate::right_of_way::conditions::Hindrance;
 use crate::right_of_way::heed::sight;
 use crate::right_of_way::survey::stop_ahead;
+use crate::state::setup::NewVehicle;
 use crate::step::reserve::{Entry, applicant, entry};
-use crate::step::world::{NewVehicle, World};
+use crate::step::world::World;
 use crate::view::scene::{Found, Scene, nearer};
 
 impl World {
     /// Vehicles arrive, queue up, and enter where there is room.
     pub(crate) fn enter(&mut self) {
-        let mut sources = std::mem::take(&mut self.sources);
+        let mut sources = std::mem::take(&mut self.arrivals.sources);
         if self.begins_a_second()
-            && let Some(metering) = &mut self.metering
+            && let Some(metering) = &mut self.arrivals.metering
         {
-            metering.measure(&self.lanes);
+            metering.measure(&self.traffic.lanes);
         }
-        let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
-        let time = self.clock.time();
+        let is_full = self.arrivals.metering.as_ref().is_some_and(Metering::is_full);
+        let time = self.traffic.clock.time();
         for (origin, source) in sources.iter_mut().enumerate() {
             let scene = self.scene();
-            let mut next_id = self.next_id;
-            let metering = self.metering.as_ref();
-            source.arrive(&scene, &self.demand, metering, &self.random, time, &mut next_id);
-            self.next_id = next_id;
+            let mut next_id = self.arrivals.next_id;
+            let metering = self.arrivals.metering.as_ref();
+            source.arrive(&scene, &self.arrivals.demand, metering, &self.roads.random, time, &mut next_id);
+            self.arrivals.next_id = next_id;
             for queue in source.queues() {
                 while let Some(place) = queue.first(is_full)
                     && self.let_in(origin, queue, place)
                 {}
             }
         }
-        self.sources = sources;
+        self.arrivals.sources = sources;
     }
 
     /// Lets the vehicle at a `place` of a queue onto the road, if there is room for it. Returns whether it came.
     fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize) -> bool {
-        let mut survey = std::mem::take(&mut self.outboxes[0].survey);
-        let needs = entry(&self.scene(), queue, &queue.waiting[place], self.clock, &mut survey);
+        let mut survey = std::mem::take(&mut self.work.outboxes[0].survey);
+        let needs = entry(&self.scene(), queue, &queue.waiting[place], self.traffic.clock, &mut survey);
         if let Entry::Refused(Hindrance::Others) = needs {
-            queue.asks_since.get_or_insert(self.clock.step);
+            queue.asks_since.get_or_insert(self.traffic.clock.step);
         }
         let admitted = self.admit(queue, &queue.waiting[place], needs);
         if let Some(vehicle) = admitted
@@ -62,9 +63,9 @@ impl World {
             if let Some(record) = self.record_mut(arrival.id) {
                 record.origin = Some(origin);
             }
-            self.events.push(Event::Entered(arrival.id));
+            self.log.events.push(Event::Entered(arrival.id));
         }
-        self.outboxes[0].survey = survey;
+        self.work.outboxes[0].survey = survey;
         admitted.is_some()
     }
 
@@ -80,15 +81,15 @@ impl World {
         let rear = queue.start.station();
         let length = class.body().length;
         let x = rear + length;
-        let style = &self.characters[character as usize];
+        let style = &self.roads.characters[character as usize];
         let scene = self.scene();
         let from = scene.viewpoint_at(applicant(&scene, queue, arrival).from, chain, rear);
         let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
         let ahead = nearer(ahead, before);
-        let dt = self.clock.dt;
+        let dt = self.traffic.clock.dt;
         let speed = match queue.start {
             Start::Driving => {
-                let desired = class.desired_speed(style, self.network.chain(chain).limit(x));
+                let desired = class.desired_speed(style, self.roads.network.chain(chain).limit(x));
                 let speed = entry_speed(style, desired, ahead, dt)?;
                 let stop = stop_ahead(&scene, from, granted, sight(desired));
                 stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
@@ -98,7 +99,7 @@ impl World {
                 let follower = scene.follower(from);
                 let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
                 // Room that is kept for others stays theirs.
-                let is_free = scene.passages.kept_on(queue.refuge(&self.network)) == 0.0;
+                let is_free = scene.passages.kept_on(queue.refuge(&self.roads.network)) == 0.0;
                 (leaves_room && is_let_in && is_free).then_some(0.0)?
             }
         };

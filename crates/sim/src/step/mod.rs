@@ -1,14 +1,19 @@
 //! The step: the only part that changes a world.
 
 pub(crate) mod advance;
+pub(crate) mod answers;
 pub(crate) mod checkpoint;
 pub(crate) mod enter;
 pub(crate) mod guide;
 pub(crate) mod lights;
+pub(crate) mod move_all;
 pub(crate) mod passing;
 pub(crate) mod pool;
+pub(crate) mod put;
 pub(crate) mod reserve;
 pub(crate) mod resolve;
 pub(crate) mod rotation;
+pub(crate) mod vehicle;
 pub(crate) mod watch;
+pub(crate) mod work;
 pub(crate) mod world;

@@ -19,69 +19,71 @@ const HANGS_OUT: f64 = 8.0;
 impl World {
     /// Vehicles with a passage drove on: what is behind them is free for others.
     pub(crate) fn pass_on(&mut self) {
-        let mut progress = std::mem::take(&mut self.outboxes[0].progress);
+        let mut progress = std::mem::take(&mut self.work.outboxes[0].progress);
         progress.sort_unstable_by_key(|it| it.slot);
         for it in progress.drain(..) {
-            if self.passages.of(it.slot, it.id).is_some() {
-                self.passages.advance(it.slot, it.distance, it.speed, it.desired);
+            if self.junctions.passages.of(it.slot, it.id).is_some() {
+                self.junctions.passages.advance(it.slot, it.distance, it.speed, it.desired);
             }
         }
-        self.outboxes[0].progress = progress;
+        self.work.outboxes[0].progress = progress;
     }
 
     /// Passages are given back, and given to those who may pass, who asked first before the others.
     pub(crate) fn give_passages(&mut self) {
-        let mut appeals = std::mem::take(&mut self.outboxes[0].appeals);
-        let mut claims = std::mem::take(&mut self.outboxes[0].claims);
-        let mut survey = std::mem::take(&mut self.outboxes[0].survey);
+        let mut appeals = std::mem::take(&mut self.work.outboxes[0].appeals);
+        let mut claims = std::mem::take(&mut self.work.outboxes[0].claims);
+        let mut survey = std::mem::take(&mut self.work.outboxes[0].survey);
         self.claims_at_entrances(&mut claims, &mut survey);
-        self.outboxes[0].survey = survey;
-        self.passages.clear_claims();
-        claims.drain(..).for_each(|(zone, side, turn)| self.passages.note_claim(zone, side, turn));
-        let rings = self.outboxes[0].rings.drain(..);
-        rings.for_each(|(way, claim)| self.passages.rings.note_claim(way, claim));
-        let wants = self.outboxes[0].wants.drain(..);
-        wants.for_each(|(refuge, claim, needed)| self.passages.note_want(refuge, claim, needed));
+        self.work.outboxes[0].survey = survey;
+        self.junctions.passages.clear_claims();
+        claims.drain(..).for_each(|(zone, side, turn)| self.junctions.passages.note_claim(zone, side, turn));
+        let rings = self.work.outboxes[0].rings.drain(..);
+        rings.for_each(|(way, claim)| self.junctions.passages.rings.note_claim(way, claim));
+        let wants = self.work.outboxes[0].wants.drain(..);
+        wants.for_each(|(refuge, claim, needed)| self.junctions.passages.note_want(refuge, claim, needed));
         appeals.sort_unstable_by_key(|it| (matches!(it.what, Plea::Pass), it.since, it.id));
         for appeal in appeals.drain(..) {
-            let Some(index) = self.lanes[appeal.chain.at()].find(appeal.id, appeal.x) else { continue };
+            let Some(index) = self.traffic.lanes[appeal.chain.at()].find(appeal.id, appeal.x) else {
+                continue;
+            };
             let spot = Spot { chain: appeal.chain, index };
             match appeal.what {
                 Plea::Pass => self.give_passage(spot, appeal.since),
                 Plea::GiveBack(from) => {
-                    let slot = self.lanes[spot.chain.at()].minds()[index].passage;
-                    if self.passages.of(slot, appeal.id).is_some() {
-                        self.passages.take_back(slot, from);
+                    let slot = self.traffic.lanes[spot.chain.at()].minds()[index].passage;
+                    if self.junctions.passages.of(slot, appeal.id).is_some() {
+                        self.junctions.passages.take_back(slot, from);
                         // It keeps its place among those who wait.
-                        let (index, since) = (index as u32, self.passages.since(slot));
+                        let (index, since) = (index as u32, self.junctions.passages.since(slot));
                         let waiting = Waiting { index, id: appeal.id, since, is_held: true };
-                        self.plans[spot.chain.at()].waiting.push(waiting);
+                        self.work.plans[spot.chain.at()].waiting.push(waiting);
                     }
                 }
             }
         }
-        let mut blocked = std::mem::take(&mut self.outboxes[0].blocked);
-        if blocked.len() > 1 && self.clock.step.is_multiple_of(self.clock.steps(1.0)) {
+        let mut blocked = std::mem::take(&mut self.work.outboxes[0].blocked);
+        if blocked.len() > 1 && self.traffic.clock.step.is_multiple_of(self.traffic.clock.steps(1.0)) {
             blocked.sort_unstable_by_key(|it| it.id);
             self.rotate(&blocked);
         }
         blocked.clear();
-        self.outboxes[0].blocked = blocked;
-        self.outboxes[0].appeals = appeals;
-        self.outboxes[0].claims = claims;
+        self.work.outboxes[0].blocked = blocked;
+        self.work.outboxes[0].appeals = appeals;
+        self.work.outboxes[0].claims = claims;
     }
 
     fn give_passage(&mut self, spot: Spot, since: u32) {
-        let mut outbox = std::mem::take(&mut self.outboxes[0]);
+        let mut outbox = std::mem::take(&mut self.work.outboxes[0]);
         let scene = self.scene();
         let applicant = Applicant::at(&scene, spot);
-        let asking = Asking::of(&applicant, since, self.clock);
+        let asking = Asking::of(&applicant, since, self.traffic.clock);
         let may = surveyed(&scene, &applicant, &mut outbox.survey)
             && may_pass(&scene, &applicant, &outbox.survey, asking).is_ok();
         if may {
             self.give_surveyed(spot, since, &mut outbox);
         }
-        self.outboxes[0] = outbox;
+        self.work.outboxes[0] = outbox;
     }
 
     /// Whether the driver at `spot`, whose way is surveyed anew, may pass if the vehicle at `next` drives off, and leaves it its place.
@@ -105,12 +107,12 @@ impl World {
     pub(crate) fn give_surveyed(&mut self, spot: Spot, since: u32, outbox: &mut Outbox) {
         let scene = self.scene();
         surveyed(&scene, &Applicant::at(&scene, spot), &mut outbox.survey);
-        let (motion, car, mind) = self.lanes[spot.chain.at()].entry_mut(spot.index);
+        let (motion, car, mind) = self.traffic.lanes[spot.chain.at()].entry_mut(spot.index);
         let length = f64::from(motion.length);
-        mind.passage = self.passages.give(mind.passage, motion.id, length, &outbox.survey);
-        self.passages.note_since(mind.passage, since);
+        mind.passage = self.junctions.passages.give(mind.passage, motion.id, length, &outbox.survey);
+        self.junctions.passages.note_since(mind.passage, since);
         car.heeds_more = true;
         let (speed, desired) = (motion.speed, f64::from(car.desired));
-        self.passages.advance(mind.passage, 0.0, speed, desired);
+        self.junctions.passages.advance(mind.passage, 0.0, speed, desired);
     }
 }

@@ -105,14 +105,14 @@ impl World {
     /// The turns that those claim who wait to come onto the road because of others.
     pub(crate) fn claims_at_entrances(&self, claims: &mut Vec<(ZoneIndex, u8, Turn)>, out: &mut Survey) {
         let scene = self.scene();
-        let is_full = self.metering.as_ref().is_some_and(Metering::is_full);
-        let queues = self.sources.iter().flat_map(|it| it.lanes());
+        let is_full = self.arrivals.metering.as_ref().is_some_and(Metering::is_full);
+        let queues = self.arrivals.sources.iter().flat_map(|it| it.lanes());
         for queue in queues {
             let (Some(since), Some(first)) = (queue.asks_since, queue.first(is_full)) else { continue };
             let applicant = applicant(&scene, queue, &queue.waiting[first]);
             let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
             if survey(&scene, &applicant, [0.0, reach], |_, _| false, out) {
-                let claim = Asking::of(&applicant, since, self.clock).claim;
+                let claim = Asking::of(&applicant, since, self.traffic.clock).claim;
                 claims.extend(turns(&scene, &applicant, &out.holds, claim));
             }
         }
@@ -121,13 +121,13 @@ impl World {
     /// Gives the vehicle that has just come onto the road the reservation that was surveyed before.
     pub(crate) fn reserve(&mut self, queue: &Queue, arrival: &Arrival, out: &Survey) {
         let length = arrival.class.body().length;
-        let lane = &mut self.lanes[queue.chain.at()];
+        let lane = &mut self.traffic.lanes[queue.chain.at()];
         let Some(index) = lane.find(arrival.id, length) else { return };
         let (motion, car, mind) = lane.entry_mut(index);
-        mind.passage = self.passages.give(mind.passage, arrival.id, length, out);
-        self.passages.note_since(mind.passage, queue.asks_since.unwrap_or(self.clock.step));
+        mind.passage = self.junctions.passages.give(mind.passage, arrival.id, length, out);
+        self.junctions.passages.note_since(mind.passage, queue.asks_since.unwrap_or(self.traffic.clock.step));
         car.heeds_more = true;
         let (speed, desired) = (motion.speed, f64::from(car.desired));
-        self.passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
+        self.junctions.passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
     }
 }

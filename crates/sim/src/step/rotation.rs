@@ -31,12 +31,12 @@ impl World {
     /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for. They go, whatever
     /// lights show then.
     fn let_go_together(&mut self, members: &[(Spot, Appeal)]) {
-        let mut outbox = std::mem::take(&mut self.outboxes[0]);
+        let mut outbox = std::mem::take(&mut self.work.outboxes[0]);
         let mut holds: Vec<Hold> = Vec::new();
         let scene = self.scene();
         let next = members.iter().cycle().skip(1);
         let may_go = members.iter().zip(next).all(|((spot, appeal), (next, _))| {
-            let asking = Asking::of(&Applicant::at(&scene, *spot), appeal.since, self.clock);
+            let asking = Asking::of(&Applicant::at(&scene, *spot), appeal.since, self.traffic.clock);
             let may = self.may_after(*spot, asking, *next, &mut outbox);
             let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
             let is_apart = !outbox.survey.holds.iter().any(crosses);
@@ -46,11 +46,11 @@ impl World {
         if may_go {
             for (spot, appeal) in members {
                 self.give_surveyed(*spot, appeal.since, &mut outbox);
-                let slot = self.lanes[spot.chain.at()].minds()[spot.index].passage;
-                self.passages.make_certain(slot);
+                let slot = self.traffic.lanes[spot.chain.at()].minds()[spot.index].passage;
+                self.junctions.passages.make_certain(slot);
             }
         }
-        self.outboxes[0] = outbox;
+        self.work.outboxes[0] = outbox;
     }
 }
 

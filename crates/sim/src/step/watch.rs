@@ -3,13 +3,14 @@
 use crate::driver::plan::Outbox;
 use crate::record::events::Event;
 use crate::record::incidents::{Incident, IncidentKind, Touching};
+use crate::record::log::Log;
 use crate::step::world::World;
 
 impl World {
     /// Counts and tells who came to touch each other; if all were `watched`, who was not seen to no longer does.
     pub(crate) fn note_incidents(&mut self, watched: bool) {
-        let World { touching: Touching(touching), outboxes, events, counts, .. } = self;
-        let Outbox { incidents, tally, .. } = &mut outboxes[0];
+        let Log { touching: Touching(touching), events, counts, .. } = &mut self.log;
+        let Outbox { incidents, tally, .. } = &mut self.work.outboxes[0];
         // Of what is seen from both sides the graver counts.
         let gravity = |it: &Incident| it.kind == IncidentKind::Overlap;
         incidents.sort_unstable_by(|a, b| {

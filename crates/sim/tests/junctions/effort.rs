@@ -99,9 +99,9 @@ fn chosen(guidance: Guidance) -> i64 {
         NewVehicle { chain, x, speed, class: Class::Car, character, destination: Some(0) }
     };
     for x in [30.0, 80.0, 130.0] {
-        world.place(place(straight, x, 1));
+        world.place(place(straight, x, 1)).expect("it fits on the road");
     }
-    let id = world.place(place(first, 20.0, 0));
+    let id = world.place(place(first, 20.0, 0)).expect("it fits on the road");
     let mut road = None;
     let is_through = |world: &laneweave_sim::World| {
         let me = world.vehicles().find(|it| it.id() == id).expect("it is on the road");

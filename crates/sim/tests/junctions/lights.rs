@@ -60,7 +60,9 @@ fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     let mut world = empty(network.clone(), vec![drivers::conservative()]);
     let destination =
         (0..world.demand().destinations.len()).find(|it| world.leads(0, *it)).map(|it| it as u16);
-    world.place(NewVehicle { chain, x, speed, class: Class::Car, character: 0, destination });
+    world
+        .place(NewVehicle { chain, x, speed, class: Class::Car, character: 0, destination })
+        .expect("it fits on the road");
     world
 }
 

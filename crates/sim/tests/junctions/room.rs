@@ -46,7 +46,7 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
         let destination = Some(exit_to(world.network(), Arm::North));
         // It leaves room for one.
         let blocker = NewVehicle { chain, x: 14.0, speed: 0.0, class: Class::Car, character: 1, destination };
-        world.place(blocker);
+        world.place(blocker).expect("it fits on the road");
         for from in [Arm::East, Arm::West, Arm::South] {
             for place in 0..4 {
                 let to = if place % 2 == 0 { Arm::North } else { from.turned(2) };
@@ -139,7 +139,9 @@ fn a_full_ring_turns() {
         let at = world.network().chain(chain).centre.at(x);
         let quarter = at.y.atan2(at.x).div_euclid(FRAC_PI_2).rem_euclid(4.0) as usize;
         let destination = Some(exit_to(world.network(), Arm::ALL[quarter]));
-        world.place(NewVehicle { chain, x, speed: 0.0, class: Class::Car, character: 0, destination });
+        world
+            .place(NewVehicle { chain, x, speed: 0.0, class: Class::Car, character: 0, destination })
+            .expect("it fits on the road");
     }
     let time = run_until(&mut world, 90.0, |world| world.on_road() == 0);
     assert!(time.is_some(), "{} are still there", world.on_road());

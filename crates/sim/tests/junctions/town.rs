@@ -100,7 +100,9 @@ pub(crate) fn put(world: &mut World, comer: Comer) -> VehicleId {
     let x = network.chain(chain).length - comer.distance;
     let destination = Some(exit_to(network, comer.to));
     let Comer { speed, character, .. } = comer;
-    world.place(NewVehicle { chain, x, speed, class: Class::Car, character, destination })
+    world
+        .place(NewVehicle { chain, x, speed, class: Class::Car, character, destination })
+        .expect("it fits on the road")
 }
 
 /// Steps until `is_over` holds, at most so long [s]; the time that it took [s].
