@@ -204,8 +204,6 @@ impl Summary {
         let speed = self.mean_speed_mps.map_or("-".into(), |it| format!("{:.1} km/h", it * KMH_PER_MPS));
         let mean = |mean: Option<f64>, unit| mean.map_or("-".into(), |it| format!("{it:.0}{unit}"));
         let stops = self.mean_stops.map_or("-".into(), |it| format!("{it:.1}"));
-        let per_km =
-            |count: u64| ratio(count as f64, self.veh_km).map_or("-".into(), |it| format!("{it:.3}"));
         let early = if self.interrupted { ", interrupted" } else { "" };
         let warm = if self.warmup_s > 0.0 {
             format!(" after {} s of warm-up", self.warmup_s)
@@ -243,33 +241,37 @@ impl Summary {
                 mean(self.mean_delay_s, " s")
             ),
         );
-        line(
-            "lane changes",
-            format!(
-                "{} per veh-km: {} discretionary, {} for the route",
-                per_km(self.lane_changes),
-                per_km(self.lane_changes_discretionary),
-                per_km(self.lane_changes_route)
-            ),
-        );
+        line("lane changes", self.lane_changes_text());
         line("route changes", self.route_changes.to_string());
         line("safety", self.safety());
         self.first_incident.iter().for_each(|it| line("first incident", it.to_text()));
-        let pace = (self.duration_s + self.warmup_s) / self.wall_s;
-        line(
-            "speed",
-            format!(
-                "{:.2} s, {pace:.0} times real time, {:.1} million updates/s, {:.0} MB",
-                self.wall_s,
-                self.updates_per_s / 1e6,
-                self.peak_rss_mb
-            ),
-        );
+        line("speed", self.pace_text());
         line("state hash", self.state_hash.clone());
         for (index, file) in files.iter().enumerate() {
             line(if index == 0 { "files" } else { "" }, file.display().to_string());
         }
         text
+    }
+
+    fn lane_changes_text(&self) -> String {
+        let per_km =
+            |count: u64| ratio(count as f64, self.veh_km).map_or("-".into(), |it| format!("{it:.3}"));
+        format!(
+            "{} per veh-km: {} discretionary, {} for the route",
+            per_km(self.lane_changes),
+            per_km(self.lane_changes_discretionary),
+            per_km(self.lane_changes_route)
+        )
+    }
+
+    fn pace_text(&self) -> String {
+        format!(
+            "{:.2} s, {:.0} times real time, {:.1} million updates/s, {:.0} MB",
+            self.wall_s,
+            (self.duration_s + self.warmup_s) / self.wall_s,
+            self.updates_per_s / 1e6,
+            self.peak_rss_mb
+        )
     }
 
     /// What should not happen, in words.

@@ -29,6 +29,8 @@ mod remarks;
 #[cfg(test)]
 mod report;
 #[cfg(test)]
+mod results;
+#[cfg(test)]
 mod resume;
 #[cfg(test)]
 mod run;
@@ -36,6 +38,8 @@ mod run;
 mod scenario;
 #[cfg(test)]
 mod schema;
+#[cfg(test)]
+mod settings;
 #[cfg(test)]
 mod shell;
 #[cfg(test)]

@@ -4,6 +4,7 @@ mod contact;
 mod kinship;
 mod light;
 mod nearby;
+mod on_chain;
 mod precedence;
 mod signals;
 mod turning;
@@ -11,6 +12,7 @@ mod zone;
 
 pub use light::{Light, LightIndex, LightState, Phase, Program};
 pub use nearby::Nearby;
+pub use on_chain::{Crossing, OnChain, Place, PlaceKind, Sign, Stop};
 pub use signals::{Extension, LightConflict, SignalPlan, Turn};
 pub use zone::{Precedence, Reach, Touch, Zone, ZoneIndex, ZoneKind};
 
@@ -80,87 +82,6 @@ pub struct Junctions {
     turns: Vec<Vec<f64>>,
     /// Where vehicles on other chains are near, by chain.
     nearby: Vec<Vec<Nearby>>,
-}
-
-/// What drivers meet on one chain, in the order of stations. What they look at in every step comes first in memory.
-#[derive(Clone, Debug, PartialEq)]
-#[repr(C, align(32))]
-pub struct OnChain {
-    extent: [f64; 2],
-    /// From the chain's end to the next place on any way on [m].
-    beyond: f64,
-    /// All crossings and stops; of two at the same station the place to stop comes first.
-    pub places: Vec<Place>,
-    /// Places to stop.
-    pub stops: Vec<Stop>,
-    /// Conflict zones.
-    pub crossings: Vec<Crossing>,
-}
-
-/// A place where drivers may have to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// The line, or the beginning of the zone [m].
-    pub station: f64,
-    /// What is there.
-    pub what: PlaceKind,
-}
-
-/// What is at a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PlaceKind {
-    /// A place to stop.
-    Sign(Sign),
-    /// A conflict zone.
-    Zone {
-        /// Its side.
-        crossing: Crossing,
-        /// Which vehicles would touch there.
-        touch: Touch,
-        /// Where it ends [m].
-        end: f64,
-        /// From where on the lanes are one, if they become one [m].
-        merge: Option<f64>,
-    },
-}
-
-/// A side of a zone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// The zone.
-    pub zone: ZoneIndex,
-    /// Which of its sides, 0 or 1.
-    pub side: u8,
-}
-
-/// A place to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
-    /// Where the front has to stay behind [m].
-    pub station: f64,
-    /// At what.
-    pub sign: Sign,
-}
-
-/// What a driver stops at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
-    /// A light.
-    Light(LightIndex),
-    /// A stop sign, of all ways or not: once, whoever comes.
-    Stop,
-    /// A line, if somebody comes.
-    Line,
-}
-
-impl OnChain {
-    const EMPTY: OnChain = OnChain {
-        crossings: Vec::new(),
-        stops: Vec::new(),
-        places: Vec::new(),
-        extent: [f64::INFINITY, f64::NEG_INFINITY],
-        beyond: f64::INFINITY,
-    };
 }
 
 /// What drivers meet on a chain without junctions.

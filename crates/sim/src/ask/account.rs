@@ -7,11 +7,11 @@ use laneweave_models::change::{Appraisal, LaneChangeModel, Situation, at_least_o
 use laneweave_models::{Concentration, Style};
 use laneweave_network::Side;
 
-use crate::driver::attention::concentration;
-use crate::driver::beliefs::Beliefs;
-use crate::driver::decide::{abort_if_it_must, consider, go_or_ask, has_last_chance, model};
+use crate::driver::choice::is_out_of_question;
+use crate::driver::consider::{consider, has_last_chance, look, waypoint};
+use crate::driver::decide::{abort_if_it_must, go_or_ask};
 use crate::driver::gap::{Hindrance, Pairing, gap};
-use crate::driver::perceive::Outlook;
+use crate::driver::me::{Attending, Me};
 use crate::driver::plan::{Ask, Outbox, Plan};
 use crate::state::moment::Moment;
 use crate::state::random::Purpose;
@@ -103,53 +103,45 @@ pub enum Act {
 
 /// What the driver of the vehicle at `spot` makes of its lanes now, and does in the next step.
 pub fn explain(world: &World, spot: Spot) -> Account<'_> {
-    let overtaking = world.roads.network.driving_side.overtaking();
-    let moment = Moment { clock: world.traffic.clock, random: world.roads.random, overtaking };
     let scene = world.scene();
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let style: &Style = &world.roads.characters[car.character as usize];
-    let time = world.traffic.clock.time();
-    let state = concentration(&style.attention, world.roads.random, motion.id, time);
-    let alertness = style.attention.alertness(state);
-    let change = model(style, state);
-    let goal = car.goal.destination();
-    let waypoint = world.roads.navigator.waypoint_from(&world.roads.network, goal, spot.chain, motion.x);
-    let beliefs = Beliefs::of(&style.guidance, &world.roads.navigator, world.roads.random, motion.id, goal);
+    let overtaking = scene.network.driving_side.overtaking();
+    let clock = world.clock();
+    let moment = Moment { clock, random: world.roads.random, overtaking };
+    let me = Me::at(&scene, spot);
+    let Me { motion, car, mind, style, .. } = me;
+    let attending = Attending::of(&me, moment);
+    let change = attending.model(style);
+    let waypoint = waypoint(&scene, &me);
     let mut hints = Side::BOTH.map(|side| {
-        let beside = world.roads.network.chain(spot.chain).beside(side, motion.x);
-        beside.map_or(0, |it| world.traffic.lanes[it.chain.at()].ahead_of(it.across(motion.x)))
+        let beside = scene.network.chain(spot.chain).beside(side, motion.x);
+        beside.map_or(0, |it| scene.lanes[it.chain.at()].ahead_of(it.across(motion.x)))
     });
-    let outlook = Outlook::new(&scene, spot, &waypoint, alertness.sight, beliefs, &mut hints);
-    let calm_for =
-        f64::from(car.calm_until.saturating_sub(world.traffic.clock.step)) * world.traffic.clock.dt;
+    let outlook = look(&scene, moment, &me, &attending, &waypoint, &mut hints);
     let mut sides = [overtaking, overtaking.opposite()].map(|side| {
         let situation = outlook.situation(side, outlook.beside(side)?);
-        let helps_the_route = situation.there.route.changes < situation.here.route.changes;
         let appraisal = change.appraise(&situation);
-        let is_out_of_question = calm_for > 0.0 && !helps_the_route;
+        let is_out_of_question = is_out_of_question(car, moment, &situation);
         Some(SideAccount { side, situation, appraisal, chance: 0.0, is_out_of_question })
     });
-    let epochs =
-        f64::from(world.traffic.clock.steps(alertness.epoch)) * world.traffic.clock.dt / alertness.epoch;
     let weighed =
         sides.each_ref().map(|it| it.as_ref().filter(|it| !it.is_out_of_question).map(|it| &it.appraisal));
-    let chances = change.choose(weighed).map(|it| at_least_once_in(epochs, it));
+    let chances = change.choose(weighed).map(|it| at_least_once_in(attending.epochs, it));
     for (side, chance) in sides.iter_mut().zip(chances) {
         side.iter_mut().for_each(|it| it.chance = chance);
     }
-    let found = (car.phase == Phase::Wants).then(|| gap(&scene, spot, scene.mind(spot).side)).flatten();
+    let found = (car.phase == Phase::Wants).then(|| gap(&scene, spot, mind.side)).flatten();
     Account {
         vehicle: motion.id,
-        time,
+        time: clock.time(),
         spot,
         style,
-        state,
+        state: attending.state,
+        has_last_chance: has_last_chance(&style.change, motion, &waypoint),
         change,
         sides,
-        calm_for,
-        epochs,
-        has_last_chance: has_last_chance(&style.change, motion, &waypoint),
-        draw: world.roads.random.uniform(motion.id, Purpose::Desire, world.traffic.clock.step),
+        calm_for: f64::from(car.calm_until.saturating_sub(clock.step)) * clock.dt,
+        epochs: attending.epochs,
+        draw: moment.random.uniform(motion.id, Purpose::Desire, clock.step),
         act: act(&scene, moment, spot),
         pairings: found.map_or([None; 2], |it| it.pairings(&scene, spot)),
         fastest: found.map_or(f64::INFINITY, |it| it.fastest(&scene, spot)),

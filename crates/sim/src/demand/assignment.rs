@@ -7,7 +7,8 @@ use laneweave_network::{Beside, ChainIndex, Network, Side};
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
-use crate::route::ways::{Waypoint, stretch_to};
+use crate::route::waypoint::Waypoint;
+use crate::route::ways::stretch_to;
 
 /// The flows of a demand on all chains.
 #[derive(Clone, Debug, PartialEq)]

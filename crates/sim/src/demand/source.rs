@@ -14,7 +14,7 @@ use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::junction::refuge::Refuge;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
-use crate::route::ways::Waypoint;
+use crate::route::waypoint::Waypoint;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::random::{Purpose, Random};

@@ -10,9 +10,10 @@ use laneweave_network::{Beside, Side};
 
 use crate::driver::beliefs::Beliefs;
 use crate::driver::window;
-use crate::route::ways::Waypoint;
+use crate::route::waypoint::Waypoint;
 use crate::state::traffic::{Car, Phase};
-use crate::view::scene::{LaneSight, Scene, Spot, Viewpoint, nearer};
+use crate::view::scene::{Scene, Spot, Viewpoint, nearer};
+use crate::view::sight::LaneSight;
 
 pub(crate) use glance::Dismissed;
 

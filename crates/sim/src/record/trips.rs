@@ -7,7 +7,7 @@ use laneweave_network::{Chain, ChainIndex, Network, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::route::navigate::Navigator;
-use crate::route::ways::Waypoint;
+use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 use crate::state::traffic::VehicleId;
 

@@ -247,17 +247,24 @@ pub(crate) fn survey(
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = (clear + length).max(last + PAST_A_PLACE);
     out.needed = length + SPARE_ROOM;
+    let limit = if next_stop < f64::INFINITY || way_end >= far.get() { next_stop } else { way_end };
+    note_storage(scene, applicant, [clear, limit], out);
+    true
+}
+
+/// Notes where the applicant can stand after its passage, which is `clear` of all zones from so far ahead on, and how much room there
+/// is up to the `limit` [m].
+fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], out: &mut Survey) {
+    let from = applicant.from;
     let beyond = chain_at(scene, from, clear);
     (out.refuge, out.refuge_start) =
         (Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1), beyond.1);
-    let limit = if next_stop < f64::INFINITY || way_end >= far.get() { next_stop } else { way_end };
     // Whose trip ends before the next place is behind others who stop there.
     let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
     let arrival = applicant.time_to(out.extent);
     out.room = room(scene, from, Beyond { refuge: out.refuge, clear, limit, arrival });
-    true
 }
 
 /// The chain on the way on which the place `distance` ahead lies, and how far ahead its start is [m].
@@ -322,164 +329,4 @@ pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
 }
 
 #[cfg(test)]
-mod tests {
-    use laneweave_maps::generate::own_maps;
-    use laneweave_maps::{Drawing, regulations};
-    use laneweave_models::Style;
-    use laneweave_models::change::{LaneChangeModel, Mcdm};
-    use laneweave_models::follow::{FollowingModel, Idm};
-    use laneweave_network::{
-        DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, StopKind, StopRule,
-    };
-
-    use super::*;
-    use crate::route::navigate::Navigator;
-    use crate::state::vehicle::Class;
-    use crate::view::snapshot::{Seen, Snapshot};
-
-    /// A truck that stands.
-    fn standing() -> Seen {
-        Seen {
-            id: 1,
-            chain: ChainIndex(0),
-            x: 0.0,
-            speed: 0.0,
-            acceleration: 0.0,
-            length: 12.0,
-            class: Class::Truck,
-            character: 0,
-            desired: 8.0,
-            destination: None,
-            change: None,
-        }
-    }
-
-    fn driver() -> Style {
-        Style {
-            name: "some".into(),
-            description: String::new(),
-            speed_factor: 1.0,
-            follow: FollowingModel::Idm(Idm::default()),
-            change: LaneChangeModel::Mcdm(Mcdm::default()),
-            safety: Default::default(),
-            attention: Default::default(),
-            manner: Default::default(),
-            yielding: Default::default(),
-            guidance: Default::default(),
-        }
-    }
-
-    #[test]
-    fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
-        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
-        let network = regulated(&drawing);
-        let navigator = Navigator::new(&network);
-        let mut surveyed = 0;
-        for number in 0..6000_u32 {
-            let destination = Some((number % 4) as u16);
-            let chain = ChainIndex(number % network.chains.len() as u32);
-            let x = network.chain(chain).length * f64::from(number) / 6000.0;
-            let truck = Seen { chain, x, destination, ..standing() };
-            let snapshot = Snapshot::new(&network, [truck]);
-            let styles = [driver()];
-            let scene = snapshot.scene(&network, &navigator, &styles);
-            let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
-            if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
-                continue;
-            }
-            let from = scene.viewpoint(spot);
-            let last = refuges(&scene, from, &out).last().unwrap();
-            surveyed += 1;
-            assert_eq!(
-                last.chain,
-                chain_at(&scene, from, out.extent).0,
-                "{chain:?} at {x} m to {destination:?}"
-            );
-        }
-        assert!(surveyed > 100, "{surveyed}");
-    }
-
-    /// Visits what a standing vehicle surveys, at places all over a network.
-    fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, &Survey)) {
-        let navigator = Navigator::new(network);
-        for number in 0..400_u32 {
-            let chain = ChainIndex(number % network.chains.len() as u32);
-            let x = network.chain(chain).length * f64::from(number) / 400.0;
-            let destination = Some((number % network.exits.len() as u32) as u16);
-            let class = if number % 2 == 0 { Class::Truck } else { Class::Car };
-            let length = class.body().length;
-            let seen = Seen { chain, x, length, class, destination, ..standing() };
-            let snapshot = Snapshot::new(network, [seen]);
-            let styles = [driver()];
-            let scene = snapshot.scene(network, &navigator, &styles);
-            let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
-            let mut out = Survey::default();
-            if survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out) {
-                visit(&scene, &applicant, &out);
-            }
-        }
-    }
-
-    fn regulated(drawing: &Drawing) -> Network {
-        let map = drawing.build().unwrap();
-        let rules = regulations(&map);
-        map.network.regulated(&rules)
-    }
-
-    #[test]
-    fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
-        let mut surveyed = 0;
-        for seed in 1..=12 {
-            let network = regulated(&laneweave_maps::generate::random(seed).drawing);
-            survey_all_over(&network, |scene, applicant, out| {
-                surveyed += 1;
-                points(scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
-                    if let What::Zone(crossing, ..) = point.what {
-                        let is_held =
-                            out.holds.iter().any(|it| (it.zone, it.side) == (crossing.zone, crossing.side));
-                        assert!(is_held, "seed {seed}: {crossing:?} at {at} of {} m", out.extent);
-                    }
-                    ControlFlow::Continue(())
-                });
-            });
-        }
-        assert!(surveyed > 200, "{surveyed}");
-    }
-
-    /// A road of 200 m across two others, 25 m apart, with a line behind the first of them.
-    fn two_crossings(line: f64) -> Network {
-        let lane = |id, from: [f64; 2], to: [f64; 2], aside: [f64; 2]| {
-            let border = |by: f64| {
-                let points = [from, to].map(|[x, y]| Point::new(x + by * aside[0], y + by * aside[1], 0.0));
-                Polyline::new(points).unwrap()
-            };
-            Lanelet::alone(id, [1.5, -1.5, 0.0].map(border), 10.0)
-        };
-        let northward = |id, x| lane(id, [x, -50.0], [x, 50.0], [-1.0, 0.0]);
-        let road = lane(1, [0.0, 0.0], [200.0, 0.0], [0.0, 1.0]);
-        let line = [-2.0, 2.0].map(|y| Point::new(line, y, 0.0)).to_vec();
-        let stop =
-            StopRule { id: 9, kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
-        let lanelets = vec![road, northward(2, 50.0), northward(3, 75.0)];
-        let network = Network::new(lanelets, DrivingSide::Right).unwrap();
-        network.regulated(&Regulations { stops: vec![stop], priorities: Vec::new() })
-    }
-
-    #[test]
-    fn a_reservation_leads_over_every_line_before_which_the_rear_would_still_stand_in_a_zone() {
-        let drawings = (1..=12).map(|it| laneweave_maps::generate::random(it).drawing);
-        let own = own_maps().unwrap().into_iter().map(|it| it.1);
-        let drawn = drawings.chain(own).map(|it| regulated(&it));
-        // A truck has left the first crossing when its front is at some 64 m.
-        let lines = [55.0, 58.0, 61.0, 63.0, 64.0, 65.0, 68.0].map(two_crossings);
-        for network in drawn.chain(lines) {
-            survey_all_over(&network, |scene, applicant, out| {
-                let next = stop_ahead(scene, applicant.from, out.extent, out.extent + 20.0);
-                for hold in &out.holds {
-                    let is_out = next.is_none_or(|it| hold.leave <= it.stop - ROOM_AT_A_STOP);
-                    assert!(is_out, "{applicant:?}: {hold:?}, next stop at {:?}", next.map(|it| it.stop));
-                }
-            });
-        }
-    }
-}
+mod tests;

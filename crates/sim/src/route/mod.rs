@@ -6,6 +6,8 @@ pub(crate) mod links;
 pub(crate) mod navigate;
 pub(crate) mod onward;
 pub(crate) mod place;
+pub(crate) mod renew;
 pub(crate) mod roads;
 pub(crate) mod views;
+pub(crate) mod waypoint;
 pub(crate) mod ways;

@@ -8,13 +8,14 @@
 use std::borrow::Cow;
 
 use laneweave_network::{ChainIndex, Network};
-use serde::{Deserialize, Serialize};
 
 use crate::route::links::Links;
 use crate::route::onward::Onward;
 use crate::route::place::{Kerb, Place};
+use crate::route::renew::is_planned;
 use crate::route::views::Views;
-use crate::route::ways::{Into, Planner, Waypoint, beside_into, wander};
+use crate::route::waypoint::Waypoint;
+use crate::route::ways::{Into, Planner, beside_into, wander};
 use crate::state::goal::{Destination, Goal, TripEnd};
 use crate::state::vehicle::Class;
 
@@ -23,40 +24,19 @@ use crate::state::vehicle::Class;
 pub struct Navigator {
     /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one. All
     /// that for the usual way; then for the recommended ones, which are empty as long as nobody needs them.
-    tables: Vec<Vec<Waypoint>>,
-    onward: Onward,
+    pub(super) tables: Vec<Vec<Waypoint>>,
+    pub(super) onward: Onward,
     /// Number of tables of each view.
-    of_view: usize,
+    pub(super) of_view: usize,
     /// For each table of a usual way that with the newest recommendation; empty where nobody is guided.
-    recommended: Vec<u16>,
-    links: Links,
+    pub(super) recommended: Vec<u16>,
+    pub(super) links: Links,
     /// How often they were measured.
-    measurements: u32,
-    into: Vec<Into>,
-    views: Views,
+    pub(super) measurements: u32,
+    pub(super) into: Vec<Into>,
+    pub(super) views: Views,
     /// For each chain where trips end before its end.
-    trip_ends: Vec<Vec<TripEnd>>,
-}
-
-/// What guidance has changed of a navigator.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Guided {
-    tables: Vec<Vec<Waypoint>>,
-    recommended: Vec<u16>,
-    links: Links,
-    measurements: u32,
-}
-
-impl Guided {
-    /// Whether the way to a destination is planned.
-    pub(crate) fn has(&self, destination: Destination) -> bool {
-        is_planned(&self.tables, destination)
-    }
-}
-
-/// Whether the way to a destination is planned in `tables`; who has none drives on as the road leads.
-fn is_planned(tables: &[Vec<Waypoint>], destination: Destination) -> bool {
-    destination.is_none_or(|it| tables.get(usize::from(it)).is_some_and(|it| !it.is_empty()))
+    pub(super) trip_ends: Vec<Vec<TripEnd>>,
 }
 
 impl Navigator {
@@ -107,50 +87,20 @@ impl Navigator {
     }
 
     /// Notes anew what comes next on all ways.
-    fn look_onward(&mut self, network: &Network) {
+    pub(super) fn look_onward(&mut self, network: &Network) {
         self.onward = Onward::new(network, self.tables.len());
         for (number, table) in self.tables.iter().enumerate() {
             self.onward.take(network, number, table);
         }
     }
 
-    /// What guidance has changed.
-    pub(crate) fn guided(&self) -> Guided {
-        let Navigator { tables, recommended, links, measurements, .. } = self.clone();
-        Guided { tables, recommended, links, measurements }
-    }
-
-    /// Whether it can go on from that.
-    pub(crate) fn accepts(&self, guided: &Guided) -> bool {
-        let Guided { tables, recommended, links, measurements: _ } = guided;
-        let chains = self.trip_ends.len();
-        let alike =
-            |(one, other): (&Vec<Waypoint>, &Vec<Waypoint>)| one.len() == other.len() || one.len() == chains;
-        let is_chain = |it: ChainIndex| it.at() < chains;
-        tables.len() == self.tables.len()
-            && tables.iter().zip(&self.tables).all(alike)
-            && tables.iter().flatten().all(|it| it.chains().all(is_chain))
-            && recommended.len() == self.recommended.len()
-            && recommended
-                .iter()
-                .all(|it| usize::from(*it) < tables.len() && !tables[usize::from(*it)].is_empty())
-            && links.fits(&self.links)
-    }
-
-    /// Goes on from what guidance had changed of a navigator of the same network.
-    pub(crate) fn go_on(&mut self, network: &Network, guided: Guided) {
-        let Guided { tables, recommended, links, measurements } = guided;
-        *self = Navigator { tables, recommended, links, measurements, ..self.clone() };
-        self.look_onward(network);
-    }
-
-    fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {
+    pub(super) fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {
         let Navigator { into, links, views, .. } = self;
         Planner { network, into, links, views, view }
     }
 
     /// Trips of those who drive by `table` end at `place`.
-    fn end_trips(&mut self, place: &Place, table: usize) {
+    pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
         if let Place::Kerb(Kerb { chain, station, .. }) = place {
             let goal = Goal::from(Some(table as u16));
             self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
@@ -174,45 +124,13 @@ impl Navigator {
     }
 
     /// Number of tables of usual ways.
-    fn usual(&self) -> usize {
+    pub(super) fn usual(&self) -> usize {
         self.views.count() * self.of_view
     }
 
     /// Whether anywhere a driver has more than one way to go.
     pub(crate) fn offers_a_choice(&self) -> bool {
         self.tables.iter().flatten().any(|it| it.leads_there() && it.alternative.is_finite())
-    }
-
-    /// Lets drivers be guided to `destinations`, by the link times of the free road for the time being.
-    ///
-    /// # Errors
-    /// If there are more destinations than [`Navigator::WAYS`] ways to each could be told apart: how many can be.
-    pub(crate) fn guide(&mut self, network: &Network, destinations: &[Place]) -> Result<(), usize> {
-        let usual = self.usual();
-        if usual * Navigator::WAYS > usize::from(Goal::NONE) {
-            return Err(usize::from(Goal::NONE) / Navigator::WAYS / self.views.count() - 1);
-        }
-        self.recommended = (0..usual as u16).collect();
-        self.links = Links::of(network);
-        self.tables.resize(usual * Navigator::WAYS, Vec::new());
-        for table in usual..self.tables.len() {
-            if let Some(place) = destinations.get(table % self.of_view) {
-                self.end_trips(place, table);
-            }
-        }
-        self.look_onward(network);
-        Ok(())
-    }
-
-    /// Takes over measured times of all links [s]. Tables have them when they are guided next.
-    pub(crate) fn take_link_times(&mut self, times: impl Iterator<Item = f64>) {
-        self.links.take(times);
-        self.measurements += 1;
-    }
-
-    /// How often link times were measured.
-    pub(crate) fn measurements(&self) -> u32 {
-        self.measurements
     }
 
     /// The tables of the ways to the same destination, as seen by the same class, as `table`; the usual one first.
@@ -231,49 +149,6 @@ impl Navigator {
     /// `destination` by the usual way.
     pub(crate) fn is_usual(&self, destination: Destination) -> bool {
         destination.is_none_or(|it| usize::from(it) < self.usual())
-    }
-
-    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present link
-    /// times; and recommends the best way anew, if there is room for it.
-    pub(crate) fn renew(
-        &mut self,
-        network: &Network,
-        place: &Place,
-        ways: [usize; Navigator::WAYS],
-        in_use: [bool; Navigator::WAYS],
-    ) {
-        let [usual, ..] = ways;
-        let planner = self.planner(network, usual / self.of_view);
-        let newest = usize::from(self.recommended[usual]);
-        let mut best = planner.plan(place);
-        planner.note_alternatives(&mut best, None);
-        let is_new = best.iter().zip(&self.tables[newest]).any(|(new, old)| !new.goes_like(old));
-        let mut spare = ways.into_iter().zip(in_use).skip(1);
-        let spare = spare.find(|(way, in_use)| is_new && !in_use && *way != newest);
-        if is_new && spare.is_none() {
-            // What cannot be recommended is nobody's alternative.
-            best.clone_from(&self.tables[newest]);
-            planner.retime(&mut best, place);
-            planner.note_alternatives(&mut best, None);
-        }
-        let mut renewed = Vec::new();
-        for (way, in_use) in ways.into_iter().zip(in_use) {
-            let is_followed = in_use || way == usual || way == newest;
-            if is_followed && spare.is_none_or(|it| it.0 != way) {
-                let mut table = self.tables[way].clone();
-                planner.retime(&mut table, place);
-                planner.note_alternatives(&mut table, Some(&best));
-                renewed.push((way, table));
-            }
-        }
-        renewed.extend(spare.map(|(way, _)| (way, best)));
-        for (way, table) in renewed {
-            self.onward.take(network, way, &table);
-            self.tables[way] = table;
-        }
-        if let Some((way, _)) = spare {
-            self.recommended[usual] = way as u16;
-        }
     }
 
     /// The links.
@@ -477,27 +352,4 @@ impl Navigator {
 }
 
 #[cfg(test)]
-mod tests {
-    use laneweave_network::DrivingSide;
-
-    use super::*;
-    use crate::route::ways::tests::lanelet;
-
-    #[test]
-    fn of_two_equal_ways_drivers_go_that_of_the_smaller_lanelet_id_however_chains_are_stored() {
-        let network = |[one, other]: [i64; 2]| {
-            let (first, last) = (lanelet(1, [0.0, 100.0], &[1, 2]), lanelet(9, [200.0, 300.0], &[]));
-            let between = [one, other].map(|id| lanelet(id, [100.0, 200.0], &[3]));
-            let [one, other] = between;
-            Network::new(vec![first, one, other, last], DrivingSide::Right).unwrap()
-        };
-        for ids in [[4, 5], [5, 4]] {
-            for network in [network(ids), network(ids).with_chains_reversed()] {
-                let start = network.entrances[0].chains[0];
-                let waypoint = *Navigator::new(&network).waypoint(Some(0), start);
-                assert_eq!(network.lanelet_at(waypoint.next.unwrap(), 0.0).0.id, 4);
-                assert_eq!((waypoint.time, waypoint.distance, waypoint.changes), (30.0, 300.0, 0));
-            }
-        }
-    }
-}
+mod tests;

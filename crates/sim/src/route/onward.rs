@@ -2,7 +2,7 @@
 
 use laneweave_network::{ChainIndex, Network};
 
-use crate::route::ways::Waypoint;
+use crate::route::waypoint::Waypoint;
 
 /// For each chain and table the place of the next chain among those that follow.
 #[derive(Clone, Debug, Default)]

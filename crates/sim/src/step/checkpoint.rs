@@ -13,7 +13,7 @@ use crate::record::journal::Journal;
 use crate::record::log::Log;
 use crate::record::tally::Tally;
 use crate::route::guidance::Guidance;
-use crate::route::navigate::Guided;
+use crate::route::renew::Guided;
 use crate::route::roads::Roads;
 use crate::state::goal::Destination;
 use crate::state::moving::Traffic;

@@ -13,6 +13,7 @@ pub(crate) mod put;
 pub(crate) mod reserve;
 pub(crate) mod resolve;
 pub(crate) mod rotation;
+pub(crate) mod transfer;
 pub(crate) mod vehicle;
 pub(crate) mod watch;
 pub(crate) mod work;

@@ -9,7 +9,6 @@ use crate::units::KMH_PER_MPS;
 
 pub(super) fn section(run: &RunReport) -> Section {
     let summary = run.summary;
-    let tile = |value: String, name: &str, more: String| Tile { value, name: name.into(), more };
     let is_driven = summary.lane_changes_per_veh_km.is_some();
     let per_km = |count: u64| rate_per(count, summary.veh_km) + " per veh\u{2011}km";
     let if_driven = |text: String| if is_driven { text } else { "nobody drove".into() };
@@ -63,6 +62,23 @@ pub(super) fn section(run: &RunReport) -> Section {
             format!("= {} left + {} on the road", counted(*left), counted(*on_road)),
         ),
         tile(counted(*waiting), "wait at the entrances", "at the end".into()),
+    ];
+    let tiles = [tiles, troubles(summary)].concat();
+    Section::new("numbers", "Key numbers").tiles(tiles).note(
+        "Counts of lane changes are of crossings: the centre of the vehicle crosses the line. Their intervals are exact Poisson \
+         95 % intervals of the count, as if changes came independently of each other. Delay is time beyond that on a free road \
+         at the speeds the driver desires; its interval is Student's over trips, which share the same traffic and are not \
+         quite independent. One run says nothing of how runs differ: repeat it with other seeds.",
+    )
+}
+
+fn tile(value: String, name: &str, more: String) -> Tile {
+    Tile { value, name: name.into(), more }
+}
+
+/// What should not happen, and changes of plan.
+fn troubles(summary: &Summary) -> Vec<Tile> {
+    vec![
         tile(counted(summary.collisions), "collisions", "two vehicles meet while they close".into()),
         tile(counted(summary.overlaps), "overlaps", "of any two vehicles, whatever their lanes".into()),
         tile(
@@ -74,13 +90,7 @@ pub(super) fn section(run: &RunReport) -> Section {
         tile(counted(summary.lost), "lost", "drivers without any way left".into()),
         tile(counted(summary.missed_turns), "missed turns", "drivers who had to take another way".into()),
         tile(counted(summary.route_changes), "routes left for a better one", "by choice".into()),
-    ];
-    Section::new("numbers", "Key numbers").tiles(tiles).note(
-        "Counts of lane changes are of crossings: the centre of the vehicle crosses the line. Their intervals are exact Poisson \
-         95 % intervals of the count, as if changes came independently of each other. Delay is time beyond that on a free road \
-         at the speeds the driver desires; its interval is Student's over trips, which share the same traffic and are not \
-         quite independent. One run says nothing of how runs differ: repeat it with other seeds.",
-    )
+    ]
 }
 
 /// A count per unit of exposure with its exact Poisson interval, as text.

@@ -1,0 +1,148 @@
+use laneweave_models::change::{Courtesy, Mcdm};
+use laneweave_models::follow::FollowingModel;
+use laneweave_models::{Alertness, Attention, Manner, Reading};
+
+use super::*;
+use crate::style::built_in;
+
+fn template(name: &str) -> StyleTemplate {
+    let text = built_in(name).unwrap().text.into();
+    StyleTemplate::parse(&Source { path: name.into(), text }).unwrap()
+}
+
+#[test]
+fn a_style_with_a_distribution_is_512_drivers_with_its_mean_and_deviation() {
+    let template = template("aggressive");
+    assert_eq!(template.characters(), 512);
+    let draw = |number| template.draw(&Random::new(1), 0, number).unwrap().speed_factor;
+    let factors: Vec<f64> = (0..512).map(draw).collect();
+    let mean = factors.iter().sum::<f64>() / 512.0;
+    let sd = (factors.iter().map(|it| (it - mean) * (it - mean)).sum::<f64>() / 511.0).sqrt();
+    // Three standard errors of 512 draws with mean 1.12 and deviation 0.08.
+    assert!((mean - 1.12).abs() < 0.0106, "mean {mean}");
+    assert!((sd - 0.08).abs() < 0.0075, "deviation {sd}");
+    assert!(factors.iter().all(|it| (0.85..=1.4).contains(it)));
+}
+
+#[test]
+fn a_style_without_distributions_is_one_driver() {
+    let template = template("paper-conservative");
+    assert_eq!(template.characters(), 1);
+    assert_eq!(template.draw(&Random::new(1), 0, 0).unwrap(), *template.typical());
+}
+
+#[test]
+fn draws_depend_on_seed_style_and_number_only() {
+    let template = template("conservative");
+    let factor = |seed, style, number| template.draw(&Random::new(seed), style, number).unwrap().speed_factor;
+    assert_eq!(factor(1, 0, 7), factor(1, 0, 7));
+    let all = [factor(1, 0, 7), factor(1, 0, 8), factor(1, 1, 7), factor(2, 0, 7)];
+    assert!((1..4).all(|i| all[..i].iter().all(|it| *it != all[i])), "{all:?}");
+}
+
+#[test]
+fn several_parameters_are_drawn_independently_of_each_other() {
+    let text = built_in("conservative").unwrap().text.replace(
+        "time_gap = 1.2",
+        "time_gap = { distribution = \"lognormal\", mean = 1.2, sd = 0.3, min = 0.5, max = 3 }",
+    );
+    let template = StyleTemplate::parse(&Source { path: "own".into(), text }).unwrap();
+    let paths: Vec<String> = template.parameters().iter().map(|it| it.path.join(".")).collect();
+    assert_eq!(paths, ["follow.time_gap", "speed_factor"]);
+    let pairs: Vec<(f64, f64)> = (0..512)
+        .map(|number| template.draw(&Random::new(1), 0, number).unwrap())
+        .map(|style| match style.follow {
+            FollowingModel::Idm(idm) => (idm.time_gap, style.speed_factor),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
+    let (gap, factor) = (sum(&|it| it.0) / 512.0, sum(&|it| it.1) / 512.0);
+    let together = sum(&|it| (it.0 - gap) * (it.1 - factor));
+    let apart = sum(&|it| (it.0 - gap).powi(2)) * sum(&|it| (it.1 - factor).powi(2));
+    // Three standard errors of a correlation that is not there.
+    assert!((together / apart.sqrt()).abs() < 0.133);
+}
+
+#[test]
+fn the_built_in_styles_have_the_papers_weights_in_both_readings() {
+    for (name, weights, beta, reading) in [
+        ("aggressive", [1.26, 0.58, 0.03, 0.61, 0.9], 1.1, Reading::Repaired),
+        ("conservative", [0.44, 0.41, 0.09, 1.72, 0.9], 2.3, Reading::Repaired),
+        ("paper-aggressive", [1.26, 0.58, 0.03, 0.61, 0.0], 1.1, Reading::Literal),
+        ("paper-conservative", [0.44, 0.41, 0.09, 1.72, 0.0], 2.3, Reading::Literal),
+    ] {
+        let LaneChangeModel::Mcdm(it) = template(name).typical().change.clone() else { panic!("{name}") };
+        let found =
+            [it.speed.weight, it.route.weight, it.comfort.weight, it.courtesy.weight, it.urgency.weight];
+        assert_eq!((found, it.comfort.beta), (weights, beta), "{name}");
+        let others = [it.route.reading, it.comfort.reading, it.courtesy.reading, it.returning.reading];
+        assert_eq!((it.speed.reading, others), (reading, [reading; 4]), "{name}");
+        let decision = match reading {
+            Reading::Literal => (Rule::Threshold, 0.0, 0.0),
+            Reading::Repaired => (Rule::Logit, 0.112, 0.014),
+        };
+        assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
+    }
+}
+
+#[test]
+fn the_other_characters_are_the_conservative_driver_but_for_what_their_names_say() {
+    let usual = template("conservative").typical().clone();
+    let LaneChangeModel::Mcdm(table) = usual.change.clone() else { panic!("conservative") };
+    let with_courtesy = |weight| {
+        let courtesy = Courtesy { weight, ..table.courtesy };
+        LaneChangeModel::Mcdm(Mcdm { courtesy, ..table.clone() })
+    };
+    let with_manner = |yield_deceleration| Manner { yield_deceleration, ..usual.manner };
+    let attention = Attention {
+        epoch: 1.0,
+        concentrated_for: 15.0,
+        inattentive_for: 60.0,
+        inattentive: Alertness { epoch: 2.0, sight: 150.0, comfort: 5.0 },
+    };
+    for (name, expected) in [
+        ("inattentive", Style { attention, ..usual.clone() }),
+        ("altruistic", Style { change: with_courtesy(3.44), manner: with_manner(3.0), ..usual.clone() }),
+        ("egoistic", Style { change: with_courtesy(0.0), manner: with_manner(0.0), ..usual.clone() }),
+    ] {
+        let found = template(name).typical().clone();
+        let description = found.description.clone();
+        assert_eq!(found, Style { name: name.into(), description, ..expected });
+    }
+}
+
+#[test]
+fn the_cautious_keep_longer_gaps_than_the_conservative_everywhere_and_drive_slower() {
+    let [cautious, usual] = ["cautious", "conservative"].map(|it| template(it).typical().clone());
+    let (FollowingModel::Idm(gaps), FollowingModel::Idm(usual_gaps)) = (cautious.follow, usual.follow) else {
+        panic!("both follow by IDM")
+    };
+    assert!(gaps.time_gap > usual_gaps.time_gap && gaps.jam_gap > usual_gaps.jam_gap);
+    assert!(cautious.safety.min_gap > usual.safety.min_gap);
+    assert!(cautious.safety.min_time_to_collision > usual.safety.min_time_to_collision);
+    assert!(cautious.safety.max_deceleration < usual.safety.max_deceleration);
+    assert!(cautious.manner.tightest > usual.manner.tightest);
+    assert!(cautious.yielding.critical_gap > usual.yielding.critical_gap);
+    assert!(cautious.speed_factor < usual.speed_factor);
+    assert_eq!(cautious.change, usual.change);
+}
+
+#[test]
+fn every_number_of_the_models_has_a_range_but_weights_and_thresholds() {
+    fn unbounded(table: &Table, path: &str, found: &mut Vec<String>) {
+        for (key, value) in table {
+            let path = format!("{path}{key}");
+            match value {
+                Value::Table(inner) => unbounded(inner, &format!("{path}."), found),
+                Value::Float(_) if Range::of(&path).from.is_infinite() => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for name in ["aggressive", "conservative", "mobil", "lmrs", "constant-hazard"] {
+        unbounded(&Table::try_from(template(name).typical()).unwrap(), "", &mut found);
+    }
+    assert!(found.iter().all(|it| it.ends_with(".weight") || it == "change.theta"), "{found:?}");
+}

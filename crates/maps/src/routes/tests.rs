@@ -1,0 +1,113 @@
+use super::*;
+use crate::generate::{Motorway, motorway};
+
+fn map(road: &Motorway) -> Map {
+    motorway(road).unwrap().build().unwrap()
+}
+
+fn node(map: &Map, id: i64) -> NodeIndex {
+    NodeIndex(map.network.lanelets.iter().position(|it| it.id == id).unwrap() as u32)
+}
+
+#[test]
+fn a_road_is_one_way_whatever_lanes_are_changed() {
+    let map = map(&Motorway { lanes: 2, length_m: 500.0, ..Motorway::default() });
+    // Lanelets are numbered row by row, from the slow lane to the fast one.
+    let found = routes(&map, node(&map, 1), node(&map, 10), Sense::default());
+    assert_eq!(found.len(), 1);
+    assert!((found[0].length - 500.0).abs() < 1e-9);
+    assert!((found[0].time - 500.0 / (120.0 / 3.6)).abs() < 1e-9);
+    assert_eq!(found[0].steps.iter().filter(|it| it.by == By::Left).count(), 1);
+    assert_eq!(found[0].steps.iter().filter(|it| it.by == By::Right).count(), 0);
+    let straight = &routes(&map, node(&map, 2), node(&map, 10), Sense::default())[0];
+    let ids: Vec<i64> = straight
+        .steps
+        .iter()
+        .map(|it| map.network.lanelets[map.graph.nodes[it.node.at()].lanelet.at()].id)
+        .collect();
+    assert_eq!(ids, [2, 4, 6, 8, 10]);
+}
+
+#[test]
+fn there_is_a_way_exactly_where_the_graph_leads() {
+    let road = Motorway {
+        on_ramp_at: vec![500.0],
+        off_ramp_at: vec![1500.0],
+        length_m: 2500.0,
+        ..Motorway::default()
+    };
+    let map = map(&road);
+    for to in (0..map.graph.nodes.len() as u32).map(NodeIndex) {
+        let search = Search::new(&map, to);
+        for from in (0..map.graph.nodes.len() as u32).step_by(7).map(NodeIndex) {
+            let leads = search.remaining[from.at()].is_finite();
+            assert_eq!(!routes(&map, from, to, Sense::default()).is_empty(), leads);
+            if leads {
+                let fastest = search.fastest(from);
+                assert_eq!((fastest.steps[0].node, fastest.steps.last().unwrap().node), (from, to));
+            }
+        }
+    }
+}
+
+#[test]
+fn ways_over_the_same_roads_are_named_once_and_counted() {
+    let grid = crate::generate::own_maps().unwrap().into_iter().find(|it| it.0 == "grid.osm").unwrap();
+    let map = grid.1.build().unwrap();
+    let roads = joined(
+        &map.graph,
+        &sections(&map.graph, |it| [it.left, it.right, it.adjacent_left, it.adjacent_right]),
+    );
+    let first = |chain: &laneweave_network::ChainIndex| map.network.chain(*chain).lanelets[0];
+    let last = |chain: &laneweave_network::ChainIndex| map.network.chain(*chain).lanelets.last().copied();
+    let from = NodeIndex(first(&map.network.entrances[0].chains[0]).0);
+    let mut variants = 0;
+    for exit in &map.network.exits {
+        let to = NodeIndex(last(&exit.chains[0]).unwrap().0);
+        let found = routes(&map, from, to, Sense::default());
+        let mut over: Vec<Vec<u32>> = Vec::new();
+        for route in &found {
+            let mut roads: Vec<u32> = route.steps.iter().map(|it| roads[it.node.at()]).collect();
+            roads.dedup();
+            assert!(!over.contains(&roads), "{route:?}");
+            over.push(roads);
+            variants += route.variants - 1;
+        }
+    }
+    assert!(variants > 0);
+}
+
+#[test]
+fn nobody_drives_backwards() {
+    let map = map(&Motorway { length_m: 500.0, ..Motorway::default() });
+    assert!(routes(&map, node(&map, 13), node(&map, 1), Sense::default()).is_empty());
+}
+
+#[test]
+fn every_step_follows_on_the_one_before() {
+    let road = Motorway {
+        on_ramp_at: vec![500.0],
+        off_ramp_at: vec![1500.0],
+        length_m: 3000.0,
+        ..Motorway::default()
+    };
+    let map = map(&road);
+    let starts = map.network.entrances.iter().flat_map(|it| &it.chains);
+    for start in starts.map(|it| map.network.chain(*it).lanelets[0]) {
+        for end in map.network.exits.iter().flat_map(|it| &it.chains) {
+            let end = *map.network.chain(*end).lanelets.last().unwrap();
+            let found = routes(&map, NodeIndex(start.0), NodeIndex(end.0), Sense::default());
+            assert_eq!(found.len(), 1);
+            assert_eq!(found[0].steps[0], Step { node: NodeIndex(start.0), by: By::Following });
+            assert_eq!(found[0].steps.last().unwrap().node, NodeIndex(end.0));
+            for pair in found[0].steps.windows(2) {
+                let before = &map.graph.nodes[pair[0].node.at()];
+                match pair[1].by {
+                    By::Following => assert!(before.following.contains(&pair[1].node)),
+                    By::Left => assert_eq!(before.left, Some(pair[1].node)),
+                    By::Right => assert_eq!(before.right, Some(pair[1].node)),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! A side, and what a driver makes of it.
+
+use laneweave_models::change::{Appraisal, LaneChangeModel, Situation};
+use laneweave_network::Side;
+
+use crate::driver::perceive::{Dismissed, Outlook};
+use crate::driver::plan::Want;
+use crate::record::signs::Sign;
+use crate::record::tally::Tally;
+use crate::state::moment::Moment;
+use crate::state::traffic::{Car, Kind};
+
+/// A side, and what the driver makes of it.
+pub(crate) struct Choice {
+    pub(crate) side: Side,
+    pub(crate) appraisal: Appraisal,
+    pub(crate) is_symmetric: bool,
+    /// Fewer changes are left to make there.
+    pub(crate) helps_the_route: bool,
+    /// How much the driver is pressed to this side, 0…1.
+    pub(crate) pressure: f64,
+    /// Anticipated speed there [m/s].
+    pub(crate) prospect: f64,
+}
+
+impl Choice {
+    /// What the driver makes of both sides, that for overtaking first.
+    pub(crate) fn both(outlook: &Outlook, moment: Moment, change: &LaneChangeModel) -> [Option<Choice>; 2] {
+        let of = |side| Choice::of(outlook, moment, change, side);
+        [of(moment.overtaking), of(moment.overtaking.opposite())]
+    }
+
+    /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
+    fn of(outlook: &Outlook, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
+        let from = outlook.beside(side)?;
+        if is_calm(outlook.car(), moment) && outlook.here().route.changes == 0 {
+            return None;
+        }
+        let situation = outlook.situation(side, from);
+        let helps_the_route = situation.there.route.changes < situation.here.route.changes;
+        (!is_out_of_question(outlook.car(), moment, &situation)).then(|| {
+            let appraisal = change.appraise(&situation);
+            Choice {
+                side,
+                appraisal,
+                is_symmetric: situation.is_symmetric(),
+                helps_the_route,
+                pressure: change.pressure(&situation, &appraisal),
+                prospect: situation.there.prospect,
+            }
+        })
+    }
+
+    pub(crate) fn want(&self, prospect_here: f64) -> Want {
+        Want {
+            side: self.side,
+            kind: if self.is_symmetric { Kind::Discretionary } else { Kind::Route },
+            appraisal: self.appraisal,
+            speed_gain: (self.prospect - prospect_here) as f32,
+        }
+    }
+}
+
+/// Soon after a change a driver makes no other by choice.
+fn is_calm(car: &Car, moment: Moment) -> bool {
+    moment.clock.step < car.calm_until
+}
+
+/// A driver does not weigh a side soon after a change, unless that helps its route.
+pub(crate) fn is_out_of_question(car: &Car, moment: Moment, situation: &Situation) -> bool {
+    is_calm(car, moment) && situation.there.route.changes >= situation.here.route.changes
+}
+
+/// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where `draw` was
+/// drawn.
+#[inline]
+pub(crate) fn desire(
+    outlook: &Outlook,
+    moment: Moment,
+    change: &LaneChangeModel,
+    epochs: f64,
+    draw: f64,
+    tally: &mut Tally,
+) -> Option<Choice> {
+    let (desired, here) = (f64::from(outlook.car().desired), outlook.here().prospect);
+    if let LaneChangeModel::Mcdm(model) = change
+        && moment.clock.step >= outlook.car().calm_until
+        && let Some(Dismissed { best_prospect }) = outlook.dismisses(model, change.reach(epochs, draw))
+    {
+        // Whether the lane beside is free, and not only its next leader far ahead, takes a longer look.
+        let sign = Sign::of(desired, here, best_prospect);
+        if sign != Some(Sign::HeldUp) {
+            tally.count_sign(sign, false);
+            return None;
+        }
+    }
+    let options = Choice::both(outlook, moment, change);
+    let symmetric = options.iter().flatten().filter(|it| it.is_symmetric);
+    let sign = Sign::of(desired, here, symmetric.map(|it| it.prospect).reduce(f64::max));
+    let drawn =
+        change.drawn([&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal)), epochs, draw);
+    tally.count_sign(sign, drawn.is_some());
+    drawn.and_then(|it| options.into_iter().nth(it)).flatten()
+}

@@ -1,0 +1,270 @@
+//! A driver considers lanes at its turn: it notes how it stands, heeds its route, looks around, and chooses.
+
+use std::borrow::Cow;
+
+use laneweave_models::Style;
+use laneweave_models::change::{Appraisal, LaneChangeModel};
+use laneweave_network::Side;
+
+use crate::driver::beliefs::Beliefs;
+use crate::driver::choice::{Choice, desire};
+use crate::driver::leave::departure;
+use crate::driver::me::{Attending, Me};
+use crate::driver::perceive::Outlook;
+use crate::driver::plan::{Ask, Concern, Note, Outbox, Plan, Request};
+use crate::driver::stuck::is_stuck;
+use crate::driver::turn::next_turn;
+use crate::driver::window;
+use crate::route::waypoint::Waypoint;
+use crate::state::goal::Destination;
+use crate::state::moment::Moment;
+use crate::state::random::Purpose;
+use crate::state::standstill::STANDSTILL;
+use crate::state::tight::push_tight;
+use crate::state::traffic::{Car, Kind, Mind, Motion, Phase};
+use crate::view::scene::{Scene, Spot};
+
+/// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
+const STANDS_IN_VAIN: f32 = 120.0;
+const AT_THE_PLACE: f64 = 20.0;
+/// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
+const HEEDED_WITHIN: f64 = 400.0;
+/// A vehicle that stands this long is stuck, unless it waits for what is bound to end [s].
+const STUCK_AFTER: f32 = 300.0;
+
+/// A driver considers both sides at its turn. `hints` are the entries beside the last driver of the lane who did.
+pub(crate) fn consider(
+    scene: &Scene,
+    moment: Moment,
+    spot: Spot,
+    hints: &mut [usize; 2],
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    let me = Me::at(scene, spot);
+    let attending = Attending::of(&me, moment);
+    outbox.tally.considerations += 1;
+    let standing = note_turn(scene, moment, &me, attending.period, plan, outbox);
+    let waypoint = waypoint(scene, &me);
+    let is_detour = matches!(waypoint, Cow::Owned(_));
+    let concern = heed_route(scene, &me, (&waypoint, is_detour), standing, outbox);
+    if concern.rerouted.is_some() {
+        return push_tight(&mut plan.concerns, concern);
+    }
+    let is_last_chance = has_last_chance(&me.style.change, me.motion, &waypoint);
+    if is_last_chance
+        && me.car.phase == Phase::Cruises
+        && let Some(note) = plan.notes.last_mut()
+    {
+        note.due = moment.clock.step + 1;
+    }
+    if !has_a_choice(scene, &me) {
+        let gives_up = me.car.phase == Phase::Wants;
+        return keep_in_mind(Concern { gives_up, ..concern }, me.car, plan);
+    }
+    let outlook = look(scene, moment, &me, &attending, &waypoint, hints);
+    let change = attending.model(me.style);
+    if let Some(way) = departure(scene, moment, spot, &outlook, &change, attending.epochs) {
+        if way.is_change {
+            outbox.count_route_change(me.motion.id);
+        }
+        let rerouted = Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern };
+        return push_tight(&mut plan.concerns, rerouted);
+    }
+    let concern = if me.car.phase == Phase::Wants {
+        want_on(moment, &me, &outlook, &change, is_last_chance, concern)
+    } else {
+        choose(moment, &me, &outlook, &change, (attending.epochs, is_last_chance), outbox);
+        concern
+    };
+    keep_in_mind(concern, me.car, plan);
+}
+
+/// Notes that the driver had its turn, and whether it stands. Returns for how long it has [s].
+fn note_turn(
+    scene: &Scene,
+    moment: Moment,
+    me: &Me,
+    period: u32,
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) -> f32 {
+    let Me { spot, motion, car, .. } = *me;
+    let mut note = note(scene, moment, me, period);
+    if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
+        if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
+            outbox.tally.stuck += 1;
+        } else {
+            note.standing = car.standing;
+        }
+    }
+    if note.standing > 0.0 && car.standing == 0.0 {
+        outbox.halts.push(motion.id);
+    }
+    if note.standing == 0.0 && car.standing > 0.0 {
+        outbox.set_off.push((motion.id, car.standing));
+    }
+    push_tight(&mut plan.notes, note);
+    note.standing
+}
+
+/// What its route is to a driver where it is.
+pub(crate) fn waypoint<'a>(scene: &Scene<'a>, me: &Me) -> Cow<'a, Waypoint> {
+    scene.navigator.waypoint_from(scene.network, me.car.goal.destination(), me.spot.chain, me.motion.x)
+}
+
+/// What a driver, who has been `standing` so long [s], has to keep in mind of its route: the last place for its next change, or
+/// another goal if it can no longer get there.
+fn heed_route(
+    scene: &Scene,
+    me: &Me,
+    (waypoint, is_detour): (&Waypoint, bool),
+    standing: f32,
+    outbox: &mut Outbox,
+) -> Concern {
+    let Me { spot, motion, style, .. } = *me;
+    let concern = Concern {
+        index: spot.index as u32,
+        last_place: f64::INFINITY,
+        urgency: 0.0,
+        gives_up: false,
+        minds_offside: style.change.minds_offside(),
+        rerouted: None,
+    };
+    if let Some(other) = other_goal(scene, me, waypoint, standing) {
+        outbox.count_missed_turn(motion.id);
+        outbox.tally.lost += u64::from(other.is_none());
+        return Concern { rerouted: Some(other), gives_up: true, ..concern };
+    }
+    if !waypoint.leads_on(motion.x) {
+        return concern;
+    }
+    // Who passed the last place takes another route, if there is one; if not, it has a passage, and is re-routed beyond.
+    if is_detour && me.mind.last_place < motion.x {
+        outbox.count_missed_turn(motion.id);
+    }
+    let is_heeded = waypoint.last_place - motion.x < HEEDED_WITHIN;
+    Concern { last_place: if is_heeded { waypoint.last_place } else { f64::INFINITY }, ..concern }
+}
+
+/// Who may change to neither side has nothing to weigh, and nothing left to wait for.
+fn has_a_choice(scene: &Scene, me: &Me) -> bool {
+    Side::BOTH.into_iter().any(|side| window::beside(scene, me.spot, side).is_some())
+        || scene.navigator.recommended(me.car.goal.destination()).is_some()
+}
+
+/// What a driver sees around it at its turn.
+pub(crate) fn look<'s, 'a>(
+    scene: &'s Scene<'a>,
+    moment: Moment,
+    me: &Me<'a>,
+    attending: &Attending,
+    waypoint: &Waypoint,
+    hints: &mut [usize; 2],
+) -> Outlook<'s, 'a> {
+    let goal = me.car.goal.destination();
+    let beliefs = Beliefs::of(&me.style.guidance, scene.navigator, moment.random, me.motion.id, goal);
+    Outlook::new(scene, me.spot, waypoint, attending.alertness.sight, beliefs, hints)
+}
+
+/// A driver who wants to change goes on wanting it, or gives it up.
+fn want_on(
+    moment: Moment,
+    me: &Me,
+    outlook: &Outlook,
+    change: &LaneChangeModel,
+    is_last_chance: bool,
+    concern: Concern,
+) -> Concern {
+    let options = Choice::both(outlook, moment, change);
+    let of = |side: Side| options.iter().flatten().find(|it| it.side == side);
+    let [wanted, other] = [me.mind.side, me.mind.side.opposite()].map(of);
+    let leads = |it: Option<&Choice>| is_last_chance && it.is_some_and(|it| it.helps_the_route);
+    let appraisals = [wanted, other].map(|it| it.map(|it| &it.appraisal));
+    let gives_up = !leads(wanted) && (leads(other) || gives_up(moment, me.mind, me.style, appraisals));
+    Concern { gives_up, urgency: wanted.map_or(0.0, |it| it.pressure as f32), ..concern }
+}
+
+/// A driver who keeps its lane begins to want a change if the desire comes, or at the last place for one that it has to make.
+fn choose(
+    moment: Moment,
+    me: &Me,
+    outlook: &Outlook,
+    change: &LaneChangeModel,
+    (epochs, is_last_chance): (f64, bool),
+    outbox: &mut Outbox,
+) {
+    let Me { spot, motion, .. } = *me;
+    let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
+    let needed = || Choice::both(outlook, moment, change).into_iter().flatten().find(|it| it.helps_the_route);
+    let choice = is_last_chance.then(needed).flatten();
+    let choice = choice.or_else(|| desire(outlook, moment, change, epochs, draw, &mut outbox.tally));
+    if let Some(choice) = choice {
+        let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.pressure as f32);
+        let ask = Ask::Want(choice.want(outlook.here().prospect));
+        outbox.requests.push(Request { urgency, id, chain, x, ask });
+    }
+}
+
+/// Where a driver, who has been `standing` so long [s], goes from now on because it cannot get to where it goes by its
+/// `waypoint`, or has waited for the change in vain: the nearest destination that it still can, or as the road leads. None if it goes on.
+fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Option<Destination> {
+    let (spot, goal, x) = (me.spot, me.car.goal.destination(), me.motion.x);
+    let found = if !waypoint.leads_on(x) {
+        scene.navigator.nearest(scene.network, goal, spot.chain, x)
+    } else if standing >= STANDS_IN_VAIN && waypoint.last_place - x < AT_THE_PLACE {
+        // Only a way that asks for no change here helps it on.
+        Some(scene.navigator.nearest_in_lane(goal, spot.chain, waypoint.last_place + AT_THE_PLACE)?)
+    } else {
+        return None;
+    };
+    // Who has a passage goes the way that it was given for; who drives as the road leads has no other goal to lose.
+    let is_free = goal.is_some() && !scene.has_passage(spot, f64::NEG_INFINITY);
+    (found != goal && is_free).then_some(found)
+}
+
+/// Whether a driver comes to the last place for a change that it has to make: there it looks for a gap at every step, and wants the
+/// change whatever else speaks against it (ours).
+pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Motion, waypoint: &Waypoint) -> bool {
+    /// Way before that place [m], and time [s].
+    const WAY: f64 = 30.0;
+    const TIME: f64 = 4.0;
+    let is_near = waypoint.last_place - motion.x < (TIME * motion.speed).max(WAY);
+    waypoint.changes > 0 && is_near && waypoint.leads_on(motion.x) && change.follows_a_route()
+}
+
+/// A driver keeps its way in mind if there is something about it to keep, or to forget.
+#[inline(never)]
+fn keep_in_mind(concern: Concern, car: &Car, plan: &mut Plan) {
+    let minds_more = concern.last_place.is_finite() || concern.minds_offside;
+    if car.phase != Phase::Cruises || car.heeds_more || minds_more {
+        push_tight(&mut plan.concerns, concern);
+    }
+}
+
+/// What the driver keeps in mind whatever it decides, considering lanes once in `period` steps.
+fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
+    let Me { spot, motion, car, style, .. } = *me;
+    let limit = scene.network.chain(spot.chain).limit(motion.x);
+    let stands = motion.speed < STANDSTILL;
+    // Considerations between two turns add no time to that between the turns.
+    let is_turn = next_turn(motion.id, moment.clock.step, period) == moment.clock.step;
+    let since_last = if is_turn { (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 };
+    Note {
+        index: spot.index as u32,
+        due: next_turn(motion.id, moment.clock.step + 1, period),
+        limit_desired: car.class.desired_speed(style, limit) as f32,
+        standing: if stands { car.standing + since_last } else { 0.0 },
+    }
+}
+
+/// A waiting driver loses patience, or the reason to change to the side that it wanted, and not to the other.
+fn gives_up(moment: Moment, mind: &Mind, style: &Style, [wanted, other]: [Option<&Appraisal>; 2]) -> bool {
+    let Some(appraisal) = wanted else { return true };
+    let waited = moment.clock.since(mind.since);
+    let is_tired = mind.kind == Kind::Discretionary && waited > style.manner.patience;
+    let is_pointless = style.change.would_rather_stay(appraisal);
+    let is_better_elsewhere =
+        other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());
+    is_tired || is_pointless || is_better_elsewhere
+}

@@ -1,0 +1,63 @@
+//! A driver with all that it has at hand.
+
+use std::borrow::Cow;
+
+use laneweave_models::Alertness;
+use laneweave_models::change::LaneChangeModel;
+use laneweave_models::{Concentration, Style};
+
+use crate::driver::attention::concentration;
+use crate::state::moment::Moment;
+use crate::state::traffic::{Car, Mind, Motion};
+use crate::view::scene::{Scene, Spot};
+
+/// The driver of a vehicle.
+#[derive(Clone, Copy)]
+pub(crate) struct Me<'a> {
+    pub(crate) spot: Spot,
+    pub(crate) motion: &'a Motion,
+    pub(crate) car: &'a Car,
+    pub(crate) mind: &'a Mind,
+    pub(crate) style: &'a Style,
+}
+
+impl<'a> Me<'a> {
+    /// The driver of the entry at `spot`.
+    #[inline]
+    pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Me<'a> {
+        let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
+        Me { spot, motion, car, mind, style: &scene.characters[car.character as usize] }
+    }
+}
+
+/// How a driver attends at its turn.
+#[derive(Clone, Copy)]
+pub(crate) struct Attending {
+    pub(crate) state: Concentration,
+    pub(crate) alertness: Alertness,
+    /// Steps from one turn to the next.
+    pub(crate) period: u32,
+    /// Epochs that pass in that time.
+    pub(crate) epochs: f64,
+}
+
+impl Attending {
+    /// How `me` attends at this moment.
+    #[inline]
+    pub(crate) fn of(me: &Me, moment: Moment) -> Attending {
+        let attention = &me.style.attention;
+        let state = concentration(attention, moment.random, me.motion.id, moment.clock.time());
+        let alertness = attention.alertness(state);
+        let period = moment.clock.steps(alertness.epoch);
+        let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;
+        Attending { state, alertness, period, epochs }
+    }
+
+    /// The lane-change model of a driver of `style` who attends like that.
+    pub(crate) fn model<'a>(&self, style: &'a Style) -> Cow<'a, LaneChangeModel> {
+        match self.state {
+            Concentration::Concentrated => Cow::Borrowed(&style.change),
+            Concentration::Inattentive => Cow::Owned(style.change.with_comfort(self.alertness.comfort)),
+        }
+    }
+}

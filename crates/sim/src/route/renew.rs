@@ -1,0 +1,138 @@
+//! What guidance changes of the ways: link times, and with them the recommendations.
+
+use laneweave_network::{ChainIndex, Network};
+use serde::{Deserialize, Serialize};
+
+use crate::route::links::Links;
+use crate::route::navigate::Navigator;
+use crate::route::place::Place;
+use crate::route::waypoint::Waypoint;
+use crate::state::goal::{Destination, Goal};
+
+/// What guidance has changed of a navigator.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Guided {
+    tables: Vec<Vec<Waypoint>>,
+    recommended: Vec<u16>,
+    links: Links,
+    measurements: u32,
+}
+
+impl Guided {
+    /// Whether the way to a destination is planned.
+    pub(crate) fn has(&self, destination: Destination) -> bool {
+        is_planned(&self.tables, destination)
+    }
+}
+
+/// Whether the way to a destination is planned in `tables`; who has none drives on as the road leads.
+pub(super) fn is_planned(tables: &[Vec<Waypoint>], destination: Destination) -> bool {
+    destination.is_none_or(|it| tables.get(usize::from(it)).is_some_and(|it| !it.is_empty()))
+}
+
+impl Navigator {
+    /// What guidance has changed.
+    pub(crate) fn guided(&self) -> Guided {
+        let Navigator { tables, recommended, links, measurements, .. } = self.clone();
+        Guided { tables, recommended, links, measurements }
+    }
+
+    /// Whether it can go on from that.
+    pub(crate) fn accepts(&self, guided: &Guided) -> bool {
+        let Guided { tables, recommended, links, measurements: _ } = guided;
+        let chains = self.trip_ends.len();
+        let alike =
+            |(one, other): (&Vec<Waypoint>, &Vec<Waypoint>)| one.len() == other.len() || one.len() == chains;
+        let is_chain = |it: ChainIndex| it.at() < chains;
+        tables.len() == self.tables.len()
+            && tables.iter().zip(&self.tables).all(alike)
+            && tables.iter().flatten().all(|it| it.chains().all(is_chain))
+            && recommended.len() == self.recommended.len()
+            && recommended
+                .iter()
+                .all(|it| usize::from(*it) < tables.len() && !tables[usize::from(*it)].is_empty())
+            && links.fits(&self.links)
+    }
+
+    /// Goes on from what guidance had changed of a navigator of the same network.
+    pub(crate) fn go_on(&mut self, network: &Network, guided: Guided) {
+        let Guided { tables, recommended, links, measurements } = guided;
+        *self = Navigator { tables, recommended, links, measurements, ..self.clone() };
+        self.look_onward(network);
+    }
+
+    /// Lets drivers be guided to `destinations`, by the link times of the free road for the time being.
+    ///
+    /// # Errors
+    /// If there are more destinations than [`Navigator::WAYS`] ways to each could be told apart: how many can be.
+    pub(crate) fn guide(&mut self, network: &Network, destinations: &[Place]) -> Result<(), usize> {
+        let usual = self.usual();
+        if usual * Navigator::WAYS > usize::from(Goal::NONE) {
+            return Err(usize::from(Goal::NONE) / Navigator::WAYS / self.views.count() - 1);
+        }
+        self.recommended = (0..usual as u16).collect();
+        self.links = Links::of(network);
+        self.tables.resize(usual * Navigator::WAYS, Vec::new());
+        for table in usual..self.tables.len() {
+            if let Some(place) = destinations.get(table % self.of_view) {
+                self.end_trips(place, table);
+            }
+        }
+        self.look_onward(network);
+        Ok(())
+    }
+
+    /// Takes over measured times of all links [s]. Tables have them when they are guided next.
+    pub(crate) fn take_link_times(&mut self, times: impl Iterator<Item = f64>) {
+        self.links.take(times);
+        self.measurements += 1;
+    }
+
+    /// How often link times were measured.
+    pub(crate) fn measurements(&self) -> u32 {
+        self.measurements
+    }
+
+    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present link
+    /// times; and recommends the best way anew, if there is room for it.
+    pub(crate) fn renew(
+        &mut self,
+        network: &Network,
+        place: &Place,
+        ways: [usize; Navigator::WAYS],
+        in_use: [bool; Navigator::WAYS],
+    ) {
+        let [usual, ..] = ways;
+        let planner = self.planner(network, usual / self.of_view);
+        let newest = usize::from(self.recommended[usual]);
+        let mut best = planner.plan(place);
+        planner.note_alternatives(&mut best, None);
+        let is_new = best.iter().zip(&self.tables[newest]).any(|(new, old)| !new.goes_like(old));
+        let mut spare = ways.into_iter().zip(in_use).skip(1);
+        let spare = spare.find(|(way, in_use)| is_new && !in_use && *way != newest);
+        if is_new && spare.is_none() {
+            // What cannot be recommended is nobody's alternative.
+            best.clone_from(&self.tables[newest]);
+            planner.retime(&mut best, place);
+            planner.note_alternatives(&mut best, None);
+        }
+        let mut renewed = Vec::new();
+        for (way, in_use) in ways.into_iter().zip(in_use) {
+            let is_followed = in_use || way == usual || way == newest;
+            if is_followed && spare.is_none_or(|it| it.0 != way) {
+                let mut table = self.tables[way].clone();
+                planner.retime(&mut table, place);
+                planner.note_alternatives(&mut table, Some(&best));
+                renewed.push((way, table));
+            }
+        }
+        renewed.extend(spare.map(|(way, _)| (way, best)));
+        for (way, table) in renewed {
+            self.onward.take(network, way, &table);
+            self.tables[way] = table;
+        }
+        if let Some((way, _)) = spare {
+            self.recommended[usual] = way as u16;
+        }
+    }
+}

@@ -1,0 +1,111 @@
+use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
+
+use super::*;
+use crate::route::place::Kerb;
+
+/// A lane to the east between two stations [m] at 10 m/s, followed by `following`.
+pub(crate) fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
+    let line = Polyline::new([from, to].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
+    let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
+    lanelet.following = following.iter().map(|it| LaneletIndex(*it)).collect();
+    lanelet
+}
+
+/// A road of 100 m that forks into one of 200 m and one of 400 m, which meet before the last 100 m.
+fn fork() -> Network {
+    let all = vec![
+        lanelet(1, [0.0, 100.0], &[1, 2]),
+        lanelet(2, [100.0, 300.0], &[3]),
+        lanelet(3, [100.0, 500.0], &[3]),
+        lanelet(4, [300.0, 400.0], &[]),
+    ];
+    Network::new(all, DrivingSide::Right).unwrap()
+}
+
+fn chain(network: &Network, id: i64) -> ChainIndex {
+    let chains = (0..network.chains.len() as u32).map(ChainIndex);
+    chains.into_iter().find(|it| network.lanelet_at(*it, 0.0).0.id == id).unwrap()
+}
+
+/// The way over the fork, its time and that of the other one, when the chain of a lanelet takes another time than the free one.
+fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
+    let network = fork();
+    let into = beside_into(&network);
+    let views = Views::default();
+    let mut links = Links::of(&network);
+    let free = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+    let place = Place::Gate(network.exits[0].clone());
+    let mut table = free.plan(&place);
+    let times: Vec<f64> = (0..network.chains.len() as u32)
+        .map(ChainIndex)
+        .map(|it| {
+            let usual = free.time(it, network.chain(it).length);
+            slow.filter(|(id, _)| chain(&network, *id) == it).map_or(usual, |(_, time)| time)
+        })
+        .collect();
+    links.take(times.into_iter());
+    let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+    let mut best = planner.plan(&place);
+    planner.note_alternatives(&mut best, None);
+    planner.retime(&mut table, &place);
+    planner.note_alternatives(&mut table, Some(&best));
+    let Waypoint { next, time, alternative, .. } = (if kept { table } else { best })[chain(&network, 1).at()];
+    (network.lanelet_at(next.unwrap(), 0.0).0.id, time, alternative)
+}
+
+#[test]
+fn the_alternative_is_the_best_way_over_the_end_of_the_lane_that_is_not_the_own_one() {
+    assert_eq!(way(true, None), (2, 40.0, 60.0));
+    assert_eq!(way(false, None), (2, 40.0, 60.0));
+}
+
+/// A lane of 1,000 m, and one on its left from 300 m on.
+fn two_lanes() -> Network {
+    let beside = |it: Lanelet, left, right| Lanelet { left, right, ..it };
+    let index = |it| Some(LaneletIndex(it));
+    let all = vec![
+        lanelet(1, [0.0, 300.0], &[1]),
+        beside(lanelet(2, [300.0, 600.0], &[2]), index(3), None),
+        beside(lanelet(3, [600.0, 1000.0], &[]), index(4), None),
+        beside(lanelet(4, [300.0, 600.0], &[4]), None, index(1)),
+        beside(lanelet(5, [600.0, 1000.0], &[]), None, index(2)),
+    ];
+    Network::new(all, DrivingSide::Right).unwrap()
+}
+
+#[test]
+fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
+    let network = two_lanes();
+    let into = beside_into(&network);
+    let views = Views::default();
+    let [long, short] = [1, 4].map(|id| chain(&network, id));
+    let kerb = Kerb { id: 3, chain: long, station: 950.0 };
+    for jammed in 0..5 {
+        let mut links = Links::of(&network);
+        let times: Vec<f64> = (0..5).map(|it| if it == jammed { 900.0 } else { 30.0 }).collect();
+        links.take(times.into_iter());
+        let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+        let table = planner.plan(&Place::Kerb(kerb));
+        let [here, there] = [long, short].map(|it| table[it.at()]);
+        assert_eq!((here.changes, here.via), (0, long), "{jammed}");
+        assert_eq!((there.changes, there.via), (1, long), "{jammed}");
+        // Who comes from the start of the long lane is not there before who starts where the short one does.
+        assert!(here.time > there.time, "{jammed}: {} {}", here.time, there.time);
+        let mut timed = table.clone();
+        planner.retime(&mut timed, &Place::Kerb(kerb));
+        assert_eq!(timed[short.at()].time, there.time, "{jammed}");
+    }
+}
+
+#[test]
+fn a_change_counts_as_a_detour_the_more_the_less_road_there_is_for_it() {
+    let counted = [0.0, 10.0, 30.0, 40.0, 90.0].map(Planner::hurry);
+    assert_eq!(counted, [120.0, 90.0, 30.0, 0.0, 0.0]);
+}
+
+#[test]
+fn with_new_link_times_a_way_is_kept_with_its_new_time_and_the_best_one_is_another() {
+    assert_eq!(way(true, Some((2, 100.0))), (2, 120.0, 60.0));
+    assert_eq!(way(false, Some((2, 100.0))), (3, 60.0, 120.0));
+    assert_eq!(way(true, Some((1, 50.0))), (2, 80.0, 100.0));
+}

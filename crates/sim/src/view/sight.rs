@@ -1,0 +1,203 @@
+//! What one sees along a lane.
+
+use laneweave_models::change::{Flow, anticipated_speed};
+use laneweave_models::follow::Ahead;
+use laneweave_network::{ChainIndex, LightState, Sign, Stop};
+
+use crate::state::traffic::{Motion, VehicleId};
+use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
+
+/// T_h window ahead [m].
+const WINDOW_AHEAD: f64 = 200.0;
+/// T_h window back [m].
+const WINDOW_BACK: f64 = 100.0;
+
+/// What one sees along a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneSight {
+    /// The leader, or the end of the lane.
+    pub ahead: Option<Ahead>,
+    /// The leader's entry.
+    pub leader: Option<Spot>,
+    /// The follower.
+    pub follower: Option<Found>,
+    /// Least anticipated speed over the leaders [m/s].
+    pub prospect: f64,
+    /// Means over the window.
+    pub flow: Flow,
+}
+
+/// Sums over a window.
+#[derive(Default)]
+struct Window {
+    count: f64,
+    speeds: f64,
+    lengths: f64,
+}
+
+impl Window {
+    #[inline]
+    fn add(&mut self, other: &Motion) {
+        self.count += 1.0;
+        self.speeds += other.speed;
+        self.lengths += f64::from(other.length);
+    }
+
+    /// Means over a window of `extent` [m]; an empty one looks like a road on which one drives as one likes.
+    fn flow(&self, extent: f64, desired: f64, own_length: f64) -> Flow {
+        if self.count == 0.0 {
+            return Flow { spacing: extent, speed: desired, length: own_length };
+        }
+        Flow {
+            spacing: extent / self.count,
+            speed: self.speeds / self.count,
+            length: self.lengths / self.count,
+        }
+    }
+}
+
+impl Scene<'_> {
+    /// All that a driver who wants `desired` [m/s] and sees `sight` [m] ahead sees along the lane it looks at.
+    pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64, sight: f64) -> LaneSight {
+        let mut view = View {
+            sight,
+            window_ahead: WINDOW_AHEAD.min(sight),
+            window: Window::default(),
+            ahead: None,
+            leader: None,
+            prospect: desired,
+        };
+        let ahead = self.look_ahead(from, desired, &mut view);
+        let (follower, back) = self.look_back(from, &mut view.window);
+        let View { window, ahead: leader_ahead, leader, prospect, .. } = view;
+        let flow = window.flow(ahead + back, desired, own_length);
+        LaneSight { ahead: leader_ahead, leader, follower, prospect, flow }
+    }
+
+    /// Looks at what is ahead; returns the window's extent [m].
+    #[inline]
+    fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
+        let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+        let window_ahead = view.window_ahead;
+        loop {
+            let stops = &self.network.junctions.on(chain).stops[..];
+            if !stops.is_empty() {
+                self.heed_red(stops, base, desired, view);
+            }
+            if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
+                return window_ahead;
+            }
+            base += self.network.chain(chain).length;
+            if base > view.sight {
+                return window_ahead;
+            }
+            let Some(next) = self.next(from.destination, chain) else {
+                if self.network.chain(chain).is_lane_drop {
+                    let end = Ahead::standing(base);
+                    view.ahead = view.ahead.or(Some(end));
+                    view.prospect = view.prospect.min(anticipated_speed(end, desired));
+                }
+                return base.clamp(1.0, window_ahead);
+            };
+            (chain, index) = (next, 0);
+        }
+    }
+
+    /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a chain whose
+    /// start is `base` ahead [m].
+    #[inline(never)]
+    fn heed_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
+        let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
+        let red = stops.iter().find(|it| base + it.station > 0.0 && is_red(it.sign));
+        if let Some(line) = red.map(|it| base + it.station).filter(|it| *it <= view.sight) {
+            view.prospect = view.prospect.min(anticipated_speed(Ahead::standing(line), desired));
+        }
+    }
+
+    /// Looks at what is behind; returns the follower and the window's extent [m].
+    #[inline]
+    fn look_back(&self, from: Viewpoint, window: &mut Window) -> (Option<Found>, f64) {
+        let motions = &self.motions(from.chain)[..from.ahead];
+        let mut follower = None;
+        for (index, it) in motions.iter().enumerate().rev() {
+            let distance = from.x - it.x;
+            let is_in_window = distance <= WINDOW_BACK;
+            if !is_in_window && (follower.is_some() || distance >= REAR_SIGHT) {
+                return (follower, WINDOW_BACK);
+            }
+            if it.id == from.id {
+                continue;
+            }
+            if follower.is_none() {
+                follower = Some(Found { spot: Spot { chain: from.chain, index }, distance });
+            }
+            if is_in_window {
+                window.add(it);
+            }
+        }
+        if follower.is_none() {
+            follower = self.follower(Viewpoint { ahead: 0, ..from });
+        }
+        (follower, self.look_back_beyond(from, window))
+    }
+
+    /// Looks at the window on the chain before; returns the window's extent [m].
+    fn look_back_beyond(&self, from: Viewpoint, window: &mut Window) -> f64 {
+        let missing = WINDOW_BACK - from.x;
+        let Some(back) = self.network.chain(from.chain).previous.first().filter(|_| missing > 0.0) else {
+            return from.x.clamp(0.0, WINDOW_BACK);
+        };
+        let length = self.network.chain(*back).length;
+        let within = self.motions(*back).iter().rev().take_while(|it| length - it.x <= missing);
+        within.filter(|it| it.id != from.id).for_each(|it| window.add(it));
+        (from.x + length).min(WINDOW_BACK)
+    }
+}
+
+/// What is gathered while looking ahead.
+struct View {
+    /// How far one sees [m].
+    sight: f64,
+    /// How far the window reaches ahead [m].
+    window_ahead: f64,
+    window: Window,
+    ahead: Option<Ahead>,
+    leader: Option<Spot>,
+    prospect: f64,
+}
+
+impl View {
+    /// Looks along `motions`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
+    /// Returns whether the end of sight was reached.
+    #[inline]
+    fn pass(
+        &mut self,
+        motions: &[Motion],
+        chain: ChainIndex,
+        first: usize,
+        base: f64,
+        id: VehicleId,
+        desired: f64,
+    ) -> bool {
+        for (index, it) in (first..).zip(motions) {
+            let front = base + it.x;
+            let ahead = it.ahead(front - f64::from(it.length));
+            if ahead.gap > self.sight {
+                return true;
+            }
+            if it.id == id {
+                continue;
+            }
+            if self.leader.is_none() {
+                self.ahead = Some(ahead);
+                self.leader = Some(Spot { chain, index });
+            }
+            let anticipated = anticipated_speed(ahead, desired);
+            self.prospect = if anticipated < self.prospect { anticipated } else { self.prospect };
+            if front <= self.window_ahead {
+                self.window.add(it);
+            }
+        }
+        false
+    }
+}
