@@ -30,6 +30,7 @@
 //! ```
 
 mod csv;
+#[cfg(feature = "parquet")]
 mod parquet;
 mod partial;
 
@@ -39,6 +40,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use self::csv::CsvSink;
+#[cfg(feature = "parquet")]
 use self::parquet::ParquetSink;
 
 pub use self::partial::PartialFile;
@@ -182,8 +184,20 @@ impl<'a> Cells<'a> {
 pub enum Format {
     /// Comma-separated values with a header; numbers in their shortest form that reads back exactly.
     Csv,
-    /// Apache Parquet, uncompressed, repeating values by dictionary.
+    /// Apache Parquet, uncompressed, repeating values by dictionary; with the feature `parquet`.
+    #[cfg(feature = "parquet")]
     Parquet,
+}
+
+impl Format {
+    /// The extension of its files.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Format::Csv => "csv",
+            #[cfg(feature = "parquet")]
+            Format::Parquet => "parquet",
+        }
+    }
 }
 
 /// Why a table cannot be written.
@@ -239,6 +253,7 @@ pub struct TableWriter {
 
 enum Sink {
     Csv(CsvSink),
+    #[cfg(feature = "parquet")]
     Parquet(Box<ParquetSink>),
 }
 
@@ -255,6 +270,7 @@ impl TableWriter {
     ///
     /// # Errors
     /// If the file cannot be created or written.
+    #[cfg_attr(not(feature = "parquet"), expect(unused_variables, reason = "CSV has no place for notes"))]
     pub fn create_with(
         path: &Path,
         format: Format,
@@ -265,6 +281,7 @@ impl TableWriter {
             .map_err(|source| TableError::Create { path: path.to_owned(), source })?;
         let sink = match format {
             Format::Csv => Ok(Sink::Csv(CsvSink::new(output, columns))),
+            #[cfg(feature = "parquet")]
             Format::Parquet => ParquetSink::new(output, columns, notes).map(|it| Sink::Parquet(Box::new(it))),
         };
         let sink = sink.map_err(|source| TableError::Write { path: path.to_owned(), source })?;
@@ -279,6 +296,7 @@ impl TableWriter {
         self.check(cells)?;
         let written = match &mut self.sink {
             Sink::Csv(sink) => sink.row(cells),
+            #[cfg(feature = "parquet")]
             Sink::Parquet(sink) => sink.row(cells),
         };
         written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
@@ -297,6 +315,7 @@ impl TableWriter {
         self.check(&first)?;
         let written = match &mut self.sink {
             Sink::Csv(sink) => sink.rows(count, columns),
+            #[cfg(feature = "parquet")]
             Sink::Parquet(sink) => sink.rows(count, columns),
         };
         written.map_err(|source| TableError::Write { path: self.file.target().to_owned(), source })
@@ -311,6 +330,7 @@ impl TableWriter {
         let path = file.target().to_owned();
         let written = match sink {
             Sink::Csv(sink) => sink.finish(),
+            #[cfg(feature = "parquet")]
             Sink::Parquet(sink) => sink.finish(),
         };
         written.and_then(|()| file.complete()).map_err(|source| TableError::Write { path, source })

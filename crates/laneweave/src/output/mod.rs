@@ -172,10 +172,7 @@ impl Folder<'_> {
 
     /// Begins the table called `name`.
     fn table(&self, name: &str, columns: &[Column]) -> Result<(TableWriter, PathBuf), Fault> {
-        let path = self.file(name).with_extension(match self.format {
-            Format::Csv => "csv",
-            Format::Parquet => "parquet",
-        });
+        let path = self.file(name).with_extension(self.format.extension());
         let notes = self.provenance.notes();
         let notes = notes.each_ref().map(|(key, value)| (*key, value.as_str()));
         Ok((TableWriter::create_with(&path, self.format, columns, &notes)?, path))
@@ -186,6 +183,7 @@ impl From<TableFormat> for Format {
     fn from(format: TableFormat) -> Format {
         match format {
             TableFormat::Csv => Format::Csv,
+            #[cfg(feature = "parquet")]
             TableFormat::Parquet => Format::Parquet,
         }
     }

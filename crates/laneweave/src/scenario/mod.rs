@@ -238,7 +238,7 @@ impl Default for Output {
             dir: "out".into(),
             record_s: 1.0,
             flows_s: 0.0,
-            format: TableFormat::Parquet,
+            format: TableFormat::default(),
             sumo: BTreeSet::new(),
             checkpoint_s: 0.0,
         }
@@ -246,12 +246,15 @@ impl Default for Output {
 }
 
 /// A format of tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum TableFormat {
     /// Apache Parquet.
+    #[cfg(feature = "parquet")]
+    #[default]
     Parquet,
     /// Comma-separated values.
+    #[cfg_attr(not(feature = "parquet"), default)]
     Csv,
 }
 

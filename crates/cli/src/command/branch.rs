@@ -96,12 +96,7 @@ fn tables(
     folder: &std::path::Path,
     format: Format,
 ) -> Result<Vec<PathBuf>, Fault> {
-    let path = |name: &str| {
-        folder.join(name).with_extension(match format {
-            Format::Csv => "csv",
-            Format::Parquet => "parquet",
-        })
-    };
+    let path = |name: &str| folder.join(name).with_extension(format.extension());
     let (vehicles, instants) = (path("differences"), path("instants"));
     let mut table = TableWriter::create(&vehicles, format, &VEHICLES)?;
     for (id, it) in &differences.vehicles {
