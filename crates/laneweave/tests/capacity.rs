@@ -31,7 +31,7 @@ fn usual() -> (Vec<(Style, f64)>, Vec<Style>, Vec<Share>) {
     (typical, characters, shares)
 }
 
-/// What `network` bears of a demand that `skew` changes.
+/// The estimated capacity of `network` for a demand that `skew` changes.
 fn capacity(network: &Network, skew: impl Fn(&mut Demand)) -> Capacity {
     let (typical, _, shares) = usual();
     let mut demand = Demand::even(network, 1000.0, TRUCKS, shares);
@@ -128,7 +128,7 @@ fn who_crosses_takes_the_time_of_others_and_who_does_not_takes_none() {
     assert!(alone.iter().all(|it| (it / alone[0] - 1.0).abs() < 0.02), "{alone:?}");
 }
 
-/// Vehicles per hour that enter in a quarter of an hour when `load` times what `network` bears comes, and those that wait then.
+/// Vehicles per hour that enter in a quarter of an hour when `load` times the estimated capacity of `network` comes, and those that wait then.
 fn driven(network: &Network, load: f64) -> (f64, usize) {
     const STEP_S: f64 = 0.1;
     const DURATION_S: f64 = 900.0;
@@ -153,11 +153,11 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
         ("lights", cross(Control::Signals)),
     ];
     for (what, network) in networks {
-        let bears = capacity(&network, |_| ()).veh_h;
+        let estimate = capacity(&network, |_| ()).veh_h;
         let (below, waiting) = driven(&network, 0.75);
-        assert!(waiting < 8, "{what}: {waiting} wait, {below} of {bears} veh/h entered");
+        assert!(waiting < 8, "{what}: {waiting} wait, {below} of {estimate} veh/h entered");
         let (above, _) = driven(&network, 1.4);
-        assert!(above > 0.9 * bears, "{what}: {above} of {bears} veh/h entered");
+        assert!(above > 0.9 * estimate, "{what}: {above} of {estimate} veh/h entered");
     }
 }
 
@@ -165,7 +165,7 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
 fn a_single_lane_takes_in_what_it_carries_at_any_limit() {
     for speed_limit_kmh in [30.0, 50.0, 80.0, 120.0] {
         let network = road(1, Motorway { speed_limit_kmh, ..Motorway::default() });
-        let (bears, (above, _)) = (capacity(&network, |_| ()).veh_h, driven(&network, 1.4));
-        assert!(above > 0.96 * bears, "{speed_limit_kmh} km/h: {above} of {bears} veh/h entered");
+        let (estimate, (above, _)) = (capacity(&network, |_| ()).veh_h, driven(&network, 1.4));
+        assert!(above > 0.96 * estimate, "{speed_limit_kmh} km/h: {above} of {estimate} veh/h entered");
     }
 }

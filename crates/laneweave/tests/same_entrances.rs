@@ -33,6 +33,6 @@ fn a_report_names_the_entrances_and_exits_of_a_run() {
         let entrances = gates(&mut demand.origins.iter().map(|it| &it.place));
         assert_eq!(named(&report.entrances), entrances, "{}", map.display());
         assert_eq!(named(&report.exits), gates(&mut demand.destinations.iter()), "{}", map.display());
-        assert_eq!(report.entrances.len() + report.kerbs, demand.origins.len(), "{}", map.display());
+        assert_eq!(report.entrances.len() + report.inner_places, demand.origins.len(), "{}", map.display());
     }
 }

@@ -1,4 +1,4 @@
-//! From the rules of a map to what its drivers heed at junctions.
+//! From the rules of a map to what its drivers obey at junctions.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,8 +22,8 @@ pub fn regulations(map: &Map) -> Regulations {
             regulations.priorities.push(priority);
         }
         regulations.stops.extend(match &rule.kind {
-            RuleKind::TrafficLight => Some(lookup.stop(rule, StopKind::Light, lookup.heeding(rule))),
-            RuleKind::StopSign => Some(lookup.stop(rule, StopKind::StopSign, lookup.heeding(rule))),
+            RuleKind::TrafficLight => Some(lookup.stop(rule, StopKind::Light, lookup.obeying(rule))),
+            RuleKind::StopSign => Some(lookup.stop(rule, StopKind::StopSign, lookup.obeying(rule))),
             RuleKind::AllWayStop { lanelets } => {
                 Some(lookup.stop(rule, StopKind::AllWayStop, lookup.all(lanelets)))
             }
@@ -52,7 +52,7 @@ impl Lookup<'_> {
         ids.iter().filter_map(|id| self.places.get(id).copied()).collect()
     }
 
-    fn heeding(&self, rule: &Rule) -> Vec<LaneletIndex> {
+    fn obeying(&self, rule: &Rule) -> Vec<LaneletIndex> {
         if !rule.lanelets.is_empty() {
             return self.all(&rule.lanelets);
         }

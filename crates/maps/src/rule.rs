@@ -11,7 +11,7 @@ pub struct Rule {
     pub line: Option<usize>,
     /// What it orders.
     pub kind: RuleKind,
-    /// Ids of the lanelets that refer to it: whose drivers heed it.
+    /// Ids of the lanelets that refer to it: whose drivers obey it.
     pub lanelets: Vec<i64>,
     /// Where they stop; without any, at the end of their lanelet.
     pub stop_lines: Vec<Vec<Point>>,
@@ -22,7 +22,7 @@ pub struct Rule {
 /// What a rule orders.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RuleKind {
-    /// Heed the light.
+    /// Obey the light.
     TrafficLight,
     /// Some lanelets go first.
     RightOfWay {

@@ -5,8 +5,8 @@ mod weights;
 
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Appraisal, Behind, Combination, Comfort, Driver, Flow, Glance, LaneChangeModel, LaneView, Mcdm, Merging,
-    RouteView, Rule, Situation, Toward, at_least_once_in,
+    Appraisal, Behind, Combination, Comfort, Driver, Flow, GainBound, LaneChangeModel, LaneView, Mcdm,
+    Merging, RouteView, Rule, Situation, Toward, at_least_once_in,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
 use proptest::option;
@@ -161,7 +161,7 @@ proptest! {
     }
 
     #[test]
-    fn a_longer_look_never_finds_more_than_a_glance(
+    fn a_longer_look_never_finds_more_than_the_bound(
         model in any_model(), mut situation in any_situation(), hidden in 0.0..20.0_f64,
         combination in prop_oneof![Just(Combination::Linear), Just(Combination::Exponential)],
     ) {
@@ -172,7 +172,7 @@ proptest! {
         }
         let Situation { me, here, there, section, band, .. } = situation;
         let harm = there.behind.map_or(0.0, |it| model.courtesy.harm(&me, there.ahead, &it));
-        let glance = |hidden: f64| Glance {
+        let bound = |hidden: f64| GainBound {
             desired: me.pace.desired,
             prospects: [here.prospect, there.prospect + hidden],
             routes: [here.route, there.route],
@@ -180,12 +180,12 @@ proptest! {
             band,
             courtesy: model.courtesy.relief(&me, &here) + harm,
         };
-        prop_assert!(model.gain_at_most(&glance(hidden)) >= model.appraise(&situation).gain);
+        prop_assert!(model.gain_at_most(&bound(hidden)) >= model.appraise(&situation).gain);
         // Nothing but the comfort is left out where the longer look finds the same prospect.
         if model.speed.reading == Repaired {
             let without_comfort = Mcdm { comfort: Comfort { weight: 0.0, ..model.comfort }, ..model };
             let exact = without_comfort.appraise(&situation).gain;
-            prop_assert!((model.gain_at_most(&glance(0.0)) - exact).abs() < ROUNDING);
+            prop_assert!((model.gain_at_most(&bound(0.0)) - exact).abs() < ROUNDING);
         }
     }
 }

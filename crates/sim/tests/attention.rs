@@ -31,7 +31,7 @@ fn put(world: &mut World, chain: u32, x: f64, speed: f64, character: u32) -> Veh
 /// What a test follows of a driver.
 fn driver(world: &World, id: VehicleId) -> (Phase, u32, bool) {
     let vehicle = world.vehicles().find(|it| it.id() == id).expect("it is on the road");
-    (vehicle.car.phase, vehicle.car.due, vehicle.car.heeds_more)
+    (vehicle.car.phase, vehicle.car.due, vehicle.car.needs_full_update)
 }
 
 #[test]

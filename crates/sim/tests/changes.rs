@@ -213,7 +213,7 @@ fn v48_nobody_changes_again_by_choice_while_calm() {
 }
 
 /// Keeps its speed whatever it follows.
-fn heedless() -> Style {
+fn unyielding() -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     threshold(indifferent(Style { follow: FollowingModel::Fvdm(follow), ..drivers::conservative() }), 1.0)
 }
@@ -229,7 +229,7 @@ fn held_up(style: Style, lanes: usize, seed: u64) -> World {
     let gap = style.follow.equilibrium_gap(Pace::new(SLOW, desired));
     let setup = Setup { step: 0.1, seed, threads: 1 };
     let mut world =
-        World::new(network, vec![style, heedless()], nobody, setup).expect("the set-up makes sense");
+        World::new(network, vec![style, unyielding()], nobody, setup).expect("the set-up makes sense");
     put(&mut world, 0, 300.0, SLOW, 0);
     put(&mut world, 0, 300.0 + gap + LENGTH, SLOW, 1);
     world

@@ -1,4 +1,4 @@
-//! Maps without gates: trips start and end at kerbs.
+//! Maps without gates: trips start and end at places inside the map.
 
 mod roads;
 
@@ -8,8 +8,8 @@ use std::path::Path;
 use laneweave_maps::{Map, ReadOptions, load, regulations};
 use laneweave_network::{ChainIndex, LaneletIndex, Network};
 use laneweave_sim::{
-    Assignment, Class, Demand, Destination, Event, Fleet, Kerb, Navigator, NewVehicle, Place, Places, Setup,
-    VehicleId, World,
+    Assignment, Class, Demand, Destination, Event, Fleet, InnerPlace, Navigator, NewVehicle, Place, Places,
+    Setup, VehicleId, World,
 };
 use roads::{Road, drivers};
 
@@ -18,8 +18,8 @@ fn ring(lanes: usize) -> Network {
     Road { lanes, length: 1000.0, limit: 14.0, is_ring: true, ..Road::default() }.network()
 }
 
-/// The kerbs of all lanelets.
-fn kerbs(network: &Network) -> Places {
+/// The places inside the map of all lanelets.
+fn inner_places(network: &Network) -> Places {
     Places::along(network, (0..network.lanelets.len()).map(|it| LaneletIndex(it as u32)))
 }
 
@@ -38,7 +38,7 @@ fn world(network: Network, places: Places, total: f64, seed: u64) -> World {
         .expect("the set-up makes sense")
 }
 
-/// Runs `world` and checks in every step that nobody is lost and that who left was at its kerb; returns how many left.
+/// Runs `world` and checks in every step that nobody is lost and that who left was at its place inside the map; returns how many left.
 fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
     /// Nobody drives faster [m/s].
     const FASTEST: f64 = 60.0;
@@ -52,16 +52,16 @@ fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
             let Event::Left { vehicle, .. } = event else { continue };
             let (chain, x, destination) = before[vehicle];
             let number = world.scene().navigator.number(destination);
-            let Some(Place::Kerb(kerb)) = number.map(|it| &places.destinations[it]) else {
-                panic!("{vehicle} had no kerb to go to");
+            let Some(Place::Inside(inner)) = number.map(|it| &places.destinations[it]) else {
+                panic!("{vehicle} had no place to go to");
             };
-            let to_go = if kerb.chain == chain {
-                kerb.station - x
+            let to_go = if inner.chain == chain {
+                inner.station - x
             } else {
-                assert!(world.network().chain(chain).following.contains(&kerb.chain));
-                world.network().chain(chain).length - x + kerb.station
+                assert!(world.network().chain(chain).following.contains(&inner.chain));
+                world.network().chain(chain).length - x + inner.station
             };
-            assert!((0.0..0.1 * FASTEST).contains(&to_go), "{vehicle} left {to_go} m before its kerb");
+            assert!((0.0..0.1 * FASTEST).contains(&to_go), "{vehicle} left {to_go} m before its place");
         }
         before = world
             .vehicles()
@@ -72,28 +72,28 @@ fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
 }
 
 #[test]
-fn every_lanelet_of_20_m_has_a_kerb_at_two_fifths_of_it() {
-    let places = kerbs(&ring(2));
+fn every_lanelet_of_20_m_has_a_place_at_two_fifths_of_it() {
+    let places = inner_places(&ring(2));
     let all: Vec<(i64, u32, f64)> = places
         .origins
         .iter()
         .filter_map(|it| {
-            if let Place::Kerb(kerb) = it { Some((kerb.id, kerb.chain.0, kerb.station)) } else { None }
+            if let Place::Inside(inner) = it { Some((inner.id, inner.chain.0, inner.station)) } else { None }
         })
         .collect();
     assert_eq!(all, [(1, 0, 200.0), (2, 1, 200.0), (3, 0, 700.0), (4, 1, 700.0)]);
     assert_eq!(places.destinations, places.origins);
     let short = Road { length: 19.0, is_ring: true, ..Road::default() }.network();
-    assert_eq!(kerbs(&short), Places { origins: vec![], destinations: vec![] });
+    assert_eq!(inner_places(&short), Places { origins: vec![], destinations: vec![] });
     // From a road that goes nowhere nobody starts.
     let dead_end = Road { length: 400.0, ..Road::default() }.network();
-    assert_eq!((kerbs(&dead_end).origins.len(), kerbs(&dead_end).destinations.len()), (0, 1));
+    assert_eq!((inner_places(&dead_end).origins.len(), inner_places(&dead_end).destinations.len()), (0, 1));
 }
 
 #[test]
-fn trips_on_a_ring_start_and_end_at_kerbs_and_nobody_collides() {
+fn trips_on_a_ring_start_and_end_at_places_inside_and_nobody_collides() {
     let network = ring(2);
-    let places = kerbs(&network);
+    let places = inner_places(&network);
     let mut world = world(network, places.clone(), 900.0, 5);
     let left = drive(&mut world, &places, 18_000);
     assert!(left > 350, "{left}");
@@ -107,9 +107,9 @@ fn trips_on_a_ring_start_and_end_at_kerbs_and_nobody_collides() {
 }
 
 #[test]
-fn a_driver_beyond_its_kerb_goes_round() {
+fn a_driver_beyond_its_place_takes_another_route() {
     let network = ring(1);
-    let places = kerbs(&network);
+    let places = inner_places(&network);
     let mut world = world(network, places, 0.0, 1);
     let new = NewVehicle {
         chain: ChainIndex(0),
@@ -131,7 +131,7 @@ fn a_driver_beyond_its_kerb_goes_round() {
 #[test]
 fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
     let network = ring(2);
-    let places = kerbs(&network);
+    let places = inner_places(&network);
     let mut world = world(network, places, 0.0, 1);
     let car = NewVehicle {
         chain: ChainIndex(1),
@@ -154,9 +154,9 @@ fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
 }
 
 #[test]
-fn the_way_to_a_kerb_is_counted_from_where_the_driver_is() {
+fn the_way_to_a_place_inside_is_counted_from_where_the_driver_is() {
     let network = ring(2);
-    let navigator = Navigator::towards(&network, &kerbs(&network).destinations);
+    let navigator = Navigator::towards(&network, &inner_places(&network).destinations);
     let way = |chain, x| {
         let it = navigator.waypoint_from(&network, Some(0), ChainIndex(chain), x);
         (it.changes, it.last_place, it.end, it.distance - x)
@@ -171,7 +171,7 @@ fn the_way_to_a_kerb_is_counted_from_where_the_driver_is() {
 #[test]
 fn nobody_starts_before_a_driver_who_would_have_to_brake_harder_than_2_mps2() {
     let network = ring(1);
-    let places = kerbs(&network);
+    let places = inner_places(&network);
     let mut world = world(network, places, 1500.0, 2);
     let (mut started, mut hardest, mut was_refused) = (0, 0.0_f64, false);
     for _ in 0..6000 {
@@ -205,7 +205,7 @@ fn nobody_starts_before_a_driver_who_would_have_to_brake_harder_than_2_mps2() {
 #[test]
 fn threads_and_the_storage_of_chains_change_nothing() {
     let hash = |network: Network, threads| {
-        let demand = demand(&network, kerbs(&network), 1200.0);
+        let demand = demand(&network, inner_places(&network), 1200.0);
         let styles = vec![drivers::aggressive(), drivers::conservative()];
         let mut world = World::new(network, styles, demand, Setup { step: 0.1, seed: 9, threads }).unwrap();
         (0..6000).for_each(|_| world.step());
@@ -217,7 +217,7 @@ fn threads_and_the_storage_of_chains_change_nothing() {
     assert_eq!(hash(ring(3).with_chains_reversed(), 1), first);
 }
 
-/// A map of the shared data with its kerbs, if it is there.
+/// A map of the shared data with its places inside the map, if it is there.
 fn real(file: &str) -> Option<(Network, Places)> {
     const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
     let path = Path::new(DATA).join(file);
@@ -236,12 +236,12 @@ fn real(file: &str) -> Option<(Network, Places)> {
 
 #[test]
 fn trips_in_towns_end_at_their_places() {
-    for (file, total, kerbs, least) in
+    for (file, total, inner_places, least) in
         [("town10.osm", 1200.0, 45, 120), ("crossroads_with_stoplines.osm", 600.0, 23, 50)]
     {
         let Some((network, places)) = real(file) else { continue };
         assert!(network.entrances.is_empty() || network.exits.is_empty());
-        assert_eq!((places.origins.len(), places.destinations.len()), (kerbs, kerbs), "{file}");
+        assert_eq!((places.origins.len(), places.destinations.len()), (inner_places, inner_places), "{file}");
         let mut world = world(network, places.clone(), total, 1);
         let left = drive(&mut world, &places, 6_000);
         assert!(left >= least, "{file}: {left}");
@@ -257,7 +257,7 @@ fn a_town_in_which_far_more_start_than_it_can_bear_lets_them_wait_and_keeps_movi
         let before = world.counts().left;
         (0..1000).for_each(|_| world.step());
         let taken: f64 = world.vehicles().map(|it| f64::from(it.motion.length) + 2.0).sum();
-        // What it can bear, and one more from each kerb before that is noticed.
+        // What it can bear, and one more from each place inside the map before that is noticed.
         assert!(taken < 0.21 * roads, "{taken} m of {roads} m are taken up");
         assert!(
             world.counts().left > before || world.clock().time() < 200.0,
@@ -269,23 +269,23 @@ fn a_town_in_which_far_more_start_than_it_can_bear_lets_them_wait_and_keeps_movi
 }
 
 #[test]
-fn a_kerb_keeps_clear_of_the_lanelets_before_and_behind() {
+fn a_place_inside_keeps_clear_of_the_lanelets_before_and_behind() {
     let longest = FLEET.shares().map(|(class, _)| class.body().length).into_iter().fold(0.0, f64::max);
-    let shortest = Kerb::SHORTEST_LANELET;
+    let shortest = InnerPlace::SHORTEST_LANELET;
     let lanelet = Road { length: shortest, is_ring: true, ..Road::default() }.network();
-    let Place::Kerb(kerb) = &kerbs(&lanelet).destinations[0] else { panic!("a kerb") };
-    assert!(kerb.station + longest <= shortest);
+    let Place::Inside(inner) = &inner_places(&lanelet).destinations[0] else { panic!("a place inside") };
+    assert!(inner.station + longest <= shortest);
 }
 
 #[test]
-fn a_demand_loads_the_ways_between_its_kerbs() {
+fn a_demand_loads_the_ways_between_its_places() {
     let network = ring(1);
-    let places = kerbs(&network);
+    let places = inner_places(&network);
     let demand = demand(&network, places.clone(), 600.0);
     let assignment =
         Assignment::new(&network, &Navigator::towards(&network, &places.destinations), &demand, [0.0, 1.0]);
     assert!((3600.0 * assignment.total - 600.0).abs() < 1e-6);
-    // From each of the two kerbs to the other one it is half of the ring.
+    // From each of the two places inside the map to the other one it is half of the ring.
     let chain = ChainIndex(0);
     let length = network.chain(chain).length;
     let parts = assignment.on(chain).iter();

@@ -1,5 +1,5 @@
 //! The order of vehicles, of chains and of threads changes nothing, bit for bit; nor does a mirror, nor what drivers leave
-//! unseen because a glance is enough.
+//! unseen because a bound of the gain is enough.
 
 mod roads;
 
@@ -54,8 +54,8 @@ fn v29_neither_threads_nor_the_storage_of_chains_nor_a_second_run_changes_a_bit(
 }
 
 #[test]
-fn who_looks_closely_at_every_lane_decides_as_those_for_whom_a_glance_is_enough() {
-    // Who likes discomfort, be it ever so little, can tell nothing at a glance; so little changes no gain by a bit.
+fn who_looks_closely_at_every_lane_decides_as_those_for_whom_a_bound_of_the_gain_is_enough() {
+    // Who likes discomfort, be it ever so little, can tell nothing by the bound; so little changes no gain by a bit.
     let with_comfort = |weight: f64| {
         styles().into_iter().map(move |style| {
             let LaneChangeModel::Mcdm(mut mcdm) = style.change else { unreachable!() };
@@ -63,8 +63,8 @@ fn who_looks_closely_at_every_lane_decides_as_those_for_whom_a_glance_is_enough(
             Style { change: LaneChangeModel::Mcdm(mcdm), ..style }
         })
     };
-    let [at_a_glance, closely] = [0.0, -1e-300].map(|it| with_comfort(it).collect());
-    assert_eq!(hash_with(closely, ramps(), 1, 2), hash_with(at_a_glance, ramps(), 1, 2));
+    let [by_the_bound, closely] = [0.0, -1e-300].map(|it| with_comfort(it).collect());
+    assert_eq!(hash_with(closely, ramps(), 1, 2), hash_with(by_the_bound, ramps(), 1, 2));
 }
 
 /// Cars and trucks on a ring of three lanes, who pass the ends of their chains again and again, also while they change.

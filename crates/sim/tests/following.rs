@@ -62,7 +62,7 @@ impl Published {
 }
 
 /// Keeps its speed whatever it follows, as long as kinematics allows.
-fn heedless() -> Published {
+fn unyielding() -> Published {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     Published { follow: FollowingModel::Fvdm(follow), desired: 1.0 }
 }
@@ -163,7 +163,7 @@ fn v7_a_follower_settles_at_the_equilibrium_gap() {
         (urban(), 10.0, 14.032819),
     ] {
         // On a ring so long that the leader does not see the follower.
-        let mut world = one_lane(&[set, heedless()], 2000.0, true, 0.1);
+        let mut world = one_lane(&[set, unyielding()], 2000.0, true, 0.1);
         place(&mut world, 1000.0, 0.7 * speed, 0);
         place(&mut world, 1000.0 + 2.0 * gap + LENGTH, speed, 1);
         (0..30_000).for_each(|_| world.step());
@@ -295,7 +295,7 @@ fn v16_an_approach_to_a_standing_car_ends_at_the_jam_gap() {
     for (speed, gap, braking) in
         [(20.0, 200.0, 2.096511), (20.0, 100.0, 2.199363), (30.0, 300.0, 2.170436), (30.0, 150.0, 5.728910)]
     {
-        let stop = approach(k2010(), heedless(), speed, gap, 0.0, 0.01);
+        let stop = approach(k2010(), unyielding(), speed, gap, 0.0, 0.01);
         assert_near(stop.final_gap, 1.997, 0.02);
         assert_near(stop.hardest_braking, braking, 0.02 * braking);
         assert_eq!(stop.emergencies, 0);

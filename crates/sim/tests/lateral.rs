@@ -25,7 +25,7 @@ fn steadfast(style: Style) -> Style {
 }
 
 /// Keeps its speed as long as kinematics allows.
-fn heedless(style: Style) -> Style {
+fn unyielding(style: Style) -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     Style { follow: FollowingModel::Fvdm(follow), ..style }
 }
@@ -60,7 +60,7 @@ struct Way {
 
 /// One change of a lonely vehicle at `speed` [m/s] from `x` on lane `from` of two, up to a second after its end.
 fn lonely_change(road: Road, from: u32, x: f64, class: Class, speed: f64) -> Way {
-    let style = heedless(eager(drivers::conservative()));
+    let style = unyielding(eager(drivers::conservative()));
     let mut world = world(road.network(), vec![style], 1);
     put(&mut world, from, x, speed, class, 0);
     let (mut poses, mut offsets, mut duration, mut after) = (Vec::new(), Vec::new(), 0.0, 0);
@@ -171,7 +171,8 @@ fn v46_both_entries_of_a_vehicle_that_changes_drive_side_by_side() {
 
 /// Three lanes with a gap in the middle one, and at its height a vehicle on either side that wants into it.
 fn rivals(network: Network, first_lane: u32, threads: usize) -> World {
-    let styles = vec![heedless(eager(drivers::conservative())), steadfast(heedless(drivers::aggressive()))];
+    let styles =
+        vec![unyielding(eager(drivers::conservative())), steadfast(unyielding(drivers::aggressive()))];
     let is_reversed = !network.chains[0].right.is_empty();
     let lane = |number: u32| if is_reversed { 2 - number } else { number };
     let (one, other, middle) = (lane(first_lane), lane(2 - first_lane), lane(1));
@@ -213,9 +214,9 @@ fn v47_of_two_who_aim_at_one_gap_exactly_one_enters() {
 
 #[test]
 fn v47_a_change_is_called_off_when_the_new_leader_brakes_hard_and_the_driver_returns() {
-    let style = heedless(eager(drivers::conservative()));
+    let style = unyielding(eager(drivers::conservative()));
     let network = Road { lanes: 2, length: 1000.0, ..Road::default() }.network();
-    let mut world = world(network, vec![style, steadfast(heedless(drivers::conservative()))], 1);
+    let mut world = world(network, vec![style, steadfast(unyielding(drivers::conservative()))], 1);
     put(&mut world, 0, 100.0, 8.0, Class::Car, 0);
     // The leader brakes at 8 m/s² for a standing car as late as it can, when the change has just begun.
     put(&mut world, 1, 114.5, 5.0, Class::Car, 1);

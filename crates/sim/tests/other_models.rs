@@ -14,16 +14,16 @@ use roads::{Road, drivers};
 const LENGTH: f64 = 4.5;
 
 /// Keeps its lane, and its speed whatever it follows.
-fn heedless() -> Style {
+fn unyielding() -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     let stays = LaneChangeModel::Mobil(Mobil { threshold: f64::INFINITY, ..Mobil::default() });
     Style { follow: FollowingModel::Fvdm(follow), change: stays, ..drivers::conservative() }
 }
 
-/// A world without demand, with a driver of `style`, number 0, among heedless ones; each as (lane, x, speed).
-fn among_heedless(network: Network, style: Style, places: &[(u32, f64, f64)]) -> World {
+/// A world without demand, with a driver of `style`, number 0, among unyielding ones; each as (lane, x, speed).
+fn among_unyielding(network: Network, style: Style, places: &[(u32, f64, f64)]) -> World {
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
-    let styles = vec![style, heedless()];
+    let styles = vec![style, unyielding()];
     let setup = Setup { step: 0.1, seed: 1, threads: 1 };
     let mut world = World::new(network, styles, nobody, setup).expect("the set-up makes sense");
     for (number, (lane, x, speed)) in places.iter().enumerate() {
@@ -52,7 +52,7 @@ fn mobil(style: Style, traffic: Traffic) -> Style {
 /// Whether a driver of MOBIL on the slow lane is ahead, after a minute, of one who drives `speed` [m/s] on the fast lane.
 fn passes(style: Style, speed: f64, is_mirrored: bool) -> bool {
     let network = Road { lanes: 2, length: 4000.0, is_mirrored, ..Road::default() }.network();
-    let mut world = among_heedless(network, style, &[(0, 300.0, speed), (1, 360.0, speed)]);
+    let mut world = among_unyielding(network, style, &[(0, 300.0, speed), (1, 360.0, speed)]);
     (0..600).for_each(|_| world.step());
     assert_eq!(world.tally().collisions, 0);
     vehicle(&world, 0).x() > vehicle(&world, 1).x()
@@ -73,7 +73,7 @@ fn mobil_drivers_in_european_traffic_go_back_to_the_slow_lane_after_overtaking_a
     let lane_after_a_minute = |traffic| {
         let network = Road { lanes: 2, length: 4000.0, ..Road::default() }.network();
         let style = mobil(drivers::conservative(), traffic);
-        let mut world = among_heedless(network, style, &[(0, 300.0, 20.0), (0, 340.0, 15.0)]);
+        let mut world = among_unyielding(network, style, &[(0, 300.0, 20.0), (0, 340.0, 15.0)]);
         (0..600).for_each(|_| world.step());
         let me = vehicle(&world, 0);
         assert!(me.x() > vehicle(&world, 1).x());
@@ -101,7 +101,7 @@ fn beside_a_row(model: Lmrs, before: f64) -> World {
     const SPACING: f64 = 2.0 * LENGTH;
     let row = (0..40).map(|number| (1, END - before + 200.0 - SPACING * f64::from(number), 12.0));
     let places: Vec<(u32, f64, f64)> = std::iter::once((0, END - before, LIMIT)).chain(row).collect();
-    among_heedless(
+    among_unyielding(
         network,
         Style { change: LaneChangeModel::Lmrs(model), ..drivers::conservative() },
         &places,

@@ -10,7 +10,7 @@ const PERIOD: f64 = 0.25 * SECONDS_PER_HOUR;
 /// Mean delay before a light [s] at which those who come at any time wait `mean_wait` [s] if nobody is there before them: `flow` of
 /// `capacity`, which passes during a `green` share of the time [veh/s].
 pub(super) fn at_a_light(mean_wait: f64, green: f64, flow: f64, capacity: f64) -> f64 {
-    /// Of lights that do not heed who comes.
+    /// Of lights that do not depend on who comes.
     const FIXED: f64 = 4.0;
     let fullness = flow / capacity;
     mean_wait / (1.0 - green * fullness.min(1.0)).max(f64::EPSILON) + overflow(fullness, FIXED / capacity)

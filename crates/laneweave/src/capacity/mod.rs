@@ -1,6 +1,6 @@
 //! The estimated capacity of a map: how many vehicles an hour it carries.
 //!
-//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a kerb, or a town as
+//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a place inside the map, or a town as
 //! a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to carry is the demand along the usual
 //! ways; how much it can carry follows from the models of its drivers.
 
@@ -37,7 +37,7 @@ pub struct Capacity {
 pub enum Bottleneck {
     /// The lanes side by side at this lanelet.
     Lanes(i64),
-    /// The light that drivers on this lanelet heed.
+    /// The light that drivers on this lanelet obey.
     Light {
         /// The light.
         light: i64,
@@ -46,8 +46,8 @@ pub enum Bottleneck {
     },
     /// The junction over which this lanelet leads.
     Junction(i64),
-    /// The kerb along this lanelet.
-    Kerb(i64),
+    /// The place inside the map along this lanelet.
+    TripEnd(i64),
     /// All roads that lead in rings.
     Town,
 }
@@ -65,7 +65,7 @@ impl fmt::Display for Bottleneck {
             Bottleneck::Lanes(lanelet) => write!(f, "the road at lanelet {lanelet}"),
             Bottleneck::Light { light, lanelet } => write!(f, "light {light} at lanelet {lanelet}"),
             Bottleneck::Junction(lanelet) => write!(f, "the junction at lanelet {lanelet}"),
-            Bottleneck::Kerb(lanelet) => write!(f, "the kerb at lanelet {lanelet}"),
+            Bottleneck::TripEnd(lanelet) => write!(f, "the trip end at lanelet {lanelet}"),
             Bottleneck::Town => write!(f, "the town as a whole"),
         }
     }
@@ -121,7 +121,7 @@ impl Capacity {
         let parts = lanes::loads(&roads)
             .into_iter()
             .chain(conflict::loads(&roads, &movements))
-            .chain(town::kerb_loads(&roads, demand));
+            .chain(town::inner_place_loads(&roads, demand));
         // Of parts that are equally full the first counts, however their numbers are rounded.
         let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
         let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });

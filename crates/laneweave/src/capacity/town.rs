@@ -1,7 +1,7 @@
-//! How full a town is, and its kerbs.
+//! How full a town is, and its places inside the map.
 
 use laneweave_network::{ChainIndex, Light, Sign};
-use laneweave_sim::{Demand, Kerb, Metering, Place};
+use laneweave_sim::{Demand, InnerPlace, Metering, Place};
 
 use super::conflict::{Approach, approaches};
 use super::delay;
@@ -95,18 +95,18 @@ fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     mixture.mean_of(|length, desired| Metering::taken_by(length) * metres / desired)
 }
 
-/// The loads of kerbs: who starts from one makes room for the next.
-pub(super) fn kerb_loads(roads: &Roads, demand: &Demand) -> Vec<Load> {
+/// The loads of places inside the map: who starts from one makes room for the next.
+pub(super) fn inner_place_loads(roads: &Roads, demand: &Demand) -> Vec<Load> {
     let mut known: Vec<(f64, f64)> = Vec::new();
-    let kerbs = demand.origins.iter().filter_map(|it| match &it.place {
-        Place::Kerb(kerb) => Some(kerb),
+    let inner_places = demand.origins.iter().filter_map(|it| match &it.place {
+        Place::Inside(inner) => Some(inner),
         Place::Gate(_) => None,
     });
-    let load = |kerb: &Kerb| {
-        let limit = roads.network.chain(kerb.chain).limit(kerb.station);
+    let load = |inner: &InnerPlace| {
+        let limit = roads.network.chain(inner.chain).limit(inner.station);
         let flow = once(&mut known, limit, || roads.mixture(limit).starts());
-        let starts = roads.assignment.on(kerb.chain).iter().filter(|it| it.from == kerb.station);
-        Load { share: starts.map(|it| it.flow).sum::<f64>() / flow, of: Bottleneck::Kerb(kerb.id) }
+        let starts = roads.assignment.on(inner.chain).iter().filter(|it| it.from == inner.station);
+        Load { share: starts.map(|it| it.flow).sum::<f64>() / flow, of: Bottleneck::TripEnd(inner.id) }
     };
-    kerbs.map(load).collect()
+    inner_places.map(load).collect()
 }

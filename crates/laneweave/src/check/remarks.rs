@@ -71,11 +71,11 @@ fn remark(what: String, remedy: &str) -> Option<Remark> {
 
 /// Nobody comes onto the map or leaves it.
 fn closed(places: &Places) -> Option<Remark> {
-    let kerbs = places.origins.iter().filter(|it| matches!(it, Place::Kerb(_))).count();
-    if kerbs == 0 {
+    let inner_places = places.origins.iter().filter(|it| matches!(it, Place::Inside(_))).count();
+    if inner_places == 0 {
         return None;
     }
-    let what = format!("a closed map: trips start from rest and end along {kerbs} lanelets");
+    let what = format!("a closed map: trips start from rest and end along {inner_places} lanelets");
     remark(what, "for traffic that passes through, let roads begin and end with 10 m of lane or more")
 }
 

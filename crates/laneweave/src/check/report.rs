@@ -44,8 +44,9 @@ pub struct Report {
     pub entrances: Vec<Opening>,
     /// Where they leave it; none on a closed map.
     pub exits: Vec<Opening>,
-    /// On a closed map, the lanelets along which trips start.
-    pub kerbs: usize,
+    /// On a closed map, the lanelets along which trips start; in files it keeps its old name.
+    #[serde(rename = "kerbs")]
+    pub inner_places: usize,
     /// Traffic lights.
     pub lights: Vec<Lit>,
     /// The last lanelets of lanes that end beside a continuing one.
@@ -70,7 +71,7 @@ pub struct Opening {
 /// A traffic light.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lit {
-    /// Its name: the smallest id of the regulatory elements that drivers heed together.
+    /// Its name: the smallest id of the regulatory elements that drivers obey together.
     pub id: i64,
     /// The lanelets on which they stop.
     pub lanelets: Vec<i64>,
@@ -113,7 +114,7 @@ impl Report {
             // A two-way lanelet is among its own.
             conflicts: (conflicts - two_way) / 2,
             chains: chains.len(),
-            kerbs: origins.len() - entrances.len(),
+            inner_places: origins.len() - entrances.len(),
             entrances,
             exits,
             lights: lights(&driven),
@@ -169,8 +170,8 @@ impl Report {
         writeln!(out, "lanes (chains)         {}", self.chains)?;
         writeln!(out, "entrances              {}", openings(&self.entrances))?;
         writeln!(out, "exits                  {}", openings(&self.exits))?;
-        if self.kerbs > 0 {
-            writeln!(out, "closed                 trips start and end along {} lanelets", self.kerbs)?;
+        if self.inner_places > 0 {
+            writeln!(out, "closed                 trips start and end along {} lanelets", self.inner_places)?;
         }
         writeln!(out, "lane drops             {}", listed(&self.lane_drops))?;
         let lights: Vec<i64> = self.lights.iter().map(|it| it.id).collect();
@@ -209,7 +210,7 @@ fn tenths(number: f64) -> f64 {
 fn opening(place: &Place) -> Option<Opening> {
     match place {
         Place::Gate(gate) => Some(Opening { id: gate.id, lanes: gate.chains.len() }),
-        Place::Kerb(_) => None,
+        Place::Inside(_) => None,
     }
 }
 

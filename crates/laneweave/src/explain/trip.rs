@@ -172,7 +172,7 @@ impl Lines {
 
     fn end(&mut self) {
         if let Some((_, from, until, count, said)) = self.open.take() {
-            let last = if count > 1 { "at last: " } else { "" };
+            let last = if count > 1 { "most recently: " } else { "" };
             let _ = if from == until {
                 writeln!(self.text, "{from:>8.1} s          {said}")
             } else {

@@ -11,7 +11,7 @@ use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_be
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
-use super::scribe::{Page, Pen};
+use super::writer_threads::{Page, Pen};
 use super::{Observer, Summary};
 use crate::fault::Fault;
 

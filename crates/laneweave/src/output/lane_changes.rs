@@ -8,7 +8,7 @@ use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::names::Names;
-use super::scribe::{Page, Pen, Writer};
+use super::writer_threads::{Page, Pen, Writer};
 use super::{Observer, Summary};
 use crate::fault::Fault;
 

@@ -7,8 +7,8 @@ use laneweave_sim::{Clock, Stay, World};
 use laneweave_study::{Column, TableWriter, seconds};
 
 use super::names::Names;
-use super::scribe::{Page, Pen, Writer};
 use super::traffic::Traffic;
+use super::writer_threads::{Page, Pen, Writer};
 use super::{Folder, Observer, Summary};
 use crate::checkpoint::{pack, unpack};
 use crate::fault::Fault;

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use laneweave_study::PartialFile;
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::scribe::Page;
+use super::writer_threads::Page;
 use crate::fault::Fault;
 
 /// Text that is collected before it is written [bytes].

@@ -14,7 +14,6 @@ mod queues;
 mod reasons;
 mod report;
 mod road;
-mod scribe;
 mod short_trips;
 mod summary;
 mod sumo;
@@ -23,6 +22,7 @@ mod traffic;
 mod trajectories;
 mod trip_times;
 mod trips;
+mod writer_threads;
 
 use std::fs;
 use std::io::{self, Write};
@@ -39,10 +39,10 @@ use self::lane_changes::{LaneChangeTable, LaneChanges};
 use self::lanelets::{FlowTable, LaneletTable, Lanelets};
 use self::names::Names;
 use self::report::Report;
-use self::scribe::{Scribe, Writer};
 use self::sumo::{Fcd, LaneChangeOutput, TripInfo};
 use self::trajectories::Trajectories;
 use self::trips::{TripTable, Trips};
+use self::writer_threads::{Writer, WriterThreads};
 use crate::checkpoint;
 use crate::fault::Fault;
 use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
@@ -105,11 +105,11 @@ pub fn observers(
     let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
     let cores = available_parallelism().map_or(1, NonZero::get);
     let free = cores.saturating_sub(prepared.threads);
-    let (scribe, written) = Scribe::begin(xml, tables, Names::of(world), log, free)?;
-    let pen = scribe.pen();
+    let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world), log, free)?;
+    let pen = writers.pen();
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
-        let is_machine_full = scribe.threads() > free;
+        let is_machine_full = writers.threads() > free;
         observers.push(Box::new(Samples::new(steps, is_machine_full, pen.clone(), written)));
     }
     observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
@@ -117,7 +117,7 @@ pub fn observers(
     observers.push(Box::new(Incidents::new(begin, pen.clone())));
     observers.push(Box::new(Trips::new(pen)));
     observers.push(Box::new(Report::new(&folder, scenario, prepared)));
-    observers.push(Box::new(scribe));
+    observers.push(Box::new(writers));
     Ok(observers)
 }
 

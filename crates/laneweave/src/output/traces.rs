@@ -124,7 +124,7 @@ impl Course {
         let network = world.network();
         let chain = match place {
             Place::Gate(gate) => slow_lane(network, gate)?,
-            Place::Kerb(kerb) => kerb.chain,
+            Place::Inside(inner) => inner.chain,
         };
         let lanelet = network.lanelet_at(chain, 0.0).0.id;
         Some(Course { lanelet, road: Road::from(network, chain, LONGEST_ROAD) })

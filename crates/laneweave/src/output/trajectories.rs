@@ -7,7 +7,7 @@ use laneweave_study::{Cells, Column, TableWriter, seconds};
 
 use super::Folder;
 use super::names::Names;
-use super::scribe::{Page, Writer};
+use super::writer_threads::{Page, Writer};
 use crate::fault::Fault;
 
 /// Columns of the table.

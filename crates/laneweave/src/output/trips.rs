@@ -8,7 +8,7 @@ use laneweave_study::{Cell, Column, TableWriter, seconds};
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
-use super::scribe::{Page, Pen, Writer};
+use super::writer_threads::{Page, Pen, Writer};
 use super::{Folder, Observer, Summary};
 use crate::fault::Fault;
 

@@ -180,8 +180,8 @@ fn by_pieces(
 fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
     let of_place = |place: &Place| match place {
         Place::Gate(gate) => USUAL_DEMAND * gate.chains.len() as f64,
-        Place::Kerb(kerb) => {
-            let (lanelet, _) = network.lanelet_at(kerb.chain, kerb.station);
+        Place::Inside(inner) => {
+            let (lanelet, _) = network.lanelet_at(inner.chain, inner.station);
             USUAL_STARTS * lanelet.length() / METRES_PER_KM
         }
     };

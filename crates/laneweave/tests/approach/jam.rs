@@ -7,7 +7,7 @@ use laneweave::models::Style;
 use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
 use laneweave::network::ChainIndex;
 use laneweave::sim::{
-    Class, Demand, Event, Fleet, Kerb, NewVehicle, Place, Places, Setup, Share, VehicleId, World,
+    Class, Demand, Event, Fleet, InnerPlace, NewVehicle, Place, Places, Setup, Share, VehicleId, World,
 };
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
@@ -69,7 +69,8 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
     let crawler = Style { speed_factor: CRAWL, ..drivers(seed, without_weights).swap_remove(0) };
     characters.push(crawler);
     let network = approach.network.clone();
-    let places = Places { origins: kerbs(&approach), destinations: Places::at_gates(&network).destinations };
+    let places =
+        Places { origins: inner_places(&approach), destinations: Places::at_gates(&network).destinations };
     let population = vec![Share { weight: 1.0, first: count, count: 1 }];
     let total = crawlers * places.origins.len() as f64;
     let mut demand = Demand::over(places, total, Fleet::default(), population);
@@ -121,15 +122,15 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
     }
 }
 
-/// Kerbs at the beginning of the straight road, one in each lane.
-fn kerbs(approach: &Approach) -> Vec<Place> {
+/// Trip ends at the beginning of the straight road, one in each lane.
+fn inner_places(approach: &Approach) -> Vec<Place> {
     let across = approach.lanes.iter().flat_map(|it| approach.across(*it));
-    let kerb = |chain: ChainIndex| {
+    let inner = |chain: ChainIndex| {
         let station = approach.begin_of(Road::Straight, chain)?;
         let (lanelet, _) = approach.network.lanelet_at(chain, station);
-        Some(Place::Kerb(Kerb { id: lanelet.id, chain, station }))
+        Some(Place::Inside(InnerPlace { id: lanelet.id, chain, station }))
     };
-    across.filter_map(kerb).collect()
+    across.filter_map(inner).collect()
 }
 
 /// Over seeds: lane changes, route changes, and the share that drove to the left.

@@ -94,7 +94,7 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
                 (None, None) => continue,
                 (Some(seen), Some(known)) if seen.agrees(known) => "agree",
                 _ if differs => "while a lane change begins, crosses or ends",
-                // Simulated drivers heed a new limit when they consider lanes next.
+                // Simulated drivers obey a new limit when they consider lanes next.
                 (Some(seen), Some(known)) if seen.desired != known.desired => "new limit",
                 // A vehicle is at the edge of what counts, or exactly alongside.
                 _ => "edge",

@@ -32,12 +32,12 @@ pub fn compose(drawing: &Drawing) -> Document<'static> {
     for (border, id) in drawing.borders.iter().zip(first_border..) {
         composer.border(id, border, first_point);
     }
-    let mut heeded: HashMap<i64, Vec<i64>> = HashMap::new();
+    let mut obeyed: HashMap<i64, Vec<i64>> = HashMap::new();
     for rule in &drawing.rules {
-        rule.lanelets.iter().for_each(|it| heeded.entry(*it).or_default().push(rule.id));
+        rule.lanelets.iter().for_each(|it| obeyed.entry(*it).or_default().push(rule.id));
     }
     for lane in &drawing.lanes {
-        composer.lane(lane, first_border, heeded.get(&lane.id).map_or(&[], |it| it));
+        composer.lane(lane, first_border, obeyed.get(&lane.id).map_or(&[], |it| it));
     }
     for rule in &drawing.rules {
         composer.rule(rule);

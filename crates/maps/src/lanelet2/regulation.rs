@@ -1,4 +1,4 @@
-//! Regulatory elements: lights, signs and priorities, with the lanelets that heed them.
+//! Regulatory elements: lights, signs and priorities, with the lanelets that obey them.
 
 use std::collections::HashMap;
 
@@ -12,20 +12,20 @@ use crate::rule::{Rule, RuleKind};
 
 /// The rules of a map, in the order of the file. Elements they name that are missing are listed.
 pub(super) fn rules(document: &Document, lookup: &Lookup, problems: &mut Vec<Problem>) -> Vec<Rule> {
-    let mut heeding: HashMap<i64, Vec<i64>> = HashMap::new();
+    let mut obeying: HashMap<i64, Vec<i64>> = HashMap::new();
     for lanelet in document.relations_of_type("lanelet") {
         for rule in document.members(lanelet, "relation", "regulatory_element") {
-            heeding.entry(rule).or_default().push(lanelet.id);
+            obeying.entry(rule).or_default().push(lanelet.id);
         }
     }
     let (mut rules, mut shared) = (Vec::new(), Sharing::default());
     for relation in document.relations_of_type("regulatory_element").filter(|it| lookup.is_first(it)) {
-        let lanelets = heeding.remove(&relation.id).unwrap_or_default();
+        let lanelets = obeying.remove(&relation.id).unwrap_or_default();
         let reader = Reader { document, lookup, relation, shared: &mut shared, problems };
         rules.push(reader.rule(lanelets));
     }
     let mut missing: Vec<(i64, Vec<i64>)> =
-        heeding.into_iter().filter(|(id, _)| lookup.relation(*id).is_none()).collect();
+        obeying.into_iter().filter(|(id, _)| lookup.relation(*id).is_none()).collect();
     missing.sort_unstable();
     for (id, lanelets) in missing {
         let place = lanelets.first().and_then(|it| lookup.relation(*it));
@@ -62,7 +62,7 @@ impl Reader<'_> {
         if lanelets.is_empty() && needs_somebody {
             self.complain(
                 "no lanelet refers to it, so it regulates nothing",
-                "name it as regulatory_element in the lanelets whose drivers heed it",
+                "name it as regulatory_element in the lanelets whose drivers obey it",
             );
         }
         Rule {

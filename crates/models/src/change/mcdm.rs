@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::returning::Returning;
-use super::{Chances, Comfort, Courtesy, Glance, Incentive, Route, Situation, Speed, Urgency};
+use super::{Chances, Comfort, Courtesy, GainBound, Incentive, Route, Situation, Speed, Urgency};
 use crate::Reading;
 use crate::exponential::exp;
 
@@ -138,9 +138,9 @@ impl Mcdm {
         rows.iter().map(|row| row.weight * utility(row.earning)).sum()
     }
 
-    /// The most that G can be on a side where the driver sees `glance`; infinite where a glance does not tell.
+    /// The most that G can be on a side where the driver knows `bound`; infinite where that does not tell.
     #[inline]
-    pub fn gain_at_most(&self, glance: &Glance) -> f64 {
+    pub fn gain_at_most(&self, bound: &GainBound) -> f64 {
         // All fields are named, so that no incentive is forgotten here. Urgency plays no part between such lanes.
         let Mcdm {
             speed,
@@ -158,7 +158,7 @@ impl Mcdm {
         if !is_repaired || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
             return f64::INFINITY;
         }
-        let Glance { desired, prospects, routes, section, band, courtesy: for_others } = glance;
+        let GainBound { desired, prospects, routes, section, band, courtesy: for_others } = bound;
         let [here, there] = *prospects;
         // A longer look would add the discomfort.
         self.combine(&[

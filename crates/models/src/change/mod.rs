@@ -4,7 +4,7 @@
 mod comfort;
 mod constant_hazard;
 mod courtesy;
-mod glance;
+mod gain_bound;
 mod headway;
 mod keeping;
 mod lateral;
@@ -23,7 +23,7 @@ mod urgency;
 pub use comfort::{Comfort, discomfort};
 pub use constant_hazard::ConstantHazard;
 pub use courtesy::Courtesy;
-pub use glance::Glance;
+pub use gain_bound::GainBound;
 pub use headway::Flow;
 pub use keeping::RouteKeeping;
 pub use lateral::{moved_share, peak_lateral_acceleration, peak_lateral_speed};

@@ -15,7 +15,7 @@ impl LightIndex {
     }
 }
 
-/// A light, or several that the drivers on one lanelet heed together.
+/// A light, or several that the drivers on one lanelet obey together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     /// The smallest id of its regulatory elements: its name.
@@ -123,7 +123,7 @@ impl Program {
     }
 }
 
-/// The rules of lights, together where a lanelet heeds several, ordered by their smallest ids.
+/// The rules of lights, together where the drivers on a lanelet obey several, ordered by their smallest ids.
 pub(super) fn sharing(stops: &[StopRule]) -> Vec<Vec<&StopRule>> {
     let mut groups: Vec<Vec<&StopRule>> = Vec::new();
     for rule in stops.iter().filter(|it| it.kind == StopKind::Light && !it.lanelets.is_empty()) {

@@ -38,7 +38,7 @@ pub struct StopRule {
     pub id: i64,
     /// What it is.
     pub kind: StopKind,
-    /// The lanelets whose drivers heed it.
+    /// The lanelets whose drivers obey it.
     pub lanelets: Vec<LaneletIndex>,
     /// Where they stop; a lanelet that none of the lines crosses is left at its end.
     pub lines: Vec<Vec<Point>>,

@@ -10,7 +10,7 @@ use crate::build::Network;
 use crate::chain::ChainIndex;
 use crate::lanelet::LaneletIndex;
 
-/// Stop signs that the drivers on a lanelet heed.
+/// Stop signs that the drivers on a lanelet obey.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 struct Marks {
     stops: bool,

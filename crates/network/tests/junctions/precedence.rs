@@ -12,8 +12,8 @@ fn lanelets(numbers: &[u32]) -> Vec<LaneletIndex> {
     numbers.iter().map(|it| LaneletIndex(*it)).collect()
 }
 
-fn stop(kind: StopKind, heeding: &[u32]) -> StopRule {
-    StopRule { id: 1, kind, lanelets: lanelets(heeding), lines: Vec::new() }
+fn stop(kind: StopKind, obeying: &[u32]) -> StopRule {
+    StopRule { id: 1, kind, lanelets: lanelets(obeying), lines: Vec::new() }
 }
 
 fn stops(rules: &[StopRule]) -> Regulations {

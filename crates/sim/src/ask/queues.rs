@@ -4,7 +4,7 @@ use laneweave_network::ChainIndex;
 
 use crate::demand::metering::Metering;
 use crate::demand::source::{Queue, Start};
-use crate::driver::appeal::surveyed;
+use crate::driver::request_passage::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
@@ -38,7 +38,7 @@ pub enum Held {
     RedLight,
     /// They stand because others go first at a junction, or a sign stops them.
     Priority,
-    /// They stand because there is no room beyond a junction; or the room at a kerb is kept for others.
+    /// They stand because there is no room beyond a junction; or the room at a place inside the map is kept for others.
     Room,
     /// The whole map is full: no trip begins within it.
     FullMap,
@@ -71,11 +71,11 @@ pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
 fn held(world: &World, queue: &Queue) -> Option<Held> {
     let first = queue.waiting.front()?;
     let scene = world.scene();
-    let is_kerb = matches!(queue.start, Start::FromRest(_));
+    let starts_from_rest = matches!(queue.start, Start::FromRest(_));
     if first.is_through_town && world.arrivals.metering.as_ref().is_some_and(Metering::is_full) {
         return Some(Held::FullMap);
     }
-    if is_kerb && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
+    if starts_from_rest && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
         return Some(Held::Room);
     }
     match entry(&scene, queue, first, world.traffic.clock, &mut Survey::default()) {

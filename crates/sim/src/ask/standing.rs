@@ -1,14 +1,14 @@
-//! Why a vehicle stands, or can hardly move: of all that its driver heeds, the nearest.
+//! Why a vehicle stands, or can hardly move: of all that its driver reacts to, the nearest.
 
 use laneweave_network::ChainIndex;
 
 use crate::driver::accelerate::{lane_end, place_to_wait};
-use crate::driver::appeal::surveyed;
+use crate::driver::request_passage::surveyed;
 use crate::driver::window::Window;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::approach::{earlier, look, sight};
 use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
-use crate::right_of_way::heed::{earlier, look, sight};
 use crate::right_of_way::survey::stop_ahead;
 use crate::state::traffic::VehicleId;
 use crate::step::world::World;

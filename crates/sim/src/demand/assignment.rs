@@ -138,7 +138,7 @@ impl<'a> Spread<'a> {
                     gate.chains.iter().filter(|it| Some(changes(it)) == fewest).copied().collect();
                 lanes.iter().for_each(|it| self.come(*it, flow / lanes.len() as f64));
             }
-            Place::Kerb(kerb) => self.go_on(kerb.chain, kerb.station, flow, true),
+            Place::Inside(inner) => self.go_on(inner.chain, inner.station, flow, true),
         }
     }
 

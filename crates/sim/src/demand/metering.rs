@@ -2,7 +2,7 @@
 //!
 //! The throughput of a town has its maximum where a small part of its roads is taken up, and falls to nothing where all is
 //! (Geroliminis, Daganzo, 2008): full rings of queues lock, and no driver can open them. So those whose way leads over roads
-//! that lead in rings wait at the edge of the map, or at their kerbs, while more of these is taken up than the town can bear
+//! that lead in rings wait at the edge of the map, or at their places inside the map, while more of these is taken up than the town can bear
 //! (a switch at its edge, as of Keyvan-Ekbatani and others, 2012).
 
 use laneweave_network::{ChainIndex, Network};

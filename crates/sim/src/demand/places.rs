@@ -4,7 +4,7 @@ use laneweave_network::{ChainIndex, Gate, LaneletIndex, Network};
 
 use crate::demand::Demand;
 use crate::route::navigate::Navigator;
-use crate::route::place::{Kerb, Place};
+use crate::route::place::{InnerPlace, Place};
 use crate::state::vehicle::LONGEST;
 
 /// The places of a map.
@@ -34,30 +34,31 @@ impl Places {
         self
     }
 
-    /// For a map without entrance or exit: kerbs along those of `lanelets` that are long enough. Who starts at one of the
+    /// For a map without entrance or exit: places inside the map along those of `lanelets` that are long enough. Who starts at one of the
     /// origins can reach a destination.
     pub fn along(network: &Network, lanelets: impl IntoIterator<Item = LaneletIndex>) -> Places {
         let mut is_wanted = vec![false; network.lanelets.len()];
         lanelets.into_iter().for_each(|it| is_wanted[it.at()] = true);
-        let mut kerbs: Vec<Kerb> = Vec::new();
+        let mut inner_places: Vec<InnerPlace> = Vec::new();
         for (chain, index) in network.chains.iter().zip(0..) {
             for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
                 let length = network.lanelets[lanelet.at()].length();
-                if !is_wanted[lanelet.at()] || length < Kerb::SHORTEST_LANELET {
+                if !is_wanted[lanelet.at()] || length < InnerPlace::SHORTEST_LANELET {
                     continue;
                 }
                 let chain = ChainIndex(index);
-                let usual = start + Kerb::SHARE_BEFORE * length;
+                let usual = start + InnerPlace::SHARE_BEFORE * length;
                 if let Some(station) = clear_station(network, chain, [*start, start + length], usual) {
-                    kerbs.push(Kerb { id: network.lanelets[lanelet.at()].id, chain, station });
+                    inner_places.push(InnerPlace { id: network.lanelets[lanelet.at()].id, chain, station });
                 }
             }
         }
-        kerbs.sort_by_key(|kerb| kerb.id);
+        inner_places.sort_by_key(|inner| inner.id);
         let most = (Places::MOST_WAYPOINTS / network.chains.len()).clamp(1, Demand::MOST_DESTINATIONS);
-        let one_in = kerbs.len().div_ceil(most).max(1);
-        let destinations: Vec<Place> = kerbs.iter().step_by(one_in).map(|kerb| Place::Kerb(*kerb)).collect();
-        let origins = kerbs.into_iter().map(Place::Kerb).collect();
+        let one_in = inner_places.len().div_ceil(most).max(1);
+        let destinations: Vec<Place> =
+            inner_places.iter().step_by(one_in).map(|inner| Place::Inside(*inner)).collect();
+        let origins = inner_places.into_iter().map(Place::Inside).collect();
         Places { origins, destinations }.reachable(network)
     }
 }

@@ -302,7 +302,7 @@ fn queues(network: &Network, place: &Place) -> Vec<Queue> {
         Place::Gate(gate) => {
             from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving)).collect()
         }
-        Place::Kerb(kerb) => vec![queue(kerb.chain, Start::FromRest(kerb.station))],
+        Place::Inside(inner) => vec![queue(inner.chain, Start::FromRest(inner.station))],
     }
 }
 

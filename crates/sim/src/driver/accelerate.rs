@@ -7,8 +7,8 @@ use laneweave_network::{Chain, ChainIndex, Side};
 
 use crate::driver::gap::gap;
 use crate::driver::window::{self, Window};
-use crate::right_of_way::heed as junction;
-use crate::right_of_way::heed::Junction;
+use crate::right_of_way::approach as junction;
+use crate::right_of_way::approach::Junction;
 use crate::state::clock::Clock;
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;
@@ -38,11 +38,11 @@ pub(crate) struct Chosen {
     pub(crate) by_kinematics: bool,
     /// The vehicle touches its leader.
     pub(crate) touches: bool,
-    /// What the driver heeds at a junction.
+    /// What the driver reacts to at a junction.
     pub(crate) junction: Junction,
 }
 
-/// Where along a chain who only follows a leader on it heeds nothing else: beyond a fork, and where the leader is not beyond
+/// Where along a chain who only follows a leader on it reacts to nothing else: beyond a fork, and where the leader is not beyond
 /// the next place to stop.
 #[derive(Clone, Copy)]
 pub(crate) struct OpenRoad {
@@ -72,7 +72,7 @@ impl OpenRoad {
     }
 }
 
-/// The usual case: a driver who heeds only its leader on the same chain, and is secure behind it with room to spare. `None` if it
+/// The usual case: a driver who reacts only to its leader on the same chain, and is secure behind it with room to spare. `None` if it
 /// is not.
 // The most frequent call of a motorway.
 #[inline(always)]
@@ -101,13 +101,14 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
 }
 
-/// For one entry: the leader may be beyond the end of the chain, the driver may heed more than it, and kinematics may
+/// For one entry: the leader may be beyond the end of the chain, the driver may react to more than it, and kinematics may
 /// have to decide.
 #[inline(never)]
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let heeds_more = car.phase == Phase::Wants || car.heeds_more;
-    let next = scene.motions(spot.chain).get(spot.index + 1).filter(|it| !heeds_more && it.id != motion.id);
+    let needs_full_update = car.phase == Phase::Wants || car.needs_full_update;
+    let next =
+        scene.motions(spot.chain).get(spot.index + 1).filter(|it| !needs_full_update && it.id != motion.id);
     let road = OpenRoad::on(scene, spot.chain, lane_end);
     let is_usual = |it: &&Motion| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
     let usual = next.filter(is_usual);
@@ -117,9 +118,9 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.characters[car.character as usize].follow;
     let wish = follow.acceleration(pace(motion, car), leader);
-    let (wish, end) = heed(scene, clock, spot, wish, lane_end);
+    let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
-    let (wish, stop) = heed_junction(motion, car, follow, &junction, wish, clock.dt);
+    let (wish, stop) = at_junction(motion, car, follow, &junction, wish, clock.dt);
     let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
     let clear = |it: Ahead| it.nearer(follow.clearance());
     let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
@@ -135,8 +136,8 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     }
 }
 
-/// What a driver accelerates who heeds a junction, and where it has to stop there.
-fn heed_junction(
+/// What a driver accelerates at a junction, and where it has to stop there.
+fn at_junction(
     motion: &Motion,
     car: &Car,
     follow: &FollowingModel,
@@ -189,8 +190,8 @@ fn within(value: f64, low: f64, high: f64) -> f64 {
     if value > low { value } else { low }
 }
 
-/// What a driver accelerates who heeds more than its leader, and the end of its lane.
-fn heed(
+/// The acceleration of a driver who reacts to more than its leader, and the end of its lane.
+fn reacting_to_more(
     scene: &Scene,
     clock: Clock,
     spot: Spot,
@@ -199,7 +200,7 @@ fn heed(
 ) -> (f64, Option<Ahead>) {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let (mut wish, mut obstacle) = (behind_leader, None);
-    if car.phase == Phase::Wants || car.heeds_more {
+    if car.phase == Phase::Wants || car.needs_full_update {
         wish = wish.min(beyond_the_leader(scene, clock, spot));
     }
     if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
@@ -295,7 +296,7 @@ fn within_window(kept: f64, window: f64) -> f64 {
     kept.min((window - INTO).max(LEAST_ROOM))
 }
 
-/// What a driver heeds beside its leader.
+/// What a driver reacts to beside its leader.
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
     let pace = pace(motion, car);

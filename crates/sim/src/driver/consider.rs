@@ -1,4 +1,4 @@
-//! A driver considers lanes at its turn: it notes how it stands, heeds its route, looks around, and chooses.
+//! A driver considers lanes at its turn: it notes how it stands, follows its route, looks around, and chooses.
 
 use std::borrow::Cow;
 
@@ -27,8 +27,8 @@ use crate::view::scene::{Scene, Spot};
 /// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
 const STANDS_IN_VAIN: f32 = 120.0;
 const AT_THE_PLACE: f64 = 20.0;
-/// Distance to the last place for a change from which a driver in a wrong lane heeds it [m].
-const HEEDED_WITHIN: f64 = 400.0;
+/// Distance to the last place for a change from which a driver in a wrong lane reacts to it [m].
+const REACTS_WITHIN: f64 = 400.0;
 /// A vehicle that stands this long is stuck, unless it waits for what is bound to end [s].
 const STUCK_AFTER: f32 = 300.0;
 
@@ -47,7 +47,7 @@ pub(crate) fn consider(
     let standing = note_turn(scene, moment, &me, attending.period, plan, outbox);
     let waypoint = waypoint(scene, &me);
     let is_detour = matches!(waypoint, Cow::Owned(_));
-    let concern = heed_route(scene, &me, (&waypoint, is_detour), standing, outbox);
+    let concern = follow_route(scene, &me, (&waypoint, is_detour), standing, outbox);
     if concern.rerouted.is_some() {
         return push_tight(&mut plan.concerns, concern);
     }
@@ -115,7 +115,7 @@ pub(crate) fn waypoint<'a>(scene: &Scene<'a>, me: &Me) -> Cow<'a, Waypoint> {
 
 /// What a driver, who has been `standing` so long [s], has to keep in mind of its route: the last place for its next change, or
 /// another goal if it can no longer get there.
-fn heed_route(
+fn follow_route(
     scene: &Scene,
     me: &Me,
     (waypoint, is_detour): (&Waypoint, bool),
@@ -143,8 +143,8 @@ fn heed_route(
     if is_detour && me.mind.last_place < motion.x {
         outbox.count_missed_turn(motion.id);
     }
-    let is_heeded = waypoint.last_place - motion.x < HEEDED_WITHIN;
-    Concern { last_place: if is_heeded { waypoint.last_place } else { f64::INFINITY }, ..concern }
+    let is_near = waypoint.last_place - motion.x < REACTS_WITHIN;
+    Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
 }
 
 /// Who may change to neither side has nothing to weigh, and nothing left to wait for.
@@ -237,7 +237,7 @@ pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Motion, waypoin
 #[inline(never)]
 fn keep_in_mind(concern: Concern, car: &Car, plan: &mut Plan) {
     let minds_more = concern.last_place.is_finite() || concern.minds_offside;
-    if car.phase != Phase::Cruises || car.heeds_more || minds_more {
+    if car.phase != Phase::Cruises || car.needs_full_update || minds_more {
         push_tight(&mut plan.concerns, concern);
     }
 }

@@ -1,7 +1,6 @@
 //! What a driver does: it perceives, decides and accelerates, and writes that into a plan.
 
 pub(crate) mod accelerate;
-pub(crate) mod appeal;
 pub(crate) mod attention;
 pub(crate) mod beliefs;
 pub(crate) mod choice;
@@ -13,6 +12,7 @@ pub(crate) mod leave;
 pub(crate) mod me;
 pub(crate) mod perceive;
 pub(crate) mod plan;
+pub(crate) mod request_passage;
 pub(crate) mod stuck;
 pub(crate) mod turn;
 pub(crate) mod window;

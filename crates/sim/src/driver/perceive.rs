@@ -1,6 +1,6 @@
 //! Traffic as one driver sees it. The only bridge from traffic to models, for simulated and for recorded drivers.
 
-mod glance;
+mod gain_bound;
 
 use std::borrow::Cow;
 
@@ -15,7 +15,7 @@ use crate::state::traffic::{Car, Phase};
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer};
 use crate::view::sight::LaneSight;
 
-pub(crate) use glance::Dismissed;
+pub(crate) use gain_bound::Dismissed;
 
 /// Who stands at the end of its lane has this much road left to drive on [m].
 const LEAST_ROOM: f64 = 0.1;

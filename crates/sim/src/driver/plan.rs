@@ -62,9 +62,9 @@ pub(crate) struct Outbox {
     /// How far the vehicles with a passage drove.
     pub(crate) progress: Vec<Progress>,
     /// What drivers ask for at junctions.
-    pub(crate) appeals: Vec<Appeal>,
+    pub(crate) passage_requests: Vec<PassageRequest>,
     /// Drivers who stand because there is no room for them beyond a junction.
-    pub(crate) blocked: Vec<Appeal>,
+    pub(crate) blocked: Vec<PassageRequest>,
     /// Turns of those who wait for a side of a zone because of others.
     pub(crate) claims: Vec<(ZoneIndex, u8, Turn)>,
     /// Drivers out of patience who wait for so much room on a refuge [m].
@@ -111,7 +111,7 @@ impl Outbox {
         take_over(&mut self.milestones, &mut other.milestones);
         take_over(&mut self.leaving, &mut other.leaving);
         take_over(&mut self.progress, &mut other.progress);
-        take_over(&mut self.appeals, &mut other.appeals);
+        take_over(&mut self.passage_requests, &mut other.passage_requests);
         take_over(&mut self.claims, &mut other.claims);
         take_over(&mut self.blocked, &mut other.blocked);
         take_over(&mut self.wants, &mut other.wants);
@@ -175,7 +175,7 @@ pub(crate) struct Progress {
 
 /// What a driver asks for at a junction.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Appeal {
+pub(crate) struct PassageRequest {
     /// Step in which it first asked; who asked first comes first.
     pub(crate) since: u32,
     /// Who.
@@ -185,12 +185,12 @@ pub(crate) struct Appeal {
     /// Where it was on the snapshot [m].
     pub(crate) x: f64,
     /// What.
-    pub(crate) what: Plea,
+    pub(crate) what: RequestKind,
 }
 
 /// What there is to ask for at a junction.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Plea {
+pub(crate) enum RequestKind {
     /// To pass.
     Pass,
     /// To give a passage back from this distance from its beginning on [m].
@@ -210,7 +210,7 @@ pub(crate) struct Note {
     pub(crate) standing: f32,
 }
 
-/// What a driver keeps in mind beside, who has to leave its lane soon, heeds more than its leader, or wants to change.
+/// What a driver keeps in mind beside, who has to leave its lane soon, reacts to more than its leader, or wants to change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Concern {
     /// Its entry.

@@ -1,10 +1,10 @@
 //! Who is stuck: it has stood for long, and nothing that is bound to end holds it.
 
-use crate::driver::appeal::surveyed;
+use crate::driver::request_passage::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::approach::look;
 use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
-use crate::right_of_way::heed::look;
 use crate::state::clock::Clock;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};

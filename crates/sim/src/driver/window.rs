@@ -22,7 +22,7 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
     let x = scene.motion(spot).x;
     let after = stretches.partition_point(|it| it.start <= x);
     match stretches[..after].last().filter(|it| x <= it.end) {
-        None if scene.car(spot).heeds_more => coming(scene, spot, stretches),
+        None if scene.car(spot).needs_full_update => coming(scene, spot, stretches),
         found => found,
     }
 }

@@ -10,7 +10,7 @@ use crate::junction::claim::{Claim, Hold};
 use crate::junction::need::Survey;
 use crate::junction::passages::Passage;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::heed::{LONG, leader_into, lets_go};
+use crate::right_of_way::approach::{LONG, leader_into, lets_go};
 use crate::right_of_way::oncoming::lag;
 use crate::right_of_way::turns::{clears, is_out_before};
 use crate::state::clock::Clock;

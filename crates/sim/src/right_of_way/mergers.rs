@@ -6,7 +6,7 @@ use crate::junction::claim::Hold;
 use crate::junction::need::Survey;
 use crate::junction::passages::Passage;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::heed::leader_into;
+use crate::right_of_way::approach::leader_into;
 use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 

@@ -10,8 +10,8 @@
 //! (`laneweave_models::yielding`), then who waits longest; nobody need wait for who could not go yet anyway.
 
 pub(crate) mod applicant;
+pub(crate) mod approach;
 pub(crate) mod conditions;
-pub(crate) mod heed;
 pub(crate) mod mergers;
 pub(crate) mod oncoming;
 pub(crate) mod room;

@@ -10,7 +10,7 @@ use crate::junction::claim::{Claim, Hold};
 use crate::junction::need::SPARE_ROOM;
 use crate::junction::passages::Passage;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::heed::LONG;
+use crate::right_of_way::approach::LONG;
 use crate::view::scene::Scene;
 
 /// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches

@@ -11,7 +11,7 @@ use laneweave_network::{ChainIndex, Network};
 
 use crate::route::links::Links;
 use crate::route::onward::Onward;
-use crate::route::place::{Kerb, Place};
+use crate::route::place::{InnerPlace, Place};
 use crate::route::renew::is_planned;
 use crate::route::views::Views;
 use crate::route::waypoint::Waypoint;
@@ -101,7 +101,7 @@ impl Navigator {
 
     /// Trips of those who drive by `table` end at `place`.
     pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
-        if let Place::Kerb(Kerb { chain, station, .. }) = place {
+        if let Place::Inside(InnerPlace { chain, station, .. }) = place {
             let goal = Goal::from(Some(table as u16));
             self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
         }
@@ -329,14 +329,14 @@ impl Navigator {
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
-    /// Whether a destination can be reached from `place`; from a kerb, whether it is worth a trip, too.
+    /// Whether a destination can be reached from `place`; from a place inside the map, whether it is worth a trip, too.
     pub(crate) fn leads(&self, network: &Network, place: &Place, destination: u16) -> bool {
         match place {
             Place::Gate(gate) => {
                 let waypoint = |chain: &ChainIndex| self.waypoint(Some(destination), *chain);
                 gate.chains.iter().any(|chain| waypoint(chain).leads_there())
             }
-            Place::Kerb(Kerb { chain, station, .. }) => {
+            Place::Inside(InnerPlace { chain, station, .. }) => {
                 let waypoint = self.waypoint_from(network, Some(destination), *chain, *station);
                 let distance = waypoint.distance - station;
                 waypoint.leads_there() && distance >= Navigator::SHORTEST_TRIP

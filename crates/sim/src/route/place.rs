@@ -1,4 +1,4 @@
-//! Places at which trips start and end: gates at the edge of the map, and kerbs along its lanes.
+//! Places at which trips start and end: gates at the edge of the map, and places inside the map along its lanes.
 
 use laneweave_network::{ChainIndex, Gate};
 
@@ -8,12 +8,12 @@ pub enum Place {
     /// Lanes at the edge of the map: vehicles come driving at their starts, and leave at their ends.
     Gate(Gate),
     /// A place along a lane: vehicles start there from rest, and are gone when they reach it.
-    Kerb(Kerb),
+    Inside(InnerPlace),
 }
 
 /// A place along a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kerb {
+pub struct InnerPlace {
     /// Its lanelet's id: its name.
     pub id: i64,
     /// Its chain.
@@ -22,11 +22,11 @@ pub struct Kerb {
     pub station: f64,
 }
 
-impl Kerb {
+impl InnerPlace {
     /// Trips start and end on lanelets of this length or more [m].
     pub const SHORTEST_LANELET: f64 = 20.0;
-    /// Share of its lanelet that lies before a kerb. Of the shortest lanelet 12 m, the longest vehicle, lie behind it:
-    /// who starts stands on the lanelet, and who has driven off the lanelet does not reach back to the kerb.
+    /// Share of its lanelet that lies before a place inside the map. Of the shortest lanelet 12 m, the longest vehicle, lie behind it:
+    /// who starts stands on the lanelet, and who has driven off the lanelet does not reach back to the place inside the map.
     pub(crate) const SHARE_BEFORE: f64 = 0.4;
 }
 
@@ -35,7 +35,7 @@ impl Place {
     pub fn id(&self) -> i64 {
         match self {
             Place::Gate(gate) => gate.id,
-            Place::Kerb(kerb) => kerb.id,
+            Place::Inside(inner) => inner.id,
         }
     }
 
@@ -43,7 +43,7 @@ impl Place {
     pub fn chains(&self) -> &[ChainIndex] {
         match self {
             Place::Gate(gate) => &gate.chains,
-            Place::Kerb(kerb) => std::slice::from_ref(&kerb.chain),
+            Place::Inside(inner) => std::slice::from_ref(&inner.chain),
         }
     }
 }

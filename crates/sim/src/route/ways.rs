@@ -117,7 +117,7 @@ impl Planner<'_> {
     fn goal(&self, place: &Place, index: ChainIndex) -> Waypoint {
         let (until, end) = match place {
             Place::Gate(_) => (self.network.chain(index).length, f64::INFINITY),
-            Place::Kerb(kerb) => (kerb.station, kerb.station),
+            Place::Inside(inner) => (inner.station, inner.station),
         };
         Waypoint {
             changes: 0,
@@ -178,7 +178,7 @@ impl Planner<'_> {
             table[chain.at()].time = if via == chain {
                 match place {
                     Place::Gate(_) => self.time(chain, self.network.chain(chain).length),
-                    Place::Kerb(kerb) => self.time(chain, kerb.station),
+                    Place::Inside(inner) => self.time(chain, inner.station),
                 }
             } else if changes == onward.changes {
                 let it = self.network.chain(chain);

@@ -75,18 +75,18 @@ pub struct Car {
     pub is_shadow: bool,
     /// Kinematics, not the model, decided in the present braking.
     pub in_emergency: bool,
-    /// Its driver heeds more than the leader: the last place for a change, or a vehicle that it lets in.
-    pub heeds_more: bool,
+    /// Its driver reacts to more than the leader: the last place for a change, or a vehicle that it lets in.
+    pub needs_full_update: bool,
 }
 
 const _: () = assert!(size_of::<Motion>() == 32 && size_of::<Car>() == 32, "an entry fills one cache line");
 
 impl Car {
-    /// Its driver only follows: no change of lanes, nothing else to heed or to remember.
+    /// Its driver only follows: no change of lanes, nothing else to react to or to remember.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
         self.phase == Phase::Cruises
-            && !self.heeds_more
+            && !self.needs_full_update
             && !self.in_emergency
             && self.desired == self.limit_desired
     }

@@ -63,13 +63,14 @@ pub(crate) fn advance(
             let duration = manner.duration(f64::from(mind.urgency));
             has_ended |= go_across(motion, car, mind, chain, clock, duration, outbox);
         }
-        if car.heeds_more {
+        if car.needs_full_update {
             mind.lets_in = Mind::NOBODY;
             if upkeep.passage_is_over {
                 mind.passage = NO_PASSAGE;
             }
             let minds_offside = characters[car.character as usize].change.minds_offside();
-            car.heeds_more = mind.last_place.is_finite() || mind.passage != NO_PASSAGE || minds_offside;
+            car.needs_full_update =
+                mind.last_place.is_finite() || mind.passage != NO_PASSAGE || minds_offside;
         }
     }
     end_trips(lane, chain, ends.trips, plan, outbox);
@@ -114,7 +115,7 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
         }
         mind.last_place = concern.last_place;
         mind.urgency = concern.urgency;
-        car.heeds_more |= concern.last_place.is_finite() || concern.minds_offside;
+        car.needs_full_update |= concern.last_place.is_finite() || concern.minds_offside;
         if concern.gives_up && car.phase == Phase::Wants {
             car.phase = Phase::Cruises;
             outbox.milestones.push(milestone(motion, mind, chain, Reached::Nothing));

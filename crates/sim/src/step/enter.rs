@@ -1,4 +1,4 @@
-//! Vehicles come onto the road: at the edge of the map with the traffic there, at a kerb from rest.
+//! Vehicles come onto the road: at the edge of the map with the traffic there, at a place inside the map from rest.
 
 use laneweave_models::Style;
 use laneweave_models::braking::is_secure;
@@ -10,8 +10,8 @@ use crate::demand::source::{Arrival, Queue, Start};
 use crate::driver::accelerate::speed_before_a_stop;
 use crate::driver::perceive::driver;
 use crate::record::events::Event;
+use crate::right_of_way::approach::sight;
 use crate::right_of_way::conditions::Hindrance;
-use crate::right_of_way::heed::sight;
 use crate::right_of_way::survey::stop_ahead;
 use crate::state::setup::NewVehicle;
 use crate::step::reserve::{Entry, applicant, entry};
@@ -134,7 +134,7 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
     Some(slow)
 }
 
-/// Gap to a leader [m] with which a driver starts from a kerb: into a queue nobody squeezes.
+/// Gap to a leader [m] with which a driver starts from a place inside the map: into a queue nobody squeezes.
 fn room_to_start(style: &Style, ahead: Ahead) -> f64 {
     /// Who drives slower than this [m/s] queues, and so much way to a queue is left free [m]; ours.
     const QUEUES: f64 = 2.0;

@@ -2,9 +2,9 @@
 
 use laneweave_network::ChainIndex;
 
-use crate::driver::appeal::appeal;
 use crate::driver::decide::decide;
 use crate::driver::drive::drive;
+use crate::driver::request_passage::request_passages;
 use crate::junction::state::JunctionState;
 use crate::record::overlap::overlaps;
 use crate::route::roads::Roads;
@@ -37,7 +37,7 @@ impl World {
                 plan.clear();
                 decide(&scene, moment, chain, plan, outbox);
                 drive(&scene, moment.clock, chain, plan, outbox);
-                appeal(&scene, moment.clock, chain, plan, outbox);
+                request_passages(&scene, moment.clock, chain, plan, outbox);
                 if is_watched {
                     overlaps(&scene, chain, moment.clock.time(), &mut outbox.incidents);
                 }

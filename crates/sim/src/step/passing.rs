@@ -2,8 +2,8 @@
 
 use laneweave_network::ZoneKind;
 
-use crate::driver::appeal::surveyed;
-use crate::driver::plan::{Outbox, Plea, Waiting};
+use crate::driver::plan::{Outbox, RequestKind, Waiting};
+use crate::driver::request_passage::surveyed;
 use crate::junction::claim::Hold;
 use crate::junction::need::SPARE_ROOM;
 use crate::right_of_way::applicant::Applicant;
@@ -31,7 +31,7 @@ impl World {
 
     /// Passages are given back, and given to those who may pass, who asked first before the others.
     pub(crate) fn give_passages(&mut self) {
-        let mut appeals = std::mem::take(&mut self.work.outboxes[0].appeals);
+        let mut passage_requests = std::mem::take(&mut self.work.outboxes[0].passage_requests);
         let mut claims = std::mem::take(&mut self.work.outboxes[0].claims);
         let mut survey = std::mem::take(&mut self.work.outboxes[0].survey);
         self.claims_at_entrances(&mut claims, &mut survey);
@@ -42,21 +42,21 @@ impl World {
         rings.for_each(|(way, claim)| self.junctions.passages.rings.note_claim(way, claim));
         let wants = self.work.outboxes[0].wants.drain(..);
         wants.for_each(|(refuge, claim, needed)| self.junctions.passages.note_want(refuge, claim, needed));
-        appeals.sort_unstable_by_key(|it| (matches!(it.what, Plea::Pass), it.since, it.id));
-        for appeal in appeals.drain(..) {
-            let Some(index) = self.traffic.lanes[appeal.chain.at()].find(appeal.id, appeal.x) else {
+        passage_requests.sort_unstable_by_key(|it| (matches!(it.what, RequestKind::Pass), it.since, it.id));
+        for request in passage_requests.drain(..) {
+            let Some(index) = self.traffic.lanes[request.chain.at()].find(request.id, request.x) else {
                 continue;
             };
-            let spot = Spot { chain: appeal.chain, index };
-            match appeal.what {
-                Plea::Pass => self.give_passage(spot, appeal.since),
-                Plea::GiveBack(from) => {
+            let spot = Spot { chain: request.chain, index };
+            match request.what {
+                RequestKind::Pass => self.give_passage(spot, request.since),
+                RequestKind::GiveBack(from) => {
                     let slot = self.traffic.lanes[spot.chain.at()].minds()[index].passage;
-                    if self.junctions.passages.of(slot, appeal.id).is_some() {
+                    if self.junctions.passages.of(slot, request.id).is_some() {
                         self.junctions.passages.take_back(slot, from);
                         // It keeps its place among those who wait.
                         let (index, since) = (index as u32, self.junctions.passages.since(slot));
-                        let waiting = Waiting { index, id: appeal.id, since, is_held: true };
+                        let waiting = Waiting { index, id: request.id, since, is_held: true };
                         self.work.plans[spot.chain.at()].waiting.push(waiting);
                     }
                 }
@@ -69,7 +69,7 @@ impl World {
         }
         blocked.clear();
         self.work.outboxes[0].blocked = blocked;
-        self.work.outboxes[0].appeals = appeals;
+        self.work.outboxes[0].passage_requests = passage_requests;
         self.work.outboxes[0].claims = claims;
     }
 
@@ -111,7 +111,7 @@ impl World {
         let length = f64::from(motion.length);
         mind.passage = self.junctions.passages.give(mind.passage, motion.id, length, &outbox.survey);
         self.junctions.passages.note_since(mind.passage, since);
-        car.heeds_more = true;
+        car.needs_full_update = true;
         let (speed, desired) = (motion.speed, f64::from(car.desired));
         self.junctions.passages.advance(mind.passage, 0.0, speed, desired);
     }

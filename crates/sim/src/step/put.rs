@@ -81,7 +81,7 @@ impl World {
             phase: Phase::Cruises,
             is_shadow: false,
             in_emergency: false,
-            heeds_more: false,
+            needs_full_update: false,
         };
         let mind = Mind {
             side: self.roads.network.driving_side.overtaking(),

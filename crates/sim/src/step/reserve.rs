@@ -9,8 +9,8 @@ use crate::junction::claim::Hold;
 use crate::junction::claim::Turn;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::approach::lets_go;
 use crate::right_of_way::conditions::{Asking, Hindrance, leader_of, may_pass};
-use crate::right_of_way::heed::lets_go;
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
 use crate::right_of_way::turns::turns;
@@ -126,7 +126,7 @@ impl World {
         let (motion, car, mind) = lane.entry_mut(index);
         mind.passage = self.junctions.passages.give(mind.passage, arrival.id, length, out);
         self.junctions.passages.note_since(mind.passage, queue.asks_since.unwrap_or(self.traffic.clock.step));
-        car.heeds_more = true;
+        car.needs_full_update = true;
         let (speed, desired) = (motion.speed, f64::from(car.desired));
         self.junctions.passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
     }

@@ -54,16 +54,16 @@ impl World {
             Ask::LetIn { follower, chain, x, gap, speed } => {
                 let since = lane.minds()[spot.index].since;
                 let found = self.traffic.lanes[chain.at()].find(follower, x);
-                let heeds = |index: &usize| {
+                let sees_it = |index: &usize| {
                     let behind = Spot { chain, index: *index };
                     self.has_seen(behind, since) && !self.scene().has_passage(behind, f64::from(gap))
                 };
-                if let Some(index) = found.filter(heeds) {
+                if let Some(index) = found.filter(sees_it) {
                     let (_, car, mind) = self.traffic.lanes[chain.at()].entry_mut(index);
                     // Of two who want in before it the nearer comes first.
                     if car.phase == Phase::Cruises && gap < mind.lets_in.0 {
                         mind.lets_in = (gap, speed);
-                        car.heeds_more = true;
+                        car.needs_full_update = true;
                     }
                 }
             }
@@ -146,7 +146,7 @@ impl World {
         let Entry { motion, car, mind } = lane.entry(spot.index);
         let shadow = Entry {
             motion: Motion { x, ..motion },
-            car: Car { is_shadow: true, heeds_more: false, ..car },
+            car: Car { is_shadow: true, needs_full_update: false, ..car },
             mind: Mind {
                 twin: Some(Twin { chain: spot.chain, x: motion.x, stretch: 1.0 }),
                 stretch,

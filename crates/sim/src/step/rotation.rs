@@ -1,7 +1,7 @@
 //! Rings of drivers each of whom waits for the room that the next takes up: on a full roundabout, around a full block. None of
 //! them could ever go if each waited for the other's room to be free; so they go together, each into the room of the next.
 
-use crate::driver::plan::Appeal;
+use crate::driver::plan::PassageRequest;
 use crate::junction::claim::Hold;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::conditions::Asking;
@@ -16,13 +16,13 @@ const QUEUES_WITHIN: f64 = 4.0;
 
 impl World {
     /// Gives passages to those who wait for each other's room. `waiting` are those who wait for room, in the order of ids.
-    pub(crate) fn rotate(&mut self, waiting: &[Appeal]) {
+    pub(crate) fn rotate(&mut self, waiting: &[PassageRequest]) {
         let scene = self.scene();
         let spots: Vec<Option<Spot>> = waiting.iter().map(|it| spot(&scene, it)).collect();
         let next: Vec<Option<usize>> =
             spots.iter().map(|it| it.and_then(|it| waits_for(&scene, it, waiting))).collect();
         for ring in rings(&next) {
-            let members: Vec<(Spot, Appeal)> =
+            let members: Vec<(Spot, PassageRequest)> =
                 ring.iter().filter_map(|it| Some((spots[*it]?, waiting[*it]))).collect();
             self.let_go_together(&members);
         }
@@ -30,13 +30,13 @@ impl World {
 
     /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for. They go, whatever
     /// lights show then.
-    fn let_go_together(&mut self, members: &[(Spot, Appeal)]) {
+    fn let_go_together(&mut self, members: &[(Spot, PassageRequest)]) {
         let mut outbox = std::mem::take(&mut self.work.outboxes[0]);
         let mut holds: Vec<Hold> = Vec::new();
         let scene = self.scene();
         let next = members.iter().cycle().skip(1);
-        let may_go = members.iter().zip(next).all(|((spot, appeal), (next, _))| {
-            let asking = Asking::of(&Applicant::at(&scene, *spot), appeal.since, self.traffic.clock);
+        let may_go = members.iter().zip(next).all(|((spot, request), (next, _))| {
+            let asking = Asking::of(&Applicant::at(&scene, *spot), request.since, self.traffic.clock);
             let may = self.may_after(*spot, asking, *next, &mut outbox);
             let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
             let is_apart = !outbox.survey.holds.iter().any(crosses);
@@ -44,8 +44,8 @@ impl World {
             may && is_apart
         });
         if may_go {
-            for (spot, appeal) in members {
-                self.give_surveyed(*spot, appeal.since, &mut outbox);
+            for (spot, request) in members {
+                self.give_surveyed(*spot, request.since, &mut outbox);
                 let slot = self.traffic.lanes[spot.chain.at()].minds()[spot.index].passage;
                 self.junctions.passages.make_certain(slot);
             }
@@ -54,13 +54,13 @@ impl World {
     }
 }
 
-fn spot(scene: &Scene, appeal: &Appeal) -> Option<Spot> {
-    let index = scene.lanes[appeal.chain.at()].find(appeal.id, appeal.x)?;
-    Some(Spot { chain: appeal.chain, index })
+fn spot(scene: &Scene, request: &PassageRequest) -> Option<Spot> {
+    let index = scene.lanes[request.chain.at()].find(request.id, request.x)?;
+    Some(Spot { chain: request.chain, index })
 }
 
 /// Which of those who wait stands at the head of the queue that the driver at `from` would join.
-fn waits_for(scene: &Scene, from: Spot, waiting: &[Appeal]) -> Option<usize> {
+fn waits_for(scene: &Scene, from: Spot, waiting: &[PassageRequest]) -> Option<usize> {
     let mut at = from;
     for _ in 0..LONGEST_QUEUE {
         at = scene.leader_spot(scene.viewpoint(at))?;

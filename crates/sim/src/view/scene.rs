@@ -97,8 +97,8 @@ impl<'a> Scene<'a> {
     /// The passage of the vehicle at `spot`.
     #[inline]
     pub(crate) fn passage(&self, spot: Spot) -> Option<&'a Passage> {
-        // Who has one heeds it: the mind of others is not worth a look into cold memory.
-        let mind = self.car(spot).heeds_more.then(|| self.mind(spot))?;
+        // A driver with one needs a full update: the mind of others is not worth a look into cold memory.
+        let mind = self.car(spot).needs_full_update.then(|| self.mind(spot))?;
         self.passages.of(mind.passage, self.motion(spot).id)
     }
 

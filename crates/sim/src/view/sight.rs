@@ -82,7 +82,7 @@ impl Scene<'_> {
         loop {
             let stops = &self.network.junctions.on(chain).stops[..];
             if !stops.is_empty() {
-                self.heed_red(stops, base, desired, view);
+                self.stop_at_red(stops, base, desired, view);
             }
             if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
                 return window_ahead;
@@ -106,7 +106,7 @@ impl Scene<'_> {
     /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a chain whose
     /// start is `base` ahead [m].
     #[inline(never)]
-    fn heed_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
+    fn stop_at_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
         let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
         let red = stops.iter().find(|it| base + it.station > 0.0 && is_red(it.sign));
         if let Some(line) = red.map(|it| base + it.station).filter(|it| *it <= view.sight) {

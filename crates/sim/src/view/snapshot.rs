@@ -129,7 +129,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         phase: if seen.change.is_some() { Phase::Changes } else { Phase::Cruises },
         is_shadow: false,
         in_emergency: false,
-        heeds_more: false,
+        needs_full_update: false,
     };
     let twin = |change: Across| Twin { chain: change.other.0, x: change.other.1, stretch: 1.0 };
     let mind = Mind {

@@ -9,7 +9,7 @@ use crate::fault::Fault;
 use crate::output::Folder;
 use crate::output::frame::{Body, Seen};
 use crate::output::names::Names;
-use crate::output::scribe::{Page, Writer};
+use crate::output::writer_threads::{Page, Writer};
 
 const ROOT: &str = "<fcd-export xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
     xsi:noNamespaceSchemaLocation=\"http://sumo.dlr.de/xsd/fcd_file.xsd\">";

@@ -9,7 +9,7 @@ use super::xml::XmlFile;
 use crate::fault::Fault;
 use crate::output::Folder;
 use crate::output::names::Names;
-use crate::output::scribe::{Page, Writer};
+use crate::output::writer_threads::{Page, Writer};
 
 /// Writes an element for each lane change that was completed.
 pub(in crate::output) struct LaneChangeOutput {

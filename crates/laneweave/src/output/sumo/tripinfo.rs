@@ -6,8 +6,8 @@ use super::xml::XmlFile;
 use crate::fault::Fault;
 use crate::output::Folder;
 use crate::output::names::Names;
-use crate::output::scribe::{Page, Writer};
 use crate::output::trips::{End, Trip};
+use crate::output::writer_threads::{Page, Writer};
 
 const ROOT: &str = "<tripinfos xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
     xsi:noNamespaceSchemaLocation=\"http://sumo.dlr.de/xsd/tripinfo_file.xsd\">";

@@ -201,12 +201,12 @@ fn styles() -> Rows {
 
 /// Trips start and end along lanes.
 fn is_closed(prepared: &Prepared) -> bool {
-    prepared.origins.iter().all(|(place, _)| matches!(place, Place::Kerb(_)))
+    prepared.origins.iter().all(|(place, _)| matches!(place, Place::Inside(_)))
 }
 
 fn lanes(place: &Place) -> String {
     match (place, place.chains().len()) {
-        (Place::Kerb(_), _) => "along the lanelet".into(),
+        (Place::Inside(_), _) => "along the lanelet".into(),
         (Place::Gate(_), 1) => "1 lane".into(),
         (Place::Gate(_), count) => format!("{count} lanes"),
     }

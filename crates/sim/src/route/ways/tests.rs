@@ -1,7 +1,7 @@
 use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
 
 use super::*;
-use crate::route::place::Kerb;
+use crate::route::place::InnerPlace;
 
 /// A lane to the east between two stations [m] at 10 m/s, followed by `following`.
 pub(crate) fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
@@ -79,20 +79,20 @@ fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
     let into = beside_into(&network);
     let views = Views::default();
     let [long, short] = [1, 4].map(|id| chain(&network, id));
-    let kerb = Kerb { id: 3, chain: long, station: 950.0 };
+    let inner = InnerPlace { id: 3, chain: long, station: 950.0 };
     for jammed in 0..5 {
         let mut links = Links::of(&network);
         let times: Vec<f64> = (0..5).map(|it| if it == jammed { 900.0 } else { 30.0 }).collect();
         links.take(times.into_iter());
         let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
-        let table = planner.plan(&Place::Kerb(kerb));
+        let table = planner.plan(&Place::Inside(inner));
         let [here, there] = [long, short].map(|it| table[it.at()]);
         assert_eq!((here.changes, here.via), (0, long), "{jammed}");
         assert_eq!((there.changes, there.via), (1, long), "{jammed}");
         // Who comes from the start of the long lane is not there before who starts where the short one does.
         assert!(here.time > there.time, "{jammed}: {} {}", here.time, there.time);
         let mut timed = table.clone();
-        planner.retime(&mut timed, &Place::Kerb(kerb));
+        planner.retime(&mut timed, &Place::Inside(inner));
         assert_eq!(timed[short.at()].time, there.time, "{jammed}");
     }
 }

@@ -3,12 +3,12 @@
 
 use laneweave_network::{ChainIndex, LightIndex};
 
-use crate::driver::plan::{Appeal, Outbox, Plan, Plea, Waiting};
+use crate::driver::plan::{Outbox, PassageRequest, Plan, RequestKind, Waiting};
 use crate::junction::claim::Claim;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::approach::{lets_go, sight};
 use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
-use crate::right_of_way::heed::{lets_go, sight};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{refuges, survey};
 use crate::right_of_way::turns::turns;
@@ -20,13 +20,19 @@ use crate::view::scene::{Scene, Spot};
 /// long as drivers are patient elsewhere).
 const STARVES: f64 = 45.0;
 
-/// The drivers of a lane appeal.
-pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan, outbox: &mut Outbox) {
-    let Outbox { returns, appeals, .. } = outbox;
+/// The drivers of a lane who wait at a junction and may pass ask for their passages.
+pub(crate) fn request_passages(
+    scene: &Scene,
+    clock: Clock,
+    chain: ChainIndex,
+    plan: &Plan,
+    outbox: &mut Outbox,
+) {
+    let Outbox { returns, passage_requests, .. } = outbox;
     for (index, from) in returns.drain(..) {
         let motion = &scene.motions(chain)[index as usize];
-        let what = Plea::GiveBack(from);
-        appeals.push(Appeal { since: clock.step, id: motion.id, chain, x: motion.x, what });
+        let what = RequestKind::GiveBack(from);
+        passage_requests.push(PassageRequest { since: clock.step, id: motion.id, chain, x: motion.x, what });
     }
     // At a light there is nothing to ask for, but by who starves there.
     let has_to_ask = |it: &&Waiting| !it.is_held || clock.since(it.since) > STARVES;
@@ -39,12 +45,12 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
         }
         let asking = Asking::of(&applicant, waiting.since, clock);
         match may_pass(scene, &applicant, &outbox.survey, asking) {
-            Ok(()) => outbox.appeals.push(Appeal {
+            Ok(()) => outbox.passage_requests.push(PassageRequest {
                 since: waiting.since,
                 id: motion.id,
                 chain,
                 x: motion.x,
-                what: Plea::Pass,
+                what: RequestKind::Pass,
             }),
             Err(Hindrance::Others) => {
                 outbox.claims.extend(turns(scene, &applicant, &outbox.survey.holds, asking.claim));
@@ -55,7 +61,13 @@ pub(crate) fn appeal(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &Plan
                 }
                 if hindrance == Hindrance::Room && motion.speed < STANDS {
                     let Waiting { since, id, .. } = *waiting;
-                    outbox.blocked.push(Appeal { since, id, chain, x: motion.x, what: Plea::Pass });
+                    outbox.blocked.push(PassageRequest {
+                        since,
+                        id,
+                        chain,
+                        x: motion.x,
+                        what: RequestKind::Pass,
+                    });
                 }
             }
             Err(Hindrance::Light) if starves(scene, asking, &outbox.survey) => {

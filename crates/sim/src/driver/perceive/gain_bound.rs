@@ -1,7 +1,7 @@
-//! A glance at the lanes beside. Most drivers on most occasions see by the next vehicles there that neither lane can be worth a
+//! A bound of what the lanes beside can gain. Most drivers on most occasions see by the next vehicles there that neither lane can be worth a
 //! change, and look no further; what they decide is the same to the last bit.
 
-use laneweave_models::change::{Behind, Glance, Mcdm, anticipated_speed};
+use laneweave_models::change::{Behind, GainBound, Mcdm, anticipated_speed};
 use laneweave_models::follow::Ahead;
 use laneweave_network::Side;
 
@@ -17,7 +17,7 @@ pub(crate) struct Dismissed {
 }
 
 impl Outlook<'_, '_> {
-    /// Whether neither side can gain as much as `reach`. `None` where it can, or a glance does not tell.
+    /// Whether neither side can gain as much as `reach`. `None` where it can, or the bound does not tell.
     #[inline]
     pub(crate) fn dismisses(&self, model: &Mcdm, reach: f64) -> Option<Dismissed> {
         if self.here.route.changes != 0
@@ -42,7 +42,7 @@ impl Outlook<'_, '_> {
                     Behind { gap: it.distance - self.me.length, driver: driver(self.scene, it.spot) };
                 model.courtesy.harm(&self.me, ahead, &behind)
             });
-            let glance = Glance {
+            let bound = GainBound {
                 desired,
                 prospects: [self.here.prospect, prospect],
                 routes,
@@ -50,7 +50,7 @@ impl Outlook<'_, '_> {
                 band: self.beliefs.band,
                 courtesy: relief + harm,
             };
-            if model.gain_at_most(&glance) >= reach {
+            if model.gain_at_most(&bound) >= reach {
                 return None;
             }
             best_prospect = Some(best_prospect.map_or(prospect, |it: f64| it.max(prospect)));

@@ -1,4 +1,4 @@
-//! What a driver heeds at a junction while it drives on.
+//! What a driver reacts to at a junction while it drives on.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
@@ -22,7 +22,7 @@ const EARLY: f64 = 1.5;
 /// And never later than at this distance [m].
 const NEAR: f64 = 10.0;
 
-/// What a driver heeds.
+/// What a driver reacts to.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Junction {
     /// Distance of the front to where it has to stop [m].
@@ -38,20 +38,20 @@ pub(crate) struct Junction {
     pub(crate) gives_back: Option<f64>,
 }
 
-/// How far ahead a driver at `speed` [m/s] heeds junctions [m].
+/// How far ahead a driver at `speed` [m/s] reacts to junctions [m].
 #[inline]
 pub(crate) fn sight(speed: f64) -> f64 {
     speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
 }
 
-/// Whether the driver at `spot` is far from all junctions and has no passage: there is nothing to heed.
+/// Whether the driver at `spot` is far from all junctions and has no passage: there is nothing to react to.
 #[inline]
 pub(crate) fn is_nothing_near(scene: &Scene, spot: Spot) -> bool {
     let until = sight(scene.motion(spot).speed);
     is_far(scene, scene.viewpoint(spot), until) && scene.passage(spot).is_none()
 }
 
-/// What the driver at `spot` heeds.
+/// What the driver at `spot` reacts to.
 #[inline]
 pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
     if is_nothing_near(scene, spot) {
@@ -60,14 +60,14 @@ pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
     look_closely(scene, spot, sight(scene.motion(spot).speed))
 }
 
-/// What it heeds within `until` [m].
+/// What it reacts to within `until` [m].
 #[inline(never)]
 fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let mut junction = Junction::default();
     let mut granted = 0.0;
     if let Some(passage) = scene.passage(spot) {
-        heed_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
+        yield_to_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
         junction.gives_back = to_give_back(scene, passage, motion.speed)
             .or_else(|| if motion.speed < STANDSTILL { cut_off_from(scene, spot, passage) } else { None });
         // What is given back is not used any more from now on.
@@ -112,8 +112,8 @@ pub(crate) fn earlier<'a>(
     others.map(|(_, other)| other)
 }
 
-/// Heeds those who go before it through a zone.
-fn heed_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
+/// Yields to those who go before it through a zone.
+fn yield_to_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
     for hold in &passage.holds {
         let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
         let mut others = earlier(scene, passage, slot, hold);

@@ -77,14 +77,14 @@ impl Pen {
 
 /// The threads that write, as the last of the observers: it sees nothing of the world, and has all files completed when the
 /// others have finished.
-pub(super) struct Scribe {
+pub(super) struct WriterThreads {
     pen: Pen,
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
     /// The log of pages, if there is one.
     log: Option<PathBuf>,
 }
 
-impl Scribe {
+impl WriterThreads {
     /// Begins to write with `xml` and `tables`: on two threads if so many `cores` are free, of which that for the tables passes all
     /// pages on to that for the XML files, and else on one. The receiver gives frames back that are written, to be used again.
     pub(super) fn begin(
@@ -93,7 +93,7 @@ impl Scribe {
         names: Names,
         log_path: Option<PathBuf>,
         cores: usize,
-    ) -> Result<(Scribe, Receiver<Frame>), Fault> {
+    ) -> Result<(WriterThreads, Receiver<Frame>), Fault> {
         if cores < 2 {
             tables.append(&mut xml);
         }
@@ -124,7 +124,7 @@ impl Scribe {
             })?);
         }
         let pen = next.ok_or_else(broke_off)?;
-        Ok((Scribe { pen, threads, log: log_path }, spares))
+        Ok((WriterThreads { pen, threads, log: log_path }, spares))
     }
 
     /// Number of threads that write.
@@ -147,7 +147,7 @@ impl Scribe {
     }
 }
 
-impl Observer for Scribe {
+impl Observer for WriterThreads {
     /// All pages up to now are in the log, whose length is kept.
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         let (told, length) = channel();
@@ -171,17 +171,17 @@ impl Observer for Scribe {
 
     fn finish(mut self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         let ended = self.pen.hand_over(Page::End);
-        let files = Scribe::join(std::mem::take(&mut self.threads));
+        let files = WriterThreads::join(std::mem::take(&mut self.threads));
         ended.and(files)
     }
 }
 
-impl Drop for Scribe {
+impl Drop for WriterThreads {
     /// Without an end, files that are not complete are gone when this returns.
     fn drop(&mut self) {
         let (pages, _) = sync_channel(0);
         drop(std::mem::replace(&mut self.pen.pages, pages));
-        let _ = Scribe::join(std::mem::take(&mut self.threads));
+        let _ = WriterThreads::join(std::mem::take(&mut self.threads));
     }
 }
 
