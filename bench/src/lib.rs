@@ -1,5 +1,5 @@
-//! What the benchmarks share: rounds of measurement in turns, so that what disturbs the machine for a while disturbs all that is
-//! compared.
+//! What the benchmarks share: rounds of measurement in turns, so that what disturbs the machine for a while disturbs
+//! all that is compared.
 
 pub mod machine;
 pub mod trial;
@@ -21,8 +21,8 @@ impl Rates {
         self.0.push(updates as f64 / wall_s);
     }
 
-    /// Of the round that was disturbed least: other programs, and the neighbours of a virtual machine, only ever slow a round
-    /// down.
+    /// Of the round that was disturbed least: other programs, and the neighbours of a virtual machine, only ever slow a
+    /// round down.
     pub fn best(&self) -> f64 {
         self.0.iter().copied().fold(0.0, f64::max)
     }

@@ -1,12 +1,13 @@
-//! What the machine gives at the moment: cores of a virtual machine are not always whole ones, and not always near each other.
+//! What the machine gives at the moment: cores of a virtual machine are not always whole ones, and not always near each
+//! other.
 
 use std::hint::{black_box, spin_loop};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread;
 use std::time::Instant;
 
-/// How long a message from one core to the other and back takes [ns]: four times as long where the two share no cache, a quarter
-/// of it where they are halves of one core; and a virtual machine is moved now and then.
+/// How long a message from one core to the other and back takes [ns]: four times as long where the two share no cache,
+/// a quarter of it where they are halves of one core; and a virtual machine is moved now and then.
 pub fn round_trip() -> f64 {
     const MESSAGES: u32 = 2_000;
     let (there, back) = (Message::default(), Message::default());
@@ -40,7 +41,8 @@ pub fn spin_until(is_so: impl Fn() -> bool) {
     }
 }
 
-/// Does `work` while another thread calculates without touching memory: what that costs is the machine's, not the work's.
+/// Does `work` while another thread calculates without touching memory: what that costs is the machine's, not the
+/// work's.
 pub fn beside_a_busy_core<T>(work: impl FnOnce() -> T) -> T {
     let is_over = AtomicBool::new(false);
     thread::scope(|scope| {

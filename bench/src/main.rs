@@ -1,11 +1,11 @@
 //! How fast the step is, and how its cost grows.
 //!
 //! `cargo run --release -p laneweave-bench` measures a motorway of 40 km and four lanes with some 2,000 vehicles at
-//! steps of 0.1 s, every driver not in a change considering lanes once a second, on one core and on two; what two cores of
-//! the machine can give at most; then the same density on longer roads, up to a million vehicles; then the memory that a
-//! vehicle needs. What is compared runs in turns, a round each, and the best rounds count; the median tells how much they were
-//! disturbed.
-//! `… -- short` runs 300 steps of the first on one core only, to count instructions under callgrind.
+//! steps of 0.1 s, every driver not in a change considering lanes once a second, on one core and on two; what two cores
+//! of the machine can give at most; then the same density on longer roads, up to a million vehicles; then the memory
+//! that a vehicle needs. What is compared runs in turns, a round each, and the best rounds count; the median tells how
+//! much they were disturbed. `… -- short` runs 300 steps of the first on one core only, to count instructions under
+//! callgrind.
 
 use std::alloc::{GlobalAlloc, Layout};
 use std::error::Error;
@@ -83,8 +83,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Runs all in turn, `rounds` times, and prints what was measured: what disturbs the machine for a while disturbs all of
-/// them.
+/// Runs all in turn, `rounds` times, and prints what was measured: what disturbs the machine for a while disturbs all
+/// of them.
 fn measure<const N: usize>(mut all: [Measured; N], rounds: usize) -> Result<[Measured; N], Box<dyn Error>> {
     for _ in 0..rounds {
         all.iter_mut().for_each(Measured::go_on);

@@ -1,4 +1,5 @@
-//! Random towns under random demand of up to twice their estimated capacity, from some entrances much more than from others.
+//! Random towns under random demand of up to twice their estimated capacity, from some entrances much more than from
+//! others.
 
 use std::error::Error;
 
@@ -28,7 +29,8 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// The trial of a number, the same one on every machine. Its chains are stored as `store` leaves them; so many `threads` share a step.
+    /// The trial of a number, the same one on every machine. Its chains are stored as `store` leaves them; so many
+    /// `threads` share a step.
     ///
     /// # Errors
     /// If the map cannot be drawn, or no traffic can be on it.

@@ -1,8 +1,9 @@
-//! Whether traffic is as it was, bit for bit: hashes of what many runs come to, to be compared with those of another commit.
+//! Whether traffic is as it was, bit for bit: hashes of what many runs come to, to be compared with those of another
+//! commit.
 //!
-//! `cargo run --release -p laneweave-bench --bin hashes -- [MAP...]` prints a line for each run of ten minutes: on these maps with two
-//! demands, on 20 random maps, and of 21 trials of `gridlock`. It fails if another number of threads or another order of the
-//! chains in storage changes a hash.
+//! `cargo run --release -p laneweave-bench --bin hashes -- [MAP...]` prints a line for each run of ten minutes: on
+//! these maps with two demands, on 20 random maps, and of 21 trials of `gridlock`. It fails if another number of
+//! threads or another order of the chains in storage changes a hash.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! How fast maps are read, and what memory that takes.
 //!
-//! `cargo run --release -p laneweave-bench --bin maps -- MAP.osm [MB]` reads the map as it is, and then tiled to this size:
-//! copies of it, side by side, with ids of their own.
+//! `cargo run --release -p laneweave-bench --bin maps -- MAP.osm [MB]` reads the map as it is, and then tiled to this
+//! size: copies of it, side by side, with ids of their own.
 
 use std::error::Error;
 use std::fmt::Write;

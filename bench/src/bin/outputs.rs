@@ -1,10 +1,10 @@
 //! What it costs to write results: the same hour with nothing written, and with more and more of it.
 //!
-//! `cargo run --release -p laneweave-bench --bin outputs [-- DIR]` runs a motorway of 20 km and the town of the demo, on one
-//! thread and on two, into a temporary folder in DIR, and prints what each kind of output adds to the time of the run that
-//! leaves none: of the best rounds, and in the median of the differences within a round. For comparison there is the run that
-//! leaves none while another core is busy with what has nothing to do with it. `… -- short DIR` runs twenty minutes of the
-//! motorway once, with everything, to count instructions under callgrind.
+//! `cargo run --release -p laneweave-bench --bin outputs [-- DIR]` runs a motorway of 20 km and the town of the demo,
+//! on one thread and on two, into a temporary folder in DIR, and prints what each kind of output adds to the time of
+//! the run that leaves none: of the best rounds, and in the median of the differences within a round. For comparison
+//! there is the run that leaves none while another core is busy with what has nothing to do with it. `… -- short DIR`
+//! runs twenty minutes of the motorway once, with everything, to count instructions under callgrind.
 
 use std::error::Error;
 use std::num::NonZero;

@@ -1,10 +1,10 @@
 //! How fast the step is in a town: short lanes, lights, queues, and turns at every corner.
 //!
-//! `cargo run --release -p laneweave-bench --bin town` fills a grid of 20 by 20 junctions with lights and two lanes in each
-//! direction until some 6,000 vehicles are on it, then measures a minute at steps of 0.1 s in twelve rounds, on one core and
-//! then on two: two towns at once would not fit into a cache.
-//! `… -- short` measures half a minute of a grid of 6 by 6 junctions, as full, on one core only, to count instructions under
-//! callgrind: `--toggle-collect='*measured*'` leaves out how it was filled.
+//! `cargo run --release -p laneweave-bench --bin town` fills a grid of 20 by 20 junctions with lights and two lanes in
+//! each direction until some 6,000 vehicles are on it, then measures a minute at steps of 0.1 s in twelve rounds, on
+//! one core and then on two: two towns at once would not fit into a cache. `… -- short` measures half a minute of a
+//! grid of 6 by 6 junctions, as full, on one core only, to count instructions under callgrind:
+//! `--toggle-collect='*measured*'` leaves out how it was filled.
 
 use std::error::Error;
 use std::time::Instant;

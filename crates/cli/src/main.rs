@@ -11,8 +11,8 @@ use clap::error::Error;
 use command::{Cli, say, with_tip};
 use laneweave::{Cause, Fault};
 
-/// With a million vehicles an update costs a tenth less than with the allocator of glibc: arrays of one size lie side by
-/// side, in fewer pages.
+/// With a million vehicles an update costs a tenth less than with the allocator of glibc: arrays of one size lie side
+/// by side, in fewer pages.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -1,5 +1,5 @@
-//! A run as it stands, in a file: what moves, and what observers keep. A run that broke off goes on from there, and ends as it would
-//! have ended.
+//! A run as it stands, in a file: what moves, and what observers keep. A run that broke off goes on from there, and
+//! ends as it would have ended.
 
 use std::fs;
 use std::io::{self, Write};

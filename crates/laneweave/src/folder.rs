@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::fault::Fault;
 
-/// Every name that a run gives to a file of results, in the order in which they are to go: without its summary no run has ended.
+/// Every name that a run gives to a file of results, in the order in which they are to go: without its summary no run
+/// has ended.
 pub const RESULTS: [&str; 21] = [
     "summary.json",
     "checkpoint",
@@ -38,7 +39,8 @@ pub const DIFFERENCES: [&str; 4] =
 /// The name of a report.
 pub const REPORT: &str = "report.html";
 
-/// A folder into which no other laneweave writes as long as this lives; where the system does not lock folders, others do.
+/// A folder into which no other laneweave writes as long as this lives; where the system does not lock folders, others
+/// do.
 #[derive(Debug)]
 pub struct Claim {
     dir: PathBuf,

@@ -76,8 +76,8 @@ pub fn clear(claim: &Claim) -> Result<(), Fault> {
     claim.clear(&[SCENARIO])
 }
 
-/// Writes `scenario` into the folder of its results, `dir`, with its style files and the `command` that gave it: run from there it is
-/// the same. Returns the text that was written.
+/// Writes `scenario` into the folder of its results, `dir`, with its style files and the `command` that gave it: run
+/// from there it is the same. Returns the text that was written.
 ///
 /// # Errors
 /// If a file cannot be read or written.
@@ -113,8 +113,8 @@ fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTree
     Ok(kept)
 }
 
-/// Has `text` in a file of `folder`, and names it: `STEM.EXTENSION`, or `STEM-2.EXTENSION` and so on where that is taken or has
-/// another text, which stays.
+/// Has `text` in a file of `folder`, and names it: `STEM.EXTENSION`, or `STEM-2.EXTENSION` and so on where that is
+/// taken or has another text, which stays.
 fn keep_text(
     folder: &Path,
     [stem, extension]: [&str; 2],
@@ -157,7 +157,8 @@ fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
     Ok(up.chain(file.components().skip(shared)).collect())
 }
 
-/// Hash of all that a run depends on: the program's version, the scenario but for its output, its threads and its largest map, the styles, the map.
+/// Hash of all that a run depends on: the program's version, the scenario but for its output, its threads and its
+/// largest map, the styles, the map.
 ///
 /// # Errors
 /// If the map or a style file cannot be read.
@@ -184,8 +185,8 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     Ok(format!("{:016x}", hash.digest()))
 }
 
-/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: the names of the files do not
-/// matter.
+/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: the names of the
+/// files do not matter.
 ///
 /// # Errors
 /// If a style file cannot be read.

@@ -22,9 +22,9 @@ pub struct Ending {
     pub short_trips: ShortTrips,
 }
 
-/// Runs `prepared` through its warm-up and its measured time, or on from a checkpoint. `observers` see the world after each measured
-/// step; `goes_on` is asked before every step; `when_warm` is called once, when measuring begins or goes on. If there is a `keeper`, it
-/// gets checkpoints.
+/// Runs `prepared` through its warm-up and its measured time, or on from a checkpoint. `observers` see the world after
+/// each measured step; `goes_on` is asked before every step; `when_warm` is called once, when measuring begins or goes
+/// on. If there is a `keeper`, it gets checkpoints.
 ///
 /// # Errors
 /// If an observer cannot write what it sees, or the checkpoint is none of this run.

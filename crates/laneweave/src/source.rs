@@ -40,8 +40,8 @@ impl Source {
         format!("{}:{line}:{column}", self.path.display())
     }
 
-    /// Where the key at `path` stands, or else the nearest table around it that does; the file if none does. The elements of
-    /// a list are called by their numbers from 0 on.
+    /// Where the key at `path` stands, or else the nearest table around it that does; the file if none does. The
+    /// elements of a list are called by their numbers from 0 on.
     pub fn place(&self, path: &[&str]) -> String {
         let Ok(root) = DeTable::parse(&self.text) else { return self.path.display().to_string() };
         let mut names = path.iter();

@@ -1,4 +1,5 @@
-//! Twins: with nothing changed they stay the same to the last bit; with one thing changed they part where it matters, not before.
+//! Twins: with nothing changed they stay the same to the last bit; with one thing changed they part where it matters,
+//! not before.
 
 use std::path::{Path, PathBuf};
 

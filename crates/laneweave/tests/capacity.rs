@@ -128,7 +128,8 @@ fn who_crosses_takes_the_time_of_others_and_who_does_not_takes_none() {
     assert!(alone.iter().all(|it| (it / alone[0] - 1.0).abs() < 0.02), "{alone:?}");
 }
 
-/// Vehicles per hour that enter in a quarter of an hour when `load` times the estimated capacity of `network` comes, and those that wait then.
+/// Vehicles per hour that enter in a quarter of an hour when `load` times the estimated capacity of `network` comes,
+/// and those that wait then.
 fn driven(network: &Network, load: f64) -> (f64, usize) {
     const STEP_S: f64 = 0.1;
     const DURATION_S: f64 = 900.0;

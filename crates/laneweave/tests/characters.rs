@@ -104,7 +104,8 @@ fn tired_drivers_change_lanes_less_than_others_in_the_same_traffic() {
     assert_below(["changes/veh-km of the tired", "of the others"], rates);
 }
 
-/// Gap to a truck at which drivers of `style` who come up to it on the empty slow lane want to overtake: mean of four [m].
+/// Gap to a truck at which drivers of `style` who come up to it on the empty slow lane want to overtake: mean of four
+/// [m].
 fn gap_when_noticed(style: &str, seed: u64) -> f64 {
     const PAIRS: u32 = 4;
     const APART: f64 = 800.0;

@@ -7,8 +7,8 @@ use laneweave::output::{Inputs, Provenance, Summary, observers};
 use laneweave::scenario::{Origin, Scenario, TableFormat, prepare};
 use laneweave::simulation::simulate;
 
-/// Seconds that all vehicles spent on the lanelets, and metres that they drove there, from the rows of the table; and the same
-/// as the world counted them, with the number of those who left.
+/// Seconds that all vehicles spent on the lanelets, and metres that they drove there, from the rows of the table; and
+/// the same as the world counted them, with the number of those who left.
 fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
     let mut scenario = Scenario::of_map(path);

@@ -6,7 +6,8 @@ use laneweave::maps::{generate, lanelet2};
 use laneweave::scenario::{Origin, Prepared, Scenario, prepare};
 use laneweave::sim::World;
 
-/// The world of a map file with this seed and so many vehicles an hour, or with `share` of its estimated capacity if that is less, audited.
+/// The world of a map file with this seed and so many vehicles an hour, or with `share` of its estimated capacity if
+/// that is less, audited.
 fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
     let mut scenario = Scenario::of_map(map.into());
     scenario.run.audit = true;

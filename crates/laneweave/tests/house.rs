@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Most lines of a file, and of a function.
+/// Most lines of a file, and of a function; most columns of a comment.
 const FILE: usize = 400;
 const FUNCTION: usize = 70;
+const COMMENT: usize = 120;
 
 /// All source files of the workspace.
 fn files() -> Vec<PathBuf> {
@@ -42,6 +43,16 @@ fn functions(text: &str) -> Vec<(&str, usize)> {
         found.extend(length.map(|it| (name, it + 1)));
     }
     found
+}
+
+#[test]
+fn no_comment_is_wide() {
+    for path in files() {
+        let text = fs::read_to_string(&path).expect("it is text");
+        let mut wide = text.lines().zip(1..).filter(|(line, _)| line.trim_start().starts_with("//"));
+        let wide = wide.find(|(line, _)| line.chars().count() > COMMENT);
+        assert_eq!(wide, None, "{}", path.display());
+    }
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Vehicles that touch each other are told with their time and place: in the table `incidents`, and the first in the summary.
+//! Vehicles that touch each other are told with their time and place: in the table `incidents`, and the first in the
+//! summary.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,7 +55,8 @@ impl Run {
         prepared
     }
 
-    /// Runs on from the last checkpoint, if there is one, and up to `end` [s], where it breaks off if that is before its end.
+    /// Runs on from the last checkpoint, if there is one, and up to `end` [s], where it breaks off if that is before
+    /// its end.
     fn until(&self, end: f64) -> Option<(Summary, Vec<PathBuf>)> {
         let Run { scenario, keeper } = self;
         let mut prepared = self.prepared();

@@ -68,8 +68,8 @@ const BEGIN: f64 = 300.0;
 const MEASURED: f64 = 900.0;
 const DISSOLVES: f64 = 900.0;
 
-/// Vehicles that passed the end of one of three lanes, every 10 s, where `demand` [veh/h] comes. Afterwards nobody stands there for
-/// good.
+/// Vehicles that passed the end of one of three lanes, every 10 s, where `demand` [veh/h] comes. Afterwards nobody
+/// stands there for good.
 fn passed_a_drop(demand: f64, seed: u64) -> Vec<f64> {
     let rate = Rate::by_pieces(&[(0.0, demand), (BEGIN + MEASURED, 0.0)]).expect("a rate");
     let mut world = world(road(3, Some(2000.0)), rate, seed);

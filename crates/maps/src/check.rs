@@ -23,8 +23,8 @@ pub fn check(network: &Network) -> Vec<Problem> {
     problems
 }
 
-/// Lanelets that run side by side along borders of their own, so that nobody can change between them. Where lanes part or
-/// come together they do so for a while.
+/// Lanelets that run side by side along borders of their own, so that nobody can change between them. Where lanes part
+/// or come together they do so for a while.
 fn double_borders(network: &Network) -> impl Iterator<Item = Problem> {
     let mut previous: Vec<Vec<LaneletIndex>> = vec![Vec::new(); network.lanelets.len()];
     for (lanelet, index) in network.lanelets.iter().zip(0..) {
@@ -60,7 +60,8 @@ fn are_together(network: &Network, left: &[LaneletIndex], right: &[LaneletIndex]
     })
 }
 
-/// Lanelets that begin, or end, just where another one ends, or begins, without being joined to it, and to nothing else.
+/// Lanelets that begin, or end, just where another one ends, or begins, without being joined to it, and to nothing
+/// else.
 fn broken_joints(network: &Network) -> Vec<Problem> {
     let lanelets = &network.lanelets;
     let mut has_previous = vec![false; lanelets.len()];

@@ -185,7 +185,8 @@ impl Drawing {
         if edge.reversed { (last, first) } else { (first, last) }
     }
 
-    /// Whether two lanes lie on either side of a border, or one begins or ends where the other does in some direction of travel.
+    /// Whether two lanes lie on either side of a border, or one begins or ends where the other does in some direction
+    /// of travel.
     fn are_joined(&self, a: &Lane, b: &Lane) -> bool {
         let is_beside = a.left == b.right || a.right == b.left;
         let is_opposite = a.left == b.left.reversed() || a.right == b.right.reversed();

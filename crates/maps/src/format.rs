@@ -105,8 +105,8 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     (format.read)(&bytes, options)
 }
 
-/// The text of the compressed file at `path`. It is unpacked twice: the first time only to know its size, so that nothing is kept of
-/// one that is too large.
+/// The text of the compressed file at `path`. It is unpacked twice: the first time only to know its size, so that
+/// nothing is kept of one that is too large.
 fn unpacked(path: &Path, largest: Size) -> Result<Vec<u8>, MapError> {
     let open = || File::open(path).map(MultiGzDecoder::new).map_err(MapError::Unreadable);
     let size = io::copy(&mut open()?.take(largest.0 + 1), &mut io::sink()).map_err(MapError::Compressed)?;

@@ -49,7 +49,8 @@ pub struct Node {
 }
 
 impl Graph {
-    /// The graph of lanelets that are linked already, all of them driven in their own direction, and what is wrong with it.
+    /// The graph of lanelets that are linked already, all of them driven in their own direction, and what is wrong with
+    /// it.
     pub(crate) fn of(lanelets: &[Lanelet]) -> (Graph, Vec<Problem>) {
         let index = |it: LaneletIndex| NodeIndex(it.0);
         let mut nodes: Vec<Node> = (0..lanelets.len()).map(|it| node(it, false)).collect();
@@ -90,8 +91,8 @@ fn outline(lanelet: &Lanelet) -> Option<Polygon> {
 
 /// The links between `lanes`.
 ///
-/// A lane follows another if it begins at the two points at which the other one ends. Lanes are neighbours if they share a
-/// border and run along it in the same direction; of several neighbours on one side the first is taken.
+/// A lane follows another if it begins at the two points at which the other one ends. Lanes are neighbours if they
+/// share a border and run along it in the same direction; of several neighbours on one side the first is taken.
 pub(crate) fn nodes(drawing: &Drawing, lanes: &[Lane]) -> Vec<Node> {
     let (ways, mut nodes): (Vec<Way>, Vec<Node>) = ways(lanes).unzip();
     let starts = sorted(&ways, |way| drawing.starts(way.left, way.right));
@@ -166,8 +167,8 @@ pub(crate) fn add_two_way(conflicting: &mut [Vec<LaneletIndex>], nodes: &[Node])
     }
 }
 
-/// Links `lanelets`, which are those of the forward `nodes`, with each other; simulated traffic uses lanelets in their own
-/// direction only.
+/// Links `lanelets`, which are those of the forward `nodes`, with each other; simulated traffic uses lanelets in their
+/// own direction only.
 pub(crate) fn link(lanelets: &mut [Lanelet], nodes: &[Node]) {
     let forward = |it: NodeIndex| Some(&nodes[it.at()]).filter(|it| !it.is_backward).map(|it| it.lanelet);
     for (lanelet, node) in lanelets.iter_mut().zip(nodes) {

@@ -1,9 +1,10 @@
 //! The sensible ways from one lanelet to another.
 //!
-//! Lanelets between which lane changes are allowed are one *section* of road, and so are those that lead from the same section
-//! to the same section, as lanes do across a junction: ways that differ only in where lanes are changed are one way. A way is
-//! sensible if it enters no section twice and takes not much longer than the best one. Of ways over the same *roads*, which are
-//! sections side by side whether or not a change between them is allowed, the fastest is named, and the others are counted.
+//! Lanelets between which lane changes are allowed are one *section* of road, and so are those that lead from the same
+//! section to the same section, as lanes do across a junction: ways that differ only in where lanes are changed are one
+//! way. A way is sensible if it enters no section twice and takes not much longer than the best one. Of ways over the
+//! same *roads*, which are sections side by side whether or not a change between them is allowed, the fastest is named,
+//! and the others are counted.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -325,7 +326,8 @@ fn joined(graph: &Graph, sections: &[u32]) -> Vec<u32> {
     number.collect()
 }
 
-/// For each node the least time from its beginning to the end of `goal` [s]; infinite where no way leads there (Dijkstra).
+/// For each node the least time from its beginning to the end of `goal` [s]; infinite where no way leads there
+/// (Dijkstra).
 fn remaining(graph: &Graph, times: &[f64], goal: NodeIndex) -> Vec<f64> {
     let mut beside: Vec<Vec<NodeIndex>> = vec![Vec::new(); graph.nodes.len()];
     for (here, node) in graph.nodes.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! XML as a stream of elements with their lines, within limits: what all formats that are XML share. Names and attributes are
-//! borrowed from the file.
+//! XML as a stream of elements with their lines, within limits: what all formats that are XML share. Names and
+//! attributes are borrowed from the file.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -73,8 +73,8 @@ pub struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    /// Its attributes in order, unescaped. One that is given twice comes twice: to look for such doubles would take time
-    /// quadratic in their number.
+    /// Its attributes in order, unescaped. One that is given twice comes twice: to look for such doubles would take
+    /// time quadratic in their number.
     pub fn attributes(&self) -> impl Iterator<Item = Result<(&'a str, Cow<'a, str>), XmlError>> + use<'a> {
         let line = self.line;
         let mut attributes = Attributes::new(self.content, self.name.len());
@@ -212,8 +212,8 @@ impl<'a> Tokens<'a> {
         Tokens { reader, text, root, has_root: false, counted: 0, line: 1, depth: 0, is_empty: false }
     }
 
-    /// The tokens of the rest of a file that begins inside of its outermost element, between two others. Lines are counted
-    /// from there.
+    /// The tokens of the rest of a file that begins inside of its outermost element, between two others. Lines are
+    /// counted from there.
     pub(crate) fn inside(rest: &'a str, root: &'static str) -> Tokens<'a> {
         let mut tokens = Tokens { has_root: true, depth: 1, ..Tokens::of(rest, root) };
         tokens.reader.config_mut().allow_unmatched_ends = true;
@@ -324,7 +324,8 @@ fn lines(bytes: &[u8]) -> usize {
     memchr::memchr_iter(b'\n', bytes).count()
 }
 
-/// The text for which `reference` stands. What a document defines itself is refused: such entities can grow without bound.
+/// The text for which `reference` stands. What a document defines itself is refused: such entities can grow without
+/// bound.
 fn resolved(reference: &BytesRef, line: usize) -> Result<String, XmlError> {
     match reference.resolve_char_ref().map_err(|error| broken(line, error))? {
         Some(character) => Ok(character.into()),

@@ -17,8 +17,8 @@ fn read(file: &str) -> Option<Map> {
     Some(load(&path, &ReadOptions::default()).expect("the map is sound"))
 }
 
-/// Lanelets for cars, pairs that follow, left and right changes, left and right neighbours without, conflicts seen from both
-/// sides, problems.
+/// Lanelets for cars, pairs that follow, left and right changes, left and right neighbours without, conflicts seen from
+/// both sides, problems.
 type Counts = [usize; 8];
 
 fn counts(map: &Map) -> Counts {

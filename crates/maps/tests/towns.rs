@@ -277,7 +277,8 @@ fn every_way_into_a_roundabout_gives_way_to_the_ring() {
         let [street, way_in] = &yielding[..] else { panic!("{yielding:?}") };
         assert_eq!(lanelet(&map, *street).speed_limit, STREET);
         let onto = |id: i64| lanelet(&map, id).following.clone();
-        // The piece of the ring before the arm, then the one in front of it, which leads onto the same lanelet as the way in.
+        // The piece of the ring before the arm, then the one in front of it, which leads onto the same lanelet as the
+        // way in.
         assert_eq!(onto(first[1]).last(), onto(*way_in).last());
         assert!(onto(first[0]).iter().any(|it| map.network.lanelets[it.at()].id == first[1]));
         assert!(turn(lanelet(&map, first[1])) > 0.0);

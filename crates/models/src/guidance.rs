@@ -1,4 +1,5 @@
-//! How a driver takes what it is told of travel times: bounded rationality. The paper has it in words; the forms are ours.
+//! How a driver takes what it is told of travel times: bounded rationality. The paper has it in words; the forms are
+//! ours.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,8 +22,8 @@ pub struct Guidance {
 }
 
 impl Default for Guidance {
-    /// A driver who knows the times, and goes by them if half a minute is to be gained; turns and lights count as much as
-    /// they take. Ours.
+    /// A driver who knows the times, and goes by them if half a minute is to be gained; turns and lights count as much
+    /// as they take. Ours.
     fn default() -> Guidance {
         Guidance {
             route_error: 0.0,

@@ -35,7 +35,8 @@ const MAXIMUM_ANGLE: f64 = 0.1;
 const MAXIMUM_HEIGHT: f64 = 2.0;
 /// Distance of the samples along a border [m].
 const SAMPLE: f64 = 1.0;
-/// Borders are sampled so far [m], so that a few points far apart do not take the time of many. Real lanelets are shorter.
+/// Borders are sampled so far [m], so that a few points far apart do not take the time of many. Real lanelets are
+/// shorter.
 const SAMPLED: f64 = 2000.0;
 
 impl Network {
@@ -116,8 +117,8 @@ struct Samples {
 impl Samples {
     /// Size of a cell [m]: what faces a sample lies in its own cell or one beside it.
     const CELL: f64 = 2.0;
-    /// No cell holds more samples, so that lanelets on one heap do not take time with the square of their number; where roads
-    /// are drawn in earnest a handful meet.
+    /// No cell holds more samples, so that lanelets on one heap do not take time with the square of their number; where
+    /// roads are drawn in earnest a handful meet.
     const MOST: usize = 64;
 
     fn of(lanelets: &[Lanelet], side: Side) -> Samples {

@@ -47,8 +47,8 @@ pub enum NetworkError {
 }
 
 impl Network {
-    /// A chain is cut at the next lanelet beyond a length between these [m]: long enough that what is done once for every
-    /// chain does not matter, short enough that a vehicle gets into the row of the others soon.
+    /// A chain is cut at the next lanelet beyond a length between these [m]: long enough that what is done once for
+    /// every chain does not matter, short enough that a vehicle gets into the row of the others soon.
     const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
     /// So much of a lane before a junction is too short for a change [m]. Ours.
     const ROOM_TO_CHANGE: f64 = 15.0;
@@ -148,8 +148,8 @@ impl Network {
         left
     }
 
-    /// Where on a chain nobody changes lanes [m]: before and within junctions, those right before its start, too, and while
-    /// it is still one with others that fork off.
+    /// Where on a chain nobody changes lanes [m]: before and within junctions, those right before its start, too, and
+    /// while it is still one with others that fork off.
     fn taken_on(&self, index: ChainIndex) -> Vec<[f64; 2]> {
         let chain = self.chain(index);
         let before = chain.previous.iter().flat_map(|it| {
@@ -167,8 +167,8 @@ impl Network {
         &self.chains[index.at()]
     }
 
-    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough to change from the one to the other with a
-    /// car, or with a long vehicle [m]; the first beyond the last if nowhere.
+    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough to change from the one to
+    /// the other with a car, or with a long vehicle [m]; the first beyond the last if nowhere.
     pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
         let there = self.chain(stretch.chain);
         if !(chain.is_narrow || there.is_narrow) {

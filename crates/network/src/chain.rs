@@ -88,8 +88,8 @@ impl Beside {
 
     /// What is left of the stretch outside of those `taken` [m], in order; pieces too short for a change are left out.
     pub(crate) fn without(&self, mut taken: Vec<[f64; 2]>) -> Vec<Beside> {
-        /// Shortest piece [m], and way to its end from the place that was taken before: who comes from there has to get its
-        /// rear out of it first. Ours.
+        /// Shortest piece [m], and way to its end from the place that was taken before: who comes from there has to get
+        /// its rear out of it first. Ours.
         const SHORTEST: f64 = 1.0;
         const SHORTEST_AFTER: f64 = 25.0;
         taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -134,7 +134,8 @@ impl Chain {
         stretches[..after].last().filter(|it| station <= it.end)
     }
 
-    /// Where the last stretch begins from which a change is allowed, to either side; stretches that go on in each other are one [m].
+    /// Where the last stretch begins from which a change is allowed, to either side; stretches that go on in each other
+    /// are one [m].
     pub fn last_window(&self) -> Option<f64> {
         let begin = |side: Side| {
             let mut begin: Option<f64> = None;

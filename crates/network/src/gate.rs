@@ -15,9 +15,9 @@ pub struct Gate {
     pub chains: Vec<ChainIndex>,
 }
 
-/// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long.
-/// A lanelet whose group holds one that is not open is a lane that begins, or ends, beside a continuing one; one alone, from which no
-/// other can be reached, is no gate where there are others.
+/// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long. A
+/// lanelet whose group holds one that is not open is a lane that begins, or ends, beside a continuing one; one alone,
+/// from which no other can be reached, is no gate where there are others.
 pub(crate) fn gates(
     lanelets: &[Lanelet],
     chain_of: &[ChainIndex],

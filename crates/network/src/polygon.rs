@@ -1,6 +1,6 @@
-//! Simple polygons, and whether two of them cover common ground. Which side of a line a point lies on is decided exactly
-//! (Shewchuk 1997, Adaptive precision floating-point arithmetic and fast robust geometric predicates), so the answers do not
-//! depend on how close a touch is.
+//! Simple polygons, and whether two of them cover common ground. Which side of a line a point lies on is decided
+//! exactly (Shewchuk 1997, Adaptive precision floating-point arithmetic and fast robust geometric predicates), so the
+//! answers do not depend on how close a touch is.
 
 use robust::{Coord, orient2d};
 
@@ -131,7 +131,8 @@ impl Polygon {
                 return Place::Edge;
             }
             let (below, above) = (edge.from[1] <= point[1], edge.to[1] <= point[1]);
-            // The ray to the right crosses an upward edge if the point lies to its left, a downward one if to its right.
+            // The ray to the right crosses an upward edge if the point lies to its left, a downward one if to its
+            // right.
             if below != above && (side > 0.0) == below {
                 is_inside = !is_inside;
             }

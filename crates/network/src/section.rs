@@ -108,8 +108,8 @@ fn ways_in(lanelets: &[Lanelet]) -> Vec<usize> {
     ways_in
 }
 
-/// By how much the direction changes from the end of `from` along `to` and what alone continues it, until it meets others
-/// or for 30 m, ours [rad].
+/// By how much the direction changes from the end of `from` along `to` and what alone continues it, until it meets
+/// others or for 30 m, ours [rad].
 fn angle(lanelets: &[Lanelet], ways_in: &[usize], from: LaneletIndex, to: LaneletIndex) -> f64 {
     const JUNCTION: f64 = 30.0;
     let before = &lanelets[from.at()].centre;

@@ -25,8 +25,8 @@ const LEAST_FACTOR: f64 = 0.1;
 
 impl Assumed {
     /// A driver of `character` who wants to drive as it did for most of the time that it was seen: its speed factor is
-    /// that which it stayed below for 85 % of that time, at least 0.1 and at most 1. Who was held up all the time wants too
-    /// little.
+    /// that which it stayed below for 85 % of that time, at least 0.1 and at most 1. Who was held up all the time wants
+    /// too little.
     pub fn by_its_speeds(matched: &Matched<'_>, track: usize, character: u32) -> Assumed {
         let (track, places) = (&matched.recording.tracks[track], &matched.places[track]);
         let class = class_of(track.class);
@@ -70,8 +70,8 @@ impl Driver {
         allowed(self.class, limit) * self.assumed.speed_factor
     }
 
-    /// Onto which of `following` it goes on from where it is in state number `at`. Where branches still overlap the match
-    /// may begin with another one: the last counts.
+    /// Onto which of `following` it goes on from where it is in state number `at`. Where branches still overlap the
+    /// match may begin with another one: the last counts.
     pub(crate) fn next(&self, at: usize, following: &[ChainIndex]) -> Option<ChainIndex> {
         let later = self.chains.iter().filter(|(first, _)| *first > at).map(|(_, chain)| *chain);
         let is_following = |it: &ChainIndex| following.contains(it);
@@ -112,7 +112,8 @@ pub(crate) fn drivers(
     drivers
 }
 
-/// Where each vehicle goes: to the exit that is easiest from where it was last seen. A vehicle that left the map was there.
+/// Where each vehicle goes: to the exit that is easiest from where it was last seen. A vehicle that left the map was
+/// there.
 fn goals(
     matched: &Matched<'_>,
     navigator: &Navigator,

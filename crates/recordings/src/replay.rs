@@ -1,10 +1,10 @@
-//! Recorded traffic as its drivers see it: each frame is a [`Scene`], in which `perceive` gives the situation of a driver
-//! as it does in a simulated one.
+//! Recorded traffic as its drivers see it: each frame is a [`Scene`], in which `perceive` gives the situation of a
+//! driver as it does in a simulated one.
 //!
 //! Observed: place, speed, acceleration, length; from what came later, where a vehicle goes, and from when to when it
-//! changes lanes, during which it stands in both. Assumed by the caller: the driver's character and desired speed. Not to
-//! be seen in a recording: who waits for a gap, so that [`Situation::merging`] stays empty, and who accepts a shorter
-//! gap for now.
+//! changes lanes, during which it stands in both. Assumed by the caller: the driver's character and desired speed. Not
+//! to be seen in a recording: who waits for a gap, so that [`Situation::merging`] stays empty, and who accepts a
+//! shorter gap for now.
 
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
@@ -63,9 +63,9 @@ impl<'a> Replay<'a> {
     /// A recording with all its lane `changes`, seen by drivers of `characters` who find their ways by `navigator`.
     /// `assume` says for each track, by its place in the recording, what its driver is like.
     ///
-    /// Each vehicle goes where it went. Where the recording ends before it left the map, it is taken to go to the exit that
-    /// needs the fewest lane changes from there, and of several the least time; so it is as long as permitted changes do
-    /// not lead where it went.
+    /// Each vehicle goes where it went. Where the recording ends before it left the map, it is taken to go to the exit
+    /// that needs the fewest lane changes from there, and of several the least time; so it is as long as permitted
+    /// changes do not lead where it went.
     ///
     /// # Errors
     /// If somebody is given a character that there is not, or a desired speed not above 0.
@@ -137,7 +137,8 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Chain and station [m] of the front bumper, `half` a vehicle's length ahead of the foot of its centre on `lanelet`.
+    /// Chain and station [m] of the front bumper, `half` a vehicle's length ahead of the foot of its centre on
+    /// `lanelet`.
     fn front(&self, lanelet: LaneletIndex, foot: &Foot, half: f64) -> Option<(ChainIndex, f64)> {
         let (chain, start) = self.stands[lanelet.at()];
         let beyond = if foot.station > 0.0 { foot.beyond } else { -foot.beyond };
@@ -146,8 +147,8 @@ impl<'a> Replay<'a> {
         is_near.then_some((chain, start + foot.station + beyond + half))
     }
 
-    /// The same place where it lies beyond the end of the chain: on the chain onto which the driver goes on. `None` beyond
-    /// an exit.
+    /// The same place where it lies beyond the end of the chain: on the chain onto which the driver goes on. `None`
+    /// beyond an exit.
     fn onward(
         &self,
         driver: &Driver,

@@ -2,9 +2,9 @@
 //!
 //! y(t) = A + (B − A) (10 τ³ − 15 τ⁴ + 6 τ⁵), τ = (t − t₀)/(t₁ − t₀), least squares over t₀, t₁, A and B.
 //!
-//! It begins and ends without lateral speed and acceleration, so that no single position shows when; all of them together
-//! do, to less than a tenth of a second under 10 cm of noise. A slow vehicle needs way, not time: where one drives below
-//! the speed at which the usual change takes the least way, t runs slower.
+//! It begins and ends without lateral speed and acceleration, so that no single position shows when; all of them
+//! together do, to less than a tenth of a second under 10 cm of noise. A slow vehicle needs way, not time: where one
+//! drives below the speed at which the usual change takes the least way, t runs slower.
 
 use laneweave_models::change::moved_share;
 use laneweave_network::{LaneletIndex, Point};
@@ -42,8 +42,8 @@ const LEAST_WAY: f64 = 25.0;
 const LENGTHS: f64 = 3.0;
 /// Share of its usual pace at which a change goes on at standstill; as simulated.
 const SLOWEST: f64 = 0.2;
-/// How much it counts that drivers keep near the middle of their lanes, in states: positions are off by 0.1 m, drivers by
-/// 0.3 m.
+/// How much it counts that drivers keep near the middle of their lanes, in states: positions are off by 0.1 m, drivers
+/// by 0.3 m.
 const KEEPING: f64 = 0.1;
 /// Speeds are smoothed over so much before and after [s].
 const SPEED_REACH: f64 = 0.25;

@@ -3,9 +3,10 @@
 //! perceive → decide → drive on one snapshot, then advance, then resolve what concerns two lanes, then enter and
 //! observe. The order of vehicles and the number of threads change nothing, bit for bit.
 //!
-//! The code lies in wings, of which each imports from those before it only: `state` what there is; `route` which lanes lead where;
-//! `junction` who holds which conflict zone; `view` one instant as it is seen; `demand` who comes; `record` what is remembered;
-//! `right_of_way` who may pass; `driver` what a driver does; `step` the only part that changes a world; `ask` questions about it.
+//! The code lies in wings, of which each imports from those before it only: `state` what there is; `route` which lanes
+//! lead where; `junction` who holds which conflict zone; `view` one instant as it is seen; `demand` who comes; `record`
+//! what is remembered; `right_of_way` who may pass; `driver` what a driver does; `step` the only part that changes a
+//! world; `ask` questions about it.
 
 mod ask;
 mod demand;
@@ -34,7 +35,7 @@ pub use driver::perceive::{driver, perceive};
 pub use junction::passages::Passages;
 pub use junction::signals::Signals;
 pub use record::counts::Counts;
-pub use record::events::{Event, LaneChange};
+pub use record::events::{DrivingEvent, DrivingEventKind, Event, LaneChange};
 pub use record::incidents::{Incident, IncidentKind};
 pub use record::journal::TripRecord;
 pub use record::ledger::Stay;

@@ -314,8 +314,8 @@ const SPEED: f64 = 18.0;
 /// How many pass.
 const PASSING: usize = 60;
 
-/// A truck stands at the end of its lane, beside a row of `passing` drivers who follow each other closely, the first of whom is
-/// beside it.
+/// A truck stands at the end of its lane, beside a row of `passing` drivers who follow each other closely, the first of
+/// whom is beside it.
 fn truck_beside(passing: Style) -> World {
     let plan = Motorway {
         lanes: 2,

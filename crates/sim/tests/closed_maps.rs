@@ -38,7 +38,8 @@ fn world(network: Network, places: Places, total: f64, seed: u64) -> World {
         .expect("the set-up makes sense")
 }
 
-/// Runs `world` and checks in every step that nobody is lost and that who left was at its place inside the map; returns how many left.
+/// Runs `world` and checks in every step that nobody is lost and that who left was at its place inside the map; returns
+/// how many left.
 fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
     /// Nobody drives faster [m/s].
     const FASTEST: f64 = 60.0;

@@ -1,5 +1,5 @@
-//! The order of vehicles, of chains and of threads changes nothing, bit for bit; nor does a mirror, nor what drivers leave
-//! unseen because a bound of the gain is enough.
+//! The order of vehicles, of chains and of threads changes nothing, bit for bit; nor does a mirror, nor what drivers
+//! leave unseen because a bound of the gain is enough.
 
 mod roads;
 

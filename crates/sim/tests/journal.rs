@@ -2,7 +2,7 @@
 
 use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::{Map, regulations};
-use laneweave_sim::{Event, Setup, TripRecord, World};
+use laneweave_sim::{DrivingEvent, DrivingEventKind, Event, Setup, TripRecord, World};
 
 mod roads;
 use roads::{Road, drivers};
@@ -49,7 +49,8 @@ fn add_up(mut world: World, steps: u32) {
     assert_eq!(sum(|it| it.missed_turns), tally.missed_turns);
     assert!(sum(|it| it.stops) >= counts.stops && counts.left > 100, "{counts:?}");
     assert!(sum(|it| it.lane_changes) > 50);
-    // In a bend the lanes beside each other differ in length; who came to a halt within a step is a few centimetres off.
+    // In a bend the lanes beside each other differ in length; who came to a halt within a step is a few centimetres
+    // off.
     let way: f64 = records.iter().map(|(_, way)| way).sum();
     assert!((way / tally.distance - 1.0).abs() < 1e-3, "{way} of {} m", tally.distance);
 }
@@ -103,4 +104,34 @@ fn without_a_journal_nothing_is_recorded_and_traffic_is_the_same() {
     assert_eq!(plain.state_hash(), recorded.state_hash());
     assert!(plain.vehicles().all(|it| plain.trip(it.id()).is_none()) && plain.on_road() > 0);
     assert!(recorded.vehicles().all(|it| recorded.trip(it.id()).is_some()));
+}
+
+#[test]
+fn what_happens_on_the_way_is_told_with_who_where_and_when_as_often_as_it_is_counted() {
+    let town =
+        grid(&Grid { rows: 3, columns: 3, ..Grid::default() }).expect("a town").build().expect("a network");
+    let mut world = world(&town, 6000.0);
+    let mut told: Vec<DrivingEvent> = Vec::new();
+    let mut stands = std::collections::BTreeSet::new();
+    for _ in 0..6000 {
+        let before = world.clock().time();
+        world.step();
+        for event in world.events() {
+            let Event::Driving(event) = event else { continue };
+            assert_eq!(event.time, before);
+            assert!((0.0..=world.network().chain(event.chain).length).contains(&event.x), "{event:?}");
+            match event.kind {
+                DrivingEventKind::Halt => assert!(stands.insert(event.vehicle), "{event:?}"),
+                DrivingEventKind::SetOff { stood } => assert!(stands.remove(&event.vehicle) && stood > 0.0),
+                _ => {}
+            }
+            told.push(*event);
+        }
+    }
+    let count = |kind| told.iter().filter(|it| it.kind == kind).count() as u64;
+    let tally = world.tally();
+    assert_eq!(count(DrivingEventKind::EmergencyBraking), tally.emergency_brakings);
+    assert_eq!(count(DrivingEventKind::MissedTurn), tally.missed_turns);
+    assert_eq!(count(DrivingEventKind::RouteChange), tally.route_changes);
+    assert!(count(DrivingEventKind::Halt) >= world.counts().stops && world.counts().stops > 500);
 }

@@ -49,7 +49,8 @@ fn mobil(style: Style, traffic: Traffic) -> Style {
     Style { change: LaneChangeModel::Mobil(Mobil { traffic, ..Mobil::default() }), ..style }
 }
 
-/// Whether a driver of MOBIL on the slow lane is ahead, after a minute, of one who drives `speed` [m/s] on the fast lane.
+/// Whether a driver of MOBIL on the slow lane is ahead, after a minute, of one who drives `speed` [m/s] on the fast
+/// lane.
 fn passes(style: Style, speed: f64, is_mirrored: bool) -> bool {
     let network = Road { lanes: 2, length: 4000.0, is_mirrored, ..Road::default() }.network();
     let mut world = among_unyielding(network, style, &[(0, 300.0, speed), (1, 360.0, speed)]);

@@ -1,4 +1,5 @@
-//! What is kept of trips: how long they took beyond the free travel time, how often vehicles stopped, and why they wait.
+//! What is kept of trips: how long they took beyond the free travel time, how often vehicles stopped, and why they
+//! wait.
 
 #[path = "roads/drivers.rs"]
 mod drivers;

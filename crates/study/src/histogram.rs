@@ -75,8 +75,8 @@ impl Histogram {
         self.bins.iter().map(move |it| *it as f64 / total)
     }
 
-    /// The histogram without its empty bins at either end, as far as `others` have none there either, and nobody lies beyond;
-    /// from a first bin at zero on none are left out. The bins are all the same.
+    /// The histogram without its empty bins at either end, as far as `others` have none there either, and nobody lies
+    /// beyond; from a first bin at zero on none are left out. The bins are all the same.
     pub fn trimmed(&self, others: &[&Histogram]) -> Histogram {
         let all = || others.iter().copied().chain([self]);
         let is_used = |bin: &usize| all().any(|it| it.bins.get(*bin).is_some_and(|count| *count > 0));
@@ -91,8 +91,8 @@ impl Histogram {
         Histogram { from, bins: self.bins[first..=last].to_vec(), ..*self }
     }
 
-    /// The value below which a `share` of all lies, within its bin as if they were spread evenly; `None` without any value,
-    /// or outside the bins.
+    /// The value below which a `share` of all lies, within its bin as if they were spread evenly; `None` without any
+    /// value, or outside the bins.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let mut left = share * self.total() as f64 - self.outside[0] as f64;
         if left < 0.0 || self.total() == 0 {

@@ -1,7 +1,8 @@
 //! How readily drivers come back to a lane, from whether they did: α of P = 1 − e^(−αx) by maximum likelihood.
 //!
-//! x = T_h S, headway times remaining distance. A generalized linear model with complementary log-log link and the offset ln x, which
-//! has one parameter: its likelihood has one maximum, where the score Σ [y x e^(−αx)/(1 − e^(−αx)) − (1 − y) x] vanishes.
+//! x = T_h S, headway times remaining distance. A generalized linear model with complementary log-log link and the
+//! offset ln x, which has one parameter: its likelihood has one maximum, where the score Σ [y x e^(−αx)/(1 − e^(−αx)) −
+//! (1 − y) x] vanishes.
 
 use libm::expm1;
 
@@ -14,8 +15,8 @@ pub struct Attempt {
     pub came_back: f64,
 }
 
-/// α [1/(s·m)] that makes the `attempts` likeliest; `None` where all came back or nobody did, or there are none: any larger, or
-/// smaller, α would do better.
+/// α [1/(s·m)] that makes the `attempts` likeliest; `None` where all came back or nobody did, or there are none: any
+/// larger, or smaller, α would do better.
 pub fn returning_rate(attempts: &[Attempt]) -> Option<f64> {
     const HALVINGS: u32 = 200;
     let score = |alpha: f64| -> f64 {

@@ -1,7 +1,7 @@
 //! The queue at a traffic light whose arrivals and departures are even (D/D/1): what a simulated queue is held against.
 //!
-//! During red, r = C − g, the queue grows to q r; in green it shrinks with s − q and is gone after q r/(s − q). Mean delay over all
-//! who come: r²/(2 C (1 − q/s)), the first term of Webster (1958, from memory).
+//! During red, r = C − g, the queue grows to q r; in green it shrinks with s − q and is gone after q r/(s − q). Mean
+//! delay over all who come: r²/(2 C (1 − q/s)), the first term of Webster (1958, from memory).
 
 /// A light, and who comes to it.
 #[derive(Clone, Copy, Debug, PartialEq)]

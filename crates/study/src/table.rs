@@ -266,7 +266,8 @@ impl TableWriter {
         TableWriter::create_with(path, format, columns, &[])
     }
 
-    /// The same with `notes` about the table, keys with their values, where the format has a place for them: in Parquet.
+    /// The same with `notes` about the table, keys with their values, where the format has a place for them: in
+    /// Parquet.
     ///
     /// # Errors
     /// If the file cannot be created or written.

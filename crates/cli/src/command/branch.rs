@@ -21,7 +21,8 @@ pub(crate) struct Arguments {
     /// From when on something is otherwise, in seconds as in the tables.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     at: f64,
-    /// What is otherwise: a key of all styles (style.speed.weight=2), or of one (aggressive.follow.time_gap=0.9); may be repeated.
+    /// What is otherwise: a key of all styles (style.speed.weight=2), or of one (aggressive.follow.time_gap=0.9); may
+    /// be repeated.
     #[arg(long = "set", value_name = "STYLE.KEY=VALUE")]
     settings: Vec<Setting>,
     /// Folder of the differences [default: OUT/branch].

@@ -32,7 +32,7 @@ pub(crate) use tips::with_tip;
 ///
 /// Without a command it runs the demo scenario, ten minutes of a town with a motorway through it, and writes into out/.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 100, after_help = examples::LANEWEAVE)]
+#[command(name = "laneweave", version, max_term_width = 100, after_help = examples::LANEWEAVE)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

@@ -101,8 +101,8 @@ impl Progress {
 mod tests {
     use super::*;
 
-    /// The lines that are written in a run that is watched every half of a second, and simulates five seconds in one, each with its
-    /// time on the wall [s].
+    /// The lines that are written in a run that is watched every half of a second, and simulates five seconds in one,
+    /// each with its time on the wall [s].
     fn lines(screen: Screen, wall: u32) -> Vec<(f64, String)> {
         let began = Instant::now();
         let mut progress = Progress::on(screen, began, 1000.0);

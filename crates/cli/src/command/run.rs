@@ -30,12 +30,13 @@ const LISTED_PROBLEMS: usize = 3;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz); with --resume the folder of results
-    /// of a run that broke off.
+    /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz); with --resume the
+    /// folder of results of a run that broke off.
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
-    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 70 % of its estimated capacity].
+    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 70 % of its estimated
+    /// capacity].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
@@ -48,14 +49,15 @@ pub(crate) struct Arguments {
     /// all styles of the scenario [default: aggressive=1 conservative=7.4].
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weighted)]
     style: Vec<(String, f64)>,
-    /// One lane-change model for all drivers, in place of those of their styles; with mobil-lanes and lmrs-lanes nobody leaves
-    /// the lanes of its route, null is mcdm without incentives, and constant-hazard changes without any reason.
+    /// One lane-change model for all drivers, in place of those of their styles; with mobil-lanes and lmrs-lanes nobody
+    /// leaves the lanes of its route, null is mcdm without incentives, and constant-hazard changes without any reason.
     #[arg(long, value_parser = model())]
     model: Option<Model>,
     /// Seed of all random draws [default: 1].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// Number of threads, 1 to 256; results do not depend on it [default: the cores of the machine, but for one that writes trajectories if they are recorded; at most 2].
+    /// Number of threads, 1 to 256; results do not depend on it [default: the cores of the machine, but for one that
+    /// writes trajectories if they are recorded; at most 2].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     threads: Option<NonZero<usize>>,
     /// Simulated seconds before anything is measured or recorded [default: 0].
@@ -70,7 +72,8 @@ pub(crate) struct Arguments {
     /// Seconds between two samples of a trajectory, a multiple of the step; 0: no trajectories [default: 1].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     record: Option<f64>,
-    /// Seconds over which flow, density and speed of every lanelet are measured, a multiple of the step; 0: they are not [default: 0].
+    /// Seconds over which flow, density and speed of every lanelet are measured, a multiple of the step; 0: they are
+    /// not [default: 0].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     flows: Option<f64>,
     /// Format of the tables [default: parquet].
@@ -79,11 +82,12 @@ pub(crate) struct Arguments {
     /// Files that are written as SUMO writes them, separated by commas: fcd, tripinfo, lanechange [default: none].
     #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
     sumo: Vec<SumoFile>,
-    /// Seconds of the run between two checkpoints, from which it can be resumed if it breaks off; 0: there are none [default: 0].
+    /// Seconds of the run between two checkpoints, from which it can be resumed if it breaks off; 0: there are none
+    /// [default: 0].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     checkpoint: Option<f64>,
-    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none; other options must say what the
-    /// run says, but for --threads, --quiet and --json.
+    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none; other options
+    /// must say what the run says, but for --threads, --quiet and --json.
     #[arg(long)]
     resume: bool,
     /// Look for overlapping vehicles at every step, not only once a second.

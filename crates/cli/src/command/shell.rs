@@ -34,7 +34,8 @@ impl Completions {
     }
 }
 
-/// The command as completions show it: files may be given as styles, too, so that what is parsed cannot be a list of names.
+/// The command as completions show it: files may be given as styles, too, so that what is parsed cannot be a list of
+/// names.
 fn naming_styles(command: Command) -> Command {
     let names = || PossibleValuesParser::new(BUILT_IN.iter().map(|it| it.name));
     let weighted = PossibleValuesParser::new(BUILT_IN.iter().map(|it| format!("{}=1", it.name)));

@@ -1,5 +1,5 @@
-//! The README and the book: what they tell to type works, what they show of it is what it prints, and their figures are what it
-//! draws.
+//! The README and the book: what they tell to type works, what they show of it is what it prints, and their figures are
+//! what it draws.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,8 +63,8 @@ fn examples(page: &Path) -> Vec<Example> {
     examples
 }
 
-/// A command as it is run here: nothing goes by way of the shell, and few seconds stand for many where nobody asks what became
-/// of them.
+/// A command as it is run here: nothing goes by way of the shell, and few seconds stand for many where nobody asks what
+/// became of them.
 fn shortened(command: &str, is_asked_about: bool) -> String {
     let line = command.split(" > ").next().unwrap().replace("~/", "home/").replace("$seed", "1");
     let is_short = is_asked_about || line.contains("--resume");

@@ -2,7 +2,8 @@
 
 use crate::program::{Folder, maps};
 
-/// A run of two minutes on the motorway with ramps, with CSV tables; and its first lane change: vehicle and time of the crossing.
+/// A run of two minutes on the motorway with ramps, with CSV tables; and its first lane change: vehicle and time of the
+/// crossing.
 fn run() -> (Folder, String, f64) {
     let folder = Folder::new();
     folder.summary("MAPS/ramps.osm --duration 120 --warmup 60 --record 0 --format csv");

@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use crate::program::Folder;
 
-/// A map of straight lines at these heights, each from one place to another [m], and of lanelets between two lines, each with its id.
+/// A map of straight lines at these heights, each from one place to another [m], and of lanelets between two lines,
+/// each with its id.
 fn map(lines: &[(i64, [f64; 2], f64)], lanelets: &[(i64, i64, i64)]) -> String {
     let mut text = String::from("<osm>");
     let nodes = |line: i64| [10 * line, 10 * line + 1];

@@ -200,7 +200,8 @@ fn who_drives_onto_a_lanelet_drives_off_it_or_is_still_there() {
     let changes =
         folder.read("out/lane_changes.csv").lines().filter(|it| it.ends_with(",completed")).count() as i64;
     assert_eq!([away, onto].map(|it| it.map(total).iter().sum::<i64>()), [changes; 2]);
-    // The road is two rows of lanelets, numbered row by row: whatever is between two of its ends entered and has not passed.
+    // The road is two rows of lanelets, numbered row by row: whatever is between two of its ends entered and has not
+    // passed.
     let trajectories = rows(&folder.read("out/trajectories.csv"));
     let last: Vec<&HashMap<String, String>> =
         trajectories.iter().filter(|it| it["time_s"] == "301.0").collect();

@@ -1,5 +1,5 @@
-//! Twins: the same traffic twice from a time on, once with one thing changed. All draws are equal, so every difference between the two
-//! is caused by that change.
+//! Twins: the same traffic twice from a time on, once with one thing changed. All draws are equal, so every difference
+//! between the two is caused by that change.
 
 mod differences;
 mod page;

@@ -12,7 +12,8 @@ const NAMED: usize = 25;
 /// Bins of how much later somebody left [s]: the first, their width and number.
 const LATER: (f64, f64, usize) = (-60.0, 1.0, 120);
 
-/// The report of `twins` after they were driven, with their `differences`, which come of `settings`, as the `command` was given.
+/// The report of `twins` after they were driven, with their `differences`, which come of `settings`, as the `command`
+/// was given.
 pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &str) -> Page {
     let lead = format!(
         "The same traffic twice from {:.1} s on, once with {settings}; compared by laneweave {}. All draws are equal: whatever differs \

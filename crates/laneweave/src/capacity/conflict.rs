@@ -7,8 +7,9 @@ use laneweave_network::{ChainIndex, Network};
 use super::movement::Movement;
 use super::{Bottleneck, Load, Roads};
 
-/// The loads of junctions without lights: of movements that all get in each other's way, of which only one can be on the junction (the
-/// conflict technique of Wu, 2000, Brilon and Wu, 2001), and of the lanes from which drivers give way.
+/// The loads of junctions without lights: of movements that all get in each other's way, of which only one can be on
+/// the junction (the conflict technique of Wu, 2000, Brilon and Wu, 2001), and of the lanes from which drivers give
+/// way.
 pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
     let at =
         |movement: &Movement| Bottleneck::Junction(roads.lanelet(movement.chain, movement.start.max(0.0)));
@@ -51,8 +52,8 @@ impl Approach {
         [sum(|_| true), sum(|it| it.before > 0.0)]
     }
 
-    /// How full it is when all flows are `growth` times as large: each of its movements takes gaps in the streams that go before it
-    /// (Siegloch, 1973), and on one lane they take turns (Harders, 1968).
+    /// How full it is when all flows are `growth` times as large: each of its movements takes gaps in the streams that
+    /// go before it (Siegloch, 1973), and on one lane they take turns (Harders, 1968).
     pub(super) fn fullness(&self, movements: &[Movement], growth: f64) -> f64 {
         self.movements.iter().map(|it| taken_up(movements, *it, growth, RANKS)).sum()
     }
@@ -78,9 +79,9 @@ impl Approach {
 /// So many movements one after the other give way to the next.
 const RANKS: u32 = 3;
 
-/// Of all the time, what a movement needs for its vehicles when all flows are `growth` times as large. It takes a gap only while none of
-/// those wait who go before it and give way to others (the impedance of the Highway Capacity Manual, from memory); up to `ranks` of
-/// them wait for each other.
+/// Of all the time, what a movement needs for its vehicles when all flows are `growth` times as large. It takes a gap
+/// only while none of those wait who go before it and give way to others (the impedance of the Highway Capacity Manual,
+/// from memory); up to `ranks` of them wait for each other.
 fn taken_up(movements: &[Movement], number: usize, growth: f64, ranks: u32) -> f64 {
     let Movement { flow, before, gap, follow_up, ref waits_for, .. } = movements[number];
     if flow == 0.0 {
@@ -93,8 +94,8 @@ fn taken_up(movements: &[Movement], number: usize, growth: f64, ranks: u32) -> f
     growth * flow * follow_up / (gaps * free)
 }
 
-/// Movements that all get in each other's way: the `first`, and as many of the others as can be, those that take most of the time
-/// before the others.
+/// Movements that all get in each other's way: the `first`, and as many of the others as can be, those that take most
+/// of the time before the others.
 fn clique(movements: &[Movement], first: usize) -> Vec<usize> {
     let mut members = vec![first];
     for rival in &movements[first].rivals {

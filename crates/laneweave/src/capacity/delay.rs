@@ -1,14 +1,15 @@
 //! What lights and other drivers make those wait who come to a junction.
 //!
-//! Both are the control delays of the Highway Capacity Manual (2010, chapters 18 to 20, from memory) for a quarter of an hour.
+//! Both are the control delays of the Highway Capacity Manual (2010, chapters 18 to 20, from memory) for a quarter of
+//! an hour.
 
 use super::SECONDS_PER_HOUR;
 
 /// How long the flows last [s].
 const PERIOD: f64 = 0.25 * SECONDS_PER_HOUR;
 
-/// Mean delay before a light [s] at which those who come at any time wait `mean_wait` [s] if nobody is there before them: `flow` of
-/// `capacity`, which passes during a `green` share of the time [veh/s].
+/// Mean delay before a light [s] at which those who come at any time wait `mean_wait` [s] if nobody is there before
+/// them: `flow` of `capacity`, which passes during a `green` share of the time [veh/s].
 pub(super) fn at_a_light(mean_wait: f64, green: f64, flow: f64, capacity: f64) -> f64 {
     /// Of lights that do not depend on who comes.
     const FIXED: f64 = 4.0;
@@ -39,7 +40,8 @@ mod tests {
     fn delays_are_those_of_the_formulas() {
         // c = 600 veh/h, x = 0.5: 6 s + 225 s (−0.5 + √(0.25 + 8 · 0.5 / 150)) + 5 s.
         assert!((giving_way(300.0 / 3600.0, 600.0 / 3600.0) - 16.848).abs() < 1e-3);
-        // A cycle of 60 s with 30 s of green, X = 0.8, c = 900 veh/h: 7.5 s / (1 − 0.4) + 225 s (−0.2 + √(0.04 + 4 · 0.8 / 225)).
+        // A cycle of 60 s with 30 s of green, X = 0.8, c = 900 veh/h: 7.5 s / (1 − 0.4) + 225 s (−0.2 + √(0.04 + 4 ·
+        // 0.8 / 225)).
         assert!((at_a_light(7.5, 0.5, 0.2, 0.25) - 19.893).abs() < 1e-3);
         assert_eq!(at_a_light(7.5, 0.5, 0.0, 0.25), 7.5);
     }

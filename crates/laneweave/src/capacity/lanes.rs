@@ -8,8 +8,8 @@ use super::{Bottleneck, Load, Roads, once, side_by_side, weaving};
 /// A light at a place of a lane is that of lanes beside it, too, if it is no further away [m].
 const BESIDE: f64 = 20.0;
 
-/// The loads of lanes: at the start of each part that is driven on and of each limit, and at each light. Those who may use several
-/// lanes side by side fill them together; those who are bound to one fill it alone.
+/// The loads of lanes: at the start of each part that is driven on and of each limit, and at each light. Those who may
+/// use several lanes side by side fill them together; those who are bound to one fill it alone.
 pub(super) fn loads(roads: &Roads) -> Vec<Load> {
     let mut lanes = Lanes { roads, streams: Vec::new(), lights: Vec::new(), left: Vec::new() };
     let mut loads = Vec::new();
@@ -60,8 +60,8 @@ impl Lanes<'_> {
         Load { share: (bound / capacity).max(flows / capacities), of }
     }
 
-    /// How full the lanes are at the last place at which some have to leave one of them; nothing before a light, where there is time
-    /// for it at red.
+    /// How full the lanes are at the last place at which some have to leave one of them; nothing before a light, where
+    /// there is time for it at red.
     fn load_by_changes(
         &mut self,
         Change { from: (chain, [start, last_place]), .. }: &Change,
@@ -136,7 +136,8 @@ impl Lanes<'_> {
         once(&mut self.lights, (light, limit), || self.roads.mixture(limit).through(program))
     }
 
-    /// The lanes to which one may change at a station of a chain [m], or shortly before a light there, each with the station there.
+    /// The lanes to which one may change at a station of a chain [m], or shortly before a light there, each with the
+    /// station there.
     fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<(ChainIndex, f64)> {
         /// Before a light lanes may no longer be changed for so long [m].
         const BEFORE_A_LIGHT: f64 = 100.0;

@@ -1,8 +1,8 @@
 //! The estimated capacity of a map: how many vehicles an hour it carries.
 //!
-//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a place inside the map, or a town as
-//! a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to carry is the demand along the usual
-//! ways; how much it can carry follows from the models of its drivers.
+//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a place
+//! inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to
+//! carry is the demand along the usual ways; how much it can carry follows from the models of its drivers.
 
 mod conflict;
 mod delay;
@@ -104,12 +104,13 @@ impl<'a> Roads<'a> {
 }
 
 impl Capacity {
-    /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each with its
-    /// weight.
+    /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each
+    /// with its weight.
     ///
-    /// Lanes carry what a long queue sends off, and side by side what is driven on a road like that; lights let pass what of a standing queue drives off at green; where ways meet without
-    /// a light, drivers take turns and gaps; and a town carries what it lets in. What is not looked at can only make it less: gaps that
-    /// nobody finds to change lanes, turns across oncoming traffic at green, queues that stand in each other's way.
+    /// Lanes carry what a long queue sends off, and side by side what is driven on a road like that; lights let pass
+    /// what of a standing queue drives off at green; where ways meet without a light, drivers take turns and gaps; and
+    /// a town carries what it lets in. What is not looked at can only make it less: gaps that nobody finds to change
+    /// lanes, turns across oncoming traffic at green, queues that stand in each other's way.
     pub fn new(
         network: &Network,
         assignment: &Assignment,

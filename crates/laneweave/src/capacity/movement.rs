@@ -106,12 +106,12 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
     all
 }
 
-/// Who gives way sees in the next step that the way is free, is given its passage at the end of that, and drives off in the one after: so
-/// long after on average, at the usual steps of 0.1 s [s].
+/// Who gives way sees in the next step that the way is free, is given its passage at the end of that, and drives off in
+/// the one after: so long after on average, at the usual steps of 0.1 s [s].
 const NOTICES_AFTER: f64 = 0.15;
 
-/// Sets the times of `movement`: who goes first keeps its headway; the others come from rest, and keep others away until their rears
-/// are clear.
+/// Sets the times of `movement`: who goes first keeps its headway; the others come from rest, and keep others away
+/// until their rears are clear.
 fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Movement) {
     let zones = &roads.network.junctions.zones;
     let goes_first = |(zone, side): &(usize, usize)| zones[*zone].precedence == Precedence::Side(*side as u8);

@@ -1,7 +1,8 @@
 //! What lanes side by side carry.
 //!
-//! Drivers who change lanes stand in two of them for some seconds, and leave gaps that nobody fills: lanes side by side carry less
-//! than as many single ones. How much they carry is driven: on a straight road, by the same drivers, of whom more come than can enter.
+//! Drivers who change lanes stand in two of them for some seconds, and leave gaps that nobody fills: lanes side by side
+//! carry less than as many single ones. How much they carry is driven: on a straight road, by the same drivers, of whom
+//! more come than can enter.
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
@@ -18,8 +19,8 @@ const COUNTED: f64 = 600.0;
 /// More than any lane carries [veh/h].
 const TOO_MANY: f64 = 3000.0;
 
-/// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, of whom more come than can
-/// enter [veh/s]; `None` if there is no such road.
+/// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, of whom more come
+/// than can enter [veh/s]; `None` if there is no such road.
 pub(super) fn flow(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet) -> Option<f64> {
     let road = Motorway {
         lanes,

@@ -48,7 +48,8 @@ impl<'a> Mixture<'a> {
         self.mean(|it| it.style.yielding.critical_gap)
     }
 
-    /// Flow of a long queue that drives off on an empty road [veh/s]: what a lane carries for good where nobody can overtake.
+    /// Flow of a long queue that drives off on an empty road [veh/s]: what a lane carries for good where nobody can
+    /// overtake.
     pub(super) fn stream(&self) -> f64 {
         const STEP_S: f64 = 0.2;
         /// The first of a queue drive off slower.
@@ -109,8 +110,8 @@ impl<'a> Mixture<'a> {
         queue.passed()
     }
 
-    /// The kind of the vehicle of this `number` in a queue in which kinds follow on each other evenly, `from` a place in their
-    /// order (0 to 1) on.
+    /// The kind of the vehicle of this `number` in a queue in which kinds follow on each other evenly, `from` a place
+    /// in their order (0 to 1) on.
     fn drawn(&self, from: f64, number: usize) -> &Kind<'a> {
         let mut at = (from + number as f64 * GOLDEN_RATIO).fract();
         let chosen = self.0.iter().position(|it| {

@@ -8,9 +8,9 @@ use super::delay;
 use super::movement::Movement;
 use super::{Bottleneck, Load, Roads, once};
 
-/// The load of all roads that lead in rings, if they are full before all flows are `most` times as large: who drives on them takes
-/// up room as long as it is there (Little's law), at its desired speed and with the delays at lights and junctions, which grow with
-/// the flows.
+/// The load of all roads that lead in rings, if they are full before all flows are `most` times as large: who drives on
+/// them takes up room as long as it is there (Little's law), at its desired speed and with the delays at lights and
+/// junctions, which grow with the flows.
 pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<Load> {
     const HALVINGS: u32 = 40;
     let metering = Metering::new(roads.network)?;

@@ -1,10 +1,11 @@
 //! What lane changes leave of a section's capacity.
 //!
-//! Who has to change lanes within a short section leaves gaps that nobody fills, the more the larger the share of those who do.
-//! The Highway Capacity Manual (2010, chapter 12, from memory) gives the capacity of a lane of a weaving section as
-//! c = c₀ − 438.2 (1 + VR)^1.6 + 0.0765 L + 119.8 N, with c₀ = 2,400 veh/h, VR the share of those who change, L the length of the section
-//! [ft], and N the number of lanes from which one change is enough, here 2; beyond L = 5728 (1 + VR)^1.6 − 1566 N it is no such
-//! section. Of what our drivers carry on a plain road we take the same share. Merges are looked at in the same way (ours).
+//! Who has to change lanes within a short section leaves gaps that nobody fills, the more the larger the share of those
+//! who do. The Highway Capacity Manual (2010, chapter 12, from memory) gives the capacity of a lane of a weaving
+//! section as c = c₀ − 438.2 (1 + VR)^1.6 + 0.0765 L + 119.8 N, with c₀ = 2,400 veh/h, VR the share of those who
+//! change, L the length of the section [ft], and N the number of lanes from which one change is enough, here 2; beyond
+//! L = 5728 (1 + VR)^1.6 − 1566 N it is no such section. Of what our drivers carry on a plain road we take the same
+//! share. Merges are looked at in the same way (ours).
 
 use laneweave_network::ChainIndex;
 use laneweave_sim::{Assignment, Change};
@@ -17,8 +18,8 @@ const METRES_PER_FOOT: f64 = 0.3048;
 /// Stretches are not told apart closer than this [m].
 const LEAST: f64 = 1.0;
 
-/// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left at the end of
-/// a section of `length` [m]. Who has more road for its change makes a part of it there.
+/// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left
+/// at the end of a section of `length` [m]. Who has more road for its change makes a part of it there.
 pub(super) fn left(assignment: &Assignment, lanes: &[(ChainIndex, f64)], flow: f64, length: f64) -> f64 {
     let changing = |it: &Change| {
         let ((chain, [start, end]), (to, [beside, _])) = (it.from, it.to);

@@ -41,15 +41,16 @@ const MUCH_SHORTER: f64 = 0.5;
 const TIME_TO_CHANGE: f64 = 5.0;
 /// Chains along which a stretch is followed. Ours.
 const MOST_CHAINS: usize = 6;
-/// Nobody drives with a greater lateral acceleration for long [m/s²]: twice what is felt to be comfortable (AASHTO's side
-/// friction of 0.2 at low speeds, from memory).
+/// Nobody drives with a greater lateral acceleration for long [m/s²]: twice what is felt to be comfortable (AASHTO's
+/// side friction of 0.2 at low speeds, from memory).
 const LATERAL: f64 = 4.0;
 /// Directions for the curvature of a lane are compared over this distance [m]; corners of drawn lines are closer. Ours.
 const SPAN: f64 = 10.0;
 /// The shortest distance for that [m]. Ours.
 const SHORTEST_SPAN: f64 = 4.0;
 
-/// All that applies to `map`, on whose network with its junctions trips start and end at `places`: what matters most comes first.
+/// All that applies to `map`, on whose network with its junctions trips start and end at `places`: what matters most
+/// comes first.
 pub(crate) fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Remark> {
     let all = [
         closed(places),
@@ -104,8 +105,8 @@ fn stretches(chain: &Chain) -> impl Iterator<Item = &Beside> {
     Side::BOTH.into_iter().flat_map(|side| chain.stretches(side))
 }
 
-/// How far, and how long at the limit, the longest stretch is that begins with `stretch` of `chain` and goes on along the
-/// chains that follow, at most so `many` [m, s].
+/// How far, and how long at the limit, the longest stretch is that begins with `stretch` of `chain` and goes on along
+/// the chains that follow, at most so `many` [m, s].
 fn run_of(network: &Network, chain: &Chain, stretch: &Beside, many: usize) -> (f64, f64) {
     /// Stretches that are nearer to each other are one [m].
     const NEAR: f64 = 1.0;
@@ -260,7 +261,8 @@ fn short_entrances(network: &Network, places: &Places) -> Option<Remark> {
     remark(what, "draw a longer road there")
 }
 
-/// From the start of `chain` to the first place where its drivers may have to stop, if there is one before it forks [m].
+/// From the start of `chain` to the first place where its drivers may have to stop, if there is one before it forks
+/// [m].
 fn room(network: &Network, chain: ChainIndex) -> Option<f64> {
     let on = network.junctions.on(chain);
     let stops = on.stops.iter().map(|it| it.station);
@@ -293,7 +295,8 @@ fn bends(network: &Network) -> Option<Remark> {
     remark(what, "lower speed_limit there if it matters")
 }
 
-/// The greatest curvature of `line` from one station to another [1/m], as far as the line goes half a span before and after.
+/// The greatest curvature of `line` from one station to another [1/m], as far as the line goes half a span before and
+/// after.
 fn curvature(line: &Polyline, from: f64, to: f64) -> f64 {
     // A turn at a junction is often shorter than three spans; on what is shorter still, a corner is no bend.
     let span = SPAN.min(line.length() / 3.0);

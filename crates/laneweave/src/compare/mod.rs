@@ -44,7 +44,8 @@ pub struct Comparison {
     pub trials: Vec<Trial>,
 }
 
-/// Drives `scenario` with each of the `models`, once however often it is named, and each of the `seeds`, so many runs at once as there are `threads`.
+/// Drives `scenario` with each of the `models`, once however often it is named, and each of the `seeds`, so many runs
+/// at once as there are `threads`.
 ///
 /// # Errors
 /// If the scenario cannot be driven.
@@ -98,8 +99,8 @@ impl Comparison {
         mean(&values)
     }
 
-    /// How much more of a measure `model` has than `other`, over the seeds in which there is something to measure for both: the
-    /// traffic that is to come is the same for both.
+    /// How much more of a measure `model` has than `other`, over the seeds in which there is something to measure for
+    /// both: the traffic that is to come is the same for both.
     pub fn difference(&self, model: Model, other: Model, measure: &Measure) -> Option<Estimate> {
         let of = |model: Model| self.trials.iter().filter(move |it| it.model == model);
         let pairs = of(model).zip(of(other)).filter(|(a, b)| a.seed == b.seed);

@@ -1,7 +1,8 @@
 //! The smallest change of one number that would have turned a decision.
 //!
-//! A gain is linear in the weights, so that for each there is one place on either side, if any, where the decision turns. It is
-//! found by bisection to the last bit, which also does for speeds and gaps, and for two sides that compete.
+//! A gain is linear in the weights, so that for each there is one place on either side, if any, where the decision
+//! turns. It is found by bisection to the last bit, which also does for speeds and gaps, and for two sides that
+//! compete.
 
 use laneweave_models::change::{Appraisal, Driver, Row, Situation};
 use laneweave_models::follow::{Ahead, Pace};
@@ -49,8 +50,8 @@ impl Flip {
     }
 }
 
-/// What would have turned the decision in `account`, made with time step `dt` [s]: the change that is smallest relative to its number
-/// first. Empty where there was nothing to decide, or no single number decides.
+/// What would have turned the decision in `account`, made with time step `dt` [s]: the change that is smallest relative
+/// to its number first. Empty where there was nothing to decide, or no single number decides.
 pub fn flips(account: &Account, dt: f64) -> Vec<Flip> {
     let mut found = match account.act {
         // At the last place for a change no number decides.
@@ -167,8 +168,8 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
             (suits(slower_ahead(by)) && suits(faster_behind(by)) && own + by <= account.fastest)
                 .then_some(side)
         };
-        // The slower, the better for the gap ahead; the faster, the better for the one behind. Where one refuses, its own turning
-        // point is the only one, and the other has to agree there.
+        // The slower, the better for the gap ahead; the faster, the better for the one behind. Where one refuses, its
+        // own turning point is the only one, and the other has to agree there.
         let found = match account.act {
             Act::Waits(_, Hindrance::Ahead(..)) => {
                 flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(slower_ahead(by)).then_some(side))

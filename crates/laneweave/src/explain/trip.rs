@@ -31,8 +31,9 @@ fn spot_of(world: &World, id: VehicleId) -> Option<Spot> {
     world.vehicles().find(|it| it.id() == id).map(|it| it.spot)
 }
 
-/// What the driver of `id` made of its lanes when it last considered them, or waited for a gap, at or before `time` [s]: the `world`
-/// is driven there, and not beyond `steps` steps. `with_flips`: with what would have turned its decision.
+/// What the driver of `id` made of its lanes when it last considered them, or waited for a gap, at or before `time`
+/// [s]: the `world` is driven there, and not beyond `steps` steps. `with_flips`: with what would have turned its
+/// decision.
 pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flips: bool) -> Moment {
     /// Nobody considers lanes less often [s].
     const LONGEST_EPOCH: f64 = 60.0;
@@ -79,8 +80,8 @@ fn full(world: &World, account: &Account, with_flips: bool) -> String {
     told
 }
 
-/// The trip of the driver of `id`, line by line: what it did from when to when, and why. `None` if it never came within `steps`
-/// steps.
+/// The trip of the driver of `id`, line by line: what it did from when to when, and why. `None` if it never came within
+/// `steps` steps.
 pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> Option<String> {
     let mut lines = Lines::default();
     let told_after = world.clock().steps(TOLD_AFTER);

@@ -114,8 +114,8 @@ fn above(side: &SideAccount) -> f64 {
     if side.is_out_of_question { f64::NEG_INFINITY } else { side.appraisal.gain - side.appraisal.theta }
 }
 
-/// Whether nothing but what was drawn kept the driver from wanting to go there: what is above the threshold is only likely where choices
-/// are drawn, and who changes without a reason has no threshold.
+/// Whether nothing but what was drawn kept the driver from wanting to go there: what is above the threshold is only
+/// likely where choices are drawn, and who changes without a reason has no threshold.
 fn is_by_chance(account: &Account, side: &SideAccount) -> bool {
     let needs_no_reason = matches!(&*account.change, LaneChangeModel::ConstantHazard(_));
     above(side) > 0.0 || (needs_no_reason && side.chance > 0.0)

@@ -1,4 +1,5 @@
-//! How drivers of each style drive: distances to the leader, times to collision, accelerations; looked at every five seconds.
+//! How drivers of each style drive: distances to the leader, times to collision, accelerations; looked at every five
+//! seconds.
 
 use laneweave_models::Style;
 use laneweave_models::change::time_to_collision;

@@ -15,7 +15,8 @@ use super::writer_threads::{Page, Pen};
 use super::{Observer, Summary};
 use crate::fault::Fault;
 
-/// Vehicles in a page, or a few more: those of one instant are not parted. Few, so that little is left to write when the run ends.
+/// Vehicles in a page, or a few more: those of one instant are not parted. Few, so that little is left to write when
+/// the run ends.
 const PAGE: usize = 1 << 11;
 
 /// Vehicles at some instants.
@@ -152,8 +153,8 @@ impl Samples {
         Samples { every, frame, is_machine_full, pen, written, under_way: 0, spare }
     }
 
-    /// Hands the frame over. Threads that move the world spin while they wait for each other: where the writers would take the
-    /// core of one of them, it is better to wait until they have written.
+    /// Hands the frame over. Threads that move the world spin while they wait for each other: where the writers would
+    /// take the core of one of them, it is better to wait until they have written.
     fn hand_over(&mut self, world: &World) -> Result<(), Fault> {
         let full = mem::replace(&mut self.frame, mem::take(&mut self.spare));
         self.pen.hand_over(Page::Frame(full))?;

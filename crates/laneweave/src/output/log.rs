@@ -1,7 +1,8 @@
-//! The pages of a run in one file, so that a run that is resumed can have its tables and XML files written anew from the beginning.
+//! The pages of a run in one file, so that a run that is resumed can have its tables and XML files written anew from
+//! the beginning.
 //!
-//! Until the first mark the file has a provisional name; a log that is already there, and that pages come from again, stays until
-//! then. Pages that come again are the same bytes, so that a former mark holds in the new log as well.
+//! Until the first mark the file has a provisional name; a log that is already there, and that pages come from again,
+//! stays until then. Pages that come again are the same bytes, so that a former mark holds in the new log as well.
 //!
 //! Each page stands after its head: its length and its hash.
 

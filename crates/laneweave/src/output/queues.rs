@@ -39,7 +39,8 @@ pub struct HeldFor {
     pub red_light: f64,
     /// They stood because others went first at a junction, or a sign stopped them.
     pub priority: f64,
-    /// They stood because there was no room beyond a junction; or the room at a place inside the map was kept for others.
+    /// They stood because there was no room beyond a junction; or the room at a place inside the map was kept for
+    /// others.
     pub room: f64,
     /// The whole map was full: no trip began within it.
     pub full_map: f64,

@@ -1,5 +1,5 @@
-//! The report `report.html`: what a run was and what came of it, on one page; and two of its figures as files of their own,
-//! `lane_change_rate.svg` and `time_space.svg`.
+//! The report `report.html`: what a run was and what came of it, on one page; and two of its figures as files of their
+//! own, `lane_change_rate.svg` and `time_space.svg`.
 
 use std::path::PathBuf;
 

@@ -44,7 +44,8 @@ pub struct Summary {
     pub lane_changes_per_veh_km: Option<f64>,
     /// Distance driven [veh km].
     pub veh_km: f64,
-    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each other.
+    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each
+    /// other.
     pub collisions: u64,
     /// Other times that two vehicles came to overlap.
     pub overlaps: u64,

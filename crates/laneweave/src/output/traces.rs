@@ -36,7 +36,8 @@ pub struct Traces {
 }
 
 impl Traces {
-    /// Of up to `number` slow lanes from the `origins` that have no part in common, those with the most way to be driven first.
+    /// Of up to `number` slow lanes from the `origins` that have no part in common, those with the most way to be
+    /// driven first.
     pub fn most_driven(
         number: usize,
         world: &World,

@@ -1,7 +1,7 @@
 //! What happened on every lanelet between two instants: plain counts.
 //!
-//! Density, flow and speed by Edie's generalised definitions (as in `laneweave_study::edie`), with the time and the way of
-//! every vehicle as the simulator puts them down.
+//! Density, flow and speed by Edie's generalised definitions (as in `laneweave_study::edie`), with the time and the way
+//! of every vehicle as the simulator puts them down.
 
 use laneweave_network::{Network, Side};
 use laneweave_sim::{Event, LaneChange, Stay, World};
@@ -66,7 +66,7 @@ impl Traffic {
                 Event::LaneChange(change) if change.is_completed && is_measured(change) => {
                     self.change(network, change);
                 }
-                Event::LaneChange(_) | Event::Incident(_) => {}
+                Event::LaneChange(_) | Event::Incident(_) | Event::Driving(_) => {}
             }
         }
     }

@@ -8,7 +8,8 @@ use super::driving::{names, styles_of};
 
 /// Bins of times: their first width [s] and their number.
 const BINS: (f64, usize) = (1.0, 60);
-/// Time between two counts of vehicles at first [s], and the most counts that are kept: with more, every second one goes.
+/// Time between two counts of vehicles at first [s], and the most counts that are kept: with more, every second one
+/// goes.
 const COUNTING: f64 = 5.0;
 const MOST_COUNTS: usize = 400;
 

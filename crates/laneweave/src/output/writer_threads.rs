@@ -1,8 +1,8 @@
 //! Tables and XML files are written by threads of their own. What observers see reaches them in pages of plain numbers,
 //! through channels that hold few of them: an observer that is too fast waits, so that memory is bounded.
 //!
-//! Each kind of page comes from one observer, in the order in which it was seen, and each file is made from one kind: what is
-//! in a file does not depend on when it is written.
+//! Each kind of page comes from one observer, in the order in which it was seen, and each file is made from one kind:
+//! what is in a file does not depend on when it is written.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
@@ -75,8 +75,8 @@ impl Pen {
     }
 }
 
-/// The threads that write, as the last of the observers: it sees nothing of the world, and has all files completed when the
-/// others have finished.
+/// The threads that write, as the last of the observers: it sees nothing of the world, and has all files completed when
+/// the others have finished.
 pub(super) struct WriterThreads {
     pen: Pen,
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
@@ -85,8 +85,9 @@ pub(super) struct WriterThreads {
 }
 
 impl WriterThreads {
-    /// Begins to write with `xml` and `tables`: on two threads if so many `cores` are free, of which that for the tables passes all
-    /// pages on to that for the XML files, and else on one. The receiver gives frames back that are written, to be used again.
+    /// Begins to write with `xml` and `tables`: on two threads if so many `cores` are free, of which that for the
+    /// tables passes all pages on to that for the XML files, and else on one. The receiver gives frames back that are
+    /// written, to be used again.
     pub(super) fn begin(
         mut xml: Vec<Box<dyn Writer>>,
         mut tables: Vec<Box<dyn Writer>>,

@@ -1,6 +1,7 @@
 //! Reports as single HTML files: parts of a page that any report is made of, and the report of a run.
 //!
-//! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the page.
+//! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the
+//! page.
 
 pub(crate) mod classes;
 mod numbers;

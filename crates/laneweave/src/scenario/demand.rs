@@ -16,8 +16,8 @@ const USUAL_STARTS: f64 = 200.0;
 /// Nobody has seen more vehicles an hour on one lane than a quarter of this.
 const LARGEST_DEMAND: f64 = 10_000.0;
 
-/// The demand at each of `places`, and the weights of the destinations; a `total` of it where none is given [veh/h], or else the usual
-/// one.
+/// The demand at each of `places`, and the weights of the destinations; a `total` of it where none is given [veh/h], or
+/// else the usual one.
 ///
 /// # Errors
 /// If an entrance or exit is not there, or a number makes no sense.
@@ -91,8 +91,8 @@ fn set_single_rates(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -
     Ok(())
 }
 
-/// An origin in the table of origins and destinations gets the sum of its rows as its rate, and the rows as the weights of its
-/// destinations.
+/// An origin in the table of origins and destinations gets the sum of its rows as its rate, and the rows as the weights
+/// of its destinations.
 fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Result<(), Fault> {
     let mut sums: Vec<Option<f64>> = vec![None; demand.origins.len()];
     for (row, number) in scenario.demand.od.iter().zip(0..) {

@@ -115,7 +115,8 @@ pub enum DrivingSide {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Demand {
-    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 70 % of the estimated capacity.
+    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 70 % of the estimated
+    /// capacity.
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
     pub trucks: f64,
@@ -178,8 +179,8 @@ pub struct OdRow {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Guidance {
-    /// Time between two measurements of all travel times, after which drivers may find another way better [s], 1 or more; 0: they
-    /// know the times of the free road only.
+    /// Time between two measurements of all travel times, after which drivers may find another way better [s], 1 or
+    /// more; 0: they know the times of the free road only.
     pub interval_s: f64,
 }
 
@@ -201,8 +202,8 @@ pub struct Run {
     pub seed: u64,
     /// Simulated time before anything is measured or recorded [s].
     pub warmup_s: f64,
-    /// Number of threads; results do not depend on it. Without it the cores of the machine, but for one that writes trajectories if
-    /// they are recorded; at most 2.
+    /// Number of threads; results do not depend on it. Without it the cores of the machine, but for one that writes
+    /// trajectories if they are recorded; at most 2.
     pub threads: Option<NonZero<usize>>,
     /// Whether vehicles that overlap are looked for at every step, not only once a second.
     pub audit: bool,

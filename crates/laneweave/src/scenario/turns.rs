@@ -1,8 +1,8 @@
 //! Turning shares: where drivers go, by what was counted at junctions.
 //!
-//! Shares are followed from each entrance through the network, as a Markov chain over its sections, to the exits: the part of
-//! the drivers that arrives at an exit is its weight as a destination. Drivers then go their best way there. So the counts come
-//! out again wherever one way leads from an entrance to an exit; of several ways all take the best.
+//! Shares are followed from each entrance through the network, as a Markov chain over its sections, to the exits: the
+//! part of the drivers that arrives at an exit is its weight as a destination. Drivers then go their best way there. So
+//! the counts come out again wherever one way leads from an entrance to an exit; of several ways all take the best.
 
 use laneweave_network::{Branch, ChainIndex, Network, Sections, Side};
 use laneweave_sim::{Demand, Place, World};

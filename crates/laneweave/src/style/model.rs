@@ -1,4 +1,5 @@
-//! One lane-change model for all drivers, so that models can be compared on the same traffic: everything else of their styles stays.
+//! One lane-change model for all drivers, so that models can be compared on the same traffic: everything else of their
+//! styles stays.
 
 use std::path::Path;
 

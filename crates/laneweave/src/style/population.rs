@@ -35,7 +35,8 @@ impl Population {
         Ok(population)
     }
 
-    /// The same drivers by the changed templates of the `mixture` that they were drawn of: each in the place of its own.
+    /// The same drivers by the changed templates of the `mixture` that they were drawn of: each in the place of its
+    /// own.
     ///
     /// # Errors
     /// If a distribution gives a value that a parameter cannot have.

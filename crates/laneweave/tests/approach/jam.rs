@@ -1,5 +1,5 @@
-//! A jam on the straight road: who leaves its route for the left one. A first look at the paper's third claim, that changes grow
-//! sharply with the weight of the route.
+//! A jam on the straight road: who leaves its route for the left one. A first look at the paper's third claim, that
+//! changes grow sharply with the weight of the route.
 
 use std::collections::{HashMap, HashSet};
 
@@ -59,7 +59,8 @@ fn without_weights(usual: Mcdm) -> Mcdm {
     Mcdm { rule: Rule::Threshold, theta: usual.theta, ..Mcdm::default() }
 }
 
-/// Drivers to the common exit come in lanes B and C; their own way is straight on, where `crawlers` come on each lane [veh/h].
+/// Drivers to the common exit come in lanes B and C; their own way is straight on, where `crawlers` come on each lane
+/// [veh/h].
 fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
     let approach = Approach::drawn();
     let [_, b, c] = approach.lanes;

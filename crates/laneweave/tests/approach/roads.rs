@@ -19,7 +19,8 @@ pub(crate) struct Approach {
     pub(crate) network: Network,
     /// Lanes A, B and C.
     pub(crate) lanes: [ChainIndex; 3],
-    /// Places of the exits in the list of destinations: that of the left road, that of the straight road, and the common one.
+    /// Places of the exits in the list of destinations: that of the left road, that of the straight road, and the
+    /// common one.
     pub(crate) exits: [u16; 3],
 }
 

@@ -1,4 +1,5 @@
-//! Explanations agree with what drivers do, with what is worked out by hand, and with what would have happened otherwise.
+//! Explanations agree with what drivers do, with what is worked out by hand, and with what would have happened
+//! otherwise.
 
 mod twin;
 
@@ -156,8 +157,8 @@ fn with_weight(style: &Style, row: usize, weight: f64) -> Style {
     Style { change: LaneChangeModel::Mcdm(model), ..style.clone() }
 }
 
-/// The side to which the driver of `id` turns, who considers lanes in the next step of `saved`, where the incentive of `row` has
-/// another weight: it is driven.
+/// The side to which the driver of `id` turns, who considers lanes in the next step of `saved`, where the incentive of
+/// `row` has another weight: it is driven.
 fn driven(
     stage: &mut World,
     saved: &[u8],
@@ -197,7 +198,8 @@ fn otherwise(flip: &Flip, share: f64) -> Otherwise {
     it
 }
 
-/// Where a driver who waits would go at some other speed, tried one by one, a flip of its speed says so; whether there is one.
+/// Where a driver who waits would go at some other speed, tried one by one, a flip of its speed says so; whether there
+/// is one.
 fn assert_window_is_found(twin: &Twin, account: &Account, side: Side) -> bool {
     /// Speeds that are tried are so far apart [m/s].
     const APART: f64 = 0.1;

@@ -1,5 +1,5 @@
-//! The decision of a driver on a straight road, worked out by hand: from a plain list of all vehicles, with the formulas as they are
-//! written in the book, by nothing that the program uses for it.
+//! The decision of a driver on a straight road, worked out by hand: from a plain list of all vehicles, with the
+//! formulas as they are written in the book, by nothing that the program uses for it.
 
 use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal};
 use laneweave::models::follow::FollowingModel;
@@ -192,7 +192,8 @@ impl<'a> Twin<'a> {
             let without = here.ahead.map(|(ahead, further)| (gap + me.length + further, ahead.speed));
             self.share(&it, Some((gap, me.speed)), without)
         });
-        // Who signals a change into this lane: of the other side the one behind, or else the one ahead; of this side the new leader.
+        // Who signals a change into this lane: of the other side the one behind, or else the one ahead; of this side
+        // the new leader.
         let across = self.beside(me.lane, side.opposite()).map(|lane| self.around(me, lane));
         let room = |it: Body| {
             let forward = it.x - me.x;
@@ -262,8 +263,8 @@ impl<'a> Twin<'a> {
             .map(|it| it.side)
     }
 
-    /// What is wrong with the gap on `side`, ahead (0) or behind (1), with time step `dt`; the share of its time gap that the driver
-    /// accepts is that of a change by choice.
+    /// What is wrong with the gap on `side`, ahead (0) or behind (1), with time step `dt`; the share of its time gap
+    /// that the driver accepts is that of a change by choice.
     pub(crate) fn refusal(
         &self,
         id: u32,

@@ -1,5 +1,5 @@
-//! Simulated traffic, written as a recording with 10 cm of noise at 25 Hz and read again, shows its lane changes and what
-//! its drivers knew.
+//! Simulated traffic, written as a recording with 10 cm of noise at 25 Hz and read again, shows its lane changes and
+//! what its drivers knew.
 
 mod drive;
 mod view;

@@ -2,8 +2,8 @@
 
 use laneweave_models::change::{LaneView, Situation};
 
-/// How much gaps and distances to go [m], speeds [m/s] and times to go [s] may differ, and mean spacings relatively: what
-/// 10 cm of noise and smoothing allow.
+/// How much gaps and distances to go [m], speeds [m/s] and times to go [s] may differ, and mean spacings relatively:
+/// what 10 cm of noise and smoothing allow.
 const GAP: f64 = 0.5;
 const REMAINING: f64 = 1.0;
 const SPEED: f64 = 0.3;

@@ -54,9 +54,10 @@ fn is_limit(speed: f64) -> bool {
 
 /// The limit of a lanelet [m/s].
 ///
-/// Its own element `speedLimit` comes first, then the lowest limit on its signs, then what the law says for
-/// its types, which goes into `of_law` [km/h]. For a lanelet without types, or with nothing but `urban`, the one `of_scenario` counts, that for the
-/// scenario's tags [km/h]: version 2020a demands a type, and files made from older ones say `urban` even on a motorway.
+/// Its own element `speedLimit` comes first, then the lowest limit on its signs, then what the law says for its types,
+/// which goes into `of_law` [km/h]. For a lanelet without types, or with nothing but `urban`, the one `of_scenario`
+/// counts, that for the scenario's tags [km/h]: version 2020a demands a type, and files made from older ones say
+/// `urban` even on a motorway.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
@@ -91,8 +92,8 @@ pub(super) fn limit(
     })
 }
 
-/// The limit where none is given [km/h]: that of the law for a road in town, a motorway, or another road out of town; where
-/// nothing is known, that in town.
+/// The limit where none is given [km/h]: that of the law for a road in town, a motorway, or another road out of town;
+/// where nothing is known, that in town.
 pub(super) fn default(law: Law, kinds: &[String]) -> f64 {
     let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
     if any(&["urban"]) {

@@ -1,5 +1,5 @@
-//! The road on which the paper explains its route incentive: three lanes before a junction, of which one leads left, one left
-//! and straight on, and one straight on, and two roads beyond that meet again.
+//! The road on which the paper explains its route incentive: three lanes before a junction, of which one leads left,
+//! one left and straight on, and one straight on, and two roads beyond that meet again.
 
 use laneweave_network::DrivingSide;
 
@@ -26,8 +26,8 @@ const BEYOND: f64 = 150.0;
 
 /// Draws the approach, from the west to a junction at (0, 0): its path, between lanes A and B, is y = 0.
 ///
-/// Lane A leads left, B left and straight on, C straight on. The left road and the straight road have two lanes and an exit of
-/// their own; then the left one comes back from the north, and gives way, to a common exit in the east.
+/// Lane A leads left, B left and straight on, C straight on. The left road and the straight road have two lanes and an
+/// exit of their own; then the left one comes back from the north, and gives way, to a common exit in the east.
 pub fn approach(driving_side: DrivingSide) -> Drawing {
     let one_way = |lanes| Profile::street(0, lanes, SPEED_LIMIT);
     let (a, b, c) = (0, 1, 2);

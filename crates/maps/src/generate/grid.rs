@@ -39,7 +39,8 @@ pub struct Grid {
 }
 
 impl Default for Grid {
-    /// Three rows and three columns of streets with two lanes in each direction, lights, 150 m between junctions, and 50 km/h.
+    /// Three rows and three columns of streets with two lanes in each direction, lights, 150 m between junctions, and
+    /// 50 km/h.
     fn default() -> Grid {
         Grid {
             rows: 3,

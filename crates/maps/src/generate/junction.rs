@@ -42,7 +42,8 @@ pub(super) struct Connector {
     pub(super) lanelet: i64,
 }
 
-/// How far from the middle of a junction an arm of it ends [m], so that there is room to turn from and to the arms across.
+/// How far from the middle of a junction an arm of it ends [m], so that there is room to turn from and to the arms
+/// across.
 pub(super) fn setback(arms: &[Lanes; 4], towards: Compass) -> f64 {
     let across = Compass::ALL.into_iter().filter(|it| it.is_along_east() != towards.is_along_east());
     let lanes = across.map(|it| arms[it as usize]).map(|it| it.arriving.max(it.leaving)).max().unwrap_or(0);

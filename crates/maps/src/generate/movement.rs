@@ -24,9 +24,9 @@ pub(super) struct Lanes {
 
 /// The usual movements at a junction with these arms, in the order of [`Compass::ALL`].
 ///
-/// The leftmost lane leads left, the rightmost one right, each onto the lane on the same side of the other road. All lanes lead
-/// straight on, side by side, but the left one of three, and lanes that do not go on beyond. Where nothing leads straight on,
-/// all lanes turn. Nobody turns back.
+/// The leftmost lane leads left, the rightmost one right, each onto the lane on the same side of the other road. All
+/// lanes lead straight on, side by side, but the left one of three, and lanes that do not go on beyond. Where nothing
+/// leads straight on, all lanes turn. Nobody turns back.
 pub(super) fn usual(arms: &[Lanes; 4]) -> Vec<Movement> {
     let mut movements = Vec::new();
     for from in Compass::ALL {

@@ -60,8 +60,8 @@ impl Path {
         Path { pieces: [arc, arc.on(0.0, 0.0), arc.on(0.0, 0.0)] }
     }
 
-    /// The way between two poses: straight on; or one bend as wide as there is room for; or, for what lies beside in the same
-    /// direction, a bend there and one back.
+    /// The way between two poses: straight on; or one bend as wide as there is room for; or, for what lies beside in
+    /// the same direction, a bend there and one back.
     pub(super) fn between(from: Pose, to: Pose) -> Path {
         let turn = (to.heading - from.heading + PI).rem_euclid(TAU) - PI;
         let (x, y) = (libm::cos(from.heading), libm::sin(from.heading));

@@ -13,8 +13,8 @@ use super::path::Path;
 use super::street::{LaneEnd, Profile, pose};
 use crate::drawing::{Crossing, Drawing, Edge, Surroundings};
 
-/// Radius of the middle of the ring [m]: with its lane 34.5 m across, where small roundabouts have 26 to 45 m (FGSV, Merkblatt
-/// für die Anlage von Kreisverkehren, from memory).
+/// Radius of the middle of the ring [m]: with its lane 34.5 m across, where small roundabouts have 26 to 45 m (FGSV,
+/// Merkblatt für die Anlage von Kreisverkehren, from memory).
 const RADIUS: f64 = 15.0;
 /// Width of the ring's lane [m]. Ours.
 const LANE_WIDTH: f64 = 4.5;

@@ -18,8 +18,8 @@ const MOTORWAY: f64 = 120.0;
 const MOTORWAY_LANE: f64 = 3.5;
 /// From the middle of the motorway to its first lanes [m].
 const MEDIAN: f64 = 2.0;
-/// From where to where the motorway runs [m]. Its lanelets end nowhere below the edge of a bridge, so that whether they share
-/// ground with it is no matter of rounding.
+/// From where to where the motorway runs [m]. Its lanelets end nowhere below the edge of a bridge, so that whether they
+/// share ground with it is no matter of rounding.
 const MOTORWAY_ENDS: [f64; 2] = [-1020.0, 1365.0];
 /// From where to where its deceleration lane runs, and its acceleration lane [m].
 const DECELERATION: [f64; 2] = [-760.0, -510.0];
@@ -42,9 +42,9 @@ const SOUTH_STREET: f64 = -500.0;
 
 /// Draws a town whose streets lie south of a motorway and cross it on two bridges.
 ///
-/// The carriageway to the east has an off-ramp to the western bridge's street and an on-ramp from the eastern one's, both at
-/// lights. The main street has two lanes in each direction and three junctions with lights, and ends at a roundabout. The other
-/// junctions have priority signs, but one without any, and one where all stop.
+/// The carriageway to the east has an off-ramp to the western bridge's street and an on-ramp from the eastern one's,
+/// both at lights. The main street has two lanes in each direction and three junctions with lights, and ends at a
+/// roundabout. The other junctions have priority signs, but one without any, and one where all stop.
 pub fn town(driving_side: DrivingSide) -> Drawing {
     let mut canvas = Canvas::new();
     let Ramps { off, on } = motorway(&mut canvas);

@@ -33,9 +33,9 @@ fn germany(subtype: Option<&str>, location: Option<&str>) -> f64 {
 }
 
 /// The United States [mph], where each state has its own law. On ordinary roads those of the Uniform Vehicle Code
-/// (§11-801.1): 30 in an urban district, 55 elsewhere. On freeways the commonest maximum of the states (Insurance Institute
-/// for Highway Safety, Maximum posted speed limits): 70, in towns 65. The figures are from memory. In a play street, for which
-/// there is no such rule, 15: ours.
+/// (§11-801.1): 30 in an urban district, 55 elsewhere. On freeways the commonest maximum of the states (Insurance
+/// Institute for Highway Safety, Maximum posted speed limits): 70, in towns 65. The figures are from memory. In a play
+/// street, for which there is no such rule, 15: ours.
 fn united_states(subtype: Option<&str>, location: Option<&str>) -> f64 {
     match (subtype, location) {
         (Some("highway"), Some("urban")) => 65.0,

@@ -24,8 +24,8 @@ pub(super) struct Lookup<'a> {
 const NOWHERE: Point = Point { x: f64::NAN, y: f64::NAN, z: f64::NAN };
 
 impl<'a> Lookup<'a> {
-    /// Finds the elements of `document`; positions are relative to `origin` [°], or to one of its own. Elements that share
-    /// an id become problems. Also returns the geographic origin, if the map is projected.
+    /// Finds the elements of `document`; positions are relative to `origin` [°], or to one of its own. Elements that
+    /// share an id become problems. Also returns the geographic origin, if the map is projected.
     ///
     /// # Errors
     /// If `origin` is no place that the projection covers.

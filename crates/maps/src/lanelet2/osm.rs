@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use laneweave_network::DrivingSide;
 
-/// What an OSM file holds. What belongs to one element lies together in an array for all, and text stays where it is in the
-/// file, so that a document takes little more memory than its file.
+/// What an OSM file holds. What belongs to one element lies together in an array for all, and text stays where it is in
+/// the file, so that a document takes little more memory than its file.
 #[derive(Debug, Default)]
 pub struct Document<'a> {
     /// The text of the file.

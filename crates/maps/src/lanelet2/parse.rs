@@ -21,8 +21,8 @@ const WORTH_SHARING: usize = 4 << 20;
 
 /// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
 ///
-/// Of a large file two halves are read at once. The second one is taken to begin between two elements; when the first one gets
-/// there and finds it otherwise, it goes on to the end, and the second is forgotten.
+/// Of a large file two halves are read at once. The second one is taken to begin between two elements; when the first
+/// one gets there and finds it otherwise, it goes on to the end, and the second is forgotten.
 pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, XmlError> {
     let text = xml::text(bytes)?;
     let cut = Some(text.len()).filter(|it| *it >= WORTH_SHARING).and_then(|it| element_after(text, it / 2));
@@ -95,8 +95,8 @@ fn part<'a>(text: &'a str, mut tokens: Tokens<'a>, place: Range<usize>) -> Resul
     Ok(Part { document, problems, is_cut, lines: tokens.lines() })
 }
 
-/// A document with room for as many elements as this part of the text seems to hold: arrays of that size take longer to grow
-/// than the elements to count.
+/// A document with room for as many elements as this part of the text seems to hold: arrays of that size take longer to
+/// grow than the elements to count.
 fn with_room(text: &str, part: Range<usize>) -> Document<'_> {
     let [mut nodes, mut ways, mut relations, mut references, mut members, mut tags] = [0; 6];
     let bytes = &text.as_bytes()[part];

@@ -1,4 +1,5 @@
-//! How many elements share another one: what is drawn or linked for each of them would grow with the square of the file.
+//! How many elements share another one: what is drawn or linked for each of them would grow with the square of the
+//! file.
 
 use std::hash::Hash;
 

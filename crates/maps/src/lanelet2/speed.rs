@@ -46,8 +46,8 @@ impl<'d> SpeedRules<'d> {
 
     /// The limit of a lanelet [km/h].
     ///
-    /// Its first rule that can be understood comes first, then its tags, then what the law of the land says, which goes into
-    /// `of_law`.
+    /// Its first rule that can be understood comes first, then its tags, then what the law of the land says, which goes
+    /// into `of_law`.
     pub(super) fn limit(
         &self,
         lanelet: &Relation,

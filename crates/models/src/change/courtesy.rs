@@ -54,8 +54,8 @@ impl Courtesy {
         self.share(expected(now), expected(then), driver.pace.desired)
     }
 
-    /// Its share of A for the old follower, who would follow the driver's leader instead of the driver, if the driver leaves the
-    /// lane `here`.
+    /// Its share of A for the old follower, who would follow the driver's leader instead of the driver, if the driver
+    /// leaves the lane `here`.
     #[inline]
     pub fn relief(&self, me: &Driver, here: &LaneView) -> f64 {
         let in_the_way = me.pace.speed < here.flow.speed;

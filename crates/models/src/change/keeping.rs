@@ -12,7 +12,8 @@ use super::urgency::urgency;
 pub enum RouteKeeping {
     /// It never leaves the lanes that lead on, and wants into one of them as long as it is in none.
     Lanes,
-    /// It changes as it likes until the urgency to be in a lane that leads on, of the same form as in [`super::Mcdm`], is felt.
+    /// It changes as it likes until the urgency to be in a lane that leads on, of the same form as in [`super::Mcdm`],
+    /// is felt.
     #[default]
     Urgency,
 }

@@ -1,7 +1,7 @@
 //! Time on a section of road, from its load.
 //!
-//! T_l = T_0 (1 + k_1 (q/q_max)^k_2), the function of the Bureau of Public Roads (1964, from memory). The paper prints it
-//! with a misplaced brace and without numbers: k_1 = 0.15 and k_2 = 4 are ours, and the usual ones.
+//! T_l = T_0 (1 + k_1 (q/q_max)^k_2), the function of the Bureau of Public Roads (1964, from memory). The paper prints
+//! it with a misplaced brace and without numbers: k_1 = 0.15 and k_2 = 4 are ours, and the usual ones.
 //!
 //! * literal: T_l of the observed flow. In a jam flow falls, and the section looks free.
 //! * repaired: max(T_l, L/v̄), v̄ the mean speed that is observed.
@@ -18,7 +18,8 @@ pub fn bpr(free_time: f64, load: f64) -> f64 {
     free_time * (1.0 + ADDED_AT_CAPACITY * libm::pow(load, EXPONENT))
 }
 
-/// The repaired time [s] on a section of `length` [m] on which the mean speed is `speed` [m/s], taken as 1 m/s at least.
+/// The repaired time [s] on a section of `length` [m] on which the mean speed is `speed` [m/s], taken as 1 m/s at
+/// least.
 pub fn link_time(free_time: f64, load: f64, length: f64, speed: f64) -> f64 {
     bpr(free_time, load).max(travel_time(length, speed))
 }

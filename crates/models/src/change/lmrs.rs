@@ -4,14 +4,15 @@
 //!
 //! d = d_r + θ_v (d_s + d_b)
 //!
-//! * d_r, the route: the urgency of the own lane if the side takes a change off the route, minus that of the side if it adds one.
-//! * d_s, the speed: a_gain (v_ant − v_ant,here)/v_gain, a_gain = (a − max(a_now, 0))/a: who accelerates is content. To the slow
-//!   side only a loss counts while the own lane is faster than v_cong.
+//! * d_r, the route: the urgency of the own lane if the side takes a change off the route, minus that of the side if it
+//!   adds one.
+//! * d_s, the speed: a_gain (v_ant − v_ant,here)/v_gain, a_gain = (a − max(a_now, 0))/a: who accelerates is content. To
+//!   the slow side only a loss counts while the own lane is faster than v_cong.
 //! * d_b, the bias: d_free to the slow side where no speed is lost there.
 //! * θ_v: 1 where d_r is at most d_sync or of the same sign, falling to 0 at d_coop.
 //!
-//! At d_free the driver takes a gap that is there, at d_sync it also falls in with the target lane, at d_coop others also let it
-//! in. It accepts a shorter time gap the stronger the desire, and relaxes again ([`crate::Manner`]).
+//! At d_free the driver takes a gap that is there, at d_sync it also falls in with the target lane, at d_coop others
+//! also let it in. It accepts a shorter time gap the stronger the desire, and relaxes again ([`crate::Manner`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +57,8 @@ impl Default for Lmrs {
 }
 
 impl Lmrs {
-    /// d_s for a lane in which `there` [m/s] is anticipated instead of `here`, while accelerating `acceleration` [m/s²].
+    /// d_s for a lane in which `there` [m/s] is anticipated instead of `here`, while accelerating `acceleration`
+    /// [m/s²].
     pub fn speed_desire(&self, toward: Toward, [here, there]: [f64; 2], acceleration: f64) -> f64 {
         let content = (self.acceleration - acceleration.max(0.0)) / self.acceleration;
         let gain = match toward {
@@ -106,8 +108,8 @@ impl Lmrs {
         }
     }
 
-    /// What the driver makes of the side in `situation`: d_s stands in the row of speed, d_b in that of comfort, d_r in that of
-    /// urgency.
+    /// What the driver makes of the side in `situation`: d_s stands in the row of speed, d_b in that of comfort, d_r in
+    /// that of urgency.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let Situation { me, here, there, toward, .. } = situation;
         let acceleration = me.follow.acceleration(me.pace, here.ahead);

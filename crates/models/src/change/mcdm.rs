@@ -84,7 +84,8 @@ pub struct Appraisal {
 }
 
 impl Appraisal {
-    /// The place of the row that speaks most for the change, the one with the largest μY, if any is above 0; of equal ones the first.
+    /// The place of the row that speaks most for the change, the one with the largest μY, if any is above 0; of equal
+    /// ones the first.
     pub fn leading(&self) -> Option<usize> {
         let products = self.rows.iter().map(|it| it.weight * it.earning).enumerate();
         products.filter(|(_, it)| *it > 0.0).reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(row, _)| row)
@@ -117,8 +118,8 @@ impl Mcdm {
         Appraisal { rows, gain: self.combine(&rows), theta: self.theta }
     }
 
-    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band`
-    /// [s], by the route incentive alone; `None` where it does not think of it.
+    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference
+    /// `band` [s], by the route incentive alone; `None` where it does not think of it.
     pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
         let Route { weight, .. } = self.route;
         let earning = self.route.leaving(on_route, alternative, band).filter(|_| weight != 0.0)?;
@@ -168,9 +169,9 @@ impl Mcdm {
         ])
     }
 
-    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn, told
-    /// without an exponential: the chance of either is at most `epochs` (or 1) times e^((G − θ)/σ), which for most drivers on
-    /// most occasions is far below any draw.
+    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was
+    /// drawn, told without an exponential: the chance of either is at most `epochs` (or 1) times e^((G − θ)/σ), which
+    /// for most drivers on most occasions is far below any draw.
     #[inline]
     pub(crate) fn reach(&self, epochs: f64, draw: f64) -> f64 {
         match self.rule {

@@ -1,16 +1,16 @@
 //! MOBIL: minimizing overall braking induced by lane changes.
 //!
-//! Kesting, Treiber, Helbing (2007), Transp. Res. Rec. 1999, 86–94. With accelerations a of the own car-following models before
-//! and ã after the change, of the driver (c), the new follower (n) and the old one (o):
+//! Kesting, Treiber, Helbing (2007), Transp. Res. Rec. 1999, 86–94. With accelerations a of the own car-following
+//! models before and ã after the change, of the driver (c), the new follower (n) and the old one (o):
 //!
 //! * safety: ã_n ≥ −b_safe;
 //! * symmetric: ã_c − a_c + p [(ã_n − a_n) + (ã_o − a_o)] > a_thr;
-//! * European: to the slow side ã_c^eur − a_c + p (ã_o − a_o) > a_thr − a_bias, to the fast side
-//!   ã_c − a_c^eur + p (ã_n − a_n) > a_thr + a_bias. On the slow side of a leader slower than oneself, but faster than v_crit,
-//!   a^eur is not above what one would accelerate behind it: nobody passes on that side in free traffic.
+//! * European: to the slow side ã_c^eur − a_c + p (ã_o − a_o) > a_thr − a_bias, to the fast side ã_c − a_c^eur + p (ã_n
+//!   − a_n) > a_thr + a_bias. On the slow side of a leader slower than oneself, but faster than v_crit, a^eur is not
+//!   above what one would accelerate behind it: nobody passes on that side in free traffic.
 //!
-//! The model has no route. It is given one by [`RouteKeeping`] (ours). Its safety criterion binds those who change by choice;
-//! for others, whom urgency presses, the gap test stands in, which all models share.
+//! The model has no route. It is given one by [`RouteKeeping`] (ours). Its safety criterion binds those who change by
+//! choice; for others, whom urgency presses, the gap test stands in, which all models share.
 
 use serde::{Deserialize, Serialize};
 
@@ -80,7 +80,8 @@ pub struct Accelerations {
     pub old_follower: [f64; 2],
 }
 
-/// Weight [m/s²] of a change of lanes that the route needs, for those who keep to the lanes that lead on: above every gain.
+/// Weight [m/s²] of a change of lanes that the route needs, for those who keep to the lanes that lead on: above every
+/// gain.
 const DECISIVE: f64 = 1000.0;
 
 impl Accelerations {
@@ -157,8 +158,8 @@ impl Mobil {
         by_threshold(sides, |excess| excess > 0.0)
     }
 
-    /// What the driver makes of the side in `situation`: its own gain stands in the row of speed, the others' in that of
-    /// courtesy. Where the change is neither safe nor for the route, the gain is −∞.
+    /// What the driver makes of the side in `situation`: its own gain stands in the row of speed, the others' in that
+    /// of courtesy. Where the change is neither safe nor for the route, the gain is −∞.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let accelerations = self.without_passing(situation, Accelerations::of(situation));
         let [own, others] = self.gains(situation.toward, &accelerations);

@@ -1,5 +1,5 @@
-//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], its rows one file each. Beside it stand the models that it
-//! is compared with.
+//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], its rows one file each. Beside it stand the
+//! models that it is compared with.
 
 mod comfort;
 mod constant_hazard;

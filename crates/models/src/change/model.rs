@@ -54,8 +54,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// How much a driver is pressed to the side of `situation`, which it made `appraisal` of, 0…1: by its route, or in LMRS by
-    /// all that it desires.
+    /// How much a driver is pressed to the side of `situation`, which it made `appraisal` of, 0…1: by its route, or in
+    /// LMRS by all that it desires.
     pub fn pressure(&self, situation: &Situation, appraisal: &Appraisal) -> f64 {
         let route = &situation.here.route;
         match self {
@@ -94,8 +94,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// Whether a driver who waits for a gap, and makes `appraisal` of the side now, would rather stay. In MOBIL and LMRS the desire
-    /// has no memory.
+    /// Whether a driver who waits for a gap, and makes `appraisal` of the side now, would rather stay. In MOBIL and
+    /// LMRS the desire has no memory.
     pub fn would_rather_stay(&self, appraisal: &Appraisal) -> bool {
         match self {
             LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_) => appraisal.gain < 0.0,
@@ -115,8 +115,8 @@ impl LaneChangeModel {
         matches!(self, LaneChangeModel::Mobil(model) if model.stays_behind(speed, offside))
     }
 
-    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s], if it is better by more than
-    /// `band` [s]; `None` where it does not think of it.
+    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s], if it is better by more
+    /// than `band` [s]; `None` where it does not think of it.
     pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
         match self {
             LaneChangeModel::Mcdm(model) => model.appraise_leaving(on_route, alternative, band),
@@ -146,8 +146,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was drawn evenly
-    /// from [0, 1).
+    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was
+    /// drawn evenly from [0, 1).
     #[inline]
     pub fn reach(&self, epochs: f64, draw: f64) -> f64 {
         match self {

@@ -11,8 +11,8 @@
 //!
 //! The speeds of the lanes count over the section, at most as far as a driver sees (ours).
 //!
-//! A route is left in the repaired reading as a lane is (ours): Y = (T − T_alt − band)/T_ref, alone and weighed with μ₂,
-//! is held against the driver's rule.
+//! A route is left in the repaired reading as a lane is (ours): Y = (T − T_alt − band)/T_ref, alone and weighed with
+//! μ₂, is held against the driver's rule.
 
 use serde::{Deserialize, Serialize};
 
@@ -84,8 +84,8 @@ impl Route {
         ((here - there) / self.reference).clamp(-LARGEST_YIELD, LARGEST_YIELD)
     }
 
-    /// Y of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band` [s]; `None` where it is
-    /// not worth it, or the reading knows of no such thing.
+    /// Y of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band` [s]; `None`
+    /// where it is not worth it, or the reading knows of no such thing.
     pub fn leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<f64> {
         let gain = on_route - alternative - band;
         (self.reading == Reading::Repaired && gain > 0.0).then(|| (gain / self.reference).min(LARGEST_YIELD))

@@ -46,7 +46,8 @@ pub fn anticipated_speed(ahead: Ahead, desired: f64) -> f64 {
 }
 
 impl Speed {
-    /// Y of the repaired reading between lanes in which `here` and `there` [m/s] are anticipated, for a driver who wants `desired`.
+    /// Y of the repaired reading between lanes in which `here` and `there` [m/s] are anticipated, for a driver who
+    /// wants `desired`.
     #[inline]
     pub(crate) fn between(here: f64, there: f64, desired: f64) -> f64 {
         (there - here) / desired

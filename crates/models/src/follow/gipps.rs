@@ -4,7 +4,8 @@
 //!
 //! v(t + τ) = min( v + 2.5 aτ (1 − v/v₀) √(0.025 + v/v₀),  −bτ + √(b²τ² + b [2(s − s₀) − vτ + v_l²/b̂]) )
 //!
-//! As an acceleration: [v(t + τ) − v] / τ. Where the root would be of a negative number, which the paper leaves open, it is 0.
+//! As an acceleration: [v(t + τ) − v] / τ. Where the root would be of a negative number, which the paper leaves open,
+//! it is 0.
 
 use serde::{Deserialize, Serialize};
 

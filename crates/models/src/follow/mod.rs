@@ -42,7 +42,8 @@ impl Pace {
         Pace { speed, desired, tightness: 1.0 }
     }
 
-    /// What the driver accepts for now of its `usual` time gap [s]: no less than half a second, unless that is its usual one.
+    /// What the driver accepts for now of its `usual` time gap [s]: no less than half a second, unless that is its
+    /// usual one.
     #[inline]
     pub(crate) fn time_gap(&self, usual: f64) -> f64 {
         /// No driver accepts a shorter time gap around a lane change [s].
@@ -198,8 +199,8 @@ impl FollowingModel {
     }
 
     /// Gap [m] that emergency braking keeps behind another vehicle for who follows by this model, at most
-    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; others may come up to the bumper ahead,
-    /// where there is no room to turn into another lane.
+    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; others may come up to the bumper
+    /// ahead, where there is no room to turn into another lane.
     pub fn clearance(&self) -> f64 {
         match self {
             FollowingModel::Idm(_) | FollowingModel::Fvdm(_) => 0.0,

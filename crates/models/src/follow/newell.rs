@@ -1,12 +1,12 @@
 //! Newell's simplified model: a driver does what its leader did, a time τ later and a distance d further back.
 //!
-//! Newell (2002), Transp. Res. B 36, 195: x(t + τ) = min(x(t) + v₀τ, x_l(t) − d), d the leader's length and s₀. Jams move
-//! upstream with d/τ.
+//! Newell (2002), Transp. Res. B 36, 195: x(t + τ) = min(x(t) + v₀τ, x_l(t) − d), d the leader's length and s₀. Jams
+//! move upstream with d/τ.
 //!
-//! As an acceleration that is constant over τ and covers that way (ours): v(t + τ) = 2 min(v₀, (s − s₀)/τ) − v, at most v₀,
-//! and [v(t + τ) − v] / τ. In steps of τ the printed line comes out exactly where the leader, too, accelerates evenly
-//! within steps. In shorter steps, as a driver does not remember what its leader did, it is
-//! 2 [(s − s₀)/τ − v] / τ, on the verge of stability.
+//! As an acceleration that is constant over τ and covers that way (ours): v(t + τ) = 2 min(v₀, (s − s₀)/τ) − v, at most
+//! v₀, and [v(t + τ) − v] / τ. In steps of τ the printed line comes out exactly where the leader, too, accelerates
+//! evenly within steps. In shorter steps, as a driver does not remember what its leader did, it is 2 [(s − s₀)/τ − v] /
+//! τ, on the verge of stability.
 
 use serde::{Deserialize, Serialize};
 

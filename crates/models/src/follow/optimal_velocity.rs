@@ -57,7 +57,8 @@ impl OptimalVelocity {
         }
     }
 
-    /// A length [m] that was found together with the constants, as this driver has it: it scales with the others (ours).
+    /// A length [m] that was found together with the constants, as this driver has it: it scales with the others
+    /// (ours).
     #[inline]
     pub(super) fn scaled(&self, pace: Pace, length: f64) -> f64 {
         match self.reading {

@@ -1,6 +1,7 @@
 //! Optimal Velocity Model.
 //!
-//! Bando et al. (1995), Phys. Rev. E 51, 1035, with the [`OptimalVelocity`] and κ of Helbing and Tilch (1998), from memory.
+//! Bando et al. (1995), Phys. Rev. E 51, 1035, with the [`OptimalVelocity`] and κ of Helbing and Tilch (1998), from
+//! memory.
 //!
 //! κ [V(s) − v]
 //!

@@ -78,7 +78,8 @@ fn v21_below_one_over_e_a_late_driver_does_not_oscillate() {
     let nervous = step_response(0.45, 60.0);
     assert!(!is_monotone(&nervous));
     let highest = |speeds: &[f64]| speeds.iter().copied().fold(0.0, f64::max);
-    // 1 − u at its highest, u(t) = Σ_(k ≤ t) (−λ)^k (t − k)^k / k!; who follows it swings further, though gains are below 1.
+    // 1 − u at its highest, u(t) = Σ_(k ≤ t) (−λ)^k (t − k)^k / k!; who follows it swings further, though gains are
+    // below 1.
     assert_near(highest(&nervous), 1.013587, 2e-6);
     assert_near(highest(&herman(0.45, &nervous)), 1.017006, 2e-6);
 }

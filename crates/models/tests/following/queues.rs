@@ -12,7 +12,8 @@ fn follow(model: &FollowingModel, desired: f64, cars: &mut [Car], dt: f64) {
     }
 }
 
-/// Times [s] after the beginning of green at which the fronts of a standing queue pass the line, which the first stands at.
+/// Times [s] after the beginning of green at which the fronts of a standing queue pass the line, which the first stands
+/// at.
 fn passages(model: FollowingModel, desired: f64, cars: usize) -> Vec<f64> {
     const DT: f64 = 0.01;
     let jam_gap = 2.0;

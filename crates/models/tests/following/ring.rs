@@ -162,8 +162,8 @@ impl Equilibrium {
         TAU * mode as f64 / self.cars as f64
     }
 
-    /// λ [1/s] of the wave that goes `mode` times round the ring: λ² = f_s (e^{ik} − 1) + (f_v + f_l e^{ik}) λ, the root that
-    /// grows faster.
+    /// λ [1/s] of the wave that goes `mode` times round the ring: λ² = f_s (e^{ik} − 1) + (f_v + f_l e^{ik}) λ, the
+    /// root that grows faster.
     pub(crate) fn rate(&self, mode: usize) -> Complex {
         let [of_gap, of_speed, of_leader] = self.slopes;
         let ahead = Complex::on_circle(self.number(mode));

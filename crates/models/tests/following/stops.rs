@@ -155,8 +155,8 @@ fn v17_gfm_gipps_and_newell_survive_from_their_equilibria() {
 
 #[test]
 fn v17_krauss_as_an_acceleration_is_late_and_touches_its_leader() {
-    // In steps of τ and behind a leader who brakes as he reckons, he stops where he wants to: with s₀ left. Speeds are those
-    // of the end of a step, as he has it.
+    // In steps of τ and behind a leader who brakes as he reckons, he stops where he wants to: with s₀ left. Speeds are
+    // those of the end of a step, as he has it.
     let krauss = Krauss::default();
     let model = FollowingModel::Krauss(krauss);
     for speed in [9.0, 18.0, 27.0] {

@@ -132,7 +132,8 @@ fn long_waves_grow_with_krauss_and_neither_grow_nor_fade_with_newell() {
     }
 }
 
-/// How much higher the second of two cars behind a leader, whose speed swings with `frequency` [1/s], swings than the first.
+/// How much higher the second of two cars behind a leader, whose speed swings with `frequency` [1/s], swings than the
+/// first.
 fn gain(at: &Equilibrium, frequency: f64) -> f64 {
     const HEIGHT: f64 = 1e-3;
     const SWINGS: usize = 10;

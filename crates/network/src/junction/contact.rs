@@ -16,8 +16,8 @@ const CAR_WIDTH: f64 = 1.85;
 const SPACE: f64 = 0.15;
 /// Ways lead side by side where their directions differ by no more than this [rad]. Ours.
 const SIDE_BY_SIDE: f64 = 0.2;
-/// They are straight lanes of a road, in which vehicles pass each other without space between, where their directions differ by no
-/// more than this, and change by no more along a vehicle [rad]. Ours.
+/// They are straight lanes of a road, in which vehicles pass each other without space between, where their directions
+/// differ by no more than this, and change by no more along a vehicle [rad]. Ours.
 const STRAIGHT: f64 = 0.04;
 /// Distance of the samples along a chain [m].
 pub(super) const SAMPLE: f64 = 0.5;
@@ -33,7 +33,8 @@ const SAG_AT_MOST: f64 = 2.0;
 pub(super) struct Contact {
     /// On the one chain and on the other [m].
     pub(super) stations: [f64; 2],
-    /// Which vehicles would touch; `None` if all have room beside each other, or if cars do and a long vehicle does not come there.
+    /// Which vehicles would touch; `None` if all have room beside each other, or if cars do and a long vehicle does not
+    /// come there.
     pub(super) touch: Option<Touch>,
     /// The ways lead in one direction, side by side.
     pub(super) is_along: bool,

@@ -104,7 +104,8 @@ impl Program {
         ends.map(|it| self.within_cycle(it - at)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The time since the last beginning of a cycle [s]: the remainder, which is dear, only where a sum is not the same.
+    /// The time since the last beginning of a cycle [s]: the remainder, which is dear, only where a sum is not the
+    /// same.
     #[inline]
     pub(super) fn within_cycle(&self, time: f64) -> f64 {
         match time {

@@ -158,21 +158,21 @@ impl Junctions {
         self.chains.get(chain.at()).unwrap_or(&NOTHING)
     }
 
-    /// Stations on `chain` at which its turns begin [m], in order: where it changes its direction by more than 30° within
-    /// 30 m, but for those around a roundabout.
+    /// Stations on `chain` at which its turns begin [m], in order: where it changes its direction by more than 30°
+    /// within 30 m, but for those around a roundabout.
     pub fn turns(&self, chain: ChainIndex) -> &[f64] {
         self.turns.get(chain.at()).map_or(&[], Vec::as_slice)
     }
 
-    /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first beyond the last if
-    /// there is none.
+    /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first beyond the
+    /// last if there is none.
     #[inline]
     pub fn places(&self, chain: ChainIndex) -> [f64; 2] {
         self.on(chain).extent
     }
 
-    /// How far it is from `x` on `chain`, which is `length` long, to the next place where drivers may have to stop, whichever
-    /// way they go [m].
+    /// How far it is from `x` on `chain`, which is `length` long, to the next place where drivers may have to stop,
+    /// whichever way they go [m].
     #[inline]
     pub fn free_way(&self, chain: ChainIndex, x: f64, length: f64) -> f64 {
         let &OnChain { extent: [first, last], beyond, .. } = self.on(chain);

@@ -16,10 +16,12 @@ pub struct Nearby {
     pub there: [f64; 2],
 }
 
-/// Contacts are joined over stretches of this length [m]: long lanes side by side are not held against each other as a whole.
+/// Contacts are joined over stretches of this length [m]: long lanes side by side are not held against each other as a
+/// whole.
 const PIECE: f64 = 20.0;
 
-/// For each chain the stretches of other ones, of larger or smaller index, that are near it; each two chains are named once.
+/// For each chain the stretches of other ones, of larger or smaller index, that are near it; each two chains are named
+/// once.
 pub(super) fn nearby(network: &Network, contacts: &[([ChainIndex; 2], Vec<Contact>)]) -> Vec<Vec<Nearby>> {
     let mut all = vec![Vec::new(); network.chains.len()];
     for ([here, there], contacts) in contacts {
@@ -49,7 +51,8 @@ fn runs(piece: &[Contact]) -> Vec<[[f64; 2]; 2]> {
     runs.map(|run| [0, 1].map(|side| extent(run, side))).collect()
 }
 
-/// Notes two stretches on which bodies are near each other, and those beyond their chains' ends on which the fronts may be.
+/// Notes two stretches on which bodies are near each other, and those beyond their chains' ends on which the fronts may
+/// be.
 fn note(network: &Network, all: &mut [Vec<Nearby>], bodies: [(ChainIndex, [f64; 2]); 2]) {
     let [ones, others] =
         bodies.map(|(chain, [low, high])| fronts(network, chain, [low, high + LONGEST_VEHICLE]));

@@ -137,8 +137,9 @@ pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightCo
     between(junctions, &fields(network, junctions))
 }
 
-/// The plans for lights without a program: 60 s, groups that do not get in each other's way one after the other in the order of
-/// ids, yellow 3 s, all red for the clearance distance at 8 m/s, at least 2 s; what is left is green in equal shares.
+/// The plans for lights without a program: 60 s, groups that do not get in each other's way one after the other in the
+/// order of ids, yellow 3 s, all red for the clearance distance at 8 m/s, at least 2 s; what is left is green in equal
+/// shares.
 pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<SignalPlan> {
     let mut plans = Vec::new();
     let fields = fields(network, junctions);

@@ -50,8 +50,8 @@ mod tests {
     use super::*;
     use crate::geometry::Point;
 
-    /// The turns of a straight line of 100 m, followed by arcs, each with a radius [m] and an angle to the left [rad], and
-    /// straight on for 100 m after each.
+    /// The turns of a straight line of 100 m, followed by arcs, each with a radius [m] and an angle to the left [rad],
+    /// and straight on for 100 m after each.
     fn turns_of(arcs: &[(f64, f64)]) -> Vec<f64> {
         let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0f64);
         let mut points = vec![Point::new(x, y, 0.0)];

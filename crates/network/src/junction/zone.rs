@@ -1,5 +1,5 @@
-//! Conflict zones: where two chains cross, merge, run beside each other on shared ground, or come so close in a bend that a
-//! long vehicle needs both.
+//! Conflict zones: where two chains cross, merge, run beside each other on shared ground, or come so close in a bend
+//! that a long vehicle needs both.
 
 use serde::{Deserialize, Serialize};
 
@@ -37,8 +37,9 @@ pub struct Zone {
 pub enum ZoneKind {
     /// The chains cross or touch.
     Crossing,
-    /// They lead into one, or in one direction over the same ground: who goes second follows. Stations along each side's chain, or
-    /// beyond its end, from which on they are one, or at which a vehicle has left the ground that they share [m].
+    /// They lead into one, or in one direction over the same ground: who goes second follows. Stations along each
+    /// side's chain, or beyond its end, from which on they are one, or at which a vehicle has left the ground that they
+    /// share [m].
     Merging([f64; 2]),
 }
 
@@ -119,7 +120,8 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> V
                     (0..2).all(|side| (it.0.stations[side] - contact.0.stations[side]).abs() <= APART)
                 })
             };
-        // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it: that is one of its own.
+        // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it: that is one
+        // of its own.
         let joins = |group: &&mut Vec<(&Contact, Touch)>| {
             fits(group) && !(contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any))
         };
@@ -149,7 +151,8 @@ fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]
         }
         Meeting::Crosses => ZoneKind::Crossing,
     };
-    // Estimates are too coarse to tell two long vehicles from one where ways cross, or any from all where they lead into one.
+    // Estimates are too coarse to tell two long vehicles from one where ways cross, or any from all where they lead
+    // into one.
     let touch = match kind {
         ZoneKind::Merging(_) if !mostly(group, |it| it.is_along) => Touch::Any,
         ZoneKind::Crossing if !mostly(group, |it| it.is_road) => touch.min(Touch::OneLong),

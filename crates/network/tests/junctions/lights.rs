@@ -25,8 +25,8 @@ fn turned(point: Point, quarters: usize) -> Point {
     (0..quarters).fold(point, |it, _| Point::new(-it.y, it.x, it.z))
 }
 
-/// A junction of four arms with a light at each: lanes 0 to 3 lead to it, from the west, south, east and north, lanes 4 to 7
-/// away, and the others through it.
+/// A junction of four arms with a light at each: lanes 0 to 3 lead to it, from the west, south, east and north, lanes 4
+/// to 7 away, and the others through it.
 fn four_arms(movements: Movements) -> Junctions {
     let around = |line: &[Point], quarters: usize| line.iter().map(|it| turned(*it, quarters)).collect();
     let to = straight((-100.0, -BESIDE), (-LINE, -BESIDE));

@@ -26,7 +26,8 @@ fn chains_that_cross_are_near_each_other_from_the_place_to_a_vehicles_length_bey
         let holds = |[from, to]: [f64; 2], front: f64| (from..=to).contains(&front);
         found.iter().any(|(_, it)| holds(it.here, front[0]) && holds(it.there, front[1]))
     };
-    // Paths cross after 100 m: bumper in front of it, in the middle of it, and rear of the longest vehicle, 12 m long, in it.
+    // Paths cross after 100 m: bumper in front of it, in the middle of it, and rear of the longest vehicle, 12 m long,
+    // in it.
     for here in [98.0, 100.0, 104.0, 112.0] {
         for there in [98.0, 100.0, 104.0, 112.0] {
             assert!(covers([here, there]), "{here}, {there}: {found:?}");

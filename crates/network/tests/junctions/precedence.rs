@@ -46,8 +46,8 @@ fn left_turn() -> Lanes {
     Lanes::default().with(straight((-100.0, 0.0), (100.0, 0.0)), &[]).with(turning, &[])
 }
 
-/// A ring of radius 15 m, counter-clockwise from the south, in quarters 0 to 3; into its first quarter leads the lane 4, from its
-/// second leads the lane 5.
+/// A ring of radius 15 m, counter-clockwise from the south, in quarters 0 to 3; into its first quarter leads the lane
+/// 4, from its second leads the lane 5.
 fn roundabout() -> Lanes {
     let quarter = |number: f64| arc((0.0, 0.0), 15.0, (number - 1.0) * FRAC_PI_2, FRAC_PI_2);
     Lanes::default()

@@ -1,4 +1,5 @@
-//! Lanes between borders that are drawn: where they are wide enough to drive on, and whether narrow ones get in each other's way.
+//! Lanes between borders that are drawn: where they are wide enough to drive on, and whether narrow ones get in each
+//! other's way.
 
 use laneweave_network::{
     DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, Side, ZoneKind,
@@ -68,8 +69,8 @@ fn a_lane_that_narrows_to_nothing_ends_for_each_class_where_it_is_as_wide_as_tha
     assert_eq!(network.junctions.zones, [], "nobody drives where it touches the other lane");
 }
 
-/// A road of 400 m between borders 2.6 m apart, beside its first half on the right a lane. From 200 m this can be left for the first time,
-/// and narrows at once, to nothing in `taper` [m].
+/// A road of 400 m between borders 2.6 m apart, beside its first half on the right a lane. From 200 m this can be left
+/// for the first time, and narrows at once, to nothing in `taper` [m].
 fn late(taper: f64) -> Network {
     let mut road = vec![
         eastward(1, [0.0, 200.0], 2.6, 2.6),

@@ -1,5 +1,5 @@
-//! What a driver makes of its lanes at an instant, and what it is about to do in the next step: told without moving anything, so
-//! that a run can be asked for its reasons whenever it is repeated.
+//! What a driver makes of its lanes at an instant, and what it is about to do in the next step: told without moving
+//! anything, so that a run can be asked for its reasons whenever it is repeated.
 
 use std::borrow::Cow;
 
@@ -72,7 +72,8 @@ pub struct SideAccount<'a> {
     pub situation: Situation<'a>,
     /// What it makes of it.
     pub appraisal: Appraisal,
-    /// Chance that the desire for this side comes at this turn; 0 while the driver is calm and its route does not press it.
+    /// Chance that the desire for this side comes at this turn; 0 while the driver is calm and its route does not press
+    /// it.
     pub chance: f64,
     /// It does not weigh the side, as it is calm.
     pub is_out_of_question: bool,

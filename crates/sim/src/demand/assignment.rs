@@ -46,8 +46,8 @@ pub struct Part {
 }
 
 impl Assignment {
-    /// Of `demand` on average between two times [s]. Where lanes side by side lead to a destination, they share its drivers
-    /// evenly. If nobody comes in that time, as many come to each lane of the origins.
+    /// Of `demand` on average between two times [s]. Where lanes side by side lead to a destination, they share its
+    /// drivers evenly. If nobody comes in that time, as many come to each lane of the origins.
     pub fn new(network: &Network, navigator: &Navigator, demand: &Demand, during: [f64; 2]) -> Assignment {
         let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
         let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);

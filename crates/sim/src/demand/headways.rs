@@ -1,7 +1,8 @@
-//! Laws of headways, the times between successive arrivals in a lane (May 1990, Traffic Flow Fundamentals, chapter 2; Cowan 1975).
+//! Laws of headways, the times between successive arrivals in a lane (May 1990, Traffic Flow Fundamentals, chapter 2;
+//! Cowan 1975).
 //!
-//! Every law keeps the mean headway t̄, one over the rate. What shapes it beside that is a shortest headway in seconds, which
-//! drivers keep whatever the rate, and a spread relative to the mean.
+//! Every law keeps the mean headway t̄, one over the rate. What shapes it beside that is a shortest headway in seconds,
+//! which drivers keep whatever the rate, and a spread relative to the mean.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

@@ -1,9 +1,9 @@
 //! Trips begin only as long as the roads of a town can bear it.
 //!
-//! The throughput of a town has its maximum where a small part of its roads is taken up, and falls to nothing where all is
-//! (Geroliminis, Daganzo, 2008): full rings of queues lock, and no driver can open them. So those whose way leads over roads
-//! that lead in rings wait at the edge of the map, or at their places inside the map, while more of these is taken up than the town can bear
-//! (a switch at its edge, as of Keyvan-Ekbatani and others, 2012).
+//! The throughput of a town has its maximum where a small part of its roads is taken up, and falls to nothing where all
+//! is (Geroliminis, Daganzo, 2008): full rings of queues lock, and no driver can open them. So those whose way leads
+//! over roads that lead in rings wait at the edge of the map, or at their places inside the map, while more of these is
+//! taken up than the town can bear (a switch at its edge, as of Keyvan-Ekbatani and others, 2012).
 
 use laneweave_network::{ChainIndex, Network};
 use serde::{Deserialize, Serialize};
@@ -12,8 +12,8 @@ use crate::route::navigate::Navigator;
 use crate::state::goal::Destination;
 use crate::state::traffic::Lane;
 
-/// Share of its roads that vehicles and the least gaps before them may take up (ours, from trials on closed maps: at twice that
-/// fewer arrive).
+/// Share of its roads that vehicles and the least gaps before them may take up (ours, from trials on closed maps: at
+/// twice that fewer arrive).
 const BEARABLE: f64 = 0.10;
 /// Least gap before a vehicle [m].
 const LEAST_GAP: f64 = 2.0;
@@ -80,8 +80,8 @@ impl Metering {
     }
 }
 
-/// For each chain whether it is part of a ring of roads, or of a road from one to another: what is left of a network without all
-/// that only leads to it, and all that only leads away.
+/// For each chain whether it is part of a ring of roads, or of a road from one to another: what is left of a network
+/// without all that only leads to it, and all that only leads away.
 fn in_rings(network: &Network) -> Vec<bool> {
     let chains = (0..network.chains.len() as u32).map(ChainIndex);
     let mut is_left = vec![true; network.chains.len()];

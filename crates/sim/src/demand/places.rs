@@ -17,7 +17,8 @@ pub struct Places {
 }
 
 impl Places {
-    /// Most waypoints that are planned on a map without gates; of more destinations an even choice remains. Ours: 260 MB.
+    /// Most waypoints that are planned on a map without gates; of more destinations an even choice remains. Ours: 260
+    /// MB.
     const MOST_WAYPOINTS: usize = 4_000_000;
 
     /// The entrances and exits of `network`.
@@ -34,8 +35,8 @@ impl Places {
         self
     }
 
-    /// For a map without entrance or exit: places inside the map along those of `lanelets` that are long enough. Who starts at one of the
-    /// origins can reach a destination.
+    /// For a map without entrance or exit: places inside the map along those of `lanelets` that are long enough. Who
+    /// starts at one of the origins can reach a destination.
     pub fn along(network: &Network, lanelets: impl IntoIterator<Item = LaneletIndex>) -> Places {
         let mut is_wanted = vec![false; network.lanelets.len()];
         lanelets.into_iter().for_each(|it| is_wanted[it.at()] = true);
@@ -63,8 +64,8 @@ impl Places {
     }
 }
 
-/// The station nearest to `usual` on a lanelet, which reaches along a `chain` `from` one station `to` another, before which the longest
-/// vehicle stands in no conflict zone and on the lanelet [m].
+/// The station nearest to `usual` on a lanelet, which reaches along a `chain` `from` one station `to` another, before
+/// which the longest vehicle stands in no conflict zone and on the lanelet [m].
 fn clear_station(network: &Network, chain: ChainIndex, [from, to]: [f64; 2], usual: f64) -> Option<f64> {
     /// A vehicle keeps this distance to a zone [m].
     const SPARE: f64 = 1.0;

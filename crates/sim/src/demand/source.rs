@@ -22,7 +22,8 @@ use crate::state::traffic::{Motion, VehicleId};
 use crate::state::vehicle::Class;
 use crate::view::scene::Scene;
 
-/// Road per lane change that is still to go within which a driver comes onto the map in the lane of its route [m] (ours).
+/// Road per lane change that is still to go within which a driver comes onto the map in the lane of its route [m]
+/// (ours).
 pub const TAKES_LANE_WITHIN: f64 = 800.0;
 
 /// A vehicle at the moment of its arrival.
@@ -223,7 +224,8 @@ impl Source {
         Arrival { id, time, class, character, destination, is_through_town: false }
     }
 
-    /// A destination as a class sees the way to it; where there is none for it, the destination of least time to which there is one.
+    /// A destination as a class sees the way to it; where there is none for it, the destination of least time to which
+    /// there is one.
     fn reachable_for(&self, navigator: &Navigator, class: Class, destination: Destination) -> Destination {
         let seen = |it: Destination| navigator.seen_by(class, it);
         let time = |it: Destination| {
@@ -275,7 +277,8 @@ impl Source {
     }
 }
 
-/// When the vehicle after the one at `last` [s] comes, whose headway is exceeded with `chance`, in a stream of `rate` [veh/h].
+/// When the vehicle after the one at `last` [s] comes, whose headway is exceeded with `chance`, in a stream of `rate`
+/// [veh/h].
 ///
 /// Where the rate changes in the meantime, the share of the headway that is left goes on at the new rate. So Poisson
 /// arrivals stay Poisson at any time, and the shortest headway of a law is kept.

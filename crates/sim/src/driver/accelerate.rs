@@ -42,8 +42,8 @@ pub(crate) struct Chosen {
     pub(crate) junction: Junction,
 }
 
-/// Where along a chain who only follows a leader on it reacts to nothing else: beyond a fork, and where the leader is not beyond
-/// the next place to stop.
+/// Where along a chain who only follows a leader on it reacts to nothing else: beyond a fork, and where the leader is
+/// not beyond the next place to stop.
 #[derive(Clone, Copy)]
 pub(crate) struct OpenRoad {
     /// From here on whatever the leader does [m].
@@ -72,8 +72,8 @@ impl OpenRoad {
     }
 }
 
-/// The usual case: a driver who reacts only to its leader on the same chain, and is secure behind it with room to spare. `None` if it
-/// is not.
+/// The usual case: a driver who reacts only to its leader on the same chain, and is secure behind it with room to
+/// spare. `None` if it is not.
 // The most frequent call of a motorway.
 #[inline(always)]
 pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
@@ -101,8 +101,8 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
 }
 
-/// For one entry: the leader may be beyond the end of the chain, the driver may react to more than it, and kinematics may
-/// have to decide.
+/// For one entry: the leader may be beyond the end of the chain, the driver may react to more than it, and kinematics
+/// may have to decide.
 #[inline(never)]
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
@@ -288,8 +288,8 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
 }
 
-/// Of the room that a driver keeps before a place, as much as leaves it within the `window` [m] in which lanes may be changed: where
-/// that is short, one waits at its beginning.
+/// Of the room that a driver keeps before a place, as much as leaves it within the `window` [m] in which lanes may be
+/// changed: where that is short, one waits at its beginning.
 fn within_window(kept: f64, window: f64) -> f64 {
     /// So far into it one waits [m].
     const INTO: f64 = 3.0;
@@ -339,8 +339,8 @@ pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Opt
     scene.mind(spot).last_place - within_window(kept_room(scene, clock, spot), length) - scene.motion(spot).x
 }
 
-/// How a driver comes to the last place for a change. Into a short window it drives slowly enough to change there, and on through it if
-/// it has a gap; else it stops within it, or on a motorway slows down.
+/// How a driver comes to the last place for a change. Into a short window it drives slowly enough to change there, and
+/// on through it if it has a gap; else it stops within it, or on a motorway slows down.
 fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
     let manner = &scene.characters[car.character as usize].manner;

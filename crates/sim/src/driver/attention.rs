@@ -1,4 +1,5 @@
-//! Whether a driver is concentrated or inattentive: a function of seed, driver and time alone, with nothing to remember.
+//! Whether a driver is concentrated or inattentive: a function of seed, driver and time alone, with nothing to
+//! remember.
 //!
 //! A Markov process of two states with the mean dwell times τ_c and τ_i is a state that is drawn anew, inattentive with
 //! the share τ_i/(τ_c + τ_i), at the points of a Poisson process with the rate 1/τ_c + 1/τ_i. Here time is cut into

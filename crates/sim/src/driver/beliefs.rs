@@ -59,7 +59,8 @@ impl<'a> Beliefs<'a> {
         Beliefs { guidance, own: belief(0), other: belief(1), band }
     }
 
-    /// What the driver adds to the times of a way and of another one for what they ask of it from `x` on `chain` on [s].
+    /// What the driver adds to the times of a way and of another one for what they ask of it from `x` on `chain` on
+    /// [s].
     #[inline]
     pub(crate) fn added(&self, network: &Network, chain: ChainIndex, x: f64, ways: [Effort; 2]) -> [f64; 2] {
         if self.guidance.minds_time_only() {

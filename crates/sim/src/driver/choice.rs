@@ -71,8 +71,8 @@ pub(crate) fn is_out_of_question(car: &Car, moment: Moment, situation: &Situatio
     is_calm(car, moment) && situation.there.route.changes >= situation.here.route.changes
 }
 
-/// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where `draw` was
-/// drawn.
+/// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where
+/// `draw` was drawn.
 #[inline]
 pub(crate) fn desire(
     outlook: &Outlook,

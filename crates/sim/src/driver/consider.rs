@@ -15,6 +15,7 @@ use crate::driver::plan::{Ask, Concern, Note, Outbox, Plan, Request};
 use crate::driver::stuck::is_stuck;
 use crate::driver::turn::next_turn;
 use crate::driver::window;
+use crate::record::events::DrivingEventKind;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 use crate::state::moment::Moment;
@@ -47,7 +48,7 @@ pub(crate) fn consider(
     let standing = note_turn(scene, moment, &me, attending.period, plan, outbox);
     let waypoint = waypoint(scene, &me);
     let is_detour = matches!(waypoint, Cow::Owned(_));
-    let concern = follow_route(scene, &me, (&waypoint, is_detour), standing, outbox);
+    let concern = follow_route(scene, moment, &me, (&waypoint, is_detour), standing, outbox);
     if concern.rerouted.is_some() {
         return push_tight(&mut plan.concerns, concern);
     }
@@ -66,7 +67,7 @@ pub(crate) fn consider(
     let change = attending.model(me.style);
     if let Some(way) = departure(scene, moment, spot, &outlook, &change, attending.epochs) {
         if way.is_change {
-            outbox.count_route_change(me.motion.id);
+            outbox.note(scene, moment.clock, spot, DrivingEventKind::RouteChange);
         }
         let rerouted = Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern };
         return push_tight(&mut plan.concerns, rerouted);
@@ -89,7 +90,7 @@ fn note_turn(
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) -> f32 {
-    let Me { spot, motion, car, .. } = *me;
+    let Me { spot, car, .. } = *me;
     let mut note = note(scene, moment, me, period);
     if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
         if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
@@ -99,10 +100,11 @@ fn note_turn(
         }
     }
     if note.standing > 0.0 && car.standing == 0.0 {
-        outbox.halts.push(motion.id);
+        outbox.note(scene, moment.clock, spot, DrivingEventKind::Halt);
     }
     if note.standing == 0.0 && car.standing > 0.0 {
-        outbox.set_off.push((motion.id, car.standing));
+        let kind = DrivingEventKind::SetOff { stood: car.standing };
+        outbox.note(scene, moment.clock, spot, kind);
     }
     push_tight(&mut plan.notes, note);
     note.standing
@@ -113,10 +115,11 @@ pub(crate) fn waypoint<'a>(scene: &Scene<'a>, me: &Me) -> Cow<'a, Waypoint> {
     scene.navigator.waypoint_from(scene.network, me.car.goal.destination(), me.spot.chain, me.motion.x)
 }
 
-/// What a driver, who has been `standing` so long [s], has to keep in mind of its route: the last place for its next change, or
-/// another goal if it can no longer get there.
+/// What a driver, who has been `standing` so long [s], has to keep in mind of its route: the last place for its next
+/// change, or another goal if it can no longer get there.
 fn follow_route(
     scene: &Scene,
+    moment: Moment,
     me: &Me,
     (waypoint, is_detour): (&Waypoint, bool),
     standing: f32,
@@ -132,16 +135,17 @@ fn follow_route(
         rerouted: None,
     };
     if let Some(other) = other_goal(scene, me, waypoint, standing) {
-        outbox.count_missed_turn(motion.id);
+        outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
         outbox.tally.lost += u64::from(other.is_none());
         return Concern { rerouted: Some(other), gives_up: true, ..concern };
     }
     if !waypoint.leads_on(motion.x) {
         return concern;
     }
-    // Who passed the last place takes another route, if there is one; if not, it has a passage, and is re-routed beyond.
+    // Who passed the last place takes another route, if there is one; if not, it has a passage, and is re-routed
+    // beyond.
     if is_detour && me.mind.last_place < motion.x {
-        outbox.count_missed_turn(motion.id);
+        outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
     }
     let is_near = waypoint.last_place - motion.x < REACTS_WITHIN;
     Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
@@ -185,7 +189,8 @@ fn want_on(
     Concern { gives_up, urgency: wanted.map_or(0.0, |it| it.pressure as f32), ..concern }
 }
 
-/// A driver who keeps its lane begins to want a change if the desire comes, or at the last place for one that it has to make.
+/// A driver who keeps its lane begins to want a change if the desire comes, or at the last place for one that it has to
+/// make.
 fn choose(
     moment: Moment,
     me: &Me,
@@ -207,7 +212,8 @@ fn choose(
 }
 
 /// Where a driver, who has been `standing` so long [s], goes from now on because it cannot get to where it goes by its
-/// `waypoint`, or has waited for the change in vain: the nearest destination that it still can, or as the road leads. None if it goes on.
+/// `waypoint`, or has waited for the change in vain: the nearest destination that it still can, or as the road leads.
+/// None if it goes on.
 fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Option<Destination> {
     let (spot, goal, x) = (me.spot, me.car.goal.destination(), me.motion.x);
     let found = if !waypoint.leads_on(x) {
@@ -223,8 +229,8 @@ fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Opt
     (found != goal && is_free).then_some(found)
 }
 
-/// Whether a driver comes to the last place for a change that it has to make: there it looks for a gap at every step, and wants the
-/// change whatever else speaks against it (ours).
+/// Whether a driver comes to the last place for a change that it has to make: there it looks for a gap at every step,
+/// and wants the change whatever else speaks against it (ours).
 pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Motion, waypoint: &Waypoint) -> bool {
     /// Way before that place [m], and time [s].
     const WAY: f64 = 30.0;

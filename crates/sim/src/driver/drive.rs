@@ -5,6 +5,7 @@ use laneweave_network::ChainIndex;
 use crate::driver::accelerate::{Chosen, LaneEnd, OpenRoad, behind, lane_end, with_care};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
 use crate::junction::passages::NO_PASSAGE;
+use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
 use crate::state::clock::Clock;
 use crate::state::tight::push_tight;
@@ -70,7 +71,9 @@ fn drive_with_care(
     let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
     let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
     // A shadow counts as well: kinematics in either lane is kinematics.
-    outbox.tally.emergency_brakings += u64::from(by_kinematics && !car.in_emergency);
+    if by_kinematics && !car.in_emergency {
+        outbox.note(scene, clock, spot, DrivingEventKind::EmergencyBraking);
+    }
     if touches && let Some(leader) = scene.leader_spot(scene.viewpoint(spot)) {
         touch(scene, spot, leader, clock.time(), &mut outbox.incidents);
     }

@@ -28,7 +28,8 @@ pub enum Hindrance {
     NotAllowed,
     /// It is not allowed for as long as it takes to cross the line.
     TooLittleRoad,
-    /// It would not be over before a place where somebody may have to stop, or would take room there that is kept for others.
+    /// It would not be over before a place where somebody may have to stop, or would take room there that is kept for
+    /// others.
     Junction,
     /// It is on its way through a junction, and keeps its lane.
     InPassage,
@@ -161,8 +162,8 @@ impl Gap {
         Ok(())
     }
 
-    /// The highest speed of the driver at `spot` for which the road left does, to the last bit [m/s]; infinite where that is more than
-    /// anybody drives, 0 where it does for no speed.
+    /// The highest speed of the driver at `spot` for which the road left does, to the last bit [m/s]; infinite where
+    /// that is more than anybody drives, 0 where it does for no speed.
     pub(crate) fn fastest(&self, scene: &Scene, spot: Spot) -> f64 {
         const NOBODY: f64 = 128.0;
         let does = |speed: f64| self.has_road(scene, spot, speed).is_ok();

@@ -23,8 +23,8 @@ pub(crate) struct Departure {
     pub(crate) is_change: bool,
 }
 
-/// The way that a driver goes over to, if it does so within `epochs`: the better one that it finds, by the same rule by which
-/// it changes lanes; or the same way, newly planned.
+/// The way that a driver goes over to, if it does so within `epochs`: the better one that it finds, by the same rule by
+/// which it changes lanes; or the same way, newly planned.
 #[inline]
 pub(crate) fn departure(
     scene: &Scene,
@@ -69,8 +69,8 @@ fn goes_on_alike(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     own.goes_like(new) && own.time == new.time
 }
 
-/// Who has a passage goes the way that it was given for; others could still stop before the ways part, and are in a lane
-/// that leads on over its end.
+/// Who has a passage goes the way that it was given for; others could still stop before the ways part, and are in a
+/// lane that leads on over its end.
 fn can_go_over(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     let Scene { network, navigator, .. } = scene;
     let motion = scene.motion(spot);

@@ -67,8 +67,8 @@ pub(crate) struct Outlook<'s, 'a> {
 }
 
 impl<'s, 'a> Outlook<'s, 'a> {
-    /// Looks along the own lane of a driver whose waypoint is `waypoint`, and who sees `reach` [m] ahead. The first entries
-    /// ahead in the lanes beside are sought from `hints` on, left and right, and kept in them.
+    /// Looks along the own lane of a driver whose waypoint is `waypoint`, and who sees `reach` [m] ahead. The first
+    /// entries ahead in the lanes beside are sought from `hints` on, left and right, and kept in them.
     pub(crate) fn new(
         scene: &'s Scene<'a>,
         spot: Spot,
@@ -129,8 +129,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
         Situation { toward, me, here, there, section, band, merging }
     }
 
-    /// The length over which the speeds of the own lane and of the one where the driver would be at `from` differ for it [m], and
-    /// what the two lanes mean for its route beyond.
+    /// The length over which the speeds of the own lane and of the one where the driver would be at `from` differ for
+    /// it [m], and what the two lanes mean for its route beyond.
     #[inline]
     fn routes(&self, from: Viewpoint) -> (f64, [RouteView; 2]) {
         let there = route_view(self.scene, from, &self.waypoint_beside(from), self.beliefs);
@@ -144,8 +144,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
         (section, [here, there])
     }
 
-    /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would be at
-    /// `there`: on the free road the same.
+    /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would
+    /// be at `there`: on the free road the same.
     #[inline]
     fn times_on(&self, section: f64, there: Viewpoint) -> [f64; 2] {
         let Scene { network, navigator, .. } = self.scene;
@@ -178,8 +178,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
     }
 
     /// Who signals a change into the lane that the driver would leave to `side`, where it would look `from` and see
-    /// `there`: on the other side the next one behind, or else ahead; on this side the new leader. The new follower counts
-    /// as such.
+    /// `there`: on the other side the next one behind, or else ahead; on this side the new leader. The new follower
+    /// counts as such.
     fn merging(&self, side: Side, from: Viewpoint, there: &LaneSight) -> [Option<Merging<'a>>; 2] {
         let across = self.beside(side.opposite()).and_then(|Viewpoint { chain, x, ahead, .. }| {
             let cars = self.scene.cars(chain);
@@ -194,8 +194,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
         [across, leader.and_then(|it| self.merging_from(it, side, from.x))]
     }
 
-    /// The vehicle at `spot` on `side`, which signals a change and beside whose lane the driver is at `x` [m], if it wants
-    /// into the driver's lane and nobody is between it and the driver there.
+    /// The vehicle at `spot` on `side`, which signals a change and beside whose lane the driver is at `x` [m], if it
+    /// wants into the driver's lane and nobody is between it and the driver there.
     #[inline(never)]
     fn merging_from(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
         let mind = self.scene.mind(spot);
@@ -218,7 +218,8 @@ impl<'s, 'a> Outlook<'s, 'a> {
         Some(Merging { driver: driver(self.scene, spot), blocked, freed, urgency: f64::from(mind.urgency) })
     }
 
-    /// What the vehicle at `spot` has ahead as long as it cannot change: its leader, or where it has to have left its lane.
+    /// What the vehicle at `spot` has ahead as long as it cannot change: its leader, or where it has to have left its
+    /// lane.
     fn held_in_its_lane(&self, spot: Spot) -> Option<Ahead> {
         let room = self.scene.mind(spot).last_place - self.scene.motion(spot).x;
         let end = room.is_finite().then(|| Ahead::standing(room.max(LEAST_ROOM)));
@@ -232,7 +233,8 @@ fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: Route
     LaneView { ahead: sight.ahead, behind, flow: sight.flow, prospect: sight.prospect, route }
 }
 
-/// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place on.
+/// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place
+/// on.
 #[inline(always)]
 fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beliefs) -> RouteView {
     if !waypoint.leads_on(from.x) {

@@ -8,14 +8,17 @@ use crate::junction::claim::Claim;
 use crate::junction::claim::Turn;
 use crate::junction::need::Survey;
 use crate::junction::refuge::Refuge;
+use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::incidents::Incident;
-use crate::record::journal::Rerouting;
 use crate::record::tally::Tally;
+use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
+use crate::view::scene::{Scene, Spot};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
-/// its own, so that threads do not disturb each other, and on few of them: towns have thousands of lanes. Lines are fetched in pairs, so it begins with a pair.
+/// its own, so that threads do not disturb each other, and on few of them: towns have thousands of lanes. Lines are
+/// fetched in pairs, so it begins with a pair.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(crate) struct Plan {
@@ -71,19 +74,15 @@ pub(crate) struct Outbox {
     pub(crate) wants: Vec<(Refuge, Claim, f64)>,
     /// Drivers out of patience who wait for a ring to take them in, each between two chains.
     pub(crate) rings: Vec<([ChainIndex; 2], Claim)>,
-    /// Room for the thread's work on one driver, and on one lane: drivers who give a passage back, and from where on; entries
-    /// whose trips ended.
+    /// Room for the thread's work on one driver, and on one lane: drivers who give a passage back, and from where on;
+    /// entries whose trips ended.
     pub(crate) survey: Survey,
     pub(crate) returns: Vec<(u32, f64)>,
     pub(crate) ended: Vec<u32>,
     /// What was counted since the counts were forgotten, but for distances.
     pub(crate) tally: Tally,
-    /// Vehicles that came to a halt.
-    pub(crate) halts: Vec<VehicleId>,
-    /// Vehicles that drive on after they stood for so long [s].
-    pub(crate) set_off: Vec<(VehicleId, f32)>,
-    /// Drivers who took another route.
-    pub(crate) reroutings: Vec<(VehicleId, Rerouting)>,
+    /// What happened to vehicles on their way.
+    pub(crate) driving: Vec<DrivingEvent>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
     /// Vehicles that touch each other.
@@ -93,16 +92,17 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// Counts a turn that a driver missed.
-    pub(crate) fn count_missed_turn(&mut self, id: VehicleId) {
-        self.tally.missed_turns += 1;
-        self.reroutings.push((id, Rerouting::MissedTurn));
-    }
-
-    /// Counts that a driver left its route for a better one.
-    pub(crate) fn count_route_change(&mut self, id: VehicleId) {
-        self.tally.route_changes += 1;
-        self.reroutings.push((id, Rerouting::Choice));
+    /// Notes what happens to the vehicle at `spot` on its way.
+    pub(crate) fn note(&mut self, scene: &Scene, clock: Clock, spot: Spot, kind: DrivingEventKind) {
+        match kind {
+            DrivingEventKind::EmergencyBraking => self.tally.emergency_brakings += 1,
+            DrivingEventKind::MissedTurn => self.tally.missed_turns += 1,
+            DrivingEventKind::RouteChange => self.tally.route_changes += 1,
+            DrivingEventKind::Halt | DrivingEventKind::SetOff { .. } => {}
+        }
+        let (motion, time) = (scene.motion(spot), clock.time());
+        let event = DrivingEvent { kind, vehicle: motion.id, time, chain: spot.chain, x: motion.x };
+        self.driving.push(event);
     }
 
     /// Takes over all that is in `other`.
@@ -116,9 +116,7 @@ impl Outbox {
         take_over(&mut self.blocked, &mut other.blocked);
         take_over(&mut self.wants, &mut other.wants);
         take_over(&mut self.rings, &mut other.rings);
-        take_over(&mut self.halts, &mut other.halts);
-        take_over(&mut self.set_off, &mut other.set_off);
-        take_over(&mut self.reroutings, &mut other.reroutings);
+        take_over(&mut self.driving, &mut other.driving);
         take_over(&mut self.arrived, &mut other.arrived);
         take_over(&mut self.incidents, &mut other.incidents);
         take_over(&mut self.empty, &mut other.empty);
@@ -210,7 +208,8 @@ pub(crate) struct Note {
     pub(crate) standing: f32,
 }
 
-/// What a driver keeps in mind beside, who has to leave its lane soon, reacts to more than its leader, or wants to change.
+/// What a driver keeps in mind beside, who has to leave its lane soon, reacts to more than its leader, or wants to
+/// change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Concern {
     /// Its entry.

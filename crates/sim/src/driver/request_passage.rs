@@ -1,5 +1,6 @@
 //! Drivers who wait at junctions ask for their passage, or give it back: on the snapshot, for what concerns them alone.
-//! Those who may pass are given passages one after the other once all have moved, on the state in which it takes effect.
+//! Those who may pass are given passages one after the other once all have moved, on the state in which it takes
+//! effect.
 
 use laneweave_network::{ChainIndex, LightIndex};
 
@@ -16,8 +17,8 @@ use crate::state::clock::Clock;
 use crate::state::standstill::STANDS;
 use crate::view::scene::{Scene, Spot};
 
-/// Who has waited at a light for so long [s], through a green, did not get the room that it needs: it comes first to it (ours; as
-/// long as drivers are patient elsewhere).
+/// Who has waited at a light for so long [s], through a green, did not get the room that it needs: it comes first to it
+/// (ours; as long as drivers are patient elsewhere).
 const STARVES: f64 = 45.0;
 
 /// The drivers of a lane who wait at a junction and may pass ask for their passages.
@@ -86,7 +87,8 @@ fn starves(scene: &Scene, asking: Asking, survey: &Survey) -> bool {
     waited > STARVES && survey.lights.last().is_some_and(|it| was_green(it.0))
 }
 
-/// The driver at `spot`, who has surveyed its way, claims room there. Who comes onto a ring from outside does not stop it.
+/// The driver at `spot`, who has surveyed its way, claims room there. Who comes onto a ring from outside does not stop
+/// it.
 fn claim_room(scene: &Scene, spot: Spot, claim: Claim, outbox: &mut Outbox) {
     let Outbox { survey, wants, rings, .. } = outbox;
     let way = [spot.chain, survey.refuge.chain];

@@ -26,8 +26,9 @@ enum Blocker {
     Other,
 }
 
-/// Whether the vehicle at `spot`, which has stood for long, is stuck: it is not if the head of those who block it moves, is about
-/// to, or waits at a red light that was green not long ago. Those who wait for each other are stuck, all of them.
+/// Whether the vehicle at `spot`, which has stood for long, is stuck: it is not if the head of those who block it
+/// moves, is about to, or waits at a red light that was green not long ago. Those who wait for each other are stuck,
+/// all of them.
 #[inline(never)]
 pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
     let mut at = spot;

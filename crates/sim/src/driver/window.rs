@@ -1,5 +1,5 @@
-//! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short one looks at the lane beside before it
-//! may change there, so that it comes to the window with a gap, and slowly enough to use it.
+//! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short one looks at the
+//! lane beside before it may change there, so that it comes to the window with a gap, and slowly enough to use it.
 
 use laneweave_network::{Beside, ChainIndex, Side};
 
@@ -11,7 +11,8 @@ const SHORT: f64 = 80.0;
 /// So far before a short window a driver looks for a gap [m]. Ours.
 const LOOKS_AHEAD: f64 = 60.0;
 
-/// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which it has to change.
+/// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which
+/// it has to change.
 // Considering a lane begins with it.
 #[inline(always)]
 pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'a Beside> {
@@ -27,7 +28,8 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
     }
 }
 
-/// The first of `stretches` ahead of the driver at `spot`, if the short window in which it has to change lanes begins with it.
+/// The first of `stretches` ahead of the driver at `spot`, if the short window in which it has to change lanes begins
+/// with it.
 #[inline(never)]
 fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a Beside> {
     let (x, last_place) = (scene.motion(spot).x, scene.mind(spot).last_place);
@@ -50,7 +52,8 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where that is far.
+    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where
+    /// that is far.
     pub(crate) fn of(scene: &Scene, spot: Spot) -> Option<Window> {
         let (x, place) = (scene.motion(spot).x, scene.mind(spot).last_place);
         // A short one is near, and a long one so far ahead is not worth the search.

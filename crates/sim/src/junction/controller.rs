@@ -1,9 +1,9 @@
 //! The controller of a junction whose greens traffic extends: where its program is, and when it goes on.
 //!
-//! Who comes to a light that is red calls the first turn in which it is green. As long as nobody calls another turn, the present one
-//! stays green. Then its green ends when nobody has come to its lights for its gap, or at its maximum, counted from the
-//! first call on; never before its minimum. Turns that nobody calls are left out. Gap, minimum and maximum are those of the
-//! usual actuated controllers (such as NEMA TS 2; from memory).
+//! Who comes to a light that is red calls the first turn in which it is green. As long as nobody calls another turn,
+//! the present one stays green. Then its green ends when nobody has come to its lights for its gap, or at its maximum,
+//! counted from the first call on; never before its minimum. Turns that nobody calls are left out. Gap, minimum and
+//! maximum are those of the usual actuated controllers (such as NEMA TS 2; from memory).
 
 use laneweave_network::{Extension, LightIndex, LightState, SignalPlan, Turn};
 use serde::{Deserialize, Serialize};
@@ -166,8 +166,8 @@ mod tests {
         SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() }
     }
 
-    /// When a light shows another colour [s], and which, in `duration` [s], in which vehicles come to a light as told by
-    /// time [s].
+    /// When a light shows another colour [s], and which, in `duration` [s], in which vehicles come to a light as told
+    /// by time [s].
     fn switches(
         plan: &SignalPlan,
         light: LightIndex,

@@ -19,7 +19,8 @@ pub(crate) struct Survey {
     pub(crate) has_stop_sign: bool,
     /// Sides of zones.
     pub(crate) holds: Vec<Hold>,
-    /// Where its front has to get for the rear to be out of all zones, and for it to be past all lines that belong to them.
+    /// Where its front has to get for the rear to be out of all zones, and for it to be past all lines that belong to
+    /// them.
     pub(crate) extent: f64,
     /// Where it can stand then.
     pub(crate) refuge: Refuge,

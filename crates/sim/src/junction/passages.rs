@@ -210,7 +210,8 @@ impl Passages {
         slot
     }
 
-    /// The vehicle of the passage in `slot` drove on by `distance` [m], and now has `speed` and desires `desired` [m/s].
+    /// The vehicle of the passage in `slot` drove on by `distance` [m], and now has `speed` and desires `desired`
+    /// [m/s].
     pub(crate) fn advance(&mut self, slot: u32, distance: f64, speed: f64, desired: f64) {
         let Passages { given, queues, kept, .. } = self;
         let passage = &mut given[slot as usize];
@@ -249,7 +250,8 @@ impl Passages {
         self.given[slot as usize].since
     }
 
-    /// The vehicle of the passage in `slot` goes, whatever lights show from now on: others have been let go because it does.
+    /// The vehicle of the passage in `slot` goes, whatever lights show from now on: others have been let go because it
+    /// does.
     pub(crate) fn make_certain(&mut self, slot: u32) {
         self.given[slot as usize].lights.clear();
     }
@@ -309,8 +311,8 @@ impl Passage {
         ends.filter(|it| *it > self.travelled).fold(self.extent, f64::min) - self.travelled
     }
 
-    /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light: who stops at the line has to stop
-    /// for these, too. From the beginning of the passage on [m].
+    /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light: who stops at the
+    /// line has to stop for these, too. From the beginning of the passage on [m].
     pub(crate) fn zone_over(&self, line: f64) -> Option<f64> {
         self.holds.iter().filter(|it| it.leave > line).map(|it| it.enter).reduce(f64::min)
     }

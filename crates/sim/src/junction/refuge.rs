@@ -3,8 +3,8 @@
 use laneweave_network::{ChainIndex, Junctions, Network};
 use serde::{Deserialize, Serialize};
 
-/// A stretch of a chain between two places where drivers may have to stop: who stands on one of them is in nobody's way on
-/// another.
+/// A stretch of a chain between two places where drivers may have to stop: who stands on one of them is in nobody's way
+/// on another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Refuge {
     pub(crate) chain: ChainIndex,

@@ -37,7 +37,8 @@ struct Ring {
 }
 
 impl Rings {
-    /// The rings of `network`: chains that lead back to their starts within a short way, each with those that it is linked to.
+    /// The rings of `network`: chains that lead back to their starts within a short way, each with those that it is
+    /// linked to.
     pub(crate) fn of(network: &Network) -> Rings {
         let chains = (0..network.chains.len() as u32).map(ChainIndex);
         let is_on_ring: Vec<bool> = chains.clone().map(|it| comes_round(network, it)).collect();
@@ -98,8 +99,8 @@ impl Rings {
         }
     }
 
-    /// Whether a ring between `from` and `refuge` would be full with who claims and needs `needed` [m] there, or somebody
-    /// else comes first.
+    /// Whether a ring between `from` and `refuge` would be full with who claims and needs `needed` [m] there, or
+    /// somebody else comes first.
     pub(crate) fn is_closed(
         &self,
         passages: &Passages,

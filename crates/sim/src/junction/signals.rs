@@ -15,8 +15,8 @@ const DETECTED_WITHIN: f64 = 30.0;
 pub struct Signals {
     /// By light.
     shown: Vec<LightState>,
-    /// By light the last step in which it was green before the one in which it came to show what it shows; the beginning if
-    /// there was none yet.
+    /// By light the last step in which it was green before the one in which it came to show what it shows; the
+    /// beginning if there was none yet.
     was_green: Vec<u32>,
     /// Until then no fixed program switches [s].
     steady_until: f64,

@@ -30,6 +30,54 @@ pub enum Event {
     LaneChange(LaneChange),
     /// Two vehicles came to touch each other.
     Incident(Incident),
+    /// Something happened to one vehicle on its way.
+    Driving(DrivingEvent),
+}
+
+/// Something that happens to one vehicle on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivingEvent {
+    /// What.
+    pub kind: DrivingEventKind,
+    /// To whom.
+    pub vehicle: VehicleId,
+    /// When [s].
+    pub time: f64,
+    /// Where: its chain.
+    pub chain: ChainIndex,
+    /// And its front bumper along that [m].
+    pub x: f64,
+}
+
+/// What happens to a vehicle on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DrivingEventKind {
+    /// It begins to brake as kinematics, not its model, demands.
+    EmergencyBraking,
+    /// It came to a halt.
+    Halt,
+    /// It drives on after it stood.
+    SetOff {
+        /// For how long it stood [s].
+        stood: f32,
+    },
+    /// Its driver missed a turn, and takes another route if there is one.
+    MissedTurn,
+    /// Its driver left its route for a better one.
+    RouteChange,
+}
+
+impl DrivingEventKind {
+    /// The order in which a vehicle's events of one step are told.
+    pub(crate) fn rank(self) -> u8 {
+        match self {
+            DrivingEventKind::EmergencyBraking => 0,
+            DrivingEventKind::Halt => 1,
+            DrivingEventKind::SetOff { .. } => 2,
+            DrivingEventKind::MissedTurn => 3,
+            DrivingEventKind::RouteChange => 4,
+        }
+    }
 }
 
 /// A lane change, with the reasons for it.

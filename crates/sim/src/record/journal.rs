@@ -1,13 +1,15 @@
-//! Trips as they are recorded until they end, where somebody asks for it: what cannot be seen in the traffic of one instant.
+//! Trips as they are recorded until they end, where somebody asks for it: what cannot be seen in the traffic of one
+//! instant.
 //!
-//! They lie cold. Only what is rare is written to them: a vehicle enters, halts, drives on, goes over to the next chain,
-//! changes lanes, takes another route, leaves.
+//! They lie cold. Only what is rare is written to them: a vehicle enters, halts, drives on, goes over to the next
+//! chain, changes lanes, takes another route, leaves.
 
 use std::collections::VecDeque;
 
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
 
+use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::ledger::Mark;
 use crate::state::traffic::VehicleId;
 use crate::state::vehicle::Class;
@@ -81,15 +83,6 @@ impl TripRecord {
     }
 }
 
-/// Why a driver took another route.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rerouting {
-    /// It missed a turn.
-    MissedTurn,
-    /// The other is better.
-    Choice,
-}
-
 /// The records of all vehicles on the road.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Journal {
@@ -161,27 +154,15 @@ impl Journal {
         self.slots.get(place as usize).copied()
     }
 
-    /// The vehicle came to a halt.
-    pub(crate) fn stop(&mut self, id: VehicleId) {
-        if let Some(record) = self.of_mut(id) {
-            record.stops += 1;
-        }
-    }
-
-    /// The vehicle drives on after it stood for so long [s].
-    pub(crate) fn set_off(&mut self, id: VehicleId, stood: f64) {
-        if let Some(record) = self.of_mut(id) {
-            record.stood += stood;
-        }
-    }
-
-    /// The driver took another route.
-    pub(crate) fn reroute(&mut self, id: VehicleId, why: Rerouting) {
-        if let Some(record) = self.of_mut(id) {
-            match why {
-                Rerouting::MissedTurn => record.missed_turns += 1,
-                Rerouting::Choice => record.route_changes += 1,
-            }
+    /// Something happened to a vehicle on its way.
+    pub(crate) fn note(&mut self, event: &DrivingEvent) {
+        let Some(record) = self.of_mut(event.vehicle) else { return };
+        match event.kind {
+            DrivingEventKind::EmergencyBraking => {}
+            DrivingEventKind::Halt => record.stops += 1,
+            DrivingEventKind::SetOff { stood } => record.stood += f64::from(stood),
+            DrivingEventKind::MissedTurn => record.missed_turns += 1,
+            DrivingEventKind::RouteChange => record.route_changes += 1,
         }
     }
 
@@ -224,13 +205,14 @@ mod tests {
     fn halts_and_the_time_at_rest_add_up() {
         let mut journal = Journal::default();
         journal.begin(record(0, 0.0));
+        let event = |kind| DrivingEvent { kind, vehicle: 0, time: 0.0, chain: ChainIndex(0), x: 0.0 };
         for stood in [2.0, 3.5] {
-            journal.stop(0);
-            journal.set_off(0, stood);
+            journal.note(&event(DrivingEventKind::Halt));
+            journal.note(&event(DrivingEventKind::SetOff { stood }));
         }
-        journal.stop(0);
-        journal.reroute(0, Rerouting::Choice);
-        journal.stop(4);
+        journal.note(&event(DrivingEventKind::Halt));
+        journal.note(&event(DrivingEventKind::RouteChange));
+        journal.note(&DrivingEvent { vehicle: 4, ..event(DrivingEventKind::Halt) });
         let trip = journal.of(0).copied();
         assert_eq!(
             trip.map(|it| (it.stops, it.stood, it.route_changes, it.missed_turns)),

@@ -1,8 +1,8 @@
-//! What vehicles do on every lanelet, as it is added up where somebody asks for it: the time that they spend there, the way that
-//! they drive, and who passes the end.
+//! What vehicles do on every lanelet, as it is added up where somebody asks for it: the time that they spend there, the
+//! way that they drive, and who passes the end.
 //!
-//! Where a vehicle was is put down once a second, and whenever it leaves its chain: between two such instants it drives at
-//! constant speed, as far as the lanelets know.
+//! Where a vehicle was is put down once a second, and whenever it leaves its chain: between two such instants it drives
+//! at constant speed, as far as the lanelets know.
 
 use laneweave_network::{Chain, Network};
 use serde::{Deserialize, Serialize};
@@ -156,7 +156,8 @@ mod tests {
 
     use super::*;
 
-    /// What is put down of a way from one mark to another on a road of five lanelets of 100 m: time, way and passings of each.
+    /// What is put down of a way from one mark to another on a road of five lanelets of 100 m: time, way and passings
+    /// of each.
     fn stays(marks: [Mark; 2]) -> Vec<(f64, f64, u32)> {
         let plan = Motorway { lanes: 1, length_m: 500.0, ..Motorway::default() };
         let network = motorway(&plan).unwrap().build().unwrap().network;

@@ -1,5 +1,5 @@
-//! Overlaps: vehicles are kept apart by gaps along lanes and by reservations where lanes meet; whether they are, is seen by holding
-//! their rectangles against each other, whatever lanes they are in.
+//! Overlaps: vehicles are kept apart by gaps along lanes and by reservations where lanes meet; whether they are, is
+//! seen by holding their rectangles against each other, whatever lanes they are in.
 
 use laneweave_network::{ChainIndex, Nearby, Pose, Side};
 

@@ -1,5 +1,5 @@
-//! What separates drivers from coins: how often the desire comes to those held up beside a free lane, and to those on a free
-//! road.
+//! What separates drivers from coins: how often the desire comes to those held up beside a free lane, and to those on a
+//! free road.
 
 /// A driver whose desires are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,8 +15,8 @@ const FREE: f64 = 0.95;
 const HELD_UP: f64 = 0.9;
 
 impl Sign {
-    /// Of a driver who wants `desired` [m/s] and anticipates `here` in its lane, and `best_there` in the better lane beside that
-    /// leads to the same place, if there is one.
+    /// Of a driver who wants `desired` [m/s] and anticipates `here` in its lane, and `best_there` in the better lane
+    /// beside that leads to the same place, if there is one.
     pub(crate) fn of(desired: f64, here: f64, best_there: Option<f64>) -> Option<Sign> {
         let best_there = best_there?;
         if here >= FREE * desired {

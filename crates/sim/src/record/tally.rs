@@ -3,7 +3,8 @@
 use crate::record::signs::Sign;
 use serde::{Deserialize, Serialize};
 
-/// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on who did what.
+/// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on
+/// who did what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     /// Times that a driver considered lanes.
@@ -22,7 +23,8 @@ pub struct Tally {
     pub distance: f64,
     /// Braking events that kinematics, not the model, decided.
     pub emergency_brakings: u64,
-    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each other.
+    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each
+    /// other.
     pub collisions: u64,
     /// Other times that two vehicles came to overlap.
     pub overlaps: u64,

@@ -1,5 +1,5 @@
-//! What is kept of each trip until it ends: the time that it would take on a free road, and how often the vehicle stopped.
-//! It lies cold, by the vehicle's id.
+//! What is kept of each trip until it ends: the time that it would take on a free road, and how often the vehicle
+//! stopped. It lies cold, by the vehicle's id.
 
 use std::collections::VecDeque;
 
@@ -11,8 +11,8 @@ use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 use crate::state::traffic::VehicleId;
 
-/// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours; above it
-/// the number of times that the vehicle came to a halt; and whether it is over.
+/// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours;
+/// above it the number of times that the vehicle came to a halt; and whether it is over.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Trip(u32);
 
@@ -108,8 +108,8 @@ impl Trips {
     }
 }
 
-/// Time [s] that a driver takes from `x` on `chain` to its destination on a free road, who drives at `speed` [m/s] under
-/// each limit and changes lanes where it last can. None without a destination, or a way to it.
+/// Time [s] that a driver takes from `x` on `chain` to its destination on a free road, who drives at `speed` [m/s]
+/// under each limit and changes lanes where it last can. None without a destination, or a way to it.
 pub(crate) fn free_time(
     network: &Network,
     navigator: &Navigator,

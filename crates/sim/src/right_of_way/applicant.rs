@@ -1,4 +1,5 @@
-//! Who asks to pass a junction: all that the right of way depends on, whether it is on the road or waits to come onto it.
+//! Who asks to pass a junction: all that the right of way depends on, whether it is on the road or waits to come onto
+//! it.
 
 use laneweave_models::Style;
 use laneweave_models::yielding::time_to_cover;

@@ -13,10 +13,11 @@ use crate::view::scene::{Scene, Spot};
 
 /// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
 pub(crate) const LONG: f64 = 7.0;
-/// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design of
-/// yellow times).
+/// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design
+/// of yellow times).
 pub const STOPS_AT_YELLOW: f64 = 3.0;
-/// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s] (ours).
+/// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s]
+/// (ours).
 const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;
 /// And never later than at this distance [m].
@@ -33,8 +34,8 @@ pub(crate) struct Junction {
     pub(crate) asks: bool,
     /// It does not go on at the light there as long as this shows what it shows.
     pub(crate) is_held: bool,
-    /// What it cannot use of its passage now, from so far beyond its beginning on [m]: a light that it meant to pass is no longer
-    /// green, and it can stop there; or somebody without a passage came before it, and it stands.
+    /// What it cannot use of its passage now, from so far beyond its beginning on [m]: a light that it meant to pass is
+    /// no longer green, and it can stop there; or somebody without a passage came before it, and it stands.
     pub(crate) gives_back: Option<f64>,
 }
 
@@ -137,16 +138,16 @@ fn yield_to_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut 
     }
 }
 
-/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road its speed is
-/// seen, and not whether it changes (ours).
+/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road
+/// its speed is seen, and not whether it changes (ours).
 pub(crate) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
     let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead::steady(gap, other.speed))
 }
 
-/// From where on, along the `passage` of the driver at `spot`, somebody is in its way who has none, as who changed into its lane before
-/// it: whom it lets go first could wait for others, and they for it [m].
+/// From where on, along the `passage` of the driver at `spot`, somebody is in its way who has none, as who changed into
+/// its lane before it: whom it lets go first could wait for others, and they for it [m].
 fn cut_off_from(scene: &Scene, spot: Spot, passage: &Passage) -> Option<f64> {
     let from = scene.viewpoint(spot);
     let leader =
@@ -158,8 +159,8 @@ fn cut_off_from(scene: &Scene, spot: Spot, passage: &Passage) -> Option<f64> {
     (next < f64::INFINITY && gap < until).then_some(passage.travelled + gap.max(0.0))
 }
 
-/// Where a driver stops, from the beginning of its passage on [m], for the first light ahead that is no longer green if it
-/// can do so with comfort and outside of all zones.
+/// Where a driver stops, from the beginning of its passage on [m], for the first light ahead that is no longer green if
+/// it can do so with comfort and outside of all zones.
 fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
     let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
     let (_, at) = passage.lights().find(is_red)?;

@@ -1,4 +1,5 @@
-//! Those who come from elsewhere into a lane before a driver: it does not see them on its way yet, and will stand behind them.
+//! Those who come from elsewhere into a lane before a driver: it does not see them on its way yet, and will stand
+//! behind them.
 
 use laneweave_network::ZoneKind;
 

@@ -25,8 +25,8 @@ pub(crate) struct Beyond {
     pub(crate) arrival: f64,
 }
 
-/// Room from where the zones end [m], to the limit or to where the vehicles that are out of the zones will all be; none if somebody
-/// ahead who is not out of them, and of the way, has no passage out.
+/// Room from where the zones end [m], to the limit or to where the vehicles that are out of the zones will all be; none
+/// if somebody ahead who is not out of them, and of the way, has no passage out.
 pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
     let Beyond { refuge, clear, limit, arrival } = beyond;
@@ -77,8 +77,8 @@ pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     }
 }
 
-/// Whether the vehicle at `spot` drives on as long as those before it on the way of who looks `from` do: it goes the same way, and
-/// has to do with no other lane.
+/// Whether the vehicle at `spot` drives on as long as those before it on the way of who looks `from` do: it goes the
+/// same way, and has to do with no other lane.
 fn moves_up(scene: &Scene, from: Viewpoint, spot: Spot) -> bool {
     let (x, car, chain) = (scene.motion(spot).x, scene.car(spot), scene.network.chain(spot.chain));
     let is_alone = || [Side::Left, Side::Right].iter().all(|it| chain.beside(*it, x).is_none());

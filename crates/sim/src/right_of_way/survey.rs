@@ -55,8 +55,8 @@ pub(crate) enum What {
     Zone(Crossing, f64, Option<f64>),
 }
 
-/// Visits the places on the way of who looks `from`, in order, up to `until` [m], which may grow on the way. Returns how far the way
-/// goes on.
+/// Visits the places on the way of who looks `from`, in order, up to `until` [m], which may grow on the way. Returns
+/// how far the way goes on.
 fn points(
     scene: &Scene,
     from: Viewpoint,
@@ -179,8 +179,8 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     }
 }
 
-/// Surveys the passage that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one within
-/// `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
+/// Surveys the passage that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one
+/// within `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
 pub(crate) fn survey(
     scene: &Scene,
     applicant: &Applicant,
@@ -195,7 +195,7 @@ pub(crate) fn survey(
     let mut first: Option<f64> = None;
     let mut ends = false;
     let mut clear = f64::NEG_INFINITY;
-    // The last place that it leads over: nobody stops there any more, even where the rear would be out of the zones a little before.
+    // The last place that it leads over: nobody stops there any more.
     let mut last = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
     // As far as the vehicle will need room: zones may be longer than anybody sees.
@@ -252,8 +252,8 @@ pub(crate) fn survey(
     true
 }
 
-/// Notes where the applicant can stand after its passage, which is `clear` of all zones from so far ahead on, and how much room there
-/// is up to the `limit` [m].
+/// Notes where the applicant can stand after its passage, which is `clear` of all zones from so far ahead on, and how
+/// much room there is up to the `limit` [m].
 fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], out: &mut Survey) {
     let from = applicant.from;
     let beyond = chain_at(scene, from, clear);
@@ -290,8 +290,8 @@ pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl I
     std::iter::successors(Some((survey.refuge, survey.refuge_start)), next).map(|(at, _)| at)
 }
 
-/// Whether the vehicle at `spot` stands where the one that looks `from` would after the passage that it surveyed, or ahead of that
-/// before the next place: if it drives off, those between them move up.
+/// Whether the vehicle at `spot` stands where the one that looks `from` would after the passage that it surveyed, or
+/// ahead of that before the next place: if it drives off, those between them move up.
 pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spot: Spot) -> bool {
     /// Most chains that are looked along.
     const MOST_CHAINS: usize = 24;
@@ -304,8 +304,8 @@ pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spo
     std::iter::successors(Some(survey.refuge), next).take(MOST_CHAINS).any(|it| it == stands_on)
 }
 
-/// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have to
-/// stop [m].
+/// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have
+/// to stop [m].
 fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64, is_long: bool) -> f64 {
     let places = scene.network.junctions.on(chain).places.iter();
     let stops = places.filter(|it| concerns(it, is_long)).map(|it| start + Point::of(it, 0.0).stop);
@@ -315,8 +315,8 @@ fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64, i
 /// Distances are not told apart closer than this [m].
 pub(crate) const ROUNDING: f64 = 0.5;
 
-/// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite if it
-/// goes on along it.
+/// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite
+/// if it goes on along it.
 pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     let own = scene.next(from.destination, spot.chain);
     let theirs = scene.next(scene.car(spot).goal.destination(), spot.chain);

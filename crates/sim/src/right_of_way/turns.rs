@@ -1,6 +1,7 @@
-//! When those who wait can have their turn. Who is out of a zone before another who claims it could be there takes nothing from it,
-//! and need not wait for it: so those who come from opposite sides go together, and a junction is used while who has waited longest
-//! is held up elsewhere in it. Estimates err, and many small delays add up; so nobody goes before who is out of patience.
+//! When those who wait can have their turn. Who is out of a zone before another who claims it could be there takes
+//! nothing from it, and need not wait for it: so those who come from opposite sides go together, and a junction is used
+//! while who has waited longest is held up elsewhere in it. Estimates err, and many small delays add up; so nobody goes
+//! before who is out of patience.
 
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
@@ -33,8 +34,8 @@ pub(crate) fn turns(
     })
 }
 
-/// Whether the applicant, if it goes now, is out of a zone before it would be in the way of who has its `turn` there, and
-/// is patient.
+/// Whether the applicant, if it goes now, is out of a zone before it would be in the way of who has its `turn` there,
+/// and is patient.
 pub(crate) fn is_out_before(scene: &Scene, applicant: &Applicant, hold: &Hold, turn: &Turn) -> bool {
     let out = applicant.time_to(departure(scene, hold, applicant.length));
     turn.claim.is_patient && out <= turn.begins + COURTESY

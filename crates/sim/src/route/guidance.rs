@@ -1,8 +1,8 @@
 //! Guidance: link times from the traffic itself, and ways planned with them.
 //!
-//! At an interval the time of each link becomes max(BPR(q), L/v̄), with q and v̄ by Edie's definitions over the link and the
-//! interval, from vehicle-metres and vehicle-seconds sampled once a second. Then the ways to all destinations that
-//! somebody drives to are planned anew, so many in a step that the work of a step is bounded.
+//! At an interval the time of each link becomes max(BPR(q), L/v̄), with q and v̄ by Edie's definitions over the link
+//! and the interval, from vehicle-metres and vehicle-seconds sampled once a second. Then the ways to all destinations
+//! that somebody drives to are planned anew, so many in a step that the work of a step is bounded.
 
 use laneweave_models::change::link_time;
 use laneweave_models::follow::{FollowingModel, Idm};

@@ -73,8 +73,8 @@ impl Links {
         from + self.links[from + 1..until].partition_point(|it| it.start <= x)
     }
 
-    /// Travel time from the start of `chain` to `x` [m] on it [s]; before its start and beyond its end as on its first and last
-    /// link.
+    /// Travel time from the start of `chain` to `x` [m] on it [s]; before its start and beyond its end as on its first
+    /// and last link.
     pub(crate) fn time_to(&self, chain: ChainIndex, x: f64) -> f64 {
         let it = &self.links[self.at(chain, x)];
         it.time_before + it.time * (x - it.start) / it.length

@@ -1,9 +1,9 @@
 //! Which lanes lead where: for every destination the usual way, that of the free road, and where drivers are guided the
 //! recommended one.
 //!
-//! A driver's goal names a table of waypoints: one of its destination as its class sees the roads, in one of three *ways*.
-//! The ways of a table that somebody follows stay as they are; only their times change. A new recommendation
-//! is planned in the table that nobody follows.
+//! A driver's goal names a table of waypoints: one of its destination as its class sees the roads, in one of three
+//! *ways*. The ways of a table that somebody follows stay as they are; only their times change. A new recommendation is
+//! planned in the table that nobody follows.
 
 use std::borrow::Cow;
 
@@ -42,7 +42,8 @@ pub struct Navigator {
 impl Navigator {
     /// Waypoints that may be planned, ours: 3.2 GB.
     pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
-    /// Ways to one destination: the usual one, and two of which the one is recommended while others may still follow the other.
+    /// Ways to one destination: the usual one, and two of which the one is recommended while others may still follow
+    /// the other.
     pub(crate) const WAYS: usize = 3;
     /// Nobody starts for a place on the same map that is nearer [m], ours.
     const SHORTEST_TRIP: f64 = 100.0;
@@ -58,8 +59,8 @@ impl Navigator {
         Navigator::with_views(network, destinations, Views::default())
     }
 
-    /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with their
-    /// views of the roads.
+    /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with
+    /// their views of the roads.
     pub(crate) fn with_views(network: &Network, destinations: &[Place], views: Views) -> Navigator {
         let mut navigator = Navigator {
             tables: Vec::new(),
@@ -139,7 +140,8 @@ impl Navigator {
         std::array::from_fn(|way| usual + way * self.usual())
     }
 
-    /// The table of the newest recommendation for those who follow `destination`, if they are guided and follow another.
+    /// The table of the newest recommendation for those who follow `destination`, if they are guided and follow
+    /// another.
     #[inline]
     pub(crate) fn recommended(&self, destination: Destination) -> Destination {
         let table = destination.filter(|_| !self.recommended.is_empty())?;
@@ -311,7 +313,8 @@ impl Navigator {
         })
     }
 
-    /// The destination of least time that can be reached from `x` on `chain`, over its end, too, for one who was on its way to `before`; of none, to wander.
+    /// The destination of least time that can be reached from `x` on `chain`, over its end, too, for one who was on its
+    /// way to `before`; of none, to wander.
     pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
         let first = before.map_or(0, |it| self.view(it)) * self.of_view;
         let all = (first..first + self.of_view - 1).map(|it| Some(it as u16));
@@ -322,7 +325,8 @@ impl Navigator {
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
-    /// The destination of least time to which the usual way leads from `x` on `chain`, for one who was on its way to `before`.
+    /// The destination of least time to which the usual way leads from `x` on `chain`, for one who was on its way to
+    /// `before`.
     pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
         let view = before.map_or(0, |it| self.view(it));
         let reachable = self.reachable_in(view, chain, x);

@@ -1,4 +1,4 @@
-//! Places at which trips start and end: gates at the edge of the map, and places inside the map along its lanes.
+//! Places at which trips start and end: gates at the edge of the map, and places along its lanes.
 
 use laneweave_network::{ChainIndex, Gate};
 
@@ -18,15 +18,17 @@ pub struct InnerPlace {
     pub id: i64,
     /// Its chain.
     pub chain: ChainIndex,
-    /// Where on it the rear bumper of a vehicle that starts is, and where a trip ends: when the front bumper passes [m].
+    /// Where on it the rear bumper of a vehicle that starts is, and where a trip ends: when the front bumper passes
+    /// [m].
     pub station: f64,
 }
 
 impl InnerPlace {
     /// Trips start and end on lanelets of this length or more [m].
     pub const SHORTEST_LANELET: f64 = 20.0;
-    /// Share of its lanelet that lies before a place inside the map. Of the shortest lanelet 12 m, the longest vehicle, lie behind it:
-    /// who starts stands on the lanelet, and who has driven off the lanelet does not reach back to the place inside the map.
+    /// Share of its lanelet that lies before a place inside the map. Of the shortest lanelet 12 m, the longest vehicle,
+    /// lie behind it: who starts stands on the lanelet, and who has driven off the lanelet does not reach back to the
+    /// place inside the map.
     pub(crate) const SHARE_BEFORE: f64 = 0.4;
 }
 

@@ -93,8 +93,8 @@ impl Navigator {
         self.measurements
     }
 
-    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present link
-    /// times; and recommends the best way anew, if there is room for it.
+    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present
+    /// link times; and recommends the best way anew, if there is room for it.
     pub(crate) fn renew(
         &mut self,
         network: &Network,

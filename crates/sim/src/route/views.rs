@@ -1,11 +1,12 @@
-//! How classes of vehicles see the roads: which lanes they avoid where there is another way, as too tight or too narrow.
+//! How classes of vehicles see the roads: which lanes they avoid where there is another way, as too tight or too
+//! narrow.
 
 use laneweave_network::{Chain, ChainIndex, Network, Point, Polyline};
 
 use crate::state::vehicle::{Class, Fleet};
 
-/// Long vehicles avoid lanes whose centre line turns tighter than this [m]: the mean of the radii 5.3 and 12.5 m of the ring in
-/// which each vehicle of the European Union can turn (Directive 96/53/EC, annex I, 1.5; from memory).
+/// Long vehicles avoid lanes whose centre line turns tighter than this [m]: the mean of the radii 5.3 and 12.5 m of the
+/// ring in which each vehicle of the European Union can turn (Directive 96/53/EC, annex I, 1.5; from memory).
 const TIGHTEST_TURN: f64 = 8.9;
 /// A turn is measured over at least this length on either side [m], ours, so that a crooked drawing is no turn.
 const ARM: f64 = 3.0;

@@ -19,7 +19,8 @@ pub struct Waypoint {
     pub next: Option<ChainIndex>,
     /// Travel time from its start to the destination [s].
     pub time: f64,
-    /// T_alt: travel time from its start of the best way over its end that is not this one [s]; infinite if there is none.
+    /// T_alt: travel time from its start of the best way over its end that is not this one [s]; infinite if there is
+    /// none.
     pub alternative: f64,
     /// Way from its start to the destination [m].
     pub distance: f64,

@@ -1,5 +1,5 @@
-//! The ways to one destination: for each chain the lane changes still to make, the last place for the next of them, the way on,
-//! and the times of this way and of the best other one, with the turns and lights on them.
+//! The ways to one destination: for each chain the lane changes still to make, the last place for the next of them, the
+//! way on, and the times of this way and of the best other one, with the turns and lights on them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -29,8 +29,8 @@ pub(crate) struct Planner<'a> {
 impl Planner<'_> {
     /// Road that is kept for each further change before the last place [m].
     const ROOM_FOR_A_CHANGE: f64 = 40.0;
-    /// What a chain counts for beside its time in the choice of a route, if it is avoided [s], ours: no detour in a town is
-    /// as long.
+    /// What a chain counts for beside its time in the choice of a route, if it is avoided [s], ours: no detour in a
+    /// town is as long.
     const AVOIDED: f64 = 600.0;
 
     /// What missing a change counts for, ours: once round the block [s].
@@ -45,14 +45,15 @@ impl Planner<'_> {
         }
     }
 
-    /// Time from the start of `chain` to where it can be left over `stretch`, less that from the start of the other one to there [s].
+    /// Time from the start of `chain` to where it can be left over `stretch`, less that from the start of the other one
+    /// to there [s].
     fn lag(&self, chain: ChainIndex, stretch: &Beside) -> f64 {
         let place = stretch.start.max(stretch.back(0.0));
         self.time(chain, place) - self.time(stretch.chain, stretch.across(place))
     }
 
-    /// What a change counts for in the choice of a route for which there are `room` metres [s]: the shorter the road for it, the more
-    /// of those who try will miss it.
+    /// What a change counts for in the choice of a route for which there are `room` metres [s]: the shorter the road
+    /// for it, the more of those who try will miss it.
     fn hurry(room: f64) -> f64 {
         Planner::MISSED * (1.0 - room / Planner::ROOM_FOR_A_CHANGE).max(0.0)
     }
@@ -91,8 +92,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Best waypoints towards `place`, spread backwards from it until none improves; then on from those to chains that have no way
-    /// unless its changes are made on less road than usual.
+    /// Best waypoints towards `place`, spread backwards from it until none improves; then on from those to chains that
+    /// have no way unless its changes are made on less road than usual.
     pub(crate) fn plan(&self, place: &Place) -> Vec<Waypoint> {
         let mut search = Search::new(self, place);
         if search.spread(self, Room::Usual) {
@@ -132,8 +133,8 @@ impl Planner<'_> {
         }
     }
 
-    /// The last place for a change within a window of `stretch` for who has the waypoint `onward` beyond [m]: so that road is left for
-    /// the next change.
+    /// The last place for a change within a window of `stretch` for who has the waypoint `onward` beyond [m]: so that
+    /// road is left for the next change.
     fn last_place(stretch: &Beside, [start, end]: [f64; 2], onward: &Waypoint, room: Room) -> f64 {
         let next = onward.last_place.min(onward.end);
         if next == f64::INFINITY {
@@ -193,8 +194,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, and what that
-    /// asks for, by the ways of `best`, or else by its own. Of equal times that with less effort counts.
+    /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, and what
+    /// that asks for, by the ways of `best`, or else by its own. Of equal times that with less effort counts.
     pub(crate) fn note_alternatives(&self, table: &mut [Waypoint], best: Option<&[Waypoint]>) {
         let mut alternatives = vec![(f64::INFINITY, Effort::default()); table.len()];
         for chain in from_the_destination(table) {
@@ -308,8 +309,8 @@ impl Search {
     }
 }
 
-/// The chains to which a driver changes from `chain`, one after the other: nobody changes back to where it comes from, to overtake a
-/// jam.
+/// The chains to which a driver changes from `chain`, one after the other: nobody changes back to where it comes from,
+/// to overtake a jam.
 fn changed_to(table: &[Waypoint], chain: ChainIndex) -> Vec<ChainIndex> {
     let next = |at: &ChainIndex| {
         let Waypoint { changes, via, .. } = table[at.at()];
@@ -352,8 +353,9 @@ pub(crate) fn free_time(chain: &Chain, until: f64) -> f64 {
 /// See [`rank`].
 type Rank = (i64, i64, i64);
 
-/// Of two waypoints of a chain the one with the lower rank is better: less cost [µs, so that equal ways count as equal], then
-/// a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are stored.
+/// Of two waypoints of a chain the one with the lower rank is better: less cost [µs, so that equal ways count as
+/// equal], then a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are
+/// stored.
 fn rank(network: &Network, waypoint: &Waypoint) -> Rank {
     let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(it, 0.0).0.id);
     ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)

@@ -48,8 +48,8 @@ impl Busy {
         (&mut self.marks[chain.at() / 64], 1 << (chain.at() % 64))
     }
 
-    /// The lanes that are to be moved in this step, in order. The lanes themselves are not looked at: other threads have
-    /// just written to them.
+    /// The lanes that are to be moved in this step, in order. The lanes themselves are not looked at: other threads
+    /// have just written to them.
     pub(crate) fn chosen(&mut self) -> &[u32] {
         if std::mem::take(&mut self.has_changed) {
             self.chosen.clear();

@@ -1,7 +1,7 @@
 //! The gamma distribution function and its inverse, for shapes that need not be whole.
 //!
-//! Series and continued fraction of the incomplete gamma function: Abramowitz and Stegun (1964), 6.5.29 and 6.5.31, the latter
-//! in Lentz's form.
+//! Series and continued fraction of the incomplete gamma function: Abramowitz and Stegun (1964), 6.5.29 and 6.5.31, the
+//! latter in Lentz's form.
 
 /// Sums end when a term no longer matters.
 const PRECISION: f64 = 1e-15;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Where a driver goes and which way: at first the destination's place in the list of destinations. `None`: it drives on as
-/// the road leads.
+/// Where a driver goes and which way: at first the destination's place in the list of destinations. `None`: it drives
+/// on as the road leads.
 pub type Destination = Option<u16>;
 
 /// A destination in two bytes.

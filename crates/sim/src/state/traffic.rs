@@ -1,8 +1,8 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
 //! An entry has three parts, kept in arrays of the same order: its [`Motion`], written anew at every step, is all that
-//! others need to see; [`Car`] is what its driver needs to drive on and to consider lanes; [`Mind`] what only changes of
-//! lane need. A vehicle that changes lanes stands in both lanes: with its main entry where its centre is, with a
+//! others need to see; [`Car`] is what its driver needs to drive on and to consider lanes; [`Mind`] what only changes
+//! of lane need. A vehicle that changes lanes stands in both lanes: with its main entry where its centre is, with a
 //! shadow in the other.
 
 use laneweave_models::follow::Ahead;

@@ -1,5 +1,5 @@
-//! All of a world that moves, as bytes: a world that is made anew of the same network, drivers and demand, and given them, goes
-//! on as this one would, bit for bit.
+//! All of a world that moves, as bytes: a world that is made anew of the same network, drivers and demand, and given
+//! them, goes on as this one would, bit for bit.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

@@ -12,8 +12,8 @@ use crate::right_of_way::survey::stands_beyond;
 use crate::step::world::World;
 use crate::view::scene::Spot;
 
-/// Of those who let each other go a vehicle may stand within zones by so much [m] until those before it have moved up: a truck
-/// comes into the place of a car (ours).
+/// Of those who let each other go a vehicle may stand within zones by so much [m] until those before it have moved up:
+/// a truck comes into the place of a car (ours).
 const HANGS_OUT: f64 = 8.0;
 
 impl World {
@@ -86,8 +86,8 @@ impl World {
         self.work.outboxes[0] = outbox;
     }
 
-    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if the vehicle at `next` drives off, and leaves it its place.
-    /// Who stays within a merge for that is in nobody's way but of those who come after.
+    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if the vehicle at `next` drives off, and
+    /// leaves it its place. Who stays within a merge for that is in nobody's way but of those who come after.
     pub(crate) fn may_after(&self, spot: Spot, asking: Asking, next: Spot, outbox: &mut Outbox) -> bool {
         let (scene, survey) = (self.scene(), &mut outbox.survey);
         let applicant = Applicant::at(&scene, spot);

@@ -55,8 +55,8 @@ struct Progress {
 #[repr(align(128))]
 struct Claimed([AtomicUsize; 2]);
 
-/// A job that lives only while [`Pool::look_then_act`] waits for it. The numbers that are passed are those of the phase,
-/// the thread and the item.
+/// A job that lives only while [`Pool::look_then_act`] waits for it. The numbers that are passed are those of the
+/// phase, the thread and the item.
 #[derive(Clone, Copy)]
 struct Task {
     work: *const (dyn Fn(Phase, usize, usize) + Sync),
@@ -116,8 +116,9 @@ impl Pool {
     }
 
     /// Calls `look` once for the plan of every `chosen` item, with all items to look at; when that is done, calls `act`
-    /// once for every chosen item with its plan; returns when all is done. Both are given the item's index and what belongs
-    /// to the thread alone, one of `own`. Which thread takes which item is not determined, so neither may let it matter.
+    /// once for every chosen item with its plan; returns when all is done. Both are given the item's index and what
+    /// belongs to the thread alone, one of `own`. Which thread takes which item is not determined, so neither may let
+    /// it matter.
     pub(crate) fn look_then_act<O: Send, T: Send + Sync, P: Send>(
         &self,
         own: &mut [O],
@@ -142,8 +143,8 @@ impl Pool {
             (Items(own.as_mut_ptr()), Items(items.as_mut_ptr()), Items(plans.as_mut_ptr()));
         let work = |phase: Phase, thread: usize, place: usize| {
             let index = chosen[place] as usize;
-            // SAFETY: no other thread has this number, and `index` is below the length, at this place of `chosen` only, and
-            // claimed by this thread alone in this phase; all are borrowed mutably until all threads are done.
+            // SAFETY: no other thread has this number, and `index` is below the length, at this place of `chosen` only,
+            // and claimed by this thread alone in this phase; all are borrowed mutably until all threads are done.
             let (own, plan) = unsafe { (&mut *own.at(thread), &mut *plans.at(index)) };
             match phase {
                 // SAFETY: nobody writes to the items before all threads are done with looking.
@@ -156,8 +157,8 @@ impl Pool {
         };
         let portion = (chosen.len() / (self.threads() * PORTIONS)).max(1);
         let work: *const (dyn Fn(Phase, usize, usize) + Sync + '_) = &raw const work;
-        // SAFETY: only the lifetime changes; what it points to outlives every use, since this function returns only when
-        // all workers are done with it.
+        // SAFETY: only the lifetime changes; what it points to outlives every use, since this function returns only
+        // when all workers are done with it.
         let work = unsafe {
             std::mem::transmute::<
                 *const (dyn Fn(Phase, usize, usize) + Sync + '_),
@@ -277,8 +278,8 @@ impl Shared {
     }
 
     /// Works on the range of items that is this thread's in every job, so that what it left in its cache is there; then
-    /// on what is left of the others' ranges, but for the last portion of each: to fetch that from another's cache takes
-    /// as long as to wait for it.
+    /// on what is left of the others' ranges, but for the last portion of each: to fetch that from another's cache
+    /// takes as long as to wait for it.
     fn work_in(&self, phase: Phase, task: Task, thread: usize) {
         // SAFETY: `Pool::look_then_act` keeps the job alive until no thread is busy any more.
         let work = unsafe { &*task.work };

@@ -17,7 +17,8 @@ impl World {
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
     ///
     /// # Errors
-    /// If it is not on a chain of the network, its speed is no number from 0 on, or there is no such character or destination.
+    /// If it is not on a chain of the network, its speed is no number from 0 on, or there is no such character or
+    /// destination.
     pub fn place(&mut self, vehicle: NewVehicle) -> Result<VehicleId, WorldError> {
         self.check_new(&vehicle)?;
         let id = self.arrivals.next_id;

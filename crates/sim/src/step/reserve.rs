@@ -1,4 +1,5 @@
-//! Entrances that share ground with others: a vehicle comes onto the road there with a reservation of the zones in which it would stand.
+//! Entrances that share ground with others: a vehicle comes onto the road there with a reservation of the zones in
+//! which it would stand.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ZoneIndex, ZoneKind};
@@ -26,7 +27,8 @@ const WAITS_BEFORE: f64 = STANDS_BEFORE_A_ZONE;
 pub(crate) enum Entry {
     /// Nothing: it would stand in no zone.
     Free,
-    /// The reservation that was surveyed; it reaches so far from the start of the lane, behind a vehicle from elsewhere if there is one.
+    /// The reservation that was surveyed; it reaches so far from the start of the lane, behind a vehicle from elsewhere
+    /// if there is one.
     Reserved {
         /// How far it reaches [m].
         until: f64,
@@ -84,7 +86,8 @@ pub(crate) fn entry(
     }
 }
 
-/// Whether nobody else may pass the crossings that begin within `reach` [m]: who comes onto the road stands in them at once.
+/// Whether nobody else may pass the crossings that begin within `reach` [m]: who comes onto the road stands in them at
+/// once.
 fn is_free(scene: &Scene, surveyed: &Survey, reach: f64) -> bool {
     free_until(scene, surveyed) > reach
 }

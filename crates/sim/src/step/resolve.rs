@@ -7,7 +7,7 @@ use crate::driver::attention::concentration;
 use crate::driver::gap::gap;
 use crate::driver::plan::{Ask, Request, Want};
 use crate::junction::passages::NO_PASSAGE;
-use crate::record::events::{Event, LaneChange};
+use crate::record::events::{DrivingEventKind, Event, LaneChange};
 use crate::record::ledger::Mark;
 use crate::state::traffic::{Car, Entry, Milestone, Mind, Motion, Phase, Reached, Twin};
 use crate::state::trail::Trail;
@@ -19,14 +19,15 @@ impl World {
     pub(crate) fn gather(&mut self) {
         let [first, others @ ..] = &mut self.work.outboxes[..] else { return };
         others.iter_mut().for_each(|it| first.gather(it));
-        if let Some(journal) = &mut self.log.journal {
-            first.halts.iter().for_each(|id| journal.stop(*id));
-            first.set_off.iter().for_each(|(id, stood)| journal.set_off(*id, f64::from(*stood)));
-            first.reroutings.iter().for_each(|(id, why)| journal.reroute(*id, *why));
+        // Both entries of a vehicle between two lanes may have to tell of the same.
+        first.driving.sort_unstable_by_key(|it| (it.vehicle, it.kind.rank(), it.x.to_bits(), it.chain));
+        for event in first.driving.drain(..) {
+            if event.kind == DrivingEventKind::Halt {
+                self.log.trips.stop(event.vehicle);
+            }
+            self.log.journal.iter_mut().for_each(|it| it.note(&event));
+            self.log.events.push(Event::Driving(event));
         }
-        first.halts.drain(..).for_each(|id| self.log.trips.stop(id));
-        first.set_off.clear();
-        first.reroutings.clear();
         first.empty.drain(..).for_each(|chain| self.traffic.busy.forget(chain));
     }
 
@@ -73,8 +74,8 @@ impl World {
         }
     }
 
-    /// Whether the driver at `spot` has seen who signals since the step `since`: an inattentive one sees of the lane beside
-    /// what it saw when it last considered lanes.
+    /// Whether the driver at `spot` has seen who signals since the step `since`: an inattentive one sees of the lane
+    /// beside what it saw when it last considered lanes.
     fn has_seen(&self, spot: Spot, since: u32) -> bool {
         let lane = &self.traffic.lanes[spot.chain.at()];
         let (id, car) = (lane.motions()[spot.index].id, &lane.cars()[spot.index]);

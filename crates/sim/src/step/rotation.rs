@@ -1,5 +1,6 @@
-//! Rings of drivers each of whom waits for the room that the next takes up: on a full roundabout, around a full block. None of
-//! them could ever go if each waited for the other's room to be free; so they go together, each into the room of the next.
+//! Rings of drivers each of whom waits for the room that the next takes up: on a full roundabout, around a full block.
+//! None of them could ever go if each waited for the other's room to be free; so they go together, each into the room
+//! of the next.
 
 use crate::driver::plan::PassageRequest;
 use crate::junction::claim::Hold;
@@ -15,7 +16,8 @@ const LONGEST_QUEUE: usize = 100;
 const QUEUES_WITHIN: f64 = 4.0;
 
 impl World {
-    /// Gives passages to those who wait for each other's room. `waiting` are those who wait for room, in the order of ids.
+    /// Gives passages to those who wait for each other's room. `waiting` are those who wait for room, in the order of
+    /// ids.
     pub(crate) fn rotate(&mut self, waiting: &[PassageRequest]) {
         let scene = self.scene();
         let spots: Vec<Option<Spot>> = waiting.iter().map(|it| spot(&scene, it)).collect();
@@ -28,8 +30,8 @@ impl World {
         }
     }
 
-    /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for. They go, whatever
-    /// lights show then.
+    /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for.
+    /// They go, whatever lights show then.
     fn let_go_together(&mut self, members: &[(Spot, PassageRequest)]) {
         let mut outbox = std::mem::take(&mut self.work.outboxes[0]);
         let mut holds: Vec<Hold> = Vec::new();

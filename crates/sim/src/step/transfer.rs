@@ -133,7 +133,8 @@ impl World {
         self.log.journal.as_mut()?.of_mut(id)
     }
 
-    /// What a vehicle did on the chain `from` up to the first mark is put down, where trips are recorded; it goes on from the second.
+    /// What a vehicle did on the chain `from` up to the first mark is put down, where trips are recorded; it goes on
+    /// from the second.
     pub(super) fn leave_chain(&mut self, id: VehicleId, from: ChainIndex, [there, on]: [Mark; 2]) {
         let (Some(ledger), Some(journal)) = (&mut self.log.ledger, &mut self.log.journal) else { return };
         if let Some(trip) = journal.of_mut(id) {

@@ -35,7 +35,8 @@ impl World {
     /// An empty world on `network`, whose drivers come from `demand` with the given `characters`.
     ///
     /// # Errors
-    /// If the step is not between 0.01 and 1 s, there are no characters, the demand is no demand, or has too many destinations.
+    /// If the step is not between 0.01 and 1 s, there are no characters, the demand is no demand, or has too many
+    /// destinations.
     pub fn new(
         network: impl Into<Arc<Network>>,
         characters: Vec<Style>,
@@ -67,8 +68,8 @@ impl World {
         })
     }
 
-    /// The same world with drivers guided by travel times that are measured in it every `interval` [s]. Where nobody has
-    /// a choice of ways there is nothing to guide.
+    /// The same world with drivers guided by travel times that are measured in it every `interval` [s]. Where nobody
+    /// has a choice of ways there is nothing to guide.
     ///
     /// # Errors
     /// If there are more destinations than can be guided to, or their ways would not fit into memory.

@@ -15,8 +15,8 @@ impl<'a> Scene<'a> {
         nearer(on_way, beside.map(|(spot, rear)| self.rear_ahead(spot, rear - from.x)))
     }
 
-    /// The nearest vehicle ahead that forked off to another chain before and is still in the way, and where its rear bumper is
-    /// from the fork on [m].
+    /// The nearest vehicle ahead that forked off to another chain before and is still in the way, and where its rear
+    /// bumper is from the fork on [m].
     pub(crate) fn beside_in_fork(&self, from: Viewpoint) -> Option<(Spot, f64)> {
         let siblings = self.siblings(from.chain);
         nearest(siblings.filter_map(|(back, it)| self.last_in_fork(back, it, from.id, from.x)))
@@ -36,8 +36,8 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet, and where its rear
-    /// bumper is from the fork on [m].
+    /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet, and where
+    /// its rear bumper is from the fork on [m].
     #[inline]
     fn last_in_fork(
         &self,
@@ -64,8 +64,8 @@ impl<'a> Scene<'a> {
         nearest(own.into_iter().chain(hanging))
     }
 
-    /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, and where its rear
-    /// bumper is from the fork on [m].
+    /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, and where its
+    /// rear bumper is from the fork on [m].
     pub(crate) fn beyond_the_fork(
         &self,
         chain: ChainIndex,
@@ -80,8 +80,8 @@ impl<'a> Scene<'a> {
         nearest(siblings.filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY)))
     }
 
-    /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has no
-    /// passage out of it, from the fork on [m].
+    /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has
+    /// no passage out of it, from the fork on [m].
     #[inline]
     pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
@@ -100,8 +100,8 @@ impl<'a> Scene<'a> {
             .reduce(f64::min)
     }
 
-    /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling`, if it is in the way of those who
-    /// forked off, and no passage leads it out of it [m].
+    /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling`, if it is in the way of those
+    /// who forked off, and no passage leads it out of it [m].
     fn waits_on(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<f64> {
         let lane = &self.lanes[sibling.at()];
         let mut came = lane.motions().iter().zip(lane.minds());

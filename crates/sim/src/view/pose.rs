@@ -19,7 +19,8 @@ pub fn between([front, rear]: [Point; 2]) -> Pose {
 
 /// The middles of the front and the rear bumper of the vehicle whose main entry is `spot`.
 ///
-/// In a lane change both lie on the path: the rear bumper follows the front one, so that a long vehicle does not swing out.
+/// In a lane change both lie on the path: the rear bumper follows the front one, so that a long vehicle does not swing
+/// out.
 pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
     let Entry { motion, mind, .. } = &entry;
@@ -42,14 +43,14 @@ pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     }
 }
 
-/// The middles of the front and the rear bumper of a vehicle that moves on `chain` and keeps its lane, and came there over
-/// `trail`.
+/// The middles of the front and the rear bumper of a vehicle that moves on `chain` and keeps its lane, and came there
+/// over `trail`.
 pub fn bumpers_in_lane(network: &Network, chain: ChainIndex, trail: Trail, motion: &Motion) -> [Point; 2] {
     [motion.x, motion.rear()].map(|it| on_path(network, chain, trail, it, 0.0))
 }
 
-/// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres for
-/// one [m]: true in the old lane when the change begins, and in the new one when it ends.
+/// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres
+/// for one [m]: true in the old lane when the change begins, and in the new one when it ends.
 fn lengths(motion: &Motion, progress: f32, stretch: f32) -> [f64; 2] {
     let (length, progress, stretch) = (f64::from(motion.length), f64::from(progress), f64::from(stretch));
     let is_across = progress >= 0.5;

@@ -89,7 +89,8 @@ impl<'a> Scene<'a> {
         self.signals.shown(light)
     }
 
-    /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it there.
+    /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it
+    /// there.
     pub(crate) fn has_passage(&self, spot: Spot, distance: f64) -> bool {
         self.passage(spot).is_some_and(|it| it.left() > distance)
     }

@@ -103,8 +103,8 @@ impl Scene<'_> {
         }
     }
 
-    /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a chain whose
-    /// start is `base` ahead [m].
+    /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a
+    /// chain whose start is `base` ahead [m].
     #[inline(never)]
     fn stop_at_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
         let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);

@@ -51,8 +51,8 @@ fn lane(id: i64, points: &[(f64, f64)], following: &[u32]) -> Lanelet {
     lanelet
 }
 
-/// A road that forks into a straight one (2) and one round it, of two turns (3), which meet again. A light stands before the
-/// fork, and two that are obeyed together on the way round.
+/// A road that forks into a straight one (2) and one round it, of two turns (3), which meet again. A light stands
+/// before the fork, and two that are obeyed together on the way round.
 fn fork() -> Network {
     let round = [(300.0, 0.0), (340.0, 60.0), (460.0, 60.0), (500.0, 0.0)];
     let lanelets = vec![

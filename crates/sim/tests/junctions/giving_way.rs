@@ -11,8 +11,8 @@ use crate::town::{Arm, Comer, assert_sound, empty, has_gone, lane_from, lane_to,
 /// Speed of who has the right of way [m/s].
 const CRUISE: f64 = 25.0 / 3.6;
 
-/// A driver on the minor road stands at its line while another on the major road would arrive at the place where their ways cross
-/// `lag` [s] later: whether the driver on the minor road goes first.
+/// A driver on the minor road stands at its line while another on the major road would arrive at the place where their
+/// ways cross `lag` [s] later: whether the driver on the minor road goes first.
 fn goes_before(lag: f64, critical_gap: f64) -> bool {
     let yielding = Yielding { critical_gap, ..Yielding::default() };
     let minor = Style { yielding, ..drivers::conservative() };
@@ -123,7 +123,8 @@ fn at_an_all_way_stop_everybody_stops_and_they_go_in_the_order_of_arrival() {
     }
 }
 
-/// The order in which three drivers of so much patience [s] go who come one after the other, from the north, west and south.
+/// The order in which three drivers of so much patience [s] go who come one after the other, from the north, west and
+/// south.
 fn order_at_an_all_way_stop(patience: f64) -> Vec<Arm> {
     let yielding = Yielding { patience, ..Yielding::default() };
     let style = Style { yielding, ..drivers::conservative() };

@@ -22,7 +22,8 @@ pub struct BarRow {
     pub values: Vec<Estimated>,
 }
 
-/// Draws rows of bars from zero, each with its interval, under each other. `labels` are those of the values and of the rows.
+/// Draws rows of bars from zero, each with its interval, under each other. `labels` are those of the values and of the
+/// rows.
 pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -> String {
     /// Longer names are shortened.
     const LONGEST: usize = 20;
@@ -95,7 +96,8 @@ mod tests {
 
     #[test]
     fn a_bar_ends_at_its_value_between_the_ends_of_its_interval() {
-        // Names of 4 characters: the plot from 14 + 28 + 29.12 = 71.12 px to 466 px; 0 … 4; two rows of 75 px from 14 px on.
+        // Names of 4 characters: the plot from 14 + 28 + 29.12 = 71.12 px to 466 px; 0 … 4; two rows of 75 px from 14
+        // px on.
         let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a & b", 3.0), row("c", 1.0)]);
         assert!(svg.contains(">a &amp; b</text>") && svg.contains(">style [name]</text>"), "{svg}");
         let rect = "<rect x=\"78.4\" y=\"47.0\" width=\"290.7\" height=\"9\"";

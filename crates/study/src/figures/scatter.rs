@@ -23,8 +23,8 @@ pub struct Scattered {
     pub means: Vec<Estimated>,
 }
 
-/// Draws the points of all groups, those on the same pixel as one that is the more opaque the more there are, and over them the
-/// means; both axes begin at zero. What is not finite is left out.
+/// Draws the points of all groups, those on the same pixel as one that is the more opaque the more there are, and over
+/// them the means; both axes begin at zero. What is not finite is left out.
 pub fn scatter(sheet: Sheet, labels: [&str; 2], groups: &[Scattered]) -> String {
     let groups: Vec<Scattered> = groups.iter().map(finite).collect();
     let points = || groups.iter().flat_map(|it| &it.points);

@@ -5,7 +5,8 @@
 pub enum Sheet {
     /// A file of its own: with a title, its legend beside the plot.
     Page,
-    /// A column of an HTML document, whose caption says what it shows: narrow, without a title, its legend above the plot.
+    /// A column of an HTML document, whose caption says what it shows: narrow, without a title, its legend above the
+    /// plot.
     Column,
 }
 

@@ -1,5 +1,5 @@
-//! Apache Parquet: columns that may be null, in groups of rows; integers by their differences, what repeats by dictionaries, and
-//! nothing compressed beyond that.
+//! Apache Parquet: columns that may be null, in groups of rows; integers by their differences, what repeats by
+//! dictionaries, and nothing compressed beyond that.
 
 use std::fs::File;
 use std::io;

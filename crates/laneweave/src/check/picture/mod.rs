@@ -1,5 +1,5 @@
-//! A picture of a map: lanes with their markings, where vehicles enter and leave, what shares ground, lights and problems.
-//! Parts that lie far from each other have panels of their own.
+//! A picture of a map: lanes with their markings, where vehicles enter and leave, what shares ground, lights and
+//! problems. Parts that lie far from each other have panels of their own.
 
 mod panel;
 mod parts;

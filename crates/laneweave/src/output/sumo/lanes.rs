@@ -1,5 +1,5 @@
-//! Lanelets as lanes of SUMO: `EDGE_INDEX`. An edge is lanelets side by side, named by the smallest of their ids; lanes count
-//! from 0 on the slow side.
+//! Lanelets as lanes of SUMO: `EDGE_INDEX`. An edge is lanelets side by side, named by the smallest of their ids; lanes
+//! count from 0 on the slow side.
 
 use laneweave_network::{LaneletIndex, Network, Sections, Side};
 

@@ -1,5 +1,5 @@
-//! Files as SUMO (Eclipse SUMO 1.28) writes them, for whoever has scripts that read those: names, units and order of the
-//! attributes as in its files and schemas. Numbers have two decimals, as there.
+//! Files as SUMO (Eclipse SUMO 1.28) writes them, for whoever has scripts that read those: names, units and order of
+//! the attributes as in its files and schemas. Numbers have two decimals, as there.
 
 mod fcd;
 mod lanechange;

@@ -1,8 +1,8 @@
 //! A scenario file to begin from: every key with its meaning, and what it is on the map at hand.
 //!
-//! Names, meanings and choices are those of the schema, defaults those of the scenario of a bare map, so that the text cannot
-//! say anything else than the program does. A line that begins with `#` and a letter or bracket is a key behind a `#`; prose
-//! begins with `#` and a blank.
+//! Names, meanings and choices are those of the schema, defaults those of the scenario of a bare map, so that the text
+//! cannot say anything else than the program does. A line that begins with `#` and a letter or bracket is a key behind
+//! a `#`; prose begins with `#` and a blank.
 
 mod facts;
 mod prose;
@@ -51,7 +51,8 @@ const ORDER: [&str; 33] = [
     "map_options",
 ];
 
-/// The text of a scenario file that does what `scenario` does. It holds every key; those that are the default stand behind a `#`.
+/// The text of a scenario file that does what `scenario` does. It holds every key; those that are the default stand
+/// behind a `#`.
 ///
 /// # Errors
 /// None, as long as scenarios can be written as JSON.

@@ -38,8 +38,8 @@ pub struct Motorway {
     pub driving_side: DrivingSide,
 }
 
-/// An on-ramp and an off-ramp with one lane beside the slow one between them, on which traffic to and from the road changes
-/// places. Both ramps are 200 m long.
+/// An on-ramp and an off-ramp with one lane beside the slow one between them, on which traffic to and from the road
+/// changes places. Both ramps are 200 m long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weaving {
     /// Where the on-ramp meets the road [m].

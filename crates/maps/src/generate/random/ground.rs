@@ -26,8 +26,8 @@ struct Lot {
 }
 
 impl Ground {
-    /// Takes the ground of an element, all lanelets from number `first` on, if there is room for it beside those that are
-    /// there; around its joint it may come near to them.
+    /// Takes the ground of an element, all lanelets from number `first` on, if there is room for it beside those that
+    /// are there; around its joint it may come near to them.
     pub(super) fn take(&mut self, pen: &Pen, first: usize, joint: Option<Point>) -> bool {
         let drawing = pen.canvas.drawing();
         let outlines = drawing.lanes[first..].iter().filter_map(|it| drawing.outline(it));

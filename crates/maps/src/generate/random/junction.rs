@@ -67,8 +67,8 @@ pub(super) fn own_arm(mouth: &Mouth) -> Option<Arm> {
     Some(Arm { heading: mouth.pose.heading + PI, arriving, leaving })
 }
 
-/// Draws an arm that turns by so much from the road, and returns its outer end, too. The middle of the junction lies the
-/// first of two setbacks beyond the mouth; the arm begins the second one from it [m].
+/// Draws an arm that turns by so much from the road, and returns its outer end, too. The middle of the junction lies
+/// the first of two setbacks beyond the mouth; the arm begins the second one from it [m].
 pub(super) fn new_arm(pen: &mut Pen, mouth: &Mouth, turn: f64, setbacks: [f64; 2]) -> Option<(Arm, Mouth)> {
     let middle = onward(mouth.pose, setbacks[0], turn);
     let pose = onward(middle, setbacks[1], 0.0);

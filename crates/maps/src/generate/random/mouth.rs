@@ -153,7 +153,8 @@ impl Mouth {
     }
 }
 
-/// Offsets of the lines of a lane against the road and one along it, both `lane` wide, that share a width of `overlap` [m].
+/// Offsets of the lines of a lane against the road and one along it, both `lane` wide, that share a width of `overlap`
+/// [m].
 pub(super) fn two_way_offsets(lane: f64, overlap: f64) -> [f64; 4] {
     let out = lane - overlap / 2.0;
     // Adding zero leaves no negative zero.

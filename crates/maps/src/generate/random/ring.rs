@@ -13,7 +13,8 @@ use crate::generate::roundabout::{Ring, RingArm, ring};
 const RADIUS: [f64; 2] = [10.0, 20.0];
 /// From the ring to where arms end [m].
 const SETBACK: f64 = 8.5;
-/// Ways in and out touch a small ring at this angle beside the middle of their arm, and a large one at that [rad]. Ours.
+/// Ways in and out touch a small ring at this angle beside the middle of their arm, and a large one at that [rad].
+/// Ours.
 const TOUCH: [f64; 2] = [0.66, 0.52];
 /// By how much arms lie aside of where they would lie evenly [rad].
 const ASIDE: f64 = 0.08;

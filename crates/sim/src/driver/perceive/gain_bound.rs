@@ -1,5 +1,5 @@
-//! A bound of what the lanes beside can gain. Most drivers on most occasions see by the next vehicles there that neither lane can be worth a
-//! change, and look no further; what they decide is the same to the last bit.
+//! A bound of what the lanes beside can gain. Most drivers on most occasions see by the next vehicles there that
+//! neither lane can be worth a change, and look no further; what they decide is the same to the last bit.
 
 use laneweave_models::change::{Behind, GainBound, Mcdm, anticipated_speed};
 use laneweave_models::follow::Ahead;
@@ -12,7 +12,8 @@ use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
 /// What a driver has seen who looks no further.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dismissed {
-    /// Best speed that may be anticipated in a lane beside that leads to the same place [m/s]; `None` where there is none.
+    /// Best speed that may be anticipated in a lane beside that leads to the same place [m/s]; `None` where there is
+    /// none.
     pub(crate) best_prospect: Option<f64>,
 }
 

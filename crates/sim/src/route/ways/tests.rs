@@ -27,7 +27,8 @@ fn chain(network: &Network, id: i64) -> ChainIndex {
     chains.into_iter().find(|it| network.lanelet_at(*it, 0.0).0.id == id).unwrap()
 }
 
-/// The way over the fork, its time and that of the other one, when the chain of a lanelet takes another time than the free one.
+/// The way over the fork, its time and that of the other one, when the chain of a lanelet takes another time than the
+/// free one.
 fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
     let network = fork();
     let into = beside_into(&network);
