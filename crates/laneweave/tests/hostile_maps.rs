@@ -136,3 +136,8 @@ fn random_maps_break_nothing() {
 fn who_comes_to_a_lane_that_ends_can_leave_it() {
     [1020, 1060, 5026].into_iter().for_each(|number| drive_randomly(number, 900));
 }
+
+#[test]
+fn who_comes_onto_ground_that_is_shared_over_less_than_a_vehicle_comes_onto_it() {
+    drive_randomly(7096, 900);
+}

@@ -24,7 +24,10 @@ pub(super) fn stands_for(it: &StandsFor, network: &Network) -> String {
                 .map(|[one, other]| format!("lanelets {one} and {other}"))
                 .collect();
             let why = match why {
-                JunctionHindrance::Others => format!("{} go first", vehicles(others)),
+                JunctionHindrance::Others => {
+                    let go = if others.len() == 1 { "goes" } else { "go" };
+                    format!("{} {go} first", vehicles(others))
+                }
                 JunctionHindrance::Space => "there is no storage space beyond".into(),
                 JunctionHindrance::Roundabout => "the roundabout is full".into(),
             };

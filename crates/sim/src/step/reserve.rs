@@ -81,7 +81,8 @@ pub(crate) fn entry(
         }
         Ok(()) => {
             let ahead = leader_of(scene, out).map(|it| Ahead { gap: it.gap - WAITS_BEFORE - length, ..it });
-            Entry::Reserved { until: free_until(scene, out) - WAITS_BEFORE, ahead }
+            let until = first_taken(scene, out).min(out.extent) - WAITS_BEFORE;
+            Entry::Reserved { until, ahead }
         }
     }
 }
@@ -89,11 +90,11 @@ pub(crate) fn entry(
 /// Whether nobody else may pass the crossings that begin within `reach` [m]: who comes onto the road stands in them at
 /// once.
 fn is_free(scene: &Scene, surveyed: &Survey, reach: f64) -> bool {
-    free_until(scene, surveyed) > reach
+    first_taken(scene, surveyed) > reach
 }
 
-/// How far what was surveyed leads without a stop for others who pass a crossing first [m].
-fn free_until(scene: &Scene, surveyed: &Survey) -> f64 {
+/// Where what was surveyed leads into the first crossing that others pass first [m]; infinite if there is none.
+fn first_taken(scene: &Scene, surveyed: &Survey) -> f64 {
     /// Before the place where one stops for a crossing [m].
     const BEFORE: f64 = 0.01;
     let waits = |hold: &&Hold| {
@@ -101,7 +102,7 @@ fn free_until(scene: &Scene, surveyed: &Survey) -> f64 {
         is_crossing && scene.passages.order(hold.zone).any(|(it, _)| it.side != hold.side)
     };
     let taken = surveyed.holds.iter().filter(waits).map(|it| it.enter - BEFORE);
-    taken.fold(surveyed.extent, f64::min)
+    taken.fold(f64::INFINITY, f64::min)
 }
 
 impl World {
