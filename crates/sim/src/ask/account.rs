@@ -13,9 +13,9 @@ use crate::driver::decide::{abort_if_it_must, go_or_ask};
 use crate::driver::gap::{Hindrance, Pairing, gap};
 use crate::driver::me::{Attending, Me};
 use crate::driver::plan::{Ask, Outbox, Plan};
+use crate::state::lane::{Kind, Phase, VehicleId};
 use crate::state::moment::Moment;
 use crate::state::random::Purpose;
-use crate::state::traffic::{Kind, Phase, VehicleId};
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
 
@@ -107,7 +107,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
     let scene = world.scene();
     let overtaking = scene.network.driving_side.overtaking();
     let clock = world.clock();
-    let moment = Moment { clock, random: world.roads.random, overtaking };
+    let moment = Moment { clock, random: world.random(), overtaking };
     let me = Me::at(&scene, spot);
     let Me { motion, car, mind, style, .. } = me;
     let attending = Attending::of(&me, moment);

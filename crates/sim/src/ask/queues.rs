@@ -2,7 +2,6 @@
 
 use laneweave_network::ChainIndex;
 
-use crate::demand::metering::Metering;
 use crate::demand::source::{Queue, Start};
 use crate::driver::request_passage::surveyed;
 use crate::junction::need::Survey;
@@ -56,7 +55,7 @@ const NEAR: f64 = 15.0;
 
 /// The queues at all lanes of all origins, in the order of the demand.
 pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
-    let lanes = world.arrivals.sources.iter().enumerate();
+    let lanes = world.arrivals().sources().iter().enumerate();
     let lanes = lanes.flat_map(|(origin, source)| source.lanes().iter().map(move |it| (origin, it)));
     lanes.map(|(origin, queue)| EntryQueue {
         origin,
@@ -72,13 +71,13 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
     let first = queue.waiting.front()?;
     let scene = world.scene();
     let starts_from_rest = matches!(queue.start, Start::FromRest(_));
-    if first.is_through_town && world.arrivals.metering.as_ref().is_some_and(Metering::is_full) {
+    if first.is_through_town && world.arrivals().is_full() {
         return Some(Held::FullMap);
     }
     if starts_from_rest && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
         return Some(Held::Room);
     }
-    match entry(&scene, queue, first, world.traffic.clock, &mut Survey::default()) {
+    match entry(&scene, queue, first, world.clock(), &mut Survey::default()) {
         Entry::Refused(Hindrance::Light) => return Some(Held::RedLight),
         Entry::Refused(Hindrance::Sign | Hindrance::Others) => return Some(Held::Priority),
         Entry::Refused(Hindrance::Room | Hindrance::Ring) => return Some(Held::Room),
@@ -91,8 +90,7 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
 
 /// Why the driver at the head of a queue stands.
 fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
-    let id = scene.motion(spot).id;
-    let Some(waiting) = world.work.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id) else {
+    let Some(waiting) = world.waits_at_a_junction(spot) else {
         return Held::Queue;
     };
     let mut survey = Survey::default();
@@ -100,7 +98,7 @@ fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
         return Held::Queue;
     }
     let applicant = Applicant::at(scene, spot);
-    match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, world.traffic.clock)) {
+    match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, world.clock())) {
         Ok(()) => Held::Queue,
         Err(Hindrance::Light) => Held::RedLight,
         Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,

@@ -10,7 +10,7 @@ use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{earlier, look, sight};
 use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
 use crate::right_of_way::survey::stop_ahead;
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
 
@@ -75,7 +75,7 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let place = mind
         .last_place
         .is_finite()
-        .then(|| place_to_wait(&scene, world.traffic.clock, spot, Window::of(&scene, spot)));
+        .then(|| place_to_wait(&scene, world.clock(), spot, Window::of(&scene, spot)));
     let lets_in = Some(f64::from(mind.lets_in.0)).filter(|it| it.is_finite());
     let all = [
         leader,
@@ -104,13 +104,13 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
     if !surveyed(scene, &applicant, &mut survey) {
         return StandsFor::After(before_it(scene, spot));
     }
-    let waiting = world.work.plans[spot.chain.at()].waiting.iter().find(|it| it.id == from.id);
-    let since = waiting.map_or(world.traffic.clock.step, |it| it.since);
-    let asking = Asking::of(&applicant, since, world.traffic.clock);
+    let waiting = world.waits_at_a_junction(spot);
+    let since = waiting.map_or(world.clock().step, |it| it.since);
+    let asking = Asking::of(&applicant, since, world.clock());
     let why = match may_pass(scene, &applicant, &survey, asking) {
         Ok(()) => return StandsFor::Nothing,
         Err(Hindrance::Light) => {
-            let light = survey.lights.last().map(|it| world.roads.network.junctions.lights[it.0.at()].id);
+            let light = survey.lights.last().map(|it| scene.network.junctions.lights[it.0.at()].id);
             return light.map_or(StandsFor::Nothing, StandsFor::Light);
         }
         Err(Hindrance::Sign) => return StandsFor::StopSign,
@@ -118,7 +118,7 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
         Err(Hindrance::Ring) => JunctionHindrance::Roundabout,
         Err(Hindrance::Others) => JunctionHindrance::Others,
     };
-    let zones = &world.roads.network.junctions.zones;
+    let zones = &scene.network.junctions.zones;
     let areas = survey.holds.iter().map(|it| zones[it.zone.at()].sides.map(|it| (it.chain, it.start)));
     let mut others: Vec<VehicleId> = Vec::new();
     for hold in &survey.holds {

@@ -1,25 +1,128 @@
 //! Who comes, and who waits to enter.
 
+use serde::{Deserialize, Serialize};
+
 use crate::demand::Demand;
 use crate::demand::metering::Metering;
-use crate::demand::source::Source;
+use crate::demand::source::{Queue, Source};
 use crate::route::roads::Roads;
-use crate::state::traffic::VehicleId;
+use crate::state::clock::Clock;
+use crate::state::goal::Destination;
+use crate::state::lane::{Lane, VehicleId};
+use crate::state::random::Random;
+use crate::view::scene::Scene;
 
 /// Demand, and the queues of those who have come by it.
 pub(crate) struct Arrivals {
-    pub(crate) demand: Demand,
+    demand: Demand,
+    backlog: Backlog,
+}
+
+/// Those who have come by a demand and wait, and what lets them wait: all of it that moves.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Backlog {
     /// By origin of the demand.
-    pub(crate) sources: Vec<Source>,
+    sources: Vec<Source>,
     /// Where roads lead in rings.
-    pub(crate) metering: Option<Metering>,
-    pub(crate) next_id: VehicleId,
+    metering: Option<Metering>,
+    next_id: VehicleId,
 }
 
 impl Arrivals {
     /// Nobody has come yet.
     pub(crate) fn new(roads: &Roads, demand: Demand) -> Arrivals {
-        let sources = Source::all(&roads.network, &roads.navigator, &demand, &roads.random);
-        Arrivals { demand, sources, metering: Metering::new(&roads.network), next_id: 0 }
+        let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
+        let backlog = Backlog { sources, metering: Metering::new(roads.network()), next_id: 0 };
+        Arrivals { demand, backlog }
+    }
+
+    /// Who comes, from where and to where.
+    pub(crate) fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
+    /// The origins of the demand.
+    pub(crate) fn sources(&self) -> &[Source] {
+        &self.backlog.sources
+    }
+
+    /// The queues of an origin, to change.
+    pub(crate) fn queues_mut(&mut self, origin: usize) -> &mut [Queue] {
+        self.backlog.sources[origin].queues()
+    }
+
+    /// The name of a vehicle that is new.
+    pub(crate) fn new_id(&mut self) -> VehicleId {
+        let id = self.backlog.next_id;
+        self.backlog.next_id += 1;
+        id
+    }
+
+    /// Whether the town is full: nobody begins a trip through it.
+    pub(crate) fn is_full(&self) -> bool {
+        self.backlog.metering.as_ref().is_some_and(Metering::is_full)
+    }
+
+    /// Measures how full the town is.
+    pub(crate) fn measure(&mut self, lanes: &[Lane]) {
+        self.backlog.metering.iter_mut().for_each(|it| it.measure(lanes));
+    }
+
+    /// Those who come to an origin by `time` [s] queue up.
+    pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
+        let Arrivals { demand, backlog: Backlog { sources, metering, next_id } } = self;
+        sources[origin].arrive(scene, demand, metering.as_ref(), random, time, next_id);
+    }
+
+    /// Vehicles that wait to enter.
+    pub(crate) fn count_waiting(&self) -> usize {
+        self.backlog.sources.iter().map(Source::waiting).sum()
+    }
+
+    /// Vehicles that have arrived, whether they entered or wait.
+    pub(crate) fn count_arrived(&self) -> u64 {
+        self.backlog.sources.iter().map(Source::arrived).sum()
+    }
+
+    /// All of it that moves.
+    pub(crate) fn backlog(&self) -> &Backlog {
+        &self.backlog
+    }
+
+    /// Goes on from what was saved, which fits.
+    pub(crate) fn restore(&mut self, backlog: Backlog) {
+        self.backlog = backlog;
+    }
+}
+
+impl Backlog {
+    /// Whether it is that of the same demand and roads as `other` at `clock`, for so many drivers, and for ways that are
+    /// known.
+    pub(crate) fn fits(
+        &self,
+        other: &Backlog,
+        clock: Clock,
+        characters: usize,
+        is_known: impl Fn(Destination) -> bool,
+    ) -> bool {
+        let Backlog { sources, metering, next_id: _ } = self;
+        let metering_fits = match (metering, &other.metering) {
+            (Some(one), Some(other)) => one.fits(other),
+            (one, other) => one.is_none() && other.is_none(),
+        };
+        let source_fits = |(one, other): (&Source, &Source)| one.fits(other, clock, characters, &is_known);
+        sources.len() == other.sources.len()
+            && sources.iter().zip(&other.sources).all(source_fits)
+            && metering_fits
+    }
+
+    /// The ids of those who wait to enter.
+    pub(crate) fn ids(&self) -> Vec<VehicleId> {
+        self.sources.iter().flat_map(Source::lanes).flat_map(|it| &it.waiting).map(|it| it.id).collect()
+    }
+
+    /// The name that the next vehicle is given.
+    pub(crate) fn next_id(&self) -> VehicleId {
+        self.next_id
     }
 }

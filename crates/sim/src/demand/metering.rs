@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::route::navigate::Navigator;
 use crate::state::goal::Destination;
-use crate::state::traffic::Lane;
+use crate::state::lane::Lane;
 
 /// Share of its roads that vehicles and the least gaps before them may take up (ours, from trials on closed maps: at
 /// twice that fewer arrive).

@@ -17,8 +17,8 @@ use crate::route::place::Place;
 use crate::route::waypoint::Waypoint;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
+use crate::state::lane::{Motion, VehicleId};
 use crate::state::random::{Purpose, Random};
-use crate::state::traffic::{Motion, VehicleId};
 use crate::state::vehicle::Class;
 use crate::view::scene::Scene;
 

@@ -10,9 +10,9 @@ use crate::driver::window::{self, Window};
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::Junction;
 use crate::state::clock::Clock;
+use crate::state::lane::{Car, Motion, Phase};
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;
-use crate::state::traffic::{Car, Motion, Phase};
 use crate::view::scene::{Scene, Spot};
 
 /// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
@@ -78,7 +78,7 @@ impl OpenRoad {
 #[inline(always)]
 pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
     let ahead = leader.ahead(leader.rear() - motion.x);
-    let follow = &scene.characters[car.character as usize].follow;
+    let follow = &scene.style_of(car).follow;
     let wish = follow.acceleration(pace(motion, car), Some(ahead));
     let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
     let next = motion.speed + acceleration * dt;
@@ -116,7 +116,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
     }
     let leader = scene.ahead(scene.viewpoint(spot));
-    let follow = &scene.characters[car.character as usize].follow;
+    let follow = &scene.style_of(car).follow;
     let wish = follow.acceleration(pace(motion, car), leader);
     let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
@@ -278,7 +278,7 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         Phase::Changes => true,
         Phase::Wants => {
             let waited = clock.since(mind.since);
-            let least = scene.characters[car.character as usize].safety.min_gap;
+            let least = scene.style_of(car).safety.min_gap;
             waited > WAITS
                 && scene.motion(spot).speed < HARDLY_MOVES
                 && leader_beside(scene, spot, mind.side).is_none_or(|it| it.gap >= least)
@@ -300,7 +300,7 @@ fn within_window(kept: f64, window: f64) -> f64 {
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
     let pace = pace(motion, car);
-    let style = &scene.characters[car.character as usize];
+    let style = scene.style_of(car);
     let mut acceleration = f64::INFINITY;
     if car.phase == Phase::Wants {
         let beside = leader_beside(scene, spot, mind.side);
@@ -343,7 +343,7 @@ pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Opt
 /// on through it if it has a gap; else it stops within it, or on a motorway slows down.
 fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-    let manner = &scene.characters[car.character as usize].manner;
+    let manner = &scene.style_of(car).manner;
     let window = Window::of(scene, spot);
     if let Some(window) = window.filter(|it| car.phase == Phase::Wants && it.is_near_and_short())
         && gap(scene, spot, mind.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())

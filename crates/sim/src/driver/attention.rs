@@ -9,8 +9,8 @@
 
 use laneweave_models::{Attention, Concentration};
 
+use crate::state::lane::VehicleId;
 use crate::state::random::{Purpose, Random};
-use crate::state::traffic::VehicleId;
 
 /// Slots in the time in which a state is forgotten (ours).
 const SLOTS: f64 = 16.0;

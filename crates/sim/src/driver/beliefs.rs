@@ -6,9 +6,9 @@ use laneweave_network::{ChainIndex, Network};
 use crate::route::effort::Effort;
 use crate::route::navigate::Navigator;
 use crate::state::goal::Destination;
+use crate::state::lane::VehicleId;
 use crate::state::normal::quantile;
 use crate::state::random::{Purpose, Random};
-use crate::state::traffic::VehicleId;
 
 /// What a driver believes since travel times were measured last.
 #[derive(Clone, Copy, Debug)]

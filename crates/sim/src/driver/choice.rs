@@ -7,8 +7,8 @@ use crate::driver::perceive::{Dismissed, Outlook};
 use crate::driver::plan::Want;
 use crate::record::signs::Sign;
 use crate::record::tally::Tally;
+use crate::state::lane::{Car, Kind};
 use crate::state::moment::Moment;
-use crate::state::traffic::{Car, Kind};
 
 /// A side, and what the driver makes of it.
 pub(crate) struct Choice {

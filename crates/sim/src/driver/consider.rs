@@ -18,11 +18,11 @@ use crate::driver::window;
 use crate::record::events::DrivingEventKind;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
+use crate::state::lane::{Car, Kind, Mind, Motion, Phase};
 use crate::state::moment::Moment;
 use crate::state::random::Purpose;
 use crate::state::standstill::STANDSTILL;
 use crate::state::tight::push_tight;
-use crate::state::traffic::{Car, Kind, Mind, Motion, Phase};
 use crate::view::scene::{Scene, Spot};
 
 /// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.

@@ -6,8 +6,8 @@ use laneweave_network::ChainIndex;
 use crate::driver::consider::consider;
 use crate::driver::gap::{Hindrance, ROOM_TO_YIELD, gap};
 use crate::driver::plan::{Ask, Outbox, Plan, Request};
+use crate::state::lane::Phase;
 use crate::state::moment::Moment;
-use crate::state::traffic::Phase;
 use crate::view::scene::{Scene, Spot};
 
 /// All drivers of a lane decide.
@@ -43,7 +43,7 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
 pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
     let (motion, mind) = (scene.motion(spot), scene.mind(spot));
-    let asks_from = scene.characters[scene.car(spot).character as usize].change.asks_from();
+    let asks_from = scene.style(spot).change.asks_from();
     let request =
         |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
     let Some(gap) = gap(scene, spot, mind.side) else { return };
@@ -77,7 +77,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     if ends_here && deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER {
         return;
     }
-    let style = &scene.characters[car.character as usize];
+    let style = scene.style_of(car);
     let forced = |from| {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };

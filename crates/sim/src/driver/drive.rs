@@ -8,8 +8,8 @@ use crate::junction::passages::NO_PASSAGE;
 use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
 use crate::state::clock::Clock;
+use crate::state::lane::{Lane, Motion};
 use crate::state::tight::push_tight;
-use crate::state::traffic::{Lane, Motion};
 use crate::view::scene::{Scene, Spot};
 
 /// All drivers of a lane accelerate and move.
@@ -37,7 +37,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
         if next.tightness < 1.0 {
-            let manner = &scene.characters[car.character as usize].manner;
+            let manner = &scene.style_of(car).manner;
             next.tightness = manner.relaxed(f64::from(next.tightness), clock.dt) as f32;
         }
         plan.next.push(next);

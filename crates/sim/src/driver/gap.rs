@@ -12,8 +12,8 @@ use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::conditions::Asking;
 use crate::right_of_way::survey::is_place_ahead;
 use crate::state::clock::Clock;
+use crate::state::lane::Phase;
 use crate::state::standstill::STANDSTILL;
-use crate::state::traffic::Phase;
 use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 
 /// Desire that a voluntary change counts for in the time gap accepted (ours).
@@ -132,7 +132,7 @@ impl Gap {
     /// Why not.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Hindrance> {
         self.has_road(scene, spot, scene.motion(spot).speed)?;
-        let style = &scene.characters[scene.car(spot).character as usize];
+        let style = scene.style(spot);
         let [ahead, behind] = self.pairings(scene, spot);
         ahead
             .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
@@ -144,7 +144,7 @@ impl Gap {
 
     /// Whether the road left does for the change at that `speed` [m/s] of the driver at `spot`.
     fn has_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<(), Hindrance> {
-        let style = &scene.characters[scene.car(spot).character as usize];
+        let style = scene.style(spot);
         let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
         let crossing = 0.5 * duration * speed;
         if self.room < crossing {
@@ -222,10 +222,10 @@ impl Gap {
         /// So many behind see who wants in.
         const SEE_IT: usize = 10;
         let motion = scene.motion(spot);
-        let room = scene.characters[scene.car(spot).character as usize].safety.min_gap + ROOM_TO_YIELD;
+        let room = scene.style(spot).safety.min_gap + ROOM_TO_YIELD;
         let can = |it: &Found| {
             let (behind, car) = (scene.motion(it.spot), scene.car(it.spot));
-            let gentle = scene.characters[car.character as usize].manner.yield_deceleration;
+            let gentle = scene.style_of(car).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
             // Who stands beside or right behind a standing vehicle cannot make room for it.
             let is_beside = gap < room && motion.speed <= STANDSTILL;
@@ -263,7 +263,7 @@ impl Gap {
     /// The driver's pace with the time gap that it accepts for this change.
     fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
         let (motion, car) = (scene.motion(spot), scene.car(spot));
-        let style = &scene.characters[car.character as usize];
+        let style = scene.style_of(car);
         let desire = f64::from(scene.mind(spot).urgency).max(VOLUNTARY_DESIRE);
         let tightness = style.manner.tightness(desire).min(f64::from(motion.tightness));
         Pace { speed: motion.speed, desired: f64::from(car.desired), tightness }

@@ -7,8 +7,8 @@ use laneweave_models::change::LaneChangeModel;
 use laneweave_models::{Concentration, Style};
 
 use crate::driver::attention::concentration;
+use crate::state::lane::{Car, Mind, Motion};
 use crate::state::moment::Moment;
-use crate::state::traffic::{Car, Mind, Motion};
 use crate::view::scene::{Scene, Spot};
 
 /// The driver of a vehicle.
@@ -26,7 +26,7 @@ impl<'a> Me<'a> {
     #[inline]
     pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Me<'a> {
         let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-        Me { spot, motion, car, mind, style: &scene.characters[car.character as usize] }
+        Me { spot, motion, car, mind, style: scene.style_of(car) }
     }
 }
 

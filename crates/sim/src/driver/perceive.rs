@@ -11,7 +11,7 @@ use laneweave_network::{Beside, Side};
 use crate::driver::beliefs::Beliefs;
 use crate::driver::window;
 use crate::route::waypoint::Waypoint;
-use crate::state::traffic::{Car, Phase};
+use crate::state::lane::{Car, Phase};
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer};
 use crate::view::sight::LaneSight;
 
@@ -27,7 +27,7 @@ pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation
     let ahead = |it: &Beside| scene.lanes[it.chain.at()].ahead_of(it.across(x));
     let mut hints = Side::BOTH.map(|side| here.beside(side, x).map_or(0, ahead));
     let waypoint = scene.navigator.waypoint_from(scene.network, destination, chain, x);
-    let style = &scene.characters[scene.car(me).character as usize];
+    let style = scene.style(me);
     let beliefs = Beliefs::settled(&style.guidance);
     let outlook = Outlook::new(scene, me, &waypoint, SIGHT, beliefs, &mut hints);
     Some(outlook.situation(side, outlook.beside(side)?))
@@ -44,7 +44,7 @@ pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
             tightness: f64::from(motion.tightness),
         },
         acceleration: f64::from(motion.acceleration),
-        follow: &scene.characters[car.character as usize].follow,
+        follow: &scene.style_of(car).follow,
         length: f64::from(motion.length),
     }
 }

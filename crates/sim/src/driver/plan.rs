@@ -13,7 +13,7 @@ use crate::record::incidents::Incident;
 use crate::record::tally::Tally;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::traffic::{Entry, Kind, Milestone, Motion, VehicleId};
+use crate::state::lane::{Entry, Kind, Milestone, Motion, VehicleId};
 use crate::view::scene::{Scene, Spot};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of

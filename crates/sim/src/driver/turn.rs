@@ -1,6 +1,6 @@
 //! When drivers consider lanes: each at its own turn within the epoch, so that at every step there are as many.
 
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 
 /// The first turn of the driver of `id` from step `from` on, of one in every `period` steps.
 ///

@@ -3,7 +3,7 @@
 
 use laneweave_network::{Beside, ChainIndex, Side};
 
-use crate::state::traffic::Car;
+use crate::state::lane::Car;
 use crate::view::scene::{Scene, Spot};
 
 /// A window is short up to this length [m]: a driver who looks for a gap only there finds none in time. Ours.

@@ -3,7 +3,7 @@
 use laneweave_network::ZoneIndex;
 use serde::{Deserialize, Serialize};
 
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 
 /// A side of a zone that a vehicle may pass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

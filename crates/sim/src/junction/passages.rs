@@ -9,7 +9,7 @@ use crate::junction::need::Survey;
 use crate::junction::refuge::{Numbers, Refuge};
 use crate::junction::rings::Rings;
 use crate::state::clock::Clock;
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 
 /// A vehicle has no passage.
 pub(crate) const NO_PASSAGE: u32 = u32::MAX;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::junction::claim::Claim;
 use crate::junction::need::SPARE_ROOM;
 use crate::junction::passages::Passages;
-use crate::state::traffic::Lane;
+use crate::state::lane::Lane;
 
 /// A ring is no longer than this [m] (ours; a roundabout of two lanes is some 60 m across).
 const LONGEST: f64 = 200.0;

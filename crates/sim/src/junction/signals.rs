@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::junction::controller::Controller;
 use crate::state::clock::Clock;
-use crate::state::traffic::Lane;
+use crate::state::lane::Lane;
 
 /// Whose front is nearer to the line of a light comes to it [m], ours: at 50 km/h two seconds.
 const DETECTED_WITHIN: f64 = 30.0;

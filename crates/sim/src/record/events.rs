@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::incidents::Incident;
 use crate::record::journal::TripRecord;
-use crate::state::traffic::{Kind, Motion, VehicleId};
+use crate::state::lane::{Kind, Motion, VehicleId};
 
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use laneweave_network::{ChainIndex, Point};
 use serde::{Deserialize, Serialize};
 
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 use crate::state::vehicle::Class;
 
 /// Two vehicles whose rectangles come to intersect by more than 5 cm.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::ledger::Mark;
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 use crate::state::vehicle::Class;
 
 /// A trip up to now.

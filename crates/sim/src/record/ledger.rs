@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::journal::Journal;
 use crate::state::clock::Clock;
+use crate::state::lane::{Lane, Motion};
 use crate::state::standstill::STANDSTILL;
-use crate::state::traffic::{Lane, Motion};
 
 /// What vehicles did on a lanelet, by their front bumpers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

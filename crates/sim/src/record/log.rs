@@ -1,31 +1,288 @@
 //! All that is remembered of a run.
 
+use laneweave_network::{ChainIndex, Network};
 use serde::{Deserialize, Serialize};
 
 use crate::record::counts::Counts;
-use crate::record::events::Event;
-use crate::record::incidents::Touching;
-use crate::record::journal::Journal;
-use crate::record::ledger::Ledger;
+use crate::record::events::{DrivingEvent, DrivingEventKind, Event, LaneChange};
+use crate::record::incidents::{Incident, IncidentKind, Touching};
+use crate::record::journal::{Journal, TripRecord};
+use crate::record::ledger::{Ledger, Mark, Stay};
 use crate::record::records::Records;
+use crate::record::tally::Tally;
 use crate::record::trips::Trips;
+use crate::state::clock::Clock;
+use crate::state::lane::{Entry, Kind, Lane, Milestone, Phase, Reached, VehicleId};
 
 /// Changes under way, trips, counts and incidents.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Log {
-    pub(crate) records: Records,
-    pub(crate) trips: Trips,
+    /// The lane changes under way.
+    records: Records,
+    trips: Trips,
     /// Where trips are recorded.
-    pub(crate) journal: Option<Journal>,
+    journal: Option<Journal>,
     /// There too, what happens on the lanelets.
-    pub(crate) ledger: Option<Ledger>,
+    ledger: Option<Ledger>,
     /// What happened in the last step.
     #[serde(skip)]
-    pub(crate) events: Vec<Event>,
+    events: Vec<Event>,
     /// Who touches whom.
-    pub(crate) touching: Touching,
+    touching: Touching,
     /// Whether it is looked for overlaps at every step.
     #[serde(skip)]
-    pub(crate) is_audited: bool,
-    pub(crate) counts: Counts,
+    is_audited: bool,
+    counts: Counts,
+}
+
+impl Log {
+    /// Every trip is recorded from now on until it ends, and what vehicles do on every lanelet of `network`.
+    pub(crate) fn record_trips(&mut self, network: &Network) {
+        self.journal = Some(Journal::default());
+        self.ledger = Some(Ledger::new(network));
+    }
+
+    /// Overlaps are looked for at every step from now on.
+    pub(crate) fn audit(&mut self) {
+        self.is_audited = true;
+    }
+
+    /// Whether overlaps are looked for at every step.
+    pub(crate) fn is_audited(&self) -> bool {
+        self.is_audited
+    }
+
+    /// A step begins, in which nothing has happened yet.
+    pub(crate) fn begin_step(&mut self) {
+        self.events.clear();
+    }
+
+    /// What happened in the last step.
+    pub(crate) fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// What was counted.
+    pub(crate) fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Forgets the counts, but for so many `on_road`, who count as entered.
+    pub(crate) fn reset_counts(&mut self, on_road: usize) {
+        self.counts = Counts { entered: on_road as u64, ..Counts::default() };
+    }
+
+    /// Forgets what vehicles did on the lanelets.
+    pub(crate) fn reset_stays(&mut self, network: &Network) {
+        self.ledger = self.ledger.as_ref().map(|_| Ledger::new(network));
+    }
+
+    /// The record of the trip of a vehicle on the road, where trips are recorded.
+    pub(crate) fn trip(&self, id: VehicleId) -> Option<&TripRecord> {
+        self.journal.as_ref()?.of(id)
+    }
+
+    /// The same, to change.
+    pub(crate) fn trip_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
+        self.journal.as_mut()?.of_mut(id)
+    }
+
+    /// A vehicle came onto the road, whose trip takes `free_time` [s] on a free road. `record` makes its record, where
+    /// trips are recorded.
+    pub(crate) fn begin_trip(
+        &mut self,
+        id: VehicleId,
+        free_time: Option<f64>,
+        record: impl FnOnce() -> TripRecord,
+    ) {
+        self.trips.begin(id, free_time);
+        if let Some(journal) = &mut self.journal {
+            journal.begin(record());
+        }
+        self.counts.entered += 1;
+    }
+
+    /// A vehicle entered by the demand, from this origin.
+    pub(crate) fn note_origin(&mut self, id: VehicleId, origin: usize) {
+        if let Some(record) = self.trip_mut(id) {
+            record.origin = Some(origin);
+        }
+        self.events.push(Event::Entered(id));
+    }
+
+    /// Something happened to a vehicle on its way.
+    pub(crate) fn note_driving(&mut self, event: DrivingEvent) {
+        if event.kind == DrivingEventKind::Halt {
+            self.trips.stop(event.vehicle);
+        }
+        self.journal.iter_mut().for_each(|it| it.note(&event));
+        self.events.push(Event::Driving(event));
+    }
+
+    /// The vehicle of an entry left the map from the chain `from`.
+    pub(crate) fn end_trip(&mut self, network: &Network, clock: Clock, from: ChainIndex, entry: &Entry) {
+        let Entry { motion, mind, .. } = *entry;
+        let duration = f64::from(clock.step - mind.entered) * clock.dt;
+        let trip = self.trips.end(motion.id);
+        self.counts.left += 1;
+        self.counts.trip_time += duration;
+        self.counts.stops += u64::from(trip.stops());
+        if let Some(delay) = trip.delay(duration) {
+            self.counts.planned += 1;
+            self.counts.delay += delay;
+        }
+        let length = network.chain(from).length;
+        let end = Mark::at(motion.x.min(length), &motion, clock);
+        self.leave_chain(network, motion.id, from, [end; 2]);
+        if motion.x > length {
+            self.pass_end(network, from);
+        }
+        let trip = self.journal.as_mut().and_then(|it| it.end(motion.id));
+        self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion, trip });
+    }
+
+    /// The vehicle of an entry passed the end of the chain `from`, and goes on.
+    pub(crate) fn go_on(&mut self, network: &Network, clock: Clock, from: ChainIndex, entry: &Entry) {
+        let (id, length) = (entry.motion.id, network.chain(from).length);
+        if let Some(trip) = self.trip_mut(id) {
+            trip.way_to_start += length;
+        }
+        let end = Mark::at(length, &entry.motion, clock);
+        self.leave_chain(network, id, from, [end, Mark { x: 0.0, ..end }]);
+        self.pass_end(network, from);
+    }
+
+    /// What a vehicle did on the chain `from` up to the first mark is put down, where trips are recorded; it goes on
+    /// from the second.
+    fn leave_chain(&mut self, network: &Network, id: VehicleId, from: ChainIndex, [there, on]: [Mark; 2]) {
+        let (Some(ledger), Some(journal)) = (&mut self.ledger, &mut self.journal) else { return };
+        if let Some(trip) = journal.of_mut(id) {
+            ledger.note(network.chain(from), [std::mem::replace(&mut trip.mark, on), there]);
+        }
+    }
+
+    fn pass_end(&mut self, network: &Network, chain: ChainIndex) {
+        self.ledger.iter_mut().for_each(|it| it.pass_end(network.chain(chain)));
+    }
+
+    /// Puts down what vehicles did on the lanelets up to now, where trips are recorded.
+    pub(crate) fn put_down(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
+        if let (Some(ledger), Some(journal)) = (&mut self.ledger, &mut self.journal) {
+            ledger.look(network, lanes, journal, clock);
+        }
+    }
+
+    /// What vehicles did on each lanelet up to now, where trips are recorded. Nothing is put down: what is put down
+    /// later does not depend on who asked.
+    pub(crate) fn stays(&self, network: &Network, lanes: &[Lane], clock: Clock) -> Vec<Stay> {
+        let mut copy = Log { ledger: self.ledger.clone(), journal: self.journal.clone(), ..Log::default() };
+        copy.put_down(network, lanes, clock);
+        copy.ledger.filter(|_| copy.journal.is_some()).map_or_else(Vec::new, |it| it.stays)
+    }
+
+    /// Keeps the record of a lane change; returns where.
+    pub(crate) fn keep_change(&mut self, record: LaneChange) -> u32 {
+        self.records.keep(record)
+    }
+
+    /// The record of a lane change under way.
+    pub(crate) fn change_mut(&mut self, slot: u32) -> &mut LaneChange {
+        self.records.get_mut(slot)
+    }
+
+    /// A lane change came to a milestone at `time` [s].
+    pub(crate) fn note_milestone(&mut self, network: &Network, milestone: &Milestone, time: f64) {
+        match milestone.what {
+            Reached::Nothing => self.records.release(milestone.record),
+            Reached::Crossing => self.note_crossing(network, milestone, time),
+            Reached::End | Reached::Return => {
+                let mut record = *self.records.get_mut(milestone.record);
+                self.records.release(milestone.record);
+                record.duration = time - record.started;
+                if !record.is_completed {
+                    record.time = time;
+                    record.from = milestone.at;
+                    record.to = milestone.shadow.unwrap_or(milestone.at);
+                }
+                self.events.push(Event::LaneChange(record));
+            }
+        }
+    }
+
+    fn note_crossing(&mut self, network: &Network, milestone: &Milestone, time: f64) {
+        let record = self.records.get_mut(milestone.record);
+        record.time = time;
+        record.speed = milestone.speed;
+        record.is_completed = true;
+        record.to = milestone.at;
+        record.from = milestone.shadow.unwrap_or(milestone.at);
+        let LaneChange { kind, from: (from, x), to: (_, x_there), .. } = *record;
+        match kind {
+            Kind::Discretionary => self.counts.discretionary_changes += 1,
+            Kind::Route => self.counts.route_changes += 1,
+        }
+        if let Some(trip) = self.trip_mut(milestone.id) {
+            trip.way_to_start += x - x_there;
+            trip.lane_changes += 1;
+        }
+        self.leave_chain(network, milestone.id, from, [x, x_there].map(|x| Mark { x, time }));
+    }
+
+    /// Counts and tells who came to touch each other, of all that are seen to; if all were `watched`, who was not seen
+    /// to no longer does.
+    pub(crate) fn note_incidents(&mut self, seen: &mut Vec<Incident>, tally: &mut Tally, watched: bool) {
+        let Log { touching: Touching(touching), events, counts, .. } = self;
+        // Of what is seen from both sides the graver counts.
+        let gravity = |it: &Incident| it.kind == IncidentKind::Overlap;
+        seen.sort_unstable_by(|a, b| {
+            a.vehicles.cmp(&b.vehicles).then(gravity(a).cmp(&gravity(b))).then(b.depth.total_cmp(&a.depth))
+        });
+        seen.dedup_by_key(|it| it.vehicles);
+        for incident in seen.iter() {
+            let Err(place) = touching.binary_search(&incident.vehicles) else { continue };
+            touching.insert(place, incident.vehicles);
+            match incident.kind {
+                IncidentKind::Collision => tally.collisions += 1,
+                IncidentKind::Overlap => tally.overlaps += 1,
+            }
+            counts.first_incident.get_or_insert(*incident);
+            events.push(Event::Incident(*incident));
+        }
+        if watched {
+            touching.retain(|pair| seen.binary_search_by_key(pair, |it| it.vehicles).is_ok());
+        }
+        seen.clear();
+    }
+
+    /// Goes on from what was saved. Whether it is audited stays as it is.
+    pub(crate) fn restore(&mut self, saved: Log) {
+        *self = Log { is_audited: self.is_audited, ..saved };
+    }
+
+    /// Whether it knows all who are on these lanes, and all who wait with the ids `waiting` can still begin their trips;
+    /// `next_id` has not come yet.
+    pub(crate) fn fits(
+        &self,
+        network: &Network,
+        lanes: &[Lane],
+        waiting: &[VehicleId],
+        next_id: VehicleId,
+    ) -> bool {
+        let Log { records, trips, journal, ledger, events: _, touching: _, is_audited: _, counts: _ } = self;
+        let knows =
+            |id: VehicleId| id < next_id && trips.has(id) && journal.as_ref().is_none_or(|it| it.has(id));
+        let lane_fits = |lane: &Lane| {
+            let mut changes =
+                lane.cars().iter().zip(lane.minds()).filter(|(it, _)| it.phase != Phase::Cruises);
+            lane.motions().iter().all(|it| knows(it.id)) && changes.all(|(_, it)| records.has(it.record))
+        };
+        let count = waiting.len();
+        let journal_fits = |it: &Journal| it.fits(network.chains.len()) && it.reaches(next_id, count);
+        records.is_sound()
+            && journal.as_ref().is_none_or(journal_fits)
+            && ledger.as_ref().is_none_or(|it| it.stays.len() == network.lanelets.len())
+            && lanes.iter().all(lane_fits)
+            && trips.reach(next_id, count)
+            && waiting.iter().all(|it| *it < next_id && trips.can_begin(*it))
+    }
 }

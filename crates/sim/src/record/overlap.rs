@@ -4,7 +4,7 @@
 use laneweave_network::{ChainIndex, Nearby, Pose, Side};
 
 use crate::record::incidents::{Incident, IncidentKind};
-use crate::state::traffic::Motion;
+use crate::state::lane::Motion;
 use crate::state::vehicle::LONGEST;
 use crate::view::pose::pose;
 use crate::view::scene::{Scene, Spot};

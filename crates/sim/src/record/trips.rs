@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::route::navigate::Navigator;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
 
 /// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours;
 /// above it the number of times that the vehicle came to a halt; and whether it is over.

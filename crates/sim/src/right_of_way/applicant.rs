@@ -34,7 +34,7 @@ impl<'a> Applicant<'a> {
             length: f64::from(motion.length),
             speed: motion.speed,
             desired: f64::from(car.desired),
-            style: &scene.characters[car.character as usize],
+            style: scene.style_of(car),
             passage: scene.passages.of(scene.mind(spot).passage, motion.id),
         }
     }

@@ -5,7 +5,7 @@ use laneweave_network::Side;
 use crate::junction::need::SPARE_ROOM;
 use crate::junction::refuge::Refuge;
 use crate::right_of_way::survey::{ROUNDING, parts};
-use crate::state::traffic::Phase;
+use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
 /// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).

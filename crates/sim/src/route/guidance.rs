@@ -12,19 +12,20 @@ use serde::{Deserialize, Serialize};
 use crate::route::links::{Link, Links};
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
-use crate::state::traffic::Lane;
+use crate::state::clock::Clock;
+use crate::state::lane::Lane;
 use crate::state::vehicle::Class;
 
 /// Waypoints that are planned in a step, ours: some milliseconds.
 const WAYPOINTS_A_STEP: usize = 4000;
 /// Time between two samples of the traffic [s].
-pub(crate) const SAMPLED_EVERY: f64 = 1.0;
+const SAMPLED_EVERY: f64 = 1.0;
 
 /// What guides drivers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Guidance {
     /// Steps between two measurements.
-    pub(crate) period: u32,
+    period: u32,
     /// By link, in the order of the links.
     meters: Vec<Meter>,
     /// Tables of usual ways whose destinations are to be planned, the next one last.
@@ -82,8 +83,28 @@ impl Guidance {
             && *credit <= usize::MAX / 2
     }
 
+    /// Measures, and plans the ways to `destinations` anew, as far as it is time for that at `clock`.
+    pub(crate) fn advance(
+        &mut self,
+        network: &Network,
+        navigator: &mut Navigator,
+        lanes: &[Lane],
+        destinations: &[Place],
+        clock: Clock,
+    ) {
+        if clock.step.is_multiple_of(clock.steps(SAMPLED_EVERY)) {
+            self.sample(lanes, navigator.links());
+        }
+        if clock.step.is_multiple_of(self.period) {
+            let times = self.measure(navigator.links(), clock.dt);
+            navigator.take_link_times(times.into_iter());
+            self.look_who_drives(lanes, navigator);
+        }
+        self.plan(network, destinations, navigator);
+    }
+
     /// Counts who is where.
-    pub(crate) fn sample(&mut self, lanes: &[Lane], links: &Links) {
+    fn sample(&mut self, lanes: &[Lane], links: &Links) {
         for (lane, chain) in lanes.iter().zip(0..) {
             let all = lane.motions().iter().zip(lane.cars());
             for (motion, _) in all.filter(|(_, car)| !car.is_shadow) {
@@ -95,14 +116,14 @@ impl Guidance {
     }
 
     /// The link times since the last measurement [s].
-    pub(crate) fn measure(&mut self, links: &Links, dt: f64) -> Vec<f64> {
+    fn measure(&mut self, links: &Links, dt: f64) -> Vec<f64> {
         let interval = f64::from(self.period) * dt;
         let all = self.meters.iter_mut().zip(links.all());
         all.map(|(meter, link)| meter.read(link, interval)).collect()
     }
 
     /// Notes which ways somebody follows, and whose destinations are to be planned.
-    pub(crate) fn look_who_drives(&mut self, lanes: &[Lane], navigator: &Navigator) {
+    fn look_who_drives(&mut self, lanes: &[Lane], navigator: &Navigator) {
         let Guidance { due, in_use, .. } = self;
         in_use.clear();
         in_use.resize(navigator.tables(), false);
@@ -115,7 +136,7 @@ impl Guidance {
     }
 
     /// Plans as many of the ways that are due as may be in a step.
-    pub(crate) fn plan(&mut self, network: &Network, destinations: &[Place], navigator: &mut Navigator) {
+    fn plan(&mut self, network: &Network, destinations: &[Place], navigator: &mut Navigator) {
         let cost = network.chains.len();
         self.credit = (self.credit + WAYPOINTS_A_STEP).min(cost.max(WAYPOINTS_A_STEP));
         while self.credit >= cost {

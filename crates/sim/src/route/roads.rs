@@ -8,20 +8,22 @@ use laneweave_network::Network;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
+use crate::route::renew::Guided;
 use crate::route::views::Views;
+use crate::state::clock::Clock;
+use crate::state::lane::Lane;
 use crate::state::random::Random;
 use crate::state::vehicle::Fleet;
 
 /// What a step only reads, but for the ways of those who are guided: roads, drivers and chance.
 pub(crate) struct Roads {
-    pub(crate) network: Arc<Network>,
-    pub(crate) navigator: Navigator,
+    network: Arc<Network>,
+    navigator: Navigator,
     /// All different drivers.
-    pub(crate) characters: Vec<Style>,
-    /// The draws.
-    pub(crate) random: Random,
+    characters: Vec<Style>,
+    random: Random,
     /// Where drivers are guided.
-    pub(crate) guidance: Option<Guidance>,
+    guidance: Option<Guidance>,
 }
 
 impl Roads {
@@ -36,5 +38,88 @@ impl Roads {
         let views = Views::of(&network, fleet);
         let navigator = Navigator::with_views(&network, destinations, views);
         Roads { network, navigator, characters, random, guidance: None }
+    }
+
+    /// The network.
+    #[inline]
+    pub(crate) fn network(&self) -> &Network {
+        &self.network
+    }
+
+    /// The network, for those who need it beyond the world: it never changes.
+    pub(crate) fn shared_network(&self) -> Arc<Network> {
+        Arc::clone(&self.network)
+    }
+
+    /// The ways.
+    #[inline]
+    pub(crate) fn navigator(&self) -> &Navigator {
+        &self.navigator
+    }
+
+    /// All different drivers.
+    #[inline]
+    pub(crate) fn characters(&self) -> &[Style] {
+        &self.characters
+    }
+
+    /// The driver at this place in the table of all different ones.
+    #[inline]
+    pub(crate) fn style(&self, character: u32) -> &Style {
+        &self.characters[character as usize]
+    }
+
+    /// Each driver becomes the one in its place among `characters`, of which there are as many.
+    pub(crate) fn change_characters(&mut self, characters: Vec<Style>) {
+        self.characters = characters;
+    }
+
+    /// The random numbers.
+    #[inline]
+    pub(crate) fn random(&self) -> Random {
+        self.random
+    }
+
+    /// Drivers are guided to `destinations` from now on, by measurements every `period` steps.
+    ///
+    /// # Errors
+    /// The greatest number of destinations, if there are more.
+    pub(crate) fn guide(&mut self, destinations: &[Place], period: u32) -> Result<(), usize> {
+        self.navigator.guide(&self.network, destinations)?;
+        self.guidance = Some(Guidance::new(self.navigator.links(), period));
+        Ok(())
+    }
+
+    /// Guidance to `destinations`, if there is any, goes on at `clock` with the vehicles on these lanes.
+    pub(crate) fn go_on_guiding(&mut self, lanes: &[Lane], destinations: &[Place], clock: Clock) {
+        let Roads { network, navigator, guidance, .. } = self;
+        if let Some(guidance) = guidance {
+            guidance.advance(network, navigator, lanes, destinations, clock);
+        }
+    }
+
+    /// Guidance, and what it has changed.
+    pub(crate) fn guided(&self) -> Option<(&Guidance, Guided)> {
+        self.guidance.as_ref().map(|it| (it, self.navigator.guided()))
+    }
+
+    /// Whether guidance can go on from what it had changed.
+    pub(crate) fn accepts(&self, guided: Option<&(Guidance, Guided)>) -> bool {
+        let Roads { navigator, guidance, .. } = self;
+        match (guided, guidance) {
+            (Some((other, guided)), Some(_)) => {
+                other.fits(navigator.links().all().len(), navigator.tables()) && navigator.accepts(guided)
+            }
+            (one, other) => one.is_none() && other.is_none(),
+        }
+    }
+
+    /// Guidance goes on from what it had changed, which these roads accept.
+    pub(crate) fn restore(&mut self, guided: Option<(Guidance, Guided)>) {
+        self.guidance = None;
+        if let Some((guidance, guided)) = guided {
+            self.guidance = Some(guidance);
+            self.navigator.go_on(&self.network, guided);
+        }
     }
 }

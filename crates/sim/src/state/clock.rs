@@ -23,6 +23,11 @@ impl Clock {
         f64::from(self.step - step) * self.dt
     }
 
+    /// Whether a whole second since the start is over: what is done once a second is done now.
+    pub(crate) fn begins_a_second(&self) -> bool {
+        self.step.is_multiple_of(self.steps(1.0))
+    }
+
     /// A duration [s] as a whole number of steps, at least one.
     #[inline]
     pub fn steps(&self, duration: f64) -> u32 {

@@ -6,7 +6,7 @@ use crate::driver::plan::{Outbox, Plan, Progress};
 use crate::junction::passages::NO_PASSAGE;
 use crate::state::clock::Clock;
 use crate::state::goal::TripEnd;
-use crate::state::traffic::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
+use crate::state::lane::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
 use crate::view::pose::least_way;
 use laneweave_network::ChainIndex;
 

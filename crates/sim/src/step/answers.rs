@@ -7,16 +7,18 @@ use laneweave_network::{ChainIndex, Network};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::demand::Demand;
+use crate::demand::arrivals::Arrivals;
 use crate::demand::assignment::Assignment;
 use crate::demand::error::WorldError;
-use crate::demand::source::Source;
+use crate::driver::plan::Waiting;
 use crate::record::counts::Counts;
 use crate::record::events::Event;
 use crate::record::journal::TripRecord;
-use crate::record::ledger::{Ledger, Stay};
+use crate::record::ledger::Stay;
 use crate::record::tally::Tally;
 use crate::state::clock::Clock;
-use crate::state::traffic::VehicleId;
+use crate::state::lane::VehicleId;
+use crate::state::random::Random;
 use crate::step::vehicle::Vehicle;
 use crate::step::work::pool_for;
 use crate::step::world::World;
@@ -25,7 +27,7 @@ use crate::view::scene::Spot;
 impl World {
     /// All different drivers.
     pub fn characters(&self) -> &[Style] {
-        &self.roads.characters
+        self.roads.characters()
     }
 
     /// Gives the drivers other characters, each in the place of its own. What they are about they go on with.
@@ -33,122 +35,120 @@ impl World {
     /// # Errors
     /// If there are not as many of them.
     pub fn change_characters(&mut self, characters: Vec<Style>) -> Result<(), WorldError> {
-        let [found, expected] = [characters.len(), self.roads.characters.len()];
+        let [found, expected] = [characters.len(), self.roads.characters().len()];
         if found != expected {
             return Err(WorldError::Characters { found, expected });
         }
-        self.roads.characters = characters;
+        self.roads.change_characters(characters);
         Ok(())
+    }
+
+    /// The random numbers.
+    pub(crate) fn random(&self) -> Random {
+        self.roads.random()
+    }
+
+    /// Who comes, and who waits to enter.
+    pub(crate) fn arrivals(&self) -> &Arrivals {
+        &self.arrivals
+    }
+
+    /// Since when the driver at `spot` waits at a junction, if it does.
+    pub(crate) fn waits_at_a_junction(&self, spot: Spot) -> Option<&Waiting> {
+        let id = self.traffic.lane(spot.chain).motions()[spot.index].id;
+        self.work.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id)
     }
 
     /// The record of the trip of a vehicle on the road, where trips are recorded.
     pub fn trip(&self, id: VehicleId) -> Option<&TripRecord> {
-        self.log.journal.as_ref()?.of(id)
+        self.log.trip(id)
     }
 
     /// What happened in the last step.
     pub fn events(&self) -> &[Event] {
-        &self.log.events
+        self.log.events()
     }
 
     /// The clock.
     pub fn clock(&self) -> Clock {
-        self.traffic.clock
+        self.traffic.clock()
     }
 
     /// The roads.
     pub fn network(&self) -> &Network {
-        &self.roads.network
+        self.roads.network()
     }
 
     /// The roads, for those who need them beyond the world: they never change.
     pub fn shared_network(&self) -> Arc<Network> {
-        Arc::clone(&self.roads.network)
+        self.roads.shared_network()
     }
 
     /// Who comes, from where and to where.
     pub fn demand(&self) -> &Demand {
-        &self.arrivals.demand
+        self.arrivals.demand()
     }
 
     /// Where its demand leads on average between two times [s].
     pub fn assignment(&self, during: [f64; 2]) -> Assignment {
-        Assignment::new(&self.roads.network, &self.roads.navigator, &self.arrivals.demand, during)
+        Assignment::new(self.roads.network(), self.roads.navigator(), self.arrivals.demand(), during)
     }
 
     /// Whether drivers from an origin of the demand can reach one of its destinations, and would drive there.
     pub fn leads(&self, origin: usize, destination: usize) -> bool {
-        let place = &self.arrivals.demand.origins[origin].place;
-        self.roads.navigator.leads(&self.roads.network, place, destination as u16)
+        let place = &self.arrivals.demand().origins[origin].place;
+        self.roads.navigator().leads(self.roads.network(), place, destination as u16)
     }
 
     /// What the drivers did so far, added up over threads, and distances over the lanes.
     pub fn tally(&self) -> Tally {
-        Tally { distance: self.work.plans.iter().map(|it| it.distance).sum(), ..self.counted() }
-    }
-
-    /// The same without distances.
-    pub(crate) fn counted(&self) -> Tally {
-        let mut sum = Tally::default();
-        self.work.outboxes.iter().for_each(|it| sum.add(&it.tally));
-        sum
+        Tally { distance: self.work.plans.iter().map(|it| it.distance).sum(), ..self.work.counted() }
     }
 
     /// What the world did so far.
     pub fn counts(&self) -> &Counts {
-        &self.log.counts
+        self.log.counts()
     }
 
     /// Forgets all counts: what follows is measured, what was before is warm-up. Vehicles on the road count as entered.
     pub fn reset_counts(&mut self) {
-        self.work.plans.iter_mut().for_each(|it| it.distance = 0.0);
-        self.work.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
-        self.log.counts = Counts { entered: self.on_road() as u64, ..Counts::default() };
-        self.put_down();
-        self.log.ledger = self.log.ledger.as_ref().map(|_| Ledger::new(&self.roads.network));
-    }
-
-    /// Puts down what vehicles did on the lanelets up to now, where trips are recorded.
-    pub(crate) fn put_down(&mut self) {
-        if let (Some(ledger), Some(journal)) = (&mut self.log.ledger, &mut self.log.journal) {
-            ledger.look(&self.roads.network, &self.traffic.lanes, journal, self.traffic.clock);
-        }
+        let on_road = self.on_road();
+        let World { roads, traffic, log, work, .. } = self;
+        work.plans.iter_mut().for_each(|it| it.distance = 0.0);
+        work.reset_tally(Tally::default());
+        log.reset_counts(on_road);
+        log.put_down(roads.network(), traffic.lanes(), traffic.clock());
+        log.reset_stays(roads.network());
     }
 
     /// What vehicles did on each lanelet since the counts were last forgotten, where trips are recorded.
     pub fn stays(&self) -> Vec<Stay> {
-        let (Some(mut ledger), Some(mut journal)) = (self.log.ledger.clone(), self.log.journal.clone())
-        else {
-            return Vec::new();
-        };
-        // Up to now, without a note of it: what is put down later does not depend on who asked.
-        ledger.look(&self.roads.network, &self.traffic.lanes, &mut journal, self.traffic.clock);
-        ledger.stays
+        self.log.stays(self.roads.network(), self.traffic.lanes(), self.traffic.clock())
     }
 
     /// Vehicles on the road.
     pub fn on_road(&self) -> usize {
-        self.traffic.lanes.iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
+        self.traffic.lanes().iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
     }
 
     /// Whether its steps are shared among all its threads: where few vehicles drive, one moves them all.
     pub fn moves_on_all_threads(&self) -> bool {
-        self.work.pools[pool_for(self.traffic.crowd)].threads() > 1
+        self.work.pools[pool_for(self.traffic.crowd())].threads() > 1
     }
 
     /// Vehicles that wait to enter.
     pub fn waiting(&self) -> usize {
-        self.arrivals.sources.iter().map(Source::waiting).sum()
+        self.arrivals.count_waiting()
     }
 
     /// Vehicles that have arrived, whether they entered or wait.
     pub fn arrived(&self) -> u64 {
-        self.arrivals.sources.iter().map(Source::arrived).sum()
+        self.arrivals.count_arrived()
     }
 
     /// All vehicles, by chain and in driving order.
     pub fn vehicles(&self) -> impl Iterator<Item = Vehicle<'_>> {
-        self.traffic.lanes.iter().enumerate().flat_map(move |(index, lane)| {
+        self.traffic.lanes().iter().enumerate().flat_map(move |(index, lane)| {
             let chain = ChainIndex(index as u32);
             let entries = lane.motions().iter().zip(lane.cars()).enumerate();
             entries.filter(|(_, (_, car))| !car.is_shadow).map(move |(index, (motion, car))| {
@@ -164,7 +164,7 @@ impl World {
         vehicles.sort_by_key(Vehicle::id);
         let mut hash = Xxh3::new();
         for vehicle in vehicles {
-            let (lanelet, along) = self.roads.network.lanelet_at(vehicle.spot.chain, vehicle.x());
+            let (lanelet, along) = self.roads.network().lanelet_at(vehicle.spot.chain, vehicle.x());
             hash.update(&vehicle.id().to_le_bytes());
             hash.update(&lanelet.id.to_le_bytes());
             hash.update(&along.to_bits().to_le_bytes());

@@ -5,106 +5,118 @@ use laneweave_models::braking::is_secure;
 use laneweave_models::change::deceleration_to_avoid;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
-use crate::demand::metering::Metering;
+use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::driver::accelerate::speed_before_a_stop;
 use crate::driver::perceive::driver;
-use crate::record::events::Event;
+use crate::junction::need::Survey;
+use crate::junction::state::JunctionState;
+use crate::record::log::Log;
 use crate::right_of_way::approach::sight;
 use crate::right_of_way::conditions::Hindrance;
 use crate::right_of_way::survey::stop_ahead;
+use crate::route::roads::Roads;
 use crate::state::setup::NewVehicle;
-use crate::step::reserve::{Entry, applicant, entry};
-use crate::step::world::World;
+use crate::state::traffic::Traffic;
+use crate::step::put::{Named, put};
+use crate::step::reserve::{Entry, applicant, entry, reserve};
+use crate::step::work::Work;
 use crate::view::scene::{Found, Scene, nearer};
 
-impl World {
-    /// Vehicles arrive, queue up, and enter where there is room.
-    pub(crate) fn enter(&mut self) {
-        let mut sources = std::mem::take(&mut self.arrivals.sources);
-        if self.begins_a_second()
-            && let Some(metering) = &mut self.arrivals.metering
-        {
-            metering.measure(&self.traffic.lanes);
+/// Vehicles arrive, queue up, and enter where there is room.
+pub(crate) fn enter(
+    roads: &Roads,
+    traffic: &mut Traffic,
+    junctions: &mut JunctionState,
+    arrivals: &mut Arrivals,
+    log: &mut Log,
+    work: &mut Work,
+) {
+    if traffic.clock().begins_a_second() {
+        arrivals.measure(traffic.lanes());
+    }
+    let (is_full, time) = (arrivals.is_full(), traffic.clock().time());
+    let survey = &mut work.outbox().survey;
+    let mut entering = Entering { roads, traffic, junctions, log };
+    for origin in 0..arrivals.sources().len() {
+        arrivals.arrive(origin, &entering.scene(), &roads.random(), time);
+        for queue in arrivals.queues_mut(origin) {
+            while let Some(place) = queue.first(is_full)
+                && entering.let_in(origin, queue, place, survey)
+            {}
         }
-        let is_full = self.arrivals.metering.as_ref().is_some_and(Metering::is_full);
-        let time = self.traffic.clock.time();
-        for (origin, source) in sources.iter_mut().enumerate() {
-            let scene = self.scene();
-            let mut next_id = self.arrivals.next_id;
-            let metering = self.arrivals.metering.as_ref();
-            source.arrive(&scene, &self.arrivals.demand, metering, &self.roads.random, time, &mut next_id);
-            self.arrivals.next_id = next_id;
-            for queue in source.queues() {
-                while let Some(place) = queue.first(is_full)
-                    && self.let_in(origin, queue, place)
-                {}
-            }
-        }
-        self.arrivals.sources = sources;
+    }
+}
+
+/// What a vehicle changes that enters, and what it depends on.
+struct Entering<'a> {
+    roads: &'a Roads,
+    traffic: &'a mut Traffic,
+    junctions: &'a mut JunctionState,
+    log: &'a mut Log,
+}
+
+impl Entering<'_> {
+    fn scene(&self) -> Scene<'_> {
+        Scene::of(self.roads, self.traffic, self.junctions)
     }
 
     /// Lets the vehicle at a `place` of a queue onto the road, if there is room for it. Returns whether it came.
-    fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize) -> bool {
-        let mut survey = std::mem::take(&mut self.work.outboxes[0].survey);
-        let needs = entry(&self.scene(), queue, &queue.waiting[place], self.traffic.clock, &mut survey);
+    fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize, survey: &mut Survey) -> bool {
+        let clock = self.traffic.clock();
+        let needs = entry(&self.scene(), queue, &queue.waiting[place], clock, survey);
         if let Entry::Refused(Hindrance::Others) = needs {
-            queue.asks_since.get_or_insert(self.traffic.clock.step);
+            queue.asks_since.get_or_insert(clock.step);
         }
-        let admitted = self.admit(queue, &queue.waiting[place], needs);
+        let admitted = admit(&self.scene(), clock.dt, queue, &queue.waiting[place], needs);
         if let Some(vehicle) = admitted
             && let Some(arrival) = queue.waiting.remove(place)
         {
-            self.put(vehicle, arrival.id, arrival.time);
+            let named = Named { id: arrival.id, arrived: arrival.time };
+            put(self.roads, self.traffic, self.log, vehicle, named);
             if matches!(needs, Entry::Reserved { .. }) {
-                self.reserve(queue, &arrival, &survey);
+                reserve(self.traffic, self.junctions.passages_mut(), queue, &arrival, survey);
             }
             queue.asks_since = None;
-            if let Some(record) = self.record_mut(arrival.id) {
-                record.origin = Some(origin);
-            }
-            self.log.events.push(Event::Entered(arrival.id));
+            self.log.note_origin(arrival.id, origin);
         }
-        self.work.outboxes[0].survey = survey;
         admitted.is_some()
     }
+}
 
-    /// The vehicle as it comes onto the lane of `queue`, if there is room for it and it has what it needs.
-    fn admit(&self, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<NewVehicle> {
-        let (granted, before) = match needs {
-            Entry::Refused(_) => return None,
-            Entry::Free => (0.0, None),
-            Entry::Reserved { until, ahead } => (until, ahead),
-        };
-        let Arrival { class, character, destination, .. } = *arrival;
-        let chain = queue.chain;
-        let rear = queue.start.station();
-        let length = class.body().length;
-        let x = rear + length;
-        let style = &self.roads.characters[character as usize];
-        let scene = self.scene();
-        let from = scene.viewpoint_at(applicant(&scene, queue, arrival).from, chain, rear);
-        let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
-        let ahead = nearer(ahead, before);
-        let dt = self.traffic.clock.dt;
-        let speed = match queue.start {
-            Start::Driving => {
-                let desired = class.desired_speed(style, self.roads.network.chain(chain).limit(x));
-                let speed = entry_speed(style, desired, ahead, dt)?;
-                let stop = stop_ahead(&scene, from, granted, sight(desired));
-                stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
-            }
-            Start::FromRest(_) => {
-                let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));
-                let follower = scene.follower(from);
-                let is_let_in = follower.is_none_or(|it| lets_start(&scene, &it, style.safety.min_gap, dt));
-                // Room that is kept for others stays theirs.
-                let is_free = scene.passages.kept_on(queue.refuge(&self.roads.network)) == 0.0;
-                (leaves_room && is_let_in && is_free).then_some(0.0)?
-            }
-        };
-        Some(NewVehicle { chain, x, speed, class, character, destination })
-    }
+/// The vehicle as it comes onto the lane of `queue`, if there is room for it and it has what it needs.
+fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<NewVehicle> {
+    let (granted, before) = match needs {
+        Entry::Refused(_) => return None,
+        Entry::Free => (0.0, None),
+        Entry::Reserved { until, ahead } => (until, ahead),
+    };
+    let Arrival { class, character, destination, .. } = *arrival;
+    let chain = queue.chain;
+    let rear = queue.start.station();
+    let length = class.body().length;
+    let x = rear + length;
+    let style = &scene.characters[character as usize];
+    let from = scene.viewpoint_at(applicant(scene, queue, arrival).from, chain, rear);
+    let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
+    let ahead = nearer(ahead, before);
+    let speed = match queue.start {
+        Start::Driving => {
+            let desired = class.desired_speed(style, scene.network.chain(chain).limit(x));
+            let speed = entry_speed(style, desired, ahead, dt)?;
+            let stop = stop_ahead(scene, from, granted, sight(desired));
+            stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
+        }
+        Start::FromRest(_) => {
+            let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));
+            let follower = scene.follower(from);
+            let is_let_in = follower.is_none_or(|it| lets_start(scene, &it, style.safety.min_gap, dt));
+            // Room that is kept for others stays theirs.
+            let is_free = scene.passages.kept_on(queue.refuge(scene.network)) == 0.0;
+            (leaves_room && is_let_in && is_free).then_some(0.0)?
+        }
+    };
+    Some(NewVehicle { chain, x, speed, class, character, destination })
 }
 
 /// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.

@@ -1,10 +1,10 @@
 //! The lights switch.
 
-use crate::step::world::World;
+use crate::junction::state::JunctionState;
+use crate::route::roads::Roads;
+use crate::state::traffic::Traffic;
 
-impl World {
-    /// The lights show what they show from now on.
-    pub(crate) fn switch_lights(&mut self) {
-        self.junctions.signals.switch(&self.roads.network, &self.traffic.lanes, self.traffic.clock);
-    }
+/// The lights show what they show from now on.
+pub(crate) fn switch_lights(roads: &Roads, traffic: &Traffic, junctions: &mut JunctionState) {
+    junctions.switch(roads.network(), traffic.lanes(), traffic.clock());
 }

@@ -4,11 +4,12 @@
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ZoneIndex, ZoneKind};
 
-use crate::demand::metering::Metering;
+use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::junction::claim::Hold;
 use crate::junction::claim::Turn;
 use crate::junction::need::Survey;
+use crate::junction::passages::Passages;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::lets_go;
 use crate::right_of_way::conditions::{Asking, Hindrance, leader_of, may_pass};
@@ -16,7 +17,7 @@ use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
 use crate::right_of_way::turns::turns;
 use crate::state::clock::Clock;
-use crate::step::world::World;
+use crate::state::traffic::Traffic;
 use crate::view::scene::{Scene, Viewpoint};
 
 /// How far before the road a vehicle waits for its reservation [m].
@@ -105,33 +106,42 @@ fn first_taken(scene: &Scene, surveyed: &Survey) -> f64 {
     taken.fold(f64::INFINITY, f64::min)
 }
 
-impl World {
-    /// The turns that those claim who wait to come onto the road because of others.
-    pub(crate) fn claims_at_entrances(&self, claims: &mut Vec<(ZoneIndex, u8, Turn)>, out: &mut Survey) {
-        let scene = self.scene();
-        let is_full = self.arrivals.metering.as_ref().is_some_and(Metering::is_full);
-        let queues = self.arrivals.sources.iter().flat_map(|it| it.lanes());
-        for queue in queues {
-            let (Some(since), Some(first)) = (queue.asks_since, queue.first(is_full)) else { continue };
-            let applicant = applicant(&scene, queue, &queue.waiting[first]);
-            let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
-            if survey(&scene, &applicant, [0.0, reach], |_, _| false, out) {
-                let claim = Asking::of(&applicant, since, self.traffic.clock).claim;
-                claims.extend(turns(&scene, &applicant, &out.holds, claim));
-            }
+/// The turns that those claim who wait to come onto the road because of others.
+pub(crate) fn claims_at_entrances(
+    scene: &Scene,
+    arrivals: &Arrivals,
+    clock: Clock,
+    claims: &mut Vec<(ZoneIndex, u8, Turn)>,
+    out: &mut Survey,
+) {
+    let queues = arrivals.sources().iter().flat_map(|it| it.lanes());
+    for queue in queues {
+        let first = queue.first(arrivals.is_full());
+        let (Some(since), Some(first)) = (queue.asks_since, first) else { continue };
+        let applicant = applicant(scene, queue, &queue.waiting[first]);
+        let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
+        if survey(scene, &applicant, [0.0, reach], |_, _| false, out) {
+            let claim = Asking::of(&applicant, since, clock).claim;
+            claims.extend(turns(scene, &applicant, &out.holds, claim));
         }
     }
+}
 
-    /// Gives the vehicle that has just come onto the road the reservation that was surveyed before.
-    pub(crate) fn reserve(&mut self, queue: &Queue, arrival: &Arrival, out: &Survey) {
-        let length = arrival.class.body().length;
-        let lane = &mut self.traffic.lanes[queue.chain.at()];
-        let Some(index) = lane.find(arrival.id, length) else { return };
-        let (motion, car, mind) = lane.entry_mut(index);
-        mind.passage = self.junctions.passages.give(mind.passage, arrival.id, length, out);
-        self.junctions.passages.note_since(mind.passage, queue.asks_since.unwrap_or(self.traffic.clock.step));
-        car.needs_full_update = true;
-        let (speed, desired) = (motion.speed, f64::from(car.desired));
-        self.junctions.passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
-    }
+/// Gives the vehicle that has just come onto the road the reservation that was surveyed before.
+pub(crate) fn reserve(
+    traffic: &mut Traffic,
+    passages: &mut Passages,
+    queue: &Queue,
+    arrival: &Arrival,
+    out: &Survey,
+) {
+    let (step, length) = (traffic.clock().step, arrival.class.body().length);
+    let lane = traffic.lane_mut(queue.chain);
+    let Some(index) = lane.find(arrival.id, length) else { return };
+    let (motion, car, mind) = lane.entry_mut(index);
+    mind.passage = passages.give(mind.passage, arrival.id, length, out);
+    passages.note_since(mind.passage, queue.asks_since.unwrap_or(step));
+    car.needs_full_update = true;
+    let (speed, desired) = (motion.speed, f64::from(car.desired));
+    passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
 }

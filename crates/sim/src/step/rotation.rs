@@ -4,10 +4,11 @@
 
 use crate::driver::plan::PassageRequest;
 use crate::junction::claim::Hold;
+use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::conditions::Asking;
 use crate::state::standstill::STANDS;
-use crate::step::world::World;
+use crate::step::passing::Giving;
 use crate::view::scene::{Scene, Spot};
 
 /// No ring of standing vehicles that leads from one waiting driver to the next is longer.
@@ -15,44 +16,39 @@ const LONGEST_QUEUE: usize = 100;
 /// Who stands with less room ahead than this [m] stands in a queue; others wait for something of their own (ours).
 const QUEUES_WITHIN: f64 = 4.0;
 
-impl World {
-    /// Gives passages to those who wait for each other's room. `waiting` are those who wait for room, in the order of
-    /// ids.
-    pub(crate) fn rotate(&mut self, waiting: &[PassageRequest]) {
-        let scene = self.scene();
-        let spots: Vec<Option<Spot>> = waiting.iter().map(|it| spot(&scene, it)).collect();
-        let next: Vec<Option<usize>> =
-            spots.iter().map(|it| it.and_then(|it| waits_for(&scene, it, waiting))).collect();
-        for ring in rings(&next) {
-            let members: Vec<(Spot, PassageRequest)> =
-                ring.iter().filter_map(|it| Some((spots[*it]?, waiting[*it]))).collect();
-            self.let_go_together(&members);
-        }
+/// Gives passages to those who wait for each other's room. `waiting` are those who wait for room, in the order of ids.
+pub(super) fn rotate(giving: &mut Giving, waiting: &[PassageRequest], survey: &mut Survey) {
+    let scene = giving.scene();
+    let spots: Vec<Option<Spot>> = waiting.iter().map(|it| spot(&scene, it)).collect();
+    let next: Vec<Option<usize>> =
+        spots.iter().map(|it| it.and_then(|it| waits_for(&scene, it, waiting))).collect();
+    for ring in rings(&next) {
+        let members: Vec<(Spot, PassageRequest)> =
+            ring.iter().filter_map(|it| Some((spots[*it]?, waiting[*it]))).collect();
+        let_go_together(giving, &members, survey);
     }
+}
 
-    /// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for.
-    /// They go, whatever lights show then.
-    fn let_go_together(&mut self, members: &[(Spot, PassageRequest)]) {
-        let mut outbox = std::mem::take(&mut self.work.outboxes[0]);
-        let mut holds: Vec<Hold> = Vec::new();
-        let scene = self.scene();
-        let next = members.iter().cycle().skip(1);
-        let may_go = members.iter().zip(next).all(|((spot, request), (next, _))| {
-            let asking = Asking::of(&Applicant::at(&scene, *spot), request.since, self.traffic.clock);
-            let may = self.may_after(*spot, asking, *next, &mut outbox);
-            let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
-            let is_apart = !outbox.survey.holds.iter().any(crosses);
-            holds.extend(outbox.survey.holds.iter().copied());
-            may && is_apart
-        });
-        if may_go {
-            for (spot, request) in members {
-                self.give_surveyed(*spot, request.since, &mut outbox);
-                let slot = self.traffic.lanes[spot.chain.at()].minds()[spot.index].passage;
-                self.junctions.passages.make_certain(slot);
-            }
+/// Gives passages to all `members` of a ring, if only the room that the next frees is what each of them waits for. They
+/// go, whatever lights show then.
+fn let_go_together(giving: &mut Giving, members: &[(Spot, PassageRequest)], survey: &mut Survey) {
+    let mut holds: Vec<Hold> = Vec::new();
+    let scene = giving.scene();
+    let next = members.iter().cycle().skip(1);
+    let may_go = members.iter().zip(next).all(|((spot, request), (next, _))| {
+        let asking = Asking::of(&Applicant::at(&scene, *spot), request.since, giving.traffic.clock());
+        let may = giving.may_after(*spot, asking, *next, survey);
+        let crosses = |one: &Hold| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
+        let is_apart = !survey.holds.iter().any(crosses);
+        holds.extend(survey.holds.iter().copied());
+        may && is_apart
+    });
+    if may_go {
+        for (spot, request) in members {
+            giving.give_surveyed(*spot, request.since, survey);
+            let slot = giving.traffic.lane(spot.chain).minds()[spot.index].passage;
+            giving.junctions.passages_mut().make_certain(slot);
         }
-        self.work.outboxes[0] = outbox;
     }
 }
 

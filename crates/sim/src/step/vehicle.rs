@@ -3,7 +3,7 @@
 use laneweave_models::Style;
 use laneweave_network::{Point, Pose};
 
-use crate::state::traffic::{Car, Mind, Motion, VehicleId};
+use crate::state::lane::{Car, Mind, Motion, VehicleId};
 use crate::step::world::World;
 use crate::view::pose::{bumpers, lateral_offset, pose};
 use crate::view::scene::Spot;
@@ -11,7 +11,7 @@ use crate::view::scene::Spot;
 /// A vehicle on the road.
 #[derive(Clone, Copy)]
 pub struct Vehicle<'a> {
-    pub(crate) world: &'a World,
+    pub(super) world: &'a World,
     /// Where its main entry stands.
     pub spot: Spot,
     /// How it moves.
@@ -55,6 +55,6 @@ impl Vehicle<'_> {
 
     /// Its driver's style.
     pub fn style(&self) -> &Style {
-        &self.world.roads.characters[self.car.character as usize]
+        self.world.roads.style(self.car.character)
     }
 }

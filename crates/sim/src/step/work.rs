@@ -1,16 +1,17 @@
 //! What a step is worked out with.
 
 use crate::driver::plan::{Outbox, Plan};
+use crate::record::tally::Tally;
 use crate::step::pool::Pool;
 
 /// Room for the work of a step, kept from one to the next.
 pub(crate) struct Work {
     /// By chain.
-    pub(crate) plans: Vec<Plan>,
+    pub(super) plans: Vec<Plan>,
     /// One for each thread.
-    pub(crate) outboxes: Vec<Outbox>,
+    pub(super) outboxes: Vec<Outbox>,
     /// All threads, and one alone for steps too short to share.
-    pub(crate) pools: [Pool; 2],
+    pub(super) pools: [Pool; 2],
 }
 
 impl Work {
@@ -21,6 +22,24 @@ impl Work {
             outboxes: (0..threads.max(1)).map(|_| Outbox::default()).collect(),
             pools: [Pool::new(threads), Pool::new(1)],
         }
+    }
+
+    /// What all threads wrote down, once it is gathered.
+    pub(super) fn outbox(&mut self) -> &mut Outbox {
+        &mut self.outboxes[0]
+    }
+
+    /// What the drivers did so far, added up over threads, without distances.
+    pub(super) fn counted(&self) -> Tally {
+        let mut sum = Tally::default();
+        self.outboxes.iter().for_each(|it| sum.add(&it.tally));
+        sum
+    }
+
+    /// Forgets what the drivers did so far, but for this, and for distances.
+    pub(super) fn reset_tally(&mut self, tally: Tally) {
+        self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
+        self.outbox().tally = tally;
     }
 }
 

@@ -9,26 +9,33 @@ use crate::demand::Demand;
 use crate::demand::arrivals::Arrivals;
 use crate::demand::error::WorldError;
 use crate::junction::state::JunctionState;
-use crate::record::journal::Journal;
-use crate::record::ledger::Ledger;
 use crate::record::log::Log;
-use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
-use crate::state::moving::Traffic;
 use crate::state::random::Random;
 use crate::state::setup::Setup;
+use crate::state::traffic::Traffic;
+use crate::step::enter::enter;
+use crate::step::gather::gather;
+use crate::step::guide::guide;
+use crate::step::lights::switch_lights;
+use crate::step::milestones::note_milestones;
+use crate::step::move_all::move_all;
+use crate::step::passing::{give_passages, pass_on};
+use crate::step::resolve::resolve;
+use crate::step::transfer::transfer;
+use crate::step::watch::note_incidents;
 use crate::step::work::Work;
 use crate::view::scene::Scene;
 
 /// Traffic on a network, and all that moves it.
 pub struct World {
-    pub(crate) roads: Roads,
-    pub(crate) traffic: Traffic,
-    pub(crate) junctions: JunctionState,
-    pub(crate) arrivals: Arrivals,
-    pub(crate) log: Log,
-    pub(crate) work: Work,
+    pub(super) roads: Roads,
+    pub(super) traffic: Traffic,
+    pub(super) junctions: JunctionState,
+    pub(super) arrivals: Arrivals,
+    pub(super) log: Log,
+    pub(super) work: Work,
 }
 
 impl World {
@@ -59,9 +66,9 @@ impl World {
         let roads =
             Roads::new(network, characters, &demand.destinations, &demand.fleet, Random::new(setup.seed));
         Ok(World {
-            junctions: JunctionState::new(&roads.network, traffic.clock),
+            junctions: JunctionState::new(roads.network(), traffic.clock()),
             arrivals: Arrivals::new(&roads, demand),
-            work: Work::new(roads.network.chains.len(), setup.threads),
+            work: Work::new(roads.network().chains.len(), setup.threads),
             log: Log::default(),
             roads,
             traffic,
@@ -74,74 +81,57 @@ impl World {
     /// # Errors
     /// If there are more destinations than can be guided to, or their ways would not fit into memory.
     pub fn guided(mut self, interval: f64) -> Result<World, WorldError> {
-        if self.roads.navigator.offers_a_choice() {
-            let destinations = &self.arrivals.demand.destinations;
-            let chains = self.roads.network.chains.len();
-            if destinations.len() * chains * Navigator::WAYS > Navigator::MOST_WAYPOINTS {
-                return Err(WorldError::Ways { destinations: destinations.len(), chains });
+        let World { roads, traffic, arrivals, .. } = &mut self;
+        if roads.navigator().offers_a_choice() {
+            let destinations = &arrivals.demand().destinations;
+            let (count, chains) = (destinations.len(), roads.network().chains.len());
+            if count * chains * Navigator::WAYS > Navigator::MOST_WAYPOINTS {
+                return Err(WorldError::Ways { destinations: count, chains });
             }
-            let guided = self.roads.navigator.guide(&self.roads.network, destinations);
-            guided.map_err(|most| WorldError::Destinations(destinations.len(), most))?;
-            self.roads.guidance =
-                Some(Guidance::new(self.roads.navigator.links(), self.traffic.clock.steps(interval)));
+            let guided = roads.guide(destinations, traffic.clock().steps(interval));
+            guided.map_err(|most| WorldError::Destinations(count, most))?;
         }
         Ok(self)
     }
 
     /// The same world, which records every trip until it ends, and what vehicles do on every lanelet.
     pub fn with_journal(mut self) -> World {
-        self.log.journal = Some(Journal::default());
-        self.log.ledger = Some(Ledger::new(&self.roads.network));
+        self.log.record_trips(self.roads.network());
         self
     }
 
     /// The same world, in which it is looked for overlaps at every step, not only once a second.
     pub fn audited(mut self) -> World {
-        self.log.is_audited = true;
+        self.log.audit();
         self
     }
 
     /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
     /// lanes is resolved in order; vehicles enter; drivers are guided.
     pub fn step(&mut self) {
-        self.log.events.clear();
-        let is_watched = self.is_watched();
-        self.move_all(is_watched);
-        self.traffic.clock.step += 1;
-        self.switch_lights();
-        self.gather();
-        self.note_incidents(is_watched);
-        self.account();
-        self.pass_on();
-        self.transfer();
-        self.give_passages();
-        self.resolve();
-        self.enter();
-        self.guide();
-        if self.begins_a_second() {
-            self.put_down();
+        let World { roads, traffic, junctions, arrivals, log, work } = self;
+        log.begin_step();
+        // Overlaps are looked for once a second; in an audit at every step.
+        let is_watched = log.is_audited() || traffic.clock().begins_a_second();
+        move_all(roads, traffic, junctions, work, is_watched);
+        traffic.tick();
+        switch_lights(roads, traffic, junctions);
+        gather(traffic, log, work);
+        note_incidents(log, work, is_watched);
+        note_milestones(roads, traffic, log, work);
+        pass_on(junctions, work);
+        transfer(roads, traffic, junctions, log, work);
+        give_passages(roads, traffic, junctions, arrivals, work);
+        resolve(roads, traffic, junctions, log, work);
+        enter(roads, traffic, junctions, arrivals, log, work);
+        guide(roads, traffic, arrivals);
+        if traffic.clock().begins_a_second() {
+            log.put_down(roads.network(), traffic.lanes(), traffic.clock());
         }
-    }
-
-    /// What is done once a second is done now.
-    pub(crate) fn begins_a_second(&self) -> bool {
-        self.traffic.clock.step.is_multiple_of(self.traffic.clock.steps(1.0))
-    }
-
-    /// Overlaps are looked for once a second; in an audit at every step.
-    fn is_watched(&self) -> bool {
-        self.log.is_audited || self.begins_a_second()
     }
 
     /// The current instant.
     pub fn scene(&self) -> Scene<'_> {
-        Scene {
-            network: &self.roads.network,
-            navigator: &self.roads.navigator,
-            lanes: &self.traffic.lanes,
-            characters: &self.roads.characters,
-            passages: &self.junctions.passages,
-            signals: &self.junctions.signals,
-        }
+        Scene::of(&self.roads, &self.traffic, &self.junctions)
     }
 }

@@ -3,7 +3,7 @@
 use laneweave_models::follow::Ahead;
 use laneweave_network::ChainIndex;
 
-use crate::state::traffic::{Mind, Motion, VehicleId};
+use crate::state::lane::{Mind, Motion, VehicleId};
 use crate::state::vehicle::LONGEST;
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer, nearest};
 

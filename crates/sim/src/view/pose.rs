@@ -3,7 +3,7 @@
 use laneweave_models::change::moved_share;
 use laneweave_network::{ChainIndex, Network, Point, Pose};
 
-use crate::state::traffic::{Entry, Motion};
+use crate::state::lane::{Entry, Motion};
 use crate::state::trail::Trail;
 use crate::view::scene::{Scene, Spot};
 
@@ -80,7 +80,7 @@ fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
         return [0.0; 2];
     }
     // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
-    let manner = &scene.characters[car.character as usize].manner;
+    let manner = &scene.style_of(car).manner;
     let duration = manner.duration(f64::from(mind.urgency));
     let way = (motion.speed * duration).max(least_way(motion));
     let half = 0.5 * f64::from(motion.length) / way * 4.0 * progress * (1.0 - progress);

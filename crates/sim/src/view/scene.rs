@@ -7,9 +7,12 @@ use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach};
 
 use crate::junction::passages::{Passage, Passages};
 use crate::junction::signals::Signals;
+use crate::junction::state::JunctionState;
 use crate::route::navigate::Navigator;
+use crate::route::roads::Roads;
 use crate::state::goal::Destination;
-use crate::state::traffic::{Car, Lane, Mind, Motion, VehicleId};
+use crate::state::lane::{Car, Lane, Mind, Motion, VehicleId};
+use crate::state::traffic::Traffic;
 
 /// One instant of traffic on a network.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +68,33 @@ pub struct Found {
 
 /// How far back a follower is looked for [m].
 pub(crate) const REAR_SIGHT: f64 = 250.0;
+
 impl<'a> Scene<'a> {
+    /// The present instant of a world.
+    #[inline]
+    pub(crate) fn of(roads: &'a Roads, traffic: &'a Traffic, junctions: &'a JunctionState) -> Scene<'a> {
+        Scene {
+            network: roads.network(),
+            navigator: roads.navigator(),
+            lanes: traffic.lanes(),
+            characters: roads.characters(),
+            passages: junctions.passages(),
+            signals: junctions.signals(),
+        }
+    }
+
+    /// The style of the driver at `spot`.
+    #[inline]
+    pub(crate) fn style(&self, spot: Spot) -> &'a Style {
+        self.style_of(self.car(spot))
+    }
+
+    /// The style of a driver.
+    #[inline]
+    pub(crate) fn style_of(&self, car: &Car) -> &'a Style {
+        &self.characters[car.character as usize]
+    }
+
     /// The vehicles on `chain`, as others see them.
     #[inline]
     pub fn motions(&self, chain: ChainIndex) -> &'a [Motion] {

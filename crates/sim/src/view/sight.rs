@@ -4,7 +4,7 @@ use laneweave_models::change::{Flow, anticipated_speed};
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, LightState, Sign, Stop};
 
-use crate::state::traffic::{Motion, VehicleId};
+use crate::state::lane::{Motion, VehicleId};
 use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
 
 /// T_h window ahead [m].

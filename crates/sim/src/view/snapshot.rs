@@ -8,7 +8,7 @@ use crate::junction::signals::Signals;
 use crate::route::navigate::Navigator;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::traffic::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
+use crate::state::lane::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
 use crate::state::trail::Trail;
 use crate::state::vehicle::Class;
 use crate::view::scene::{Scene, Spot};

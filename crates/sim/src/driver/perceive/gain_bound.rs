@@ -6,7 +6,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::Side;
 
 use super::{Outlook, driver};
-use crate::state::traffic::Phase;
+use crate::state::lane::Phase;
 use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
 
 /// What a driver has seen who looks no further.

@@ -1,0 +1,29 @@
+//! Lane changes come to their milestones.
+
+use crate::record::log::Log;
+use crate::route::roads::Roads;
+use crate::state::lane::{Milestone, Reached};
+use crate::state::traffic::Traffic;
+use crate::step::work::Work;
+
+/// Notes what lane changes have reached, in an order that depends on vehicles only.
+pub(crate) fn note_milestones(roads: &Roads, traffic: &mut Traffic, log: &mut Log, work: &mut Work) {
+    let milestones = &mut work.outbox().milestones;
+    milestones.sort_unstable_by_key(|it| (it.id, it.what));
+    for milestone in milestones.drain(..) {
+        log.note_milestone(roads.network(), &milestone, traffic.clock().time());
+        if milestone.what != Reached::Crossing {
+            calm(roads, traffic, &milestone);
+        }
+    }
+}
+
+/// After a change, or giving one up, there is no new voluntary one for a while.
+fn calm(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
+    let ((chain, x), clock) = (milestone.at, traffic.clock());
+    let lane = traffic.lane_mut(chain);
+    if let Some(index) = lane.find(milestone.id, x) {
+        let car = lane.entry_mut(index).1;
+        car.calm_until = clock.step + clock.steps(roads.style(car.character).manner.calm);
+    }
+}
