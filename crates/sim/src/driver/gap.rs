@@ -80,25 +80,27 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
 /// How far on a change to `side` stays allowed [m], as far as a change needs.
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
     const ENOUGH: f64 = 150.0;
+    const ROUNDING: f64 = 1e-6;
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let start = window::beside(scene, spot, side).map_or(motion.x, |it| it.start.max(motion.x));
-    let (mut chain, mut x, mut permitted) = (spot.chain, start, 0.0);
-    while let Some(stretch) = scene.network.chain(chain).beside(side, x) {
-        permitted += stretch.end - x;
-        if permitted > ENOUGH || stretch.end < scene.network.chain(chain).length - 1e-6 {
-            // Joined stretches of one chain follow each other without a break.
-            match scene.network.chain(chain).beside(side, stretch.end + 1e-6) {
-                Some(next) if permitted <= ENOUGH && next.start > stretch.start => {
-                    x = next.start;
-                    continue;
-                }
-                _ => break,
+    let (mut x, mut permitted) = (start, 0.0);
+    for leg in scene.navigator.walk(scene.network, car.goal.destination(), spot.chain, 0.0) {
+        let chain = scene.network.chain(leg.chain);
+        loop {
+            let Some(stretch) = chain.beside(side, x) else { return permitted };
+            permitted += stretch.end - x;
+            if permitted > ENOUGH {
+                return permitted;
             }
+            if stretch.end >= chain.length - ROUNDING {
+                break;
+            }
+            // Joined stretches of one chain follow each other without a break.
+            let next = chain.beside(side, stretch.end + ROUNDING).filter(|it| it.start > stretch.start);
+            let Some(next) = next else { return permitted };
+            x = next.start;
         }
-        match scene.next(car.goal.destination(), chain) {
-            Some(next) => (chain, x) = (next, 0.0),
-            None => break,
-        }
+        x = 0.0;
     }
     permitted
 }

@@ -1,8 +1,9 @@
 //! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short one looks at the
 //! lane beside before it may change there, so that it comes to the window with a gap, and slowly enough to use it.
 
-use laneweave_network::{Beside, ChainIndex, Side};
+use laneweave_network::{Beside, Side};
 
+use crate::route::walk::Leg;
 use crate::state::lane::Car;
 use crate::view::scene::{Scene, Spot};
 
@@ -62,14 +63,14 @@ impl Window {
         }
         let Car { goal, class, .. } = scene.car(spot);
         let (destination, is_long) = (goal.destination(), class.is_long());
-        let (mut chain, mut base): (ChainIndex, f64) = (spot.chain, 0.0);
+        let walk = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).within(place);
         // For each side the window that ends last so far, along the own chain.
         let mut runs = [[f64::NEG_INFINITY; 2]; 2];
-        loop {
+        for Leg { chain, start, .. } in walk {
             let here = scene.network.chain(chain);
             for (side, run) in Side::BOTH.into_iter().zip(&mut runs) {
                 for stretch in here.stretches(side) {
-                    let [from, until] = scene.network.window(here, stretch, is_long).map(|it| base + it);
+                    let [from, until] = scene.network.window(here, stretch, is_long).map(|it| start + it);
                     if from >= until {
                         continue;
                     }
@@ -79,9 +80,8 @@ impl Window {
                     }
                 }
             }
-            base += here.length;
-            chain = scene.next(destination, chain).filter(|_| base < place)?;
         }
+        None
     }
 
     /// Its length [m].

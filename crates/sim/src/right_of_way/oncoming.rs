@@ -74,13 +74,6 @@ fn holds(scene: &Scene, spot: Spot, zone: ZoneIndex) -> bool {
 /// Whether the way of a vehicle leads over the chains that were looked along to get to it.
 fn comes(scene: &Scene, spot: Spot, looked: &[(ChainIndex, f64, f64)]) -> bool {
     let destination = scene.car(spot).goal.destination();
-    let (mut chain, zone_chain) = (spot.chain, looked[0].0);
-    for _ in 0..looked.len() {
-        match scene.next(destination, chain) {
-            Some(next) if next == zone_chain => return true,
-            Some(next) => chain = next,
-            None => return false,
-        }
-    }
-    false
+    let way = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).skip(1);
+    way.take(looked.len()).any(|it| it.chain == looked[0].0)
 }

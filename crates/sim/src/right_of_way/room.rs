@@ -5,6 +5,7 @@ use laneweave_network::Side;
 use crate::junction::need::SPARE_ROOM;
 use crate::junction::refuge::Refuge;
 use crate::right_of_way::survey::{ROUNDING, parts};
+use crate::route::walk::Leg;
 use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
@@ -33,18 +34,23 @@ pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     if scene.waits_beside_in_fork(from).is_some() {
         return NONE;
     }
-    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
+    let reach = clear + ROOM_SIGHT;
+    let mut first = from.ahead;
     let mut taken = scene.passages.kept_on(refuge);
     let mut end = f64::INFINITY;
-    loop {
+    for Leg { chain, start: base, before } in scene.walk(from).within(reach) {
+        let before = before.filter(|_| base < clear);
+        if before.is_some_and(|it| scene.waits_in_fork(it, chain, from.id).is_some()) {
+            return NONE;
+        }
         let lane = &scene.lanes[chain.at()];
-        for (motion, index) in lane.motions()[index..].iter().zip(index..) {
+        for (motion, index) in lane.motions()[first..].iter().zip(first..) {
             let rear = base + motion.rear();
             if motion.id == from.id {
                 continue;
             }
-            if rear > limit || rear > clear + ROOM_SIGHT {
-                return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear;
+            if rear > limit || rear > reach {
+                return end.min(limit.min(reach) - taken) - clear;
             }
             let spot = Spot { chain, index };
             let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
@@ -64,17 +70,9 @@ pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
                 return NONE;
             }
         }
-        base += scene.network.chain(chain).length;
-        match scene.next(from.destination, chain) {
-            Some(next) if base < clear + ROOM_SIGHT => {
-                if base < clear && scene.waits_in_fork(chain, next, from.id).is_some() {
-                    return NONE;
-                }
-                (chain, index) = (next, 0);
-            }
-            _ => return end.min(limit.min(clear + ROOM_SIGHT) - taken) - clear,
-        }
+        first = 0;
     }
+    end.min(limit.min(reach) - taken) - clear
 }
 
 /// Whether the vehicle at `spot` drives on as long as those before it on the way of who looks `from` do: it goes the

@@ -10,6 +10,7 @@ use crate::junction::need::{SPARE_ROOM, Survey};
 use crate::junction::refuge::Refuge;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::room::{Beyond, ROOM_SIGHT, room};
+use crate::route::walk::Leg;
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
@@ -64,8 +65,8 @@ fn points(
     mut visit: impl FnMut(Point, f64, ChainIndex) -> ControlFlow<()>,
 ) -> f64 {
     let junctions = &scene.network.junctions;
-    let (mut chain, mut base) = (from.chain, -from.x);
-    loop {
+    let mut walk = scene.walk(from).within(until.get());
+    while let Some(Leg { chain, start: base, .. }) = walk.next() {
         let places = &junctions.on(chain).places[..];
         let trip_end = base + scene.navigator.trip_end(from.destination, chain);
         let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
@@ -89,17 +90,13 @@ fn points(
         if trip_end < f64::INFINITY {
             return f64::INFINITY;
         }
-        let here = scene.network.chain(chain);
-        base += here.length;
-        if base > until.get() {
-            return until.get();
-        }
-        match scene.next(from.destination, chain) {
-            Some(next) => chain = next,
-            None if here.is_lane_drop => return base - here.length + here.driven_until(from.is_long),
-            None => return f64::INFINITY,
-        }
+        walk.look_on(until.get());
     }
+    let (last, end) = (scene.network.chain(walk.at()), walk.end());
+    if end >= until.get() {
+        return until.get();
+    }
+    if last.is_lane_drop { end - last.length + last.driven_until(from.is_long) } else { f64::INFINITY }
 }
 
 /// Whether a place matters to vehicles that are long or not.
@@ -156,27 +153,24 @@ pub(crate) fn stops_before(scene: &Scene, from: Viewpoint, distance: f64) -> boo
 
 /// How far the way of the vehicle ahead is free, as far as `until` [m].
 fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
-    let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
     if let Some(rear) = scene.waits_beside_in_fork(from) {
         return rear - from.x;
     }
-    loop {
+    let mut first = from.ahead;
+    for Leg { chain, start, before } in scene.walk(from).within(until) {
+        // Who waits within the fork is in the way of all that come after.
+        if let Some(rear) = before.and_then(|it| scene.waits_in_fork(it, chain, from.id)) {
+            return start + rear;
+        }
         let lane = &scene.lanes[chain.at()];
-        let ahead = lane.motions()[index..].iter().zip(index..).find(|(it, _)| it.id != from.id);
+        let ahead = lane.motions()[first..].iter().zip(first..).find(|(it, _)| it.id != from.id);
         if let Some((motion, index)) = ahead {
             let passage = scene.passage(Spot { chain, index });
-            return base + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
+            return start + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
         }
-        base += scene.network.chain(chain).length;
-        let Some(next) = scene.next(from.destination, chain).filter(|_| base < until) else {
-            return f64::INFINITY;
-        };
-        // Who waits within the fork is in the way of all that come after.
-        if let Some(rear) = scene.waits_in_fork(chain, next, from.id) {
-            return base + rear;
-        }
-        (chain, index) = (next, 0);
+        first = 0;
     }
+    f64::INFINITY
 }
 
 /// Surveys the passage that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one
@@ -269,25 +263,15 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
 
 /// The chain on the way on which the place `distance` ahead lies, and how far ahead its start is [m].
 fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) {
-    let (mut chain, mut start) = (from.chain, -from.x);
-    loop {
-        let end = start + scene.network.chain(chain).length;
-        let Some(next) = scene.next(from.destination, chain).filter(|_| end <= distance) else {
-            return (chain, start);
-        };
-        (chain, start) = (next, end);
-    }
+    let legs = scene.walk(from).take_while(|it| it.before.is_none() || it.start <= distance);
+    legs.last().map_or((from.chain, -from.x), |it| (it.chain, it.start))
 }
 
 /// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
 pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl Iterator<Item = Refuge> {
-    let front = survey.extent;
-    let next = move |(at, start): &(Refuge, f64)| {
-        let end = start + scene.network.chain(at.chain).length;
-        let next = scene.next(from.destination, at.chain).filter(|_| end < front)?;
-        Some((Refuge::first_of(next), end))
-    };
-    std::iter::successors(Some((survey.refuge, survey.refuge_start)), next).map(|(at, _)| at)
+    let Survey { refuge, refuge_start, extent, .. } = *survey;
+    let walk = scene.navigator.walk(scene.network, from.destination, refuge.chain, refuge_start);
+    walk.within(extent).map(move |it| it.before.map_or(refuge, |_| Refuge::first_of(it.chain)))
 }
 
 /// Whether the vehicle at `spot` stands where the one that looks `from` would after the passage that it surveyed, or

@@ -9,5 +9,6 @@ pub(crate) mod place;
 pub(crate) mod renew;
 pub(crate) mod roads;
 pub(crate) mod views;
+pub(crate) mod walk;
 pub(crate) mod waypoint;
 pub(crate) mod ways;

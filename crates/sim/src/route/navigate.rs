@@ -14,6 +14,7 @@ use crate::route::onward::Onward;
 use crate::route::place::{InnerPlace, Place};
 use crate::route::renew::is_planned;
 use crate::route::views::Views;
+use crate::route::walk::Walk;
 use crate::route::waypoint::Waypoint;
 use crate::route::ways::{Into, Planner, beside_into, wander};
 use crate::state::goal::{Destination, Goal, TripEnd};
@@ -175,16 +176,17 @@ impl Navigator {
         x: f64,
         distance: f64,
     ) -> f64 {
-        let (mut at, mut from, mut left, mut time) = (chain, x, distance, 0.0);
-        loop {
-            let here = left.min(network.chain(at).length - from).max(0.0);
-            time += self.links.time_to(at, from + here) - self.links.time_to(at, from);
+        let (mut left, mut time) = (distance, 0.0);
+        for leg in self.walk(network, destination, chain, -x) {
+            let from = if leg.before.is_none() { x } else { 0.0 };
+            let here = left.min(network.chain(leg.chain).length - from).max(0.0);
+            time += self.links.time_to(leg.chain, from + here) - self.links.time_to(leg.chain, from);
             left -= here;
-            match self.next(network, destination, at).filter(|_| left > 0.0) {
-                Some(next) => (at, from) = (next, 0.0),
-                None => return time,
+            if left <= 0.0 {
+                break;
             }
         }
+        time
     }
 
     /// Whether the ways `one` and `other` go on alike from `x` on `chain` for at least `distance` [m].
@@ -196,18 +198,20 @@ impl Navigator {
         x: f64,
         distance: f64,
     ) -> bool {
-        let (mut at, mut gone) = (chain, -x);
-        loop {
-            gone += network.chain(at).length;
-            if gone >= distance {
-                return true;
-            }
-            let [next, other] = [one, other].map(|it| self.next(network, it, at));
-            match next.filter(|_| next == other) {
-                Some(next) => at = next,
-                None => return next.is_none() && other.is_none(),
-            }
-        }
+        let [one, other] = [one, other].map(|it| self.walk(network, it, chain, -x).within(distance));
+        one.eq(other)
+    }
+
+    /// The walk along the way to `destination` on from `chain`, which starts so far ahead [m].
+    #[inline]
+    pub(crate) fn walk<'a>(
+        &'a self,
+        network: &'a Network,
+        destination: Destination,
+        chain: ChainIndex,
+        start: f64,
+    ) -> Walk<'a> {
+        Walk::new(network, &self.onward, self.table(destination), chain, start)
     }
 
     /// A destination as a class sees the way to it.

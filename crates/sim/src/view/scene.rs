@@ -10,6 +10,7 @@ use crate::junction::signals::Signals;
 use crate::junction::state::JunctionState;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
+use crate::route::walk::{Leg, Walk};
 use crate::state::goal::Destination;
 use crate::state::lane::{Car, Lane, Mind, Motion, VehicleId};
 use crate::state::traffic::Traffic;
@@ -171,6 +172,12 @@ impl<'a> Scene<'a> {
         self.navigator.next(self.network, destination, chain)
     }
 
+    /// The walk along the route of who looks `from`, from its own chain on.
+    #[inline]
+    pub(crate) fn walk(&self, from: Viewpoint) -> Walk<'a> {
+        self.navigator.walk(self.network, from.destination, from.chain, -from.x)
+    }
+
     /// The leader within sight.
     #[inline]
     pub fn ahead(&self, from: Viewpoint) -> Option<Ahead> {
@@ -185,44 +192,35 @@ impl<'a> Scene<'a> {
 
     /// The next vehicle on one's way within sight, or beside it in a fork, wherever it comes from.
     pub(crate) fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
-        let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
-        let is_in_fork = from.x < self.network.chain(chain).fork_clearance;
-        let mut beside = if is_in_fork { self.beside_in_fork(from) } else { None };
-        loop {
-            let motions = &self.motions(chain)[index..];
+        self.walk(from).within(SIGHT).find_map(|Leg { chain, before, .. }| {
+            let (first, beside) = match before {
+                Some(before) => (0, self.beyond_the_fork(before, chain, from.id)),
+                None if from.x < self.network.chain(chain).fork_clearance => {
+                    (from.ahead, self.beside_in_fork(from))
+                }
+                None => (from.ahead, None),
+            };
+            let motions = &self.motions(chain)[first..];
             let place = motions.iter().position(|it| it.id != from.id);
-            let on_way = place.map(|it| (Spot { chain, index: index + it }, motions[it].rear()));
-            if let Some((spot, _)) = nearest(on_way.into_iter().chain(beside)) {
-                return Some(spot);
-            }
-            base += self.network.chain(chain).length;
-            let next = self.next(from.destination, chain).filter(|_| base < SIGHT)?;
-            beside = self.beyond_the_fork(chain, next, from.id);
-            (chain, index) = (next, 0);
-        }
+            let on_way = place.map(|it| (Spot { chain, index: first + it }, motions[it].rear()));
+            nearest(on_way.into_iter().chain(beside)).map(|(spot, _)| spot)
+        })
     }
 
     /// The leader beyond the end of the chain.
     fn ahead_beyond(&self, from: Viewpoint) -> Option<Ahead> {
-        let mut chain = from.chain;
-        let mut base = self.network.chain(chain).length - from.x;
-        while base < SIGHT {
-            let next = self.next(from.destination, chain)?;
-            let lane = &self.lanes[next.at()];
+        self.walk(from).within(SIGHT).find_map(|Leg { chain, start, before }| {
+            let before = before?;
+            let lane = &self.lanes[chain.at()];
             let on_way = lane.motions().iter().position(|it| it.id != from.id);
             let leader = on_way.map(|index| {
                 let (it, mind) = (&lane.motions()[index], &lane.minds()[index]);
-                it.ahead(self.gap_to(chain, base, it, mind))
+                it.ahead(self.gap_to(before, start, it, mind))
             });
-            let beside = self.beyond_the_fork(chain, next, from.id);
-            let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, base + rear));
-            if let Some(nearest) = nearer(leader, beside) {
-                return Some(nearest);
-            }
-            chain = next;
-            base += self.network.chain(chain).length;
-        }
-        None
+            let beside = self.beyond_the_fork(before, chain, from.id);
+            let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, start + rear));
+            nearer(leader, beside)
+        })
     }
 
     /// Distance to the vehicle `it`, `base` before the start of the chain that it is on [m]. Whose rear is still on

@@ -4,6 +4,7 @@ use laneweave_models::change::{Flow, anticipated_speed};
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, LightState, Sign, Stop};
 
+use crate::route::walk::Leg;
 use crate::state::lane::{Motion, VehicleId};
 use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
 
@@ -77,30 +78,29 @@ impl Scene<'_> {
     /// Looks at what is ahead; returns the window's extent [m].
     #[inline]
     fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
-        let (mut chain, mut index, mut base) = (from.chain, from.ahead, -from.x);
         let window_ahead = view.window_ahead;
-        loop {
+        let mut walk = self.walk(from).within(view.sight);
+        let mut first = from.ahead;
+        for Leg { chain, start, .. } in walk.by_ref() {
             let stops = &self.network.junctions.on(chain).stops[..];
             if !stops.is_empty() {
-                self.stop_at_red(stops, base, desired, view);
+                self.stop_at_red(stops, start, desired, view);
             }
-            if view.pass(&self.motions(chain)[index..], chain, index, base, from.id, desired) {
+            if view.pass(&self.motions(chain)[first..], chain, first, start, from.id, desired) {
                 return window_ahead;
             }
-            base += self.network.chain(chain).length;
-            if base > view.sight {
-                return window_ahead;
-            }
-            let Some(next) = self.next(from.destination, chain) else {
-                if self.network.chain(chain).is_lane_drop {
-                    let end = Ahead::standing(base);
-                    view.ahead = view.ahead.or(Some(end));
-                    view.prospect = view.prospect.min(anticipated_speed(end, desired));
-                }
-                return base.clamp(1.0, window_ahead);
-            };
-            (chain, index) = (next, 0);
+            first = 0;
         }
+        let end = walk.end();
+        if end >= view.sight {
+            return window_ahead;
+        }
+        if self.network.chain(walk.at()).is_lane_drop {
+            let end = Ahead::standing(end);
+            view.ahead = view.ahead.or(Some(end));
+            view.prospect = view.prospect.min(anticipated_speed(end, desired));
+        }
+        end.clamp(1.0, window_ahead)
     }
 
     /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a
