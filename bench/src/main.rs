@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use laneweave::maps::generate::{Motorway, motorway};
-use laneweave::network::{ChainIndex, Network};
+use laneweave::network::{ChainIndex, Network, Position};
 use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
 use laneweave::style::Population;
 use laneweave_bench::machine::{round_trip, spin_until};
@@ -189,8 +189,8 @@ fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>
 /// Puts vehicles on the road, some closer together than others.
 fn fill(world: &mut World) {
     let random = Random::new(1);
-    let places: Vec<(ChainIndex, f64)> = free_places(world.network(), &random);
-    for ((chain, x), number) in places.into_iter().zip(0..) {
+    let places: Vec<Position> = free_places(world.network(), &random);
+    for (Position { chain, x }, number) in places.into_iter().zip(0..) {
         let draw = |purpose| random.uniform(number, purpose, 0);
         let character = (draw(Purpose::Character) * 512.0) as u32;
         let is_aggressive = draw(Purpose::Style) < 1.0 / 8.4;
@@ -207,12 +207,12 @@ fn fill(world: &mut World) {
     }
 }
 
-fn free_places(network: &Network, random: &Random) -> Vec<(ChainIndex, f64)> {
+fn free_places(network: &Network, random: &Random) -> Vec<Position> {
     let mut places = Vec::new();
     for (chain, index) in network.chains.iter().zip(0..) {
         let mut x = 40.0;
         while x < chain.length {
-            places.push((ChainIndex(index), x));
+            places.push(Position::new(ChainIndex(index), x));
             let share = 0.7 + 0.6 * random.uniform(places.len() as u32, Purpose::Arrival, 0);
             x += 1000.0 / DENSITY * share;
         }

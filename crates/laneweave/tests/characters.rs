@@ -155,7 +155,8 @@ fn changes_off_the_route(style: &str, seed: u64) -> f64 {
             let Event::LaneChange(change) = event else { continue };
             let driver = world.vehicles().find(|it| it.id() == change.vehicle && change.is_completed);
             let Some(destination) = driver.map(|it| it.car.goal.destination()) else { continue };
-            let [from, to] = [change.from, change.to].map(|it| navigator.waypoint(destination, it.0).changes);
+            let [from, to] =
+                [change.from, change.to].map(|it| navigator.waypoint(destination, it.chain).changes);
             off += u32::from(to > from);
         }
     });

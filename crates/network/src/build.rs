@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::chain::{Beside, Chain, ChainIndex, join};
+use crate::chain::{Beside, Chain, ChainIndex, Position, join};
 use crate::gate::{Gate, gates, lane_drops};
 use crate::junction::{Crossing, Junctions, LightConflict, Reach, Regulations, SignalPlan};
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
@@ -25,6 +25,8 @@ pub struct Network {
     pub driving_side: DrivingSide,
     /// Where chains get in each other's way, and where drivers stop; empty until [`Network::regulated`].
     pub junctions: Junctions,
+    /// For each lanelet where it starts.
+    starts: Vec<Position>,
 }
 
 /// Why lanelets do not make a network.
@@ -87,8 +89,11 @@ impl Network {
             chains[index.at()].is_lane_drop = true;
         }
         note_open(&mut chains, &lanelets, [&entrances, &exits]);
+        let start =
+            |(chain, number): &(ChainIndex, usize)| Position::new(*chain, chains[chain.at()].starts[*number]);
+        let starts = place.iter().map(start).collect();
         let junctions = Junctions::default();
-        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions })
+        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions, starts })
     }
 
     /// The same network with its junctions, at which `regulations` hold.
@@ -179,9 +184,15 @@ impl Network {
         [stretch.start.max(from).max(begins), stretch.end.min(until).min(ends)]
     }
 
-    /// The lanelet at `station` of a chain, and how far along it that is [m].
-    pub fn lanelet_at(&self, chain: ChainIndex, station: f64) -> (&Lanelet, f64) {
-        let (index, along) = self.chain(chain).lanelet(station);
+    /// Where a lanelet starts.
+    #[inline]
+    pub fn start_of(&self, lanelet: LaneletIndex) -> Position {
+        self.starts[lanelet.at()]
+    }
+
+    /// The lanelet at a place on a chain, and how far along it that is [m].
+    pub fn lanelet_at(&self, at: Position) -> (&Lanelet, f64) {
+        let (index, along) = self.chain(at.chain).lanelet(at.x);
         (&self.lanelets[index.at()], along)
     }
 
@@ -196,6 +207,7 @@ impl Network {
         }
         self.entrances.iter_mut().chain(&mut self.exits).flat_map(|it| &mut it.chains).for_each(turn);
         self.lane_drops.iter_mut().for_each(turn);
+        self.starts.iter_mut().for_each(|it| turn(&mut it.chain));
         self.junctions.reverse_chains(turn);
         self
     }

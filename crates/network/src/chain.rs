@@ -16,6 +16,23 @@ impl ChainIndex {
     }
 }
 
+/// A place on a chain.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Position {
+    /// The chain.
+    pub chain: ChainIndex,
+    /// Station along it, from its start on [m].
+    pub x: f64,
+}
+
+impl Position {
+    /// The place at station `x` [m] of `chain`.
+    #[inline]
+    pub fn new(chain: ChainIndex, x: f64) -> Position {
+        Position { chain, x }
+    }
+}
+
 /// A run of lanelets without a fork or a merge. Stations run along its centre line from its start [m].
 ///
 /// What drivers look at in every step comes first in memory, on one cache line: towns have thousands of chains.

@@ -17,7 +17,7 @@ mod width;
 
 pub use alongside::Alongside;
 pub use build::{Network, NetworkError};
-pub use chain::{Beside, Chain, ChainIndex, Limit};
+pub use chain::{Beside, Chain, ChainIndex, Limit, Position};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use junction::{

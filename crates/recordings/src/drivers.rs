@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_network::{ChainIndex, Position, Side};
 use laneweave_sim::{Class, Destination, Navigator};
 
 use crate::changes::LaneChange;
@@ -84,15 +84,14 @@ pub(crate) fn drivers(
     matched: &Matched<'_>,
     changes: &[LaneChange],
     navigator: &Navigator,
-    stands: &[(ChainIndex, f64)],
     assume: impl Fn(usize) -> Assumed,
 ) -> Vec<Driver> {
-    let goals = goals(matched, navigator, stands);
+    let goals = goals(matched, navigator);
     let mut drivers: Vec<Driver> = Vec::with_capacity(matched.places.len());
     for (index, (track, places)) in matched.recording.tracks.iter().zip(&matched.places).enumerate() {
         let mut chains: Vec<(usize, ChainIndex)> = Vec::new();
         for (at, place) in places.iter().enumerate() {
-            let chain = place.map(|it| stands[it.lanelet.at()].0);
+            let chain = place.map(|it| matched.network.start_of(it.lanelet).chain);
             chains.extend(
                 chain.filter(|it| chains.last().is_none_or(|(_, last)| last != it)).map(|it| (at, it)),
             );
@@ -114,23 +113,20 @@ pub(crate) fn drivers(
 
 /// Where each vehicle goes: to the exit that is easiest from where it was last seen. A vehicle that left the map was
 /// there.
-fn goals(
-    matched: &Matched<'_>,
-    navigator: &Navigator,
-    stands: &[(ChainIndex, f64)],
-) -> HashMap<i64, Destination> {
-    let mut last_seen: HashMap<i64, (i64, ChainIndex, f64)> = HashMap::new();
+fn goals(matched: &Matched<'_>, navigator: &Navigator) -> HashMap<i64, Destination> {
+    let mut last_seen: HashMap<i64, (i64, Position)> = HashMap::new();
     for (track, places) in matched.recording.tracks.iter().zip(&matched.places) {
         let last =
             track.states.iter().zip(places).rev().find_map(|(state, it)| it.map(|it| (state.frame, it)));
         let Some((frame, place)) = last else { continue };
-        let (chain, start) = stands[place.lanelet.at()];
-        let seen = last_seen.entry(track.id).or_insert((frame, chain, start + place.station));
+        let Position { chain, x: start } = matched.network.start_of(place.lanelet);
+        let at = Position::new(chain, start + place.station);
+        let seen = last_seen.entry(track.id).or_insert((frame, at));
         if frame > seen.0 {
-            *seen = (frame, chain, start + place.station);
+            *seen = (frame, at);
         }
     }
-    last_seen.into_iter().map(|(id, (_, chain, x))| (id, easiest(navigator, chain, x))).collect()
+    last_seen.into_iter().map(|(id, (_, at))| (id, easiest(navigator, at.chain, at.x))).collect()
 }
 
 /// The exit that from `x` on `chain` needs the fewest lane changes, and of several the least time.
@@ -141,17 +137,6 @@ pub(crate) fn easiest(navigator: &Navigator, chain: ChainIndex, x: f64) -> Desti
         changes(*a).cmp(&changes(*b)).then(time_of_a.total_cmp(time_of_b))
     });
     easiest.and_then(|(destination, _)| destination)
-}
-
-/// For each lanelet its chain, and where it starts along that [m].
-pub(crate) fn stands(network: &Network) -> Vec<(ChainIndex, f64)> {
-    let mut stands = vec![(ChainIndex(0), 0.0); network.lanelets.len()];
-    for (chain, index) in network.chains.iter().zip(0..) {
-        for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
-            stands[lanelet.at()] = (ChainIndex(index), *start);
-        }
-    }
-    stands
 }
 
 /// The speed [m/s] that a class may drive under `limit` [m/s].

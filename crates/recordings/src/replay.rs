@@ -8,12 +8,12 @@
 
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
-use laneweave_network::{ChainIndex, LaneletIndex, Point, Side};
+use laneweave_network::{LaneletIndex, Point, Position, Side};
 use laneweave_sim::{Across, Navigator, Scene, Seen, Snapshot, Spot, VehicleId, perceive};
 use thiserror::Error;
 
 use crate::changes::LaneChange;
-use crate::drivers::{Assumed, Driver, drivers, easiest, stands};
+use crate::drivers::{Assumed, Driver, drivers, easiest};
 use crate::lanes::{self, Foot};
 use crate::matching::Matched;
 use crate::smooth;
@@ -30,8 +30,6 @@ pub struct Replay<'a> {
     matched: &'a Matched<'a>,
     navigator: &'a Navigator,
     characters: &'a [Style],
-    /// For each lanelet its chain, and where it starts along that [m].
-    stands: Vec<(ChainIndex, f64)>,
     /// For each track its driver.
     drivers: Vec<Driver>,
 }
@@ -76,8 +74,7 @@ impl<'a> Replay<'a> {
         characters: &'a [Style],
         assume: impl Fn(usize) -> Assumed,
     ) -> Result<Replay<'a>, ReplayError> {
-        let stands = stands(matched.network);
-        let drivers = drivers(matched, changes, navigator, &stands, assume);
+        let drivers = drivers(matched, changes, navigator, assume);
         for (track, driver) in matched.recording.tracks.iter().zip(&drivers) {
             let (vehicle, Assumed { character, speed_factor: factor }) = (track.id, driver.assumed);
             if character as usize >= characters.len() {
@@ -87,7 +84,7 @@ impl<'a> Replay<'a> {
                 return Err(ReplayError::SpeedFactor { vehicle, factor });
             }
         }
-        Ok(Replay { matched, navigator, characters, stands, drivers })
+        Ok(Replay { matched, navigator, characters, drivers })
     }
 
     /// The instant of `frame`. A vehicle is there from its first state with a place until its front bumper passes an
@@ -111,7 +108,7 @@ impl<'a> Replay<'a> {
         let centre = Point::new(motion.x, motion.y, 0.0);
         let half = 0.5 * track.length;
         let foot = lanes::foot(&self.matched.network.lanelets[lanelet.at()], &centre)?;
-        let (chain, x) = self.onward(driver, at, self.front(lanelet, &foot, half)?)?;
+        let Position { chain, x } = self.onward(driver, at, self.front(lanelet, &foot, half)?)?;
         let time = track.states[at].frame as f64 * step;
         let change = driver.changes.iter().find_map(|it| {
             let progress = it.extent.progress(time)?;
@@ -119,7 +116,7 @@ impl<'a> Replay<'a> {
             let to_other = if is_across { it.side.opposite() } else { it.side };
             let (lanelet, foot) = self.beside(lanelet, to_other, &centre)?;
             let other = self.onward(driver, at, self.front(lanelet, &foot, half)?)?;
-            (other.0 != chain).then_some(Across { side: it.side, progress, other })
+            (other.chain != chain).then_some(Across { side: it.side, progress, other })
         });
         let leads_on = self.navigator.waypoint(driver.destination, chain).leads_on(x);
         Some(Seen {
@@ -137,36 +134,32 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Chain and station [m] of the front bumper, `half` a vehicle's length ahead of the foot of its centre on
+    /// Where the front bumper is, `half` a vehicle's length ahead of the foot of its centre on
     /// `lanelet`.
-    fn front(&self, lanelet: LaneletIndex, foot: &Foot, half: f64) -> Option<(ChainIndex, f64)> {
-        let (chain, start) = self.stands[lanelet.at()];
+    fn front(&self, lanelet: LaneletIndex, foot: &Foot, half: f64) -> Option<Position> {
+        let Position { chain, x: start } = self.matched.network.start_of(lanelet);
         let beyond = if foot.station > 0.0 { foot.beyond } else { -foot.beyond };
         // Written so that numbers that are none are refused.
         let is_near = beyond.abs() + half <= FARTHEST;
-        is_near.then_some((chain, start + foot.station + beyond + half))
+        is_near.then(|| Position::new(chain, start + foot.station + beyond + half))
     }
 
     /// The same place where it lies beyond the end of the chain: on the chain onto which the driver goes on. `None`
     /// beyond an exit.
-    fn onward(
-        &self,
-        driver: &Driver,
-        at: usize,
-        (mut chain, mut x): (ChainIndex, f64),
-    ) -> Option<(ChainIndex, f64)> {
+    fn onward(&self, driver: &Driver, at: usize, front: Position) -> Option<Position> {
+        let Position { mut chain, mut x } = front;
         let network = self.matched.network;
         while x > network.chain(chain).length {
             let following = &network.chain(chain).following;
             let by_route = || self.navigator.waypoint(driver.destination, chain).next;
             let Some(next) = driver.next(at, following).or_else(by_route) else {
                 let is_exit = network.exits.iter().any(|it| it.chains.contains(&chain));
-                return (!is_exit).then_some((chain, x));
+                return (!is_exit).then(|| Position::new(chain, x));
             };
             x -= network.chain(chain).length;
             chain = next;
         }
-        Some((chain, x))
+        Some(Position::new(chain, x))
     }
 
     /// The lanelet on `side` of `lanelet`, and where `centre` lies along it.

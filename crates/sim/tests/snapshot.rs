@@ -5,7 +5,7 @@ mod drivers;
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::change::{LaneView, Situation};
-use laneweave_network::Side;
+use laneweave_network::{Position, Side};
 use laneweave_sim::{Across, Navigator, Seen, Setup, Snapshot, Spot, Vehicle, World, perceive};
 
 /// Much traffic on three lanes with ramps, after two minutes.
@@ -38,7 +38,7 @@ fn seen(vehicle: &Vehicle) -> Seen {
         change: other.map(|twin| Across {
             side: mind.side,
             progress: f64::from(mind.progress),
-            other: (twin.chain, twin.x),
+            other: Position::new(twin.chain, twin.x),
         }),
     }
 }

@@ -1,6 +1,6 @@
 //! How full lanes and lights are.
 
-use laneweave_network::{ChainIndex, Light, Program, Side, Sign};
+use laneweave_network::{ChainIndex, Light, Position, Program, Side, Sign};
 use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
 use super::{Bottleneck, Load, Roads, once, side_by_side, weaving};
@@ -43,7 +43,7 @@ impl Lanes<'_> {
         let [bound, all] = self.roads.assignment.flow(chain, station);
         let (capacity, light) = self.capacity(chain, station);
         let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
-        for (beside, at) in self.beside(chain, station, light.is_some()) {
+        for Position { chain: beside, x: at } in self.beside(chain, station, light.is_some()) {
             let [_, flow] = self.roads.assignment.flow(beside, at);
             // A lane that ends soon, or leads elsewhere, carries nobody.
             if flow > 0.0 {
@@ -74,9 +74,9 @@ impl Lanes<'_> {
             return None;
         }
         let beside = self.beside(*chain, before, false);
-        let lanes: Vec<(ChainIndex, f64)> = std::iter::once((*chain, before)).chain(beside).collect();
+        let lanes: Vec<Position> = std::iter::once(Position::new(*chain, before)).chain(beside).collect();
         let (mut flows, mut capacities, mut number, mut fullest) = (0.0, 0.0, 0, 0.0_f64);
-        for (lane, at) in &lanes {
+        for Position { chain: lane, x: at } in &lanes {
             let [bound, flow] = self.roads.assignment.flow(*lane, at + 2.0 * SHORTLY);
             if flow > 0.0 {
                 let capacity = self.capacity(*lane, *at).0;
@@ -138,20 +138,22 @@ impl Lanes<'_> {
 
     /// The lanes to which one may change at a station of a chain [m], or shortly before a light there, each with the
     /// station there.
-    fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<(ChainIndex, f64)> {
+    fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<Position> {
         /// Before a light lanes may no longer be changed for so long [m].
         const BEFORE_A_LIGHT: f64 = 100.0;
         let network = self.roads.network;
         let since = |x: f64| if is_at_light { x - BEFORE_A_LIGHT } else { x };
-        let mut found = vec![(chain, station)];
+        let mut found = vec![Position::new(chain, station)];
         let mut number = 0;
-        while let Some((at, x)) = found.get(number).copied() {
+        while let Some(Position { chain: at, x }) = found.get(number).copied() {
             number += 1;
             for side in Side::BOTH {
                 let mut stretches = network.chain(at).stretches(side).iter().rev();
                 let Some(stretch) = stretches.find(|it| it.start <= x && it.end > since(x)) else { continue };
-                let beside = (stretch.chain, stretch.across(x));
-                if beside.1 < network.chain(beside.0).length && found.iter().all(|it| it.0 != beside.0) {
+                let beside = Position::new(stretch.chain, stretch.across(x));
+                if beside.x < network.chain(beside.chain).length
+                    && found.iter().all(|it| it.chain != beside.chain)
+                {
                     found.push(beside);
                 }
             }

@@ -16,7 +16,7 @@ mod weaving;
 use std::fmt;
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Network, Position};
 use laneweave_sim::{Assignment, Demand, Fleet};
 
 use stream::Mixture;
@@ -95,7 +95,7 @@ impl<'a> Roads<'a> {
 
     /// The lanelet's id at a station of a chain [m].
     fn lanelet(&self, chain: ChainIndex, station: f64) -> i64 {
-        self.network.lanelet_at(chain, station).0.id
+        self.network.lanelet_at(Position::new(chain, station)).0.id
     }
 
     fn chains(&self) -> impl Iterator<Item = ChainIndex> + use<> {

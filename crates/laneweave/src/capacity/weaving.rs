@@ -7,7 +7,7 @@
 //! L = 5728 (1 + VR)^1.6 − 1566 N it is no such section. Of what our drivers carry on a plain road we take the same
 //! share. Merges are looked at in the same way (ours).
 
-use laneweave_network::ChainIndex;
+use laneweave_network::Position;
 use laneweave_sim::{Assignment, Change};
 
 /// c₀ [veh/h].
@@ -20,10 +20,10 @@ const LEAST: f64 = 1.0;
 
 /// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left
 /// at the end of a section of `length` [m]. Who has more road for its change makes a part of it there.
-pub(super) fn left(assignment: &Assignment, lanes: &[(ChainIndex, f64)], flow: f64, length: f64) -> f64 {
+pub(super) fn left(assignment: &Assignment, lanes: &[Position], flow: f64, length: f64) -> f64 {
     let changing = |it: &Change| {
         let ((chain, [start, end]), (to, [beside, _])) = (it.from, it.to);
-        let at = lanes.iter().find(|(lane, _)| *lane == chain).map(|(_, at)| *at);
+        let at = lanes.iter().find(|it| it.chain == chain).map(|it| it.x);
         // Who comes onto a lane that nobody else is on, as onto one that leads off, finds it free.
         let at = at.filter(|_| assignment.flow(to, beside.max(0.0))[1] > 0.0)?;
         let within = end.min(at) - start.max(at - length);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use laneweave_maps::Map;
-use laneweave_network::{Beside, Chain, ChainIndex, Lanelet, Network, Polyline, Side};
+use laneweave_network::{Beside, Chain, ChainIndex, Lanelet, Network, Polyline, Position, Side};
 use laneweave_sim::{Place, Places};
 use serde::Serialize;
 
@@ -144,7 +144,10 @@ fn shared_at_the_edge(network: &Network) -> Option<Remark> {
         let mut crossings = junctions.on(*chain).crossings.iter();
         let near = crossings.find(|it| junctions.reach(**it).start < AT_ONCE)?;
         let [one, other] = [*chain, junctions.other_side(*near).chain];
-        Some([(one, 0.0), (other, 0.0)].map(|(chain, station)| network.lanelet_at(chain, station).0.id))
+        Some(
+            [(one, 0.0), (other, 0.0)]
+                .map(|(chain, station)| network.lanelet_at(Position::new(chain, station)).0.id),
+        )
     };
     let found: Vec<[i64; 2]> =
         network.entrances.iter().flat_map(|it| &it.chains).filter_map(shares).collect();

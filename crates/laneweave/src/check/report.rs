@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Write};
 
 use laneweave_maps::{BORDERS, Map, Problem, RuleKind, check};
-use laneweave_network::{ChainIndex, DrivingSide, Network, Sign};
+use laneweave_network::{ChainIndex, DrivingSide, Network, Position, Sign};
 use laneweave_sim::{Place, Places};
 use serde::Serialize;
 
@@ -220,7 +220,7 @@ fn lights(network: &Network) -> Vec<Lit> {
     for chain in (0..network.chains.len()).map(|it| ChainIndex(it as u32)) {
         for stop in &network.junctions.on(chain).stops {
             if let Sign::Light(light) = stop.sign {
-                lights[light.at()].lanelets.push(network.lanelet_at(chain, stop.station).0.id);
+                lights[light.at()].lanelets.push(network.lanelet_at(Position::new(chain, stop.station)).0.id);
             }
         }
     }

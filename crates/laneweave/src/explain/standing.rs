@@ -1,6 +1,6 @@
 //! Why a vehicle stands, in words.
 
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::Network;
 use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
 
 /// What holds a vehicle, as one sentence.
@@ -17,7 +17,7 @@ pub(super) fn stands_for(it: &StandsFor, network: &Network) -> String {
         StandsFor::LetsIn(distance) => format!("it lets in a vehicle {distance:.1} m ahead"),
         StandsFor::Nothing => "nothing holds it: it drives off".into(),
         StandsFor::Junction { areas, why, others } => {
-            let lanelet = |(chain, station): (ChainIndex, f64)| network.lanelet_at(chain, station).0.id;
+            let lanelet = |it| network.lanelet_at(it).0.id;
             let areas: Vec<String> = areas
                 .iter()
                 .map(|sides| sides.map(lanelet))

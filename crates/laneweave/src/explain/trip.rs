@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use laneweave_network::Network;
+use laneweave_network::{Network, Position};
 use laneweave_sim::{Account, Act, Event, Spot, VehicleId, World};
 
 use super::flip::flips;
@@ -108,7 +108,7 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
         for event in world.events() {
             match event {
                 Event::LaneChange(change) if change.vehicle == id => {
-                    let lanelet = |(chain, x)| world.network().lanelet_at(chain, x).0.id;
+                    let lanelet = |at: Position| world.network().lanelet_at(at).0.id;
                     let line = if change.is_completed {
                         let [from, to] = [change.from, change.to].map(lanelet);
                         format!("is across; passed from lanelet {from} to {to} at {:.1} s", change.time)
@@ -131,7 +131,7 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
 fn place(network: &Network, spot: Spot, world: &World) -> String {
     let scene = world.scene();
     let motion = scene.motion(spot);
-    let (lanelet, along) = network.lanelet_at(spot.chain, motion.x);
+    let (lanelet, along) = network.lanelet_at(Position::new(spot.chain, motion.x));
     format!("on lanelet {}, {along:.1} m, with {:.1} km/h", lanelet.id, motion.speed * KMH_PER_MPS)
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use laneweave_models::Concentration;
 use laneweave_models::change::{GapPair, LaneChangeModel, Refusal, Row, time_to_collision};
-use laneweave_network::{Network, Side};
+use laneweave_network::{Network, Position, Side};
 use laneweave_sim::{Account, Act, Hindrance, Kind, SideAccount};
 
 use super::flip::{Flip, Knob};
@@ -187,7 +187,7 @@ fn refused(refusal: Refusal, pair: &GapPair) -> String {
 pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: &[Flip]) -> String {
     let mut text = String::new();
     let (x, speed) = position;
-    let (lanelet, along) = network.lanelet_at(account.spot.chain, x);
+    let (lanelet, along) = network.lanelet_at(Position::new(account.spot.chain, x));
     let mut say = |line: String| {
         // Writing to a string never fails.
         let _ = writeln!(text, "{line}");

@@ -40,7 +40,7 @@ impl Boxes {
         for event in world.events() {
             if let Event::LaneChange(change) = event
                 && change.is_completed
-                && let Some(section) = self.sections.at(change.from.0, change.from.1)
+                && let Some(section) = self.sections.at(change.from.chain, change.from.x)
             {
                 self.changes.push((section, change.time, change.kind));
             }

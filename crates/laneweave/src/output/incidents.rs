@@ -95,8 +95,8 @@ pub struct FirstIncident {
 
 impl FirstIncident {
     pub(super) fn of(network: &Network, incident: &Incident) -> FirstIncident {
-        let &Incident { kind, time, vehicles, places: [(chain, x), _], .. } = incident;
-        let lanelet = network.lanelet_at(chain, x).0.id;
+        let &Incident { kind, time, vehicles, places: [at, _], .. } = incident;
+        let lanelet = network.lanelet_at(at).0.id;
         FirstIncident { time_s: seconds(time), kind: kind.name(), lanelet, vehicles }
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_models::change::INCENTIVES;
-use laneweave_network::{Point, Side};
+use laneweave_network::{Point, Position, Side};
 use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
@@ -169,7 +169,7 @@ fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
 /// Where the vehicle's centre crossed the line between the lanes.
 fn place(names: &Names, change: &LaneChange) -> Point {
     let half = 0.5 * change.class.body().length;
-    let on = |(chain, x): (_, f64)| names.network.chain(chain).centre.at(x - half);
+    let on = |it: Position| names.network.chain(it.chain).centre.at(it.x - half);
     on(change.from).towards(&on(change.to), 0.5)
 }
 

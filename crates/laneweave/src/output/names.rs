@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use laneweave_network::{ChainIndex, Lanelet, LaneletIndex, Network};
+use laneweave_network::{Lanelet, LaneletIndex, Network, Position};
 use laneweave_sim::{Place, World};
 
 use super::sumo::Lanes;
@@ -37,9 +37,9 @@ impl Names {
         }
     }
 
-    /// The lanelet at a station of a chain, and how far along it that is [m].
-    pub(super) fn lanelet(&self, (chain, x): (ChainIndex, f64)) -> (LaneletIndex, &Lanelet, f64) {
-        let (index, along) = self.network.chain(chain).lanelet(x);
+    /// The lanelet at a place, and how far along it that is [m].
+    pub(super) fn lanelet(&self, at: Position) -> (LaneletIndex, &Lanelet, f64) {
+        let (index, along) = self.network.chain(at.chain).lanelet(at.x);
         (index, &self.network.lanelets[index.at()], along)
     }
 

@@ -1,5 +1,6 @@
 //! Who waits at the entrances, and what holds them: a part of the summary.
 
+use laneweave_network::Position;
 use laneweave_sim::{EntryQueue, Held, World, entry_queues};
 use serde::{Deserialize, Serialize};
 
@@ -122,7 +123,7 @@ impl Queue {
     fn at(world: &World, queue: &EntryQueue) -> Queue {
         Queue {
             entrance: world.demand().origins[queue.origin].place.id(),
-            lanelet: world.network().lanelet_at(queue.chain, queue.station).0.id,
+            lanelet: world.network().lanelet_at(Position::new(queue.chain, queue.station)).0.id,
             waiting: 0,
             most_waiting: 0,
             held_s: HeldFor::default(),

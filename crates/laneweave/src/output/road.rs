@@ -1,6 +1,6 @@
 //! A network seen lengthwise: lanes side by side share their sections, and one lane after the other makes a road.
 
-use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_network::{ChainIndex, Network, Position, Side};
 use serde::{Deserialize, Serialize};
 
 /// Length of a section, about [m].
@@ -175,10 +175,10 @@ impl Road {
         self.pieces.iter().any(|it| other.pieces.iter().any(|other| other.chain == it.chain))
     }
 
-    /// The position along the road of `x` [m] on `chain`, if that belongs to it.
-    pub(super) fn position(&self, chain: ChainIndex, x: f64) -> Option<f64> {
-        let piece = self.pieces.iter().find(|it| it.chain == chain && it.from <= x)?;
-        Some(piece.offset + x)
+    /// How far along the road a place is [m], if that belongs to it.
+    pub(super) fn position(&self, at: Position) -> Option<f64> {
+        let piece = self.pieces.iter().find(|it| it.chain == at.chain && it.from <= at.x)?;
+        Some(piece.offset + at.x)
     }
 }
 
@@ -245,10 +245,10 @@ mod tests {
         });
         let drop = network.lane_drops[0];
         let road = Road::from(&network, drop, 1e5);
-        assert_eq!(road.position(drop, 999.0), Some(999.0));
+        assert_eq!(road.position(Position::new(drop, 999.0)), Some(999.0));
         let other = network.chain(drop).beside(Side::Left, 999.0).unwrap().chain;
-        assert_eq!(road.position(other, 999.0), None);
-        assert_eq!(road.position(other, 2000.0), Some(2000.0));
+        assert_eq!(road.position(Position::new(other, 999.0)), None);
+        assert_eq!(road.position(Position::new(other, 2000.0)), Some(2000.0));
         assert!((road.length(&network) - 3000.0).abs() < 1e-6);
         assert!(road.meets(&Road::from(&network, other, 1e5)));
     }

@@ -1,5 +1,6 @@
 //! Trips that begin and end on one lanelet: counted, and left out of means, to which they would say nothing of traffic.
 
+use laneweave_network::Position;
 use laneweave_sim::{Counts, Event, World};
 use serde::{Deserialize, Serialize};
 
@@ -32,8 +33,8 @@ impl ShortTrips {
             let Event::Left { duration, chain, motion, trip: Some(trip), .. } = event else { continue };
             let network = world.network();
             let x = motion.x.min(network.chain(*chain).length);
-            let id = |(chain, x)| network.lanelet_at(chain, x).0.id;
-            if id(trip.from) != id((*chain, x)) {
+            let id = |at: Position| network.lanelet_at(at).0.id;
+            if id(trip.from) != id(Position::new(*chain, x)) {
                 continue;
             }
             self.count += 1;

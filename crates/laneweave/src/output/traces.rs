@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{ChainIndex, Gate, Network};
+use laneweave_network::{ChainIndex, Gate, Network, Position};
 use laneweave_sim::{Event, Place, VehicleId, World};
 use laneweave_study::{Mark, Sample};
 use serde::{Deserialize, Serialize};
@@ -84,7 +84,7 @@ impl Traces {
                 && change.is_completed
                 && (self.begin..=self.end).contains(&change.time)
             {
-                let places = [change.from, change.to].map(|(chain, x)| self.road.position(chain, x));
+                let places = [change.from, change.to].map(|it| self.road.position(it));
                 let mark = |position_m| Mark { time_s: change.time, position_m };
                 self.changes.extend(places.into_iter().flatten().take(1).map(mark));
             }
@@ -127,7 +127,7 @@ impl Course {
             Place::Gate(gate) => slow_lane(network, gate)?,
             Place::Inside(inner) => inner.chain,
         };
-        let lanelet = network.lanelet_at(chain, 0.0).0.id;
+        let lanelet = network.lanelet_at(Position::new(chain, 0.0)).0.id;
         Some(Course { lanelet, road: Road::from(network, chain, LONGEST_ROAD) })
     }
 }

@@ -57,7 +57,7 @@ impl Traffic {
             match event {
                 Event::Entered(id) => {
                     if let Some(trip) = world.trip(*id) {
-                        self.counts[network.chain(trip.from.0).lanelet(trip.from.1).0.at()].begun += 1;
+                        self.counts[network.chain(trip.from.chain).lanelet(trip.from.x).0.at()].begun += 1;
                     }
                 }
                 Event::Left { chain, motion, .. } => {
@@ -83,7 +83,7 @@ impl Traffic {
 
     /// Counts a lane change.
     fn change(&mut self, network: &Network, change: &LaneChange) {
-        let [from, to] = [change.from, change.to].map(|(chain, x)| network.chain(chain).lanelet(x).0.at());
+        let [from, to] = [change.from, change.to].map(|it| network.chain(it.chain).lanelet(it.x).0.at());
         let side = |it: Side| usize::from(it == Side::Right);
         self.counts[from].away[side(change.side)] += 1;
         self.counts[to].onto[side(change.side)] += 1;

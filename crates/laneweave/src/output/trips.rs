@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use laneweave_network::ChainIndex;
+use laneweave_network::Position;
 use laneweave_sim::{Event, TripRecord, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 use serde::{Deserialize, Serialize};
@@ -30,8 +30,8 @@ pub(super) struct End {
     pub(super) time: f64,
     /// After so long on the map [s].
     pub(super) duration: f64,
-    /// Where: chain and front bumper, which is at most at the end of the road [m].
-    pub(super) at: (ChainIndex, f64),
+    /// Where: its front bumper, which is at most at the end of the road.
+    pub(super) at: Position,
     /// At which speed [m/s].
     pub(super) speed: f64,
 }
@@ -78,7 +78,7 @@ impl Observer for Trips {
             if let Event::Left { duration, chain, motion, trip: Some(record), .. } = event {
                 // The last step may end beyond the road.
                 let x = motion.x.min(world.network().chain(*chain).length);
-                let (time, at) = (world.clock().time(), (*chain, x));
+                let (time, at) = (world.clock().time(), Position::new(*chain, x));
                 let end = End { time, duration: *duration, at, speed: motion.speed };
                 self.ended.push(Trip { record: *record, way: record.way(x), end: Some(end) });
             }

@@ -1,6 +1,6 @@
 //! From the demand of a scenario to that of the world.
 
-use laneweave_network::Network;
+use laneweave_network::{Network, Position};
 use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
 
 use super::turns::set_turns;
@@ -181,7 +181,7 @@ fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
     let of_place = |place: &Place| match place {
         Place::Gate(gate) => USUAL_DEMAND * gate.chains.len() as f64,
         Place::Inside(inner) => {
-            let (lanelet, _) = network.lanelet_at(inner.chain, inner.station);
+            let (lanelet, _) = network.lanelet_at(Position::new(inner.chain, inner.station));
             USUAL_STARTS * lanelet.length() / METRES_PER_KM
         }
     };

@@ -1,6 +1,6 @@
 //! Programs of lights as a scenario has them.
 
-use laneweave_network::{Extension, LightConflict, LightIndex, Network, SignalPlan, Turn};
+use laneweave_network::{Extension, LightConflict, LightIndex, Network, Position, SignalPlan, Turn};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -264,7 +264,7 @@ fn ways(network: &Network, conflict: &LightConflict) -> String {
     let zone = &network.junctions.zones[conflict.zone.at()];
     let lanelets = [conflict.side, 1 - conflict.side].map(|side| {
         let reach = &zone.sides[usize::from(side)];
-        network.lanelet_at(reach.chain, 0.5 * (reach.start + reach.end)).0.id
+        network.lanelet_at(Position::new(reach.chain, 0.5 * (reach.start + reach.end))).0.id
     });
     format!("lanelets {} and {} meet", lanelets[0], lanelets[1])
 }

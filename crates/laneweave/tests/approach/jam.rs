@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use laneweave::models::Style;
 use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
-use laneweave::network::ChainIndex;
+use laneweave::network::{ChainIndex, Position};
 use laneweave::sim::{
     Class, Demand, Event, Fleet, InnerPlace, NewVehicle, Place, Places, Setup, Share, VehicleId, World,
 };
@@ -109,7 +109,7 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
         }
         for event in world.events() {
             let Event::LaneChange(it) = event else { continue };
-            let is_before = approach.road(it.from.0, it.from.1).is_none();
+            let is_before = approach.road(it.from.chain, it.from.x).is_none();
             lane_changes += u32::from(it.is_completed && is_before && come.contains(&it.vehicle));
         }
     }
@@ -128,7 +128,7 @@ fn inner_places(approach: &Approach) -> Vec<Place> {
     let across = approach.lanes.iter().flat_map(|it| approach.across(*it));
     let inner = |chain: ChainIndex| {
         let station = approach.begin_of(Road::Straight, chain)?;
-        let (lanelet, _) = approach.network.lanelet_at(chain, station);
+        let (lanelet, _) = approach.network.lanelet_at(Position::new(chain, station));
         Some(Place::Inside(InnerPlace { id: lanelet.id, chain, station }))
     };
     across.filter_map(inner).collect()

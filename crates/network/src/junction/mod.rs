@@ -17,7 +17,7 @@ pub use signals::{Extension, LightConflict, SignalPlan, Turn};
 pub use zone::{Precedence, Reach, Touch, Zone, ZoneIndex, ZoneKind};
 
 use crate::build::Network;
-use crate::chain::ChainIndex;
+use crate::chain::{ChainIndex, Position};
 use crate::geometry::{Point, Polyline};
 use crate::lanelet::LaneletIndex;
 use kinship::Kinship;
@@ -224,19 +224,18 @@ impl Junctions {
     }
 
     fn place_stops(&mut self, network: &Network, regulations: &Regulations) {
-        let places = places(network);
         for (rules, number) in light::sharing(&regulations.stops).into_iter().zip(0..) {
             let id = rules.iter().map(|it| it.id).min().unwrap_or_default();
             self.lights.push(Light { id, program: Program::ALWAYS_GREEN });
             for rule in rules {
-                self.place(network, &places, rule, Sign::Light(LightIndex(number)));
+                self.place(network, rule, Sign::Light(LightIndex(number)));
             }
         }
         for rule in &regulations.stops {
             match rule.kind {
                 StopKind::Light => {}
-                StopKind::StopSign | StopKind::AllWayStop => self.place(network, &places, rule, Sign::Stop),
-                StopKind::Line => self.place(network, &places, rule, Sign::Line),
+                StopKind::StopSign | StopKind::AllWayStop => self.place(network, rule, Sign::Stop),
+                StopKind::Line => self.place(network, rule, Sign::Line),
             }
         }
         for chain in &mut self.chains {
@@ -288,9 +287,9 @@ impl Junctions {
         }
     }
 
-    fn place(&mut self, network: &Network, places: &[(ChainIndex, f64)], rule: &StopRule, sign: Sign) {
+    fn place(&mut self, network: &Network, rule: &StopRule, sign: Sign) {
         for lanelet in &rule.lanelets {
-            let (chain, start) = places[lanelet.at()];
+            let Position { chain, x: start } = network.start_of(*lanelet);
             let centre = &network.lanelets[lanelet.at()].centre;
             let along = rule.lines.iter().find_map(|line| centre.crossed_by(line));
             // A line before the lanelet is that of a lanelet within the junction.
@@ -304,17 +303,6 @@ impl Junctions {
 fn is_nearer_to_start(centre: &Polyline, line: &[Point]) -> bool {
     let nearest = |to: Point| line.iter().map(|it| it.distance(&to)).fold(f64::INFINITY, f64::min);
     nearest(centre.at(0.0)) < nearest(centre.at(centre.length()))
-}
-
-/// For each lanelet its chain, and where it starts there [m].
-fn places(network: &Network) -> Vec<(ChainIndex, f64)> {
-    let mut places = vec![(ChainIndex(0), 0.0); network.lanelets.len()];
-    for (index, chain) in network.chains.iter().enumerate() {
-        for (lanelet, start) in chain.lanelets.iter().zip(&chain.starts) {
-            places[lanelet.at()] = (ChainIndex(index as u32), *start);
-        }
-    }
-    places
 }
 
 /// The lanelets near a chain that decide by which rules its drivers go: its own and those that lead to it.

@@ -2,7 +2,7 @@
 //! other's way.
 
 use laneweave_network::{
-    DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, Side, ZoneKind,
+    DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side, ZoneKind,
 };
 
 /// Speed limit of all lanes [m/s].
@@ -153,6 +153,6 @@ fn a_way_that_leads_into_another_beside_a_strip_meets_that_way_alone() {
     let network = network(lanes);
     let [zone] = &network.junctions.zones[..] else { panic!("{:?}", network.junctions.zones) };
     assert!(matches!(zone.kind, ZoneKind::Merging(_)), "{zone:?}");
-    let lanelets = zone.sides.map(|it| network.lanelet_at(it.chain, it.end).0.id);
+    let lanelets = zone.sides.map(|it| network.lanelet_at(Position::new(it.chain, it.end)).0.id);
     assert_eq!(lanelets, [1, 4]);
 }

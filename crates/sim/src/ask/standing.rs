@@ -1,6 +1,6 @@
 //! Why a vehicle stands, or can hardly move: of all that its driver reacts to, the nearest.
 
-use laneweave_network::ChainIndex;
+use laneweave_network::Position;
 
 use crate::driver::accelerate::{lane_end, place_to_wait};
 use crate::driver::request_passage::surveyed;
@@ -31,7 +31,7 @@ pub enum StandsFor {
     /// It waits for its reservation before a conflict area.
     Junction {
         /// The chains that share the ground, and where on each that begins [m].
-        areas: Vec<[(ChainIndex, f64); 2]>,
+        areas: Vec<[Position; 2]>,
         /// Why it is not given.
         why: JunctionHindrance,
         /// Who holds the area, or waits longer for it.
@@ -119,7 +119,8 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
         Err(Hindrance::Others) => JunctionHindrance::Others,
     };
     let zones = &scene.network.junctions.zones;
-    let areas = survey.holds.iter().map(|it| zones[it.zone.at()].sides.map(|it| (it.chain, it.start)));
+    let areas =
+        survey.holds.iter().map(|it| zones[it.zone.at()].sides.map(|it| Position::new(it.chain, it.start)));
     let mut others: Vec<VehicleId> = Vec::new();
     for hold in &survey.holds {
         let holders = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);

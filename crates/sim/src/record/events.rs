@@ -1,7 +1,7 @@
 //! What happened in a step.
 
 use laneweave_models::change::Appraisal;
-use laneweave_network::{ChainIndex, Side};
+use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::record::incidents::Incident;
@@ -95,10 +95,10 @@ pub struct LaneChange {
     pub time: f64,
     /// Time from begin to end of the lateral motion [s].
     pub duration: f64,
-    /// Where from: chain and front bumper [m].
-    pub from: (ChainIndex, f64),
+    /// Where from: its front bumper.
+    pub from: Position,
     /// Where to.
-    pub to: (ChainIndex, f64),
+    pub to: Position,
     /// To which side.
     pub side: Side,
     /// Why.

@@ -1,6 +1,6 @@
 //! Incidents: two vehicles come to touch each other. Each is told once, for as long as they do.
 
-use laneweave_network::{ChainIndex, Point};
+use laneweave_network::{Point, Position};
 use serde::{Deserialize, Serialize};
 
 use crate::state::lane::VehicleId;
@@ -19,8 +19,8 @@ pub struct Incident {
     pub characters: [u32; 2],
     /// Their classes.
     pub classes: [Class; 2],
-    /// Chain and front bumper of each [m].
-    pub places: [(ChainIndex, f64); 2],
+    /// The front bumper of each.
+    pub places: [Position; 2],
     /// Halfway between their centres.
     pub at: Point,
     /// Their speeds [m/s].

@@ -6,7 +6,7 @@
 
 use std::collections::VecDeque;
 
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, Position};
 use serde::{Deserialize, Serialize};
 
 use crate::record::events::{DrivingEvent, DrivingEventKind};
@@ -31,8 +31,8 @@ pub struct TripRecord {
     pub arrived: f64,
     /// When it entered [s].
     pub entered: f64,
-    /// Where its front bumper was then: chain and station [m].
-    pub from: (ChainIndex, f64),
+    /// Where its front bumper was then.
+    pub from: Position,
     /// Its speed then [m/s].
     pub speed: f64,
     /// Time that its way takes on a free road at the speeds that the driver desires [s]; none without a destination.
@@ -64,7 +64,7 @@ impl TripRecord {
             destination: None,
             arrived: 0.0,
             entered: 0.0,
-            from: (ChainIndex(0), 0.0),
+            from: Position::new(ChainIndex(0), 0.0),
             speed: 0.0,
             free_time: None,
             way_to_start: 0.0,
@@ -105,7 +105,7 @@ impl Journal {
         let is_there = |it: u32| (it as usize) < records.len();
         slots.iter().all(|it| *it >= OVER || is_there(*it))
             && free.iter().all(|it| is_there(*it))
-            && records.iter().all(|it| it.from.0.at() < chains)
+            && records.iter().all(|it| it.from.chain.at() < chains)
     }
 
     /// Whether all who have come before the vehicle `next` have a slot, but for so many at most.
@@ -121,7 +121,7 @@ impl Journal {
 
     /// A trip begins.
     pub(crate) fn begin(&mut self, mut record: TripRecord) {
-        record.way_to_start = -record.from.1;
+        record.way_to_start = -record.from.x;
         let place = (record.vehicle - self.oldest) as usize;
         if place >= self.slots.len() {
             self.slots.resize(place + 1, AHEAD);
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
 
     fn record(vehicle: VehicleId, x: f64) -> TripRecord {
-        TripRecord { from: (ChainIndex(0), x), ..TripRecord::of(vehicle, Class::Car, 0) }
+        TripRecord { from: Position::new(ChainIndex(0), x), ..TripRecord::of(vehicle, Class::Car, 0) }
     }
 
     #[test]

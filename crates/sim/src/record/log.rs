@@ -1,6 +1,6 @@
 //! All that is remembered of a run.
 
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Network, Position};
 use serde::{Deserialize, Serialize};
 
 use crate::record::counts::Counts;
@@ -216,7 +216,8 @@ impl Log {
         record.is_completed = true;
         record.to = milestone.at;
         record.from = milestone.shadow.unwrap_or(milestone.at);
-        let LaneChange { kind, from: (from, x), to: (_, x_there), .. } = *record;
+        let LaneChange { kind, from: Position { chain: from, x }, to: Position { x: x_there, .. }, .. } =
+            *record;
         match kind {
             Kind::Discretionary => self.counts.discretionary_changes += 1,
             Kind::Route => self.counts.route_changes += 1,

@@ -1,7 +1,7 @@
 //! Overlaps: vehicles are kept apart by gaps along lanes and by reservations where lanes meet; whether they are, is
 //! seen by holding their rectangles against each other, whatever lanes they are in.
 
-use laneweave_network::{ChainIndex, Nearby, Pose, Side};
+use laneweave_network::{ChainIndex, Nearby, Pose, Position, Side};
 
 use crate::record::incidents::{Incident, IncidentKind};
 use crate::state::lane::Motion;
@@ -101,16 +101,16 @@ fn within(motions: &[Motion], [from, to]: [f64; 2]) -> std::ops::Range<usize> {
 fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
     let lane = &scene.lanes[spot.chain.at()];
     let (motion, mind) = (&lane.motions()[spot.index], &lane.minds()[spot.index]);
-    let own = [Some((spot.chain, motion.x)), mind.twin.map(|twin| (twin.chain, twin.x))];
-    let beside = |side, place: Option<(ChainIndex, f64)>| {
-        let (chain, x) = place?;
-        scene.network.chain(chain).beside(side, x).map(|it| (it.chain, it.across(x)))
+    let own = [Some(Position::new(spot.chain, motion.x)), mind.twin.map(|it| it.at())];
+    let beside = |side, place: Option<Position>| {
+        let Position { chain, x } = place?;
+        scene.network.chain(chain).beside(side, x).map(|it| Position::new(it.chain, it.across(x)))
     };
     let [left, right] = Side::BOTH.map(|side| own.map(|place| beside(side, place)));
     let places = [own[0], own[1], left[0], left[1], right[0], right[1]];
     for (number, place) in places.iter().enumerate() {
-        let Some((chain, x)) = *place else { continue };
-        if places[..number].iter().flatten().any(|(earlier, _)| *earlier == chain) {
+        let Some(Position { chain, x }) = *place else { continue };
+        if places[..number].iter().flatten().any(|it| it.chain == chain) {
             continue;
         }
         let motions = scene.motions(chain);
@@ -140,7 +140,7 @@ fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident
         vehicles: spots.map(|it| scene.motion(it).id),
         characters: spots.map(|it| scene.car(it).character),
         classes: spots.map(|it| scene.car(it).class),
-        places: spots.map(|it| (it.chain, scene.motion(it).x)),
+        places: spots.map(|it| Position::new(it.chain, scene.motion(it).x)),
         at: a.pose.at.midpoint(&b.pose.at),
         speeds: [a.speed, b.speed],
         depth,

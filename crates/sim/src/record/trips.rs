@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use laneweave_network::{Chain, ChainIndex, Network, Side};
+use laneweave_network::{Chain, ChainIndex, Network, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::route::navigate::Navigator;
@@ -108,16 +108,17 @@ impl Trips {
     }
 }
 
-/// Time [s] that a driver takes from `x` on `chain` to its destination on a free road, who drives at `speed` [m/s]
+/// Time [s] that a driver takes `from` a place to its destination on a free road, who drives at `speed` [m/s]
 /// under each limit and changes lanes where it last can. None without a destination, or a way to it.
 pub(crate) fn free_time(
     network: &Network,
     navigator: &Navigator,
     destination: Destination,
-    (mut chain, mut x): (ChainIndex, f64),
+    from: Position,
     speed: impl Fn(f64) -> f64,
 ) -> Option<f64> {
     destination?;
+    let Position { mut chain, mut x } = from;
     let mut time = 0.0;
     // No way passes a chain twice but for a detour at its beginning.
     for _ in 0..=2 * network.chains.len() {

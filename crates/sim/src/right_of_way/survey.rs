@@ -252,7 +252,7 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
     let from = applicant.from;
     let beyond = chain_at(scene, from, clear);
     (out.refuge, out.refuge_start) =
-        (Refuge::at(&scene.network.junctions, beyond.0, clear - beyond.1), beyond.1);
+        (Refuge::at(&scene.network.junctions, beyond.chain, clear - beyond.start), beyond.start);
     // Whose trip ends before the next place is behind others who stop there.
     let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
@@ -261,10 +261,10 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
     out.room = room(scene, from, Beyond { refuge: out.refuge, clear, limit, arrival });
 }
 
-/// The chain on the way on which the place `distance` ahead lies, and how far ahead its start is [m].
-fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> (ChainIndex, f64) {
+/// The chain on the way on which the place `distance` ahead lies [m].
+fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> Leg {
     let legs = scene.walk(from).take_while(|it| it.before.is_none() || it.start <= distance);
-    legs.last().map_or((from.chain, -from.x), |it| (it.chain, it.start))
+    legs.last().unwrap_or(Leg { chain: from.chain, start: -from.x, before: None })
 }
 
 /// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
@@ -288,11 +288,10 @@ pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spo
     std::iter::successors(Some(survey.refuge), next).take(MOST_CHAINS).any(|it| it == stands_on)
 }
 
-/// How far ahead the next place is, beyond `distance` but on the chain that starts so far ahead, where drivers may have
-/// to stop [m].
-fn next_place(scene: &Scene, (chain, start): (ChainIndex, f64), distance: f64, is_long: bool) -> f64 {
-    let places = scene.network.junctions.on(chain).places.iter();
-    let stops = places.filter(|it| concerns(it, is_long)).map(|it| start + Point::of(it, 0.0).stop);
+/// How far ahead the next place on `leg` is, beyond `distance`, where drivers may have to stop [m].
+fn next_place(scene: &Scene, leg: Leg, distance: f64, is_long: bool) -> f64 {
+    let places = scene.network.junctions.on(leg.chain).places.iter();
+    let stops = places.filter(|it| concerns(it, is_long)).map(|it| leg.start + Point::of(it, 0.0).stop);
     stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
 

@@ -4,7 +4,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use laneweave_network::{Beside, Chain, ChainIndex, Network, Side};
+use laneweave_network::{Beside, Chain, ChainIndex, Network, Position, Side};
 
 use crate::route::effort::Effort;
 use crate::route::links::Links;
@@ -357,7 +357,7 @@ type Rank = (i64, i64, i64);
 /// equal], then a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are
 /// stored.
 fn rank(network: &Network, waypoint: &Waypoint) -> Rank {
-    let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(it, 0.0).0.id);
+    let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(Position::new(it, 0.0)).0.id);
     ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)
 }
 

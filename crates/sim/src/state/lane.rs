@@ -6,7 +6,7 @@
 //! shadow in the other.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, Side};
+use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::state::goal::Goal;
@@ -163,6 +163,13 @@ pub struct Twin {
     pub stretch: f32,
 }
 
+impl Twin {
+    /// Where it stands.
+    pub(crate) fn at(&self) -> Position {
+        Position::new(self.chain, self.x)
+    }
+}
+
 /// Something that happened to a lane change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Milestone {
@@ -172,10 +179,10 @@ pub(crate) struct Milestone {
     pub(crate) record: u32,
     /// What.
     pub(crate) what: Reached,
-    /// The main entry's chain and front bumper.
-    pub(crate) at: (ChainIndex, f64),
+    /// The front bumper of its main entry.
+    pub(crate) at: Position,
     /// The shadow's.
-    pub(crate) shadow: Option<(ChainIndex, f64)>,
+    pub(crate) shadow: Option<Position>,
     /// Speed [m/s].
     pub(crate) speed: f64,
 }

@@ -8,7 +8,7 @@ use crate::state::clock::Clock;
 use crate::state::goal::TripEnd;
 use crate::state::lane::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
 use crate::view::pose::least_way;
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, Position};
 
 /// How fast a desired speed above a new, lower limit comes down [m/s²].
 const EASING: f64 = 1.5;
@@ -131,8 +131,8 @@ fn milestone(motion: &Motion, mind: &Mind, chain: ChainIndex, what: Reached) -> 
         id: motion.id,
         record: mind.record,
         what,
-        at: (chain, motion.x),
-        shadow: mind.twin.map(|twin| (twin.chain, twin.x)),
+        at: Position::new(chain, motion.x),
+        shadow: mind.twin.map(|it| it.at()),
         speed: motion.speed,
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Network, Position};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::demand::Demand;
@@ -164,7 +164,8 @@ impl World {
         vehicles.sort_by_key(Vehicle::id);
         let mut hash = Xxh3::new();
         for vehicle in vehicles {
-            let (lanelet, along) = self.roads.network().lanelet_at(vehicle.spot.chain, vehicle.x());
+            let (lanelet, along) =
+                self.roads.network().lanelet_at(Position::new(vehicle.spot.chain, vehicle.x()));
             hash.update(&vehicle.id().to_le_bytes());
             hash.update(&lanelet.id.to_le_bytes());
             hash.update(&along.to_bits().to_le_bytes());

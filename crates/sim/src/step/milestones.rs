@@ -5,6 +5,7 @@ use crate::route::roads::Roads;
 use crate::state::lane::{Milestone, Reached};
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
+use laneweave_network::Position;
 
 /// Notes what lane changes have reached, in an order that depends on vehicles only.
 pub(crate) fn note_milestones(roads: &Roads, traffic: &mut Traffic, log: &mut Log, work: &mut Work) {
@@ -20,7 +21,7 @@ pub(crate) fn note_milestones(roads: &Roads, traffic: &mut Traffic, log: &mut Lo
 
 /// After a change, or giving one up, there is no new voluntary one for a while.
 fn calm(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
-    let ((chain, x), clock) = (milestone.at, traffic.clock());
+    let (Position { chain, x }, clock) = (milestone.at, traffic.clock());
     let lane = traffic.lane_mut(chain);
     if let Some(index) = lane.find(milestone.id, x) {
         let car = lane.entry_mut(index).1;

@@ -13,6 +13,7 @@ use crate::state::setup::NewVehicle;
 use crate::state::traffic::Traffic;
 use crate::state::trail::Trail;
 use crate::step::world::World;
+use laneweave_network::Position;
 
 impl World {
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
@@ -64,11 +65,11 @@ pub(crate) fn put(
     let destination = navigator.seen_by(class, destination);
     let style = roads.style(character);
     let desires = |limit| class.desired_speed(style, limit);
-    let free_time = free_time(network, navigator, destination, (chain, x), desires);
+    let free_time = free_time(network, navigator, destination, Position::new(chain, x), desires);
     log.begin_trip(id, free_time, || TripRecord {
         arrived,
         entered: clock.time(),
-        from: (chain, x),
+        from: Position::new(chain, x),
         speed,
         destination: navigator.number(destination),
         free_time,

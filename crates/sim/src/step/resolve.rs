@@ -2,6 +2,7 @@
 //! want one gap exactly one goes, whoever asked first and on whichever thread.
 
 use laneweave_models::Concentration;
+use laneweave_network::Position;
 
 use crate::driver::attention::concentration;
 use crate::driver::gap::gap;
@@ -101,6 +102,7 @@ impl Granting<'_> {
         mind.kind = want.kind;
         mind.since = step;
         mind.urgency = request.urgency;
+        let here = Position::new(spot.chain, motion.x);
         mind.record = self.log.keep_change(LaneChange {
             vehicle: motion.id,
             character: car.character,
@@ -108,8 +110,8 @@ impl Granting<'_> {
             started: 0.0,
             time: 0.0,
             duration: 0.0,
-            from: (spot.chain, motion.x),
-            to: (spot.chain, motion.x),
+            from: here,
+            to: here,
             side: want.side,
             kind: want.kind,
             speed: motion.speed,

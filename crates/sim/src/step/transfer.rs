@@ -1,6 +1,6 @@
 //! Vehicles go on from chain to chain, and leave.
 
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, Position};
 
 use crate::driver::plan::Outbox;
 use crate::junction::state::JunctionState;
@@ -44,9 +44,9 @@ pub(crate) fn transfer(
 }
 
 /// Where an entry that passed the end of its chain stands now.
-fn place_beyond(roads: &Roads, from: ChainIndex, entry: &Entry) -> Option<(ChainIndex, f64)> {
+fn place_beyond(roads: &Roads, from: ChainIndex, entry: &Entry) -> Option<Position> {
     let next = roads.navigator().next(roads.network(), entry.car.goal.destination(), from)?;
-    Some((next, entry.motion.x - roads.network().chain(from).length))
+    Some(Position::new(next, entry.motion.x - roads.network().chain(from).length))
 }
 
 /// What a vehicle changes that passes the end of its chain.
@@ -68,27 +68,26 @@ impl Transfer<'_> {
         arrived.drain(..).for_each(|(chain, entry)| self.leave(chain, entry));
     }
 
-    fn go_on_or_leave(&mut self, from: ChainIndex, onto: Option<(ChainIndex, f64)>, entry: Entry) {
+    fn go_on_or_leave(&mut self, from: ChainIndex, onto: Option<Position>, entry: Entry) {
         match onto {
-            Some((next, _)) => self.go_on(from, next, entry),
+            Some(onto) => self.go_on(from, onto, entry),
             None => self.leave(from, entry),
         }
     }
 
-    fn go_on(&mut self, from: ChainIndex, next: ChainIndex, mut entry: Entry) {
+    fn go_on(&mut self, from: ChainIndex, onto: Position, mut entry: Entry) {
         let network = self.roads.network();
         if !entry.car.is_shadow {
             self.log.go_on(network, self.traffic.clock(), from, &entry);
         }
-        let length = network.chain(from).length;
-        entry.motion.x -= length;
-        entry.mind.last_place -= length;
+        entry.motion.x = onto.x;
+        entry.mind.last_place -= network.chain(from).length;
         entry.mind.trail = entry.mind.trail.left(from);
-        let limit = network.chain(next).limit(entry.motion.x);
+        let limit = network.chain(onto.chain).limit(onto.x);
         let style = self.roads.style(entry.car.character);
         entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
-        self.tell_twin(&entry, Some((next, entry.motion.x)));
-        self.traffic.insert(next, entry);
+        self.tell_twin(&entry, Some(onto));
+        self.traffic.insert(onto.chain, entry);
     }
 
     /// A main entry leaves the map; a shadow on a lane that ends is no longer needed.
@@ -111,7 +110,7 @@ impl Transfer<'_> {
                 id: motion.id,
                 record: mind.record,
                 what: if is_across { Reached::End } else { Reached::Nothing },
-                at: (from, motion.x),
+                at: Position::new(from, motion.x),
                 shadow: None,
                 speed: motion.speed,
             };
@@ -123,7 +122,7 @@ impl Transfer<'_> {
     }
 
     /// Tells the other entry of a vehicle where this one stands now.
-    fn tell_twin(&mut self, entry: &Entry, now: Option<(ChainIndex, f64)>) {
+    fn tell_twin(&mut self, entry: &Entry, now: Option<Position>) {
         let Some(twin) = entry.mind.twin else { return };
         let lane = self.traffic.lane_mut(twin.chain);
         if let Some(index) = lane.find(entry.motion.id, twin.x) {
@@ -134,7 +133,7 @@ impl Transfer<'_> {
 }
 
 /// The twin at its new place, if it still has one.
-fn relocated(twin: Option<Twin>, place: Option<(ChainIndex, f64)>) -> Option<Twin> {
-    let (chain, x) = place?;
+fn relocated(twin: Option<Twin>, place: Option<Position>) -> Option<Twin> {
+    let Position { chain, x } = place?;
     twin.map(|old| Twin { chain, x, ..old })
 }

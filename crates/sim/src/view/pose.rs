@@ -1,7 +1,7 @@
 //! Where a vehicle's body is. Computed when somebody asks.
 
 use laneweave_models::change::moved_share;
-use laneweave_network::{ChainIndex, Network, Point, Pose};
+use laneweave_network::{ChainIndex, Network, Point, Pose, Position};
 
 use crate::state::lane::{Entry, Motion};
 use crate::state::trail::Trail;
@@ -104,7 +104,7 @@ fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
             here.distance(&scene.network.chain(twin.chain).centre.at(twin.x))
         }
         None => {
-            let (lanelet, along) = scene.network.lanelet_at(chain, x);
+            let (lanelet, along) = scene.network.lanelet_at(Position::new(chain, x));
             lanelet.width(along)
         }
     }

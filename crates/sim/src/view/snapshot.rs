@@ -1,7 +1,7 @@
 //! A scene without a world: one instant of traffic from plain data, such as a recorded frame.
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network, Side};
+use laneweave_network::{ChainIndex, Network, Position, Side};
 
 use crate::junction::passages::{NO_PASSAGE, Passages};
 use crate::junction::signals::Signals;
@@ -47,8 +47,8 @@ pub struct Across {
     pub side: Side,
     /// Share of its time that has passed, 0…1.
     pub progress: f64,
-    /// The chain of the other of its two lanes, and where its front bumper is along that [m].
-    pub other: (ChainIndex, f64),
+    /// Where its front bumper is in the other of its two lanes.
+    pub other: Position,
 }
 
 /// One instant of traffic. A vehicle that changes lanes stands in both, as in a [`crate::World`].
@@ -71,7 +71,7 @@ impl Snapshot {
         for seen in vehicles {
             lanes[seen.chain.at()].insert(main_entry(network, &seen));
             if let Some(change) = seen.change {
-                lanes[change.other.0.at()].insert(shadow(network, &seen, &change));
+                lanes[change.other.chain.at()].insert(shadow(network, &seen, &change));
             }
         }
         let mut spots: Vec<(VehicleId, Spot)> = Vec::new();
@@ -131,7 +131,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         in_emergency: false,
         needs_full_update: false,
     };
-    let twin = |change: Across| Twin { chain: change.other.0, x: change.other.1, stretch: 1.0 };
+    let twin = |change: Across| Twin { chain: change.other.chain, x: change.other.x, stretch: 1.0 };
     let mind = Mind {
         side: seen.change.map_or(network.driving_side.overtaking(), |it| it.side),
         kind: Kind::Discretionary,
@@ -153,7 +153,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
 /// The entry in the other lane.
 fn shadow(network: &Network, seen: &Seen, change: &Across) -> Entry {
     let Entry { motion, car, mind } = main_entry(network, seen);
-    let (_, x) = change.other;
+    let x = change.other.x;
     Entry {
         motion: Motion { x, ..motion },
         car: Car { is_shadow: true, ..car },

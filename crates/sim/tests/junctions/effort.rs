@@ -2,7 +2,8 @@
 
 use laneweave_models::{Guidance, Style};
 use laneweave_network::{
-    ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, StopKind, StopRule,
+    ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations,
+    StopKind, StopRule,
 };
 use laneweave_sim::{Class, Effort, Navigator, NewVehicle};
 
@@ -74,7 +75,7 @@ fn fork() -> Network {
 
 fn chain_of(network: &Network, id: i64) -> ChainIndex {
     let mut chains = (0..network.chains.len() as u32).map(ChainIndex);
-    chains.find(|it| network.lanelet_at(*it, 0.0).0.id == id).expect("there is one")
+    chains.find(|it| network.lanelet_at(Position::new(*it, 0.0)).0.id == id).expect("there is one")
 }
 
 #[test]
@@ -107,7 +108,7 @@ fn chosen(guidance: Guidance) -> i64 {
         let me = world.vehicles().find(|it| it.id() == id).expect("it is on the road");
         let at = me.spot.chain;
         if at != first && at != last {
-            road = Some(world.network().lanelet_at(at, 0.0).0.id);
+            road = Some(world.network().lanelet_at(Position::new(at, 0.0)).0.id);
         }
         road.is_some()
     };

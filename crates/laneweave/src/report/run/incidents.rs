@@ -51,7 +51,7 @@ pub(super) fn table(run: &RunReport) -> Table {
 
 fn row(run: &RunReport, incident: &Incident) -> [String; 6] {
     let &Incident { kind, time, vehicles: [one, other], places, speeds, depth, .. } = incident;
-    let [here, there] = places.map(|(chain, x)| run.network.lanelet_at(chain, x).0.id);
+    let [here, there] = places.map(|it| run.network.lanelet_at(it).0.id);
     let [speed, other_speed] = speeds.map(|it| it * KMH_PER_MPS);
     [
         seconds(time).to_string(),

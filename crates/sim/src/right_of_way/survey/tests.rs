@@ -65,7 +65,11 @@ fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere
         let from = scene.viewpoint(spot);
         let last = refuges(&scene, from, &out).last().unwrap();
         surveyed += 1;
-        assert_eq!(last.chain, chain_at(&scene, from, out.extent).0, "{chain:?} at {x} m to {destination:?}");
+        assert_eq!(
+            last.chain,
+            chain_at(&scene, from, out.extent).chain,
+            "{chain:?} at {x} m to {destination:?}"
+        );
     }
     assert!(surveyed > 100, "{surveyed}");
 }

@@ -1,4 +1,4 @@
-use laneweave_network::DrivingSide;
+use laneweave_network::{DrivingSide, Position};
 
 use super::*;
 use crate::route::ways::tests::lanelet;
@@ -15,7 +15,7 @@ fn of_two_equal_ways_drivers_go_that_of_the_smaller_lanelet_id_however_chains_ar
         for network in [network(ids), network(ids).with_chains_reversed()] {
             let start = network.entrances[0].chains[0];
             let waypoint = *Navigator::new(&network).waypoint(Some(0), start);
-            assert_eq!(network.lanelet_at(waypoint.next.unwrap(), 0.0).0.id, 4);
+            assert_eq!(network.lanelet_at(Position::new(waypoint.next.unwrap(), 0.0)).0.id, 4);
             assert_eq!((waypoint.time, waypoint.distance, waypoint.changes), (30.0, 300.0, 0));
         }
     }

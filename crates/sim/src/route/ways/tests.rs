@@ -24,7 +24,7 @@ fn fork() -> Network {
 
 fn chain(network: &Network, id: i64) -> ChainIndex {
     let chains = (0..network.chains.len() as u32).map(ChainIndex);
-    chains.into_iter().find(|it| network.lanelet_at(*it, 0.0).0.id == id).unwrap()
+    chains.into_iter().find(|it| network.lanelet_at(Position::new(*it, 0.0)).0.id == id).unwrap()
 }
 
 /// The way over the fork, its time and that of the other one, when the chain of a lanelet takes another time than the
@@ -51,7 +51,7 @@ fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
     planner.retime(&mut table, &place);
     planner.note_alternatives(&mut table, Some(&best));
     let Waypoint { next, time, alternative, .. } = (if kept { table } else { best })[chain(&network, 1).at()];
-    (network.lanelet_at(next.unwrap(), 0.0).0.id, time, alternative)
+    (network.lanelet_at(Position::new(next.unwrap(), 0.0)).0.id, time, alternative)
 }
 
 #[test]
