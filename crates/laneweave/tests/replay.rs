@@ -3,7 +3,7 @@
 use laneweave::style::Population;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
-use laneweave_models::change::moved_share;
+use laneweave_models::lateral::moved_share;
 use laneweave_network::{ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Side};
 use laneweave_recordings::{
     Assumed, Extent, Matched, Recording, Replay, ReplayError, RoadUser, State, Track, extents, lane_changes,

@@ -10,6 +10,7 @@ pub mod change;
 mod exponential;
 pub mod follow;
 mod guidance;
+pub mod lateral;
 mod style;
 pub mod yielding;
 

@@ -6,6 +6,7 @@ use crate::attention::Attention;
 use crate::change::{LaneChangeModel, Safety};
 use crate::follow::FollowingModel;
 use crate::guidance::Guidance;
+use crate::lateral::LateralModel;
 use crate::yielding::Yielding;
 
 /// A driver's style.
@@ -50,6 +51,8 @@ fn as_the_limit() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Manner {
+    /// How a change moves sideways.
+    pub lateral: LateralModel,
     /// Time that a lane change takes [s].
     pub change_duration: f64,
     /// Time that it takes when it presses most [s].
@@ -71,6 +74,7 @@ pub struct Manner {
 impl Default for Manner {
     fn default() -> Manner {
         Manner {
+            lateral: LateralModel::default(),
             change_duration: 4.0,
             pressed_duration: 3.0,
             patience: 15.0,

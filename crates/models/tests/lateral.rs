@@ -1,6 +1,8 @@
 //! The way across, and how tight a driver is for a change's sake.
 
-use laneweave_models::change::{moved_share, peak_lateral_acceleration, peak_lateral_speed};
+use laneweave_models::lateral::{
+    Crossing, LateralModel, moved_share, peak_lateral_acceleration, peak_lateral_speed,
+};
 use laneweave_models::{Attention, Manner};
 
 #[track_caller]
@@ -45,6 +47,32 @@ fn v46_the_path_starts_and_ends_at_rest_and_crosses_halfway() {
     }
     // Neither lateral speed nor acceleration at the ends: y grows with the cube.
     assert_near(moved_share(1e-4), 1e-11, 1e-14);
+}
+
+#[test]
+fn every_lateral_model_goes_from_one_lane_to_the_other_and_crosses_halfway() {
+    for model in [LateralModel::Quintic] {
+        let shares: Vec<f64> = (0..=100).map(|it| model.moved_share(f64::from(it) / 100.0)).collect();
+        assert_eq!((shares[0], shares[50], shares[100]), (0.0, 0.5, 1.0), "{model:?}");
+        assert!(shares.is_sorted(), "{model:?}");
+        assert_eq!((model.moved_share(-0.2), model.moved_share(1.2)), (0.0, 1.0), "{model:?}");
+        let truck = Crossing { speed: 20.0, length: 12.0, duration: DURATION };
+        for progress in [0.0, 0.3, 0.5, 0.9, 1.0] {
+            let [front, rear] = model.bumpers(truck, progress);
+            assert!(front >= rear && (0.0..=1.0).contains(&front) && rear >= 0.0, "{model:?} at {progress}");
+        }
+    }
+}
+
+#[test]
+fn a_slow_vehicle_needs_way_not_time() {
+    let car = |speed| Crossing { speed, length: 4.5, duration: DURATION };
+    assert_eq!((car(20.0).way(), car(20.0).pace(), car(20.0).progress_in(0.1)), (80.0, 1.0, 0.1 / DURATION));
+    // 25 m at 5 m/s take 5 s.
+    assert_eq!((car(5.0).way(), car(5.0).pace()), (25.0, 0.8));
+    assert_near(car(5.0).progress_in(1.0), 0.2, 1e-12);
+    assert_eq!(car(0.0).pace(), 0.2);
+    assert_eq!(Crossing { length: 12.0, ..car(0.0) }.way(), 36.0);
 }
 
 /// T_max of the worked example [s].

@@ -6,7 +6,7 @@
 //! together do, to less than a tenth of a second under 10 cm of noise. A slow vehicle needs way, not time: where one
 //! drives below the speed at which the usual change takes the least way, t runs slower.
 
-use laneweave_models::change::moved_share;
+use laneweave_models::lateral::{Crossing, moved_share};
 use laneweave_network::{LaneletIndex, Point};
 
 use crate::changes::LaneChange;
@@ -35,13 +35,8 @@ impl Extent {
 const REACH: f64 = 10.0;
 /// No change is shorter [s].
 const SHORTEST: f64 = 1.0;
-/// What a change usually takes [s], and none is faster on the least way [m]; as simulated.
+/// What a change usually takes [s]; as simulated.
 const USUAL: f64 = 4.0;
-const LEAST_WAY: f64 = 25.0;
-/// The least way of a long vehicle, in its lengths.
-const LENGTHS: f64 = 3.0;
-/// Share of its usual pace at which a change goes on at standstill; as simulated.
-const SLOWEST: f64 = 0.2;
 /// How much it counts that drivers keep near the middle of their lanes, in states: positions are off by 0.1 m, drivers
 /// by 0.3 m.
 const KEEPING: f64 = 0.1;
@@ -105,12 +100,12 @@ impl Way {
         let towards = change.side.sign();
         let width = width(matched, change);
         let last = last_before(matched, change);
-        let usual = LEAST_WAY.max(LENGTHS * track.length) / USUAL;
         let mut seen: Vec<Sight> = Vec::new();
         for (at, (state, place)) in track.states.iter().zip(places).enumerate() {
             let time = state.frame as f64 * step;
             let Some(place) = place.filter(|_| (from..=until).contains(&time)) else { continue };
-            let pace = (smooth::speed(&track.states, at, SPEED_REACH, step) / usual).clamp(SLOWEST, 1.0);
+            let speed = smooth::speed(&track.states, at, SPEED_REACH, step);
+            let pace = Crossing { speed, length: track.length, duration: USUAL }.pace();
             let paced = seen.last().map_or(0.0, |it| it.paced + pace * (time - it.time));
             let crossed = if Some(at) <= last { 0.0 } else { width };
             seen.push(Sight { time, paced, aside: crossed + towards * place.offset });

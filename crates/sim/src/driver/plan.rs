@@ -1,7 +1,7 @@
 //! What drivers resolve to do in a step, written down on the snapshot and carried out afterwards.
 
 use laneweave_models::change::Appraisal;
-use laneweave_network::{ChainIndex, Side, ZoneIndex};
+use laneweave_network::{ChainIndex, Position, Side, ZoneIndex};
 use serde::{Deserialize, Serialize};
 
 use crate::junction::claim::Claim;
@@ -101,7 +101,7 @@ impl Outbox {
             DrivingEventKind::Halt | DrivingEventKind::SetOff { .. } => {}
         }
         let (motion, time) = (scene.motion(spot), clock.time());
-        let event = DrivingEvent { kind, vehicle: motion.id, time, chain: spot.chain, x: motion.x };
+        let event = DrivingEvent { kind, vehicle: motion.id, time, at: Position::new(spot.chain, motion.x) };
         self.driving.push(event);
     }
 

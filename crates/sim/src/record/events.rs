@@ -43,10 +43,8 @@ pub struct DrivingEvent {
     pub vehicle: VehicleId,
     /// When [s].
     pub time: f64,
-    /// Where: its chain.
-    pub chain: ChainIndex,
-    /// And its front bumper along that [m].
-    pub x: f64,
+    /// Where: its front bumper.
+    pub at: Position,
 }
 
 /// What happens to a vehicle on its way.

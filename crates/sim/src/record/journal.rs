@@ -205,7 +205,8 @@ mod tests {
     fn halts_and_the_time_at_rest_add_up() {
         let mut journal = Journal::default();
         journal.begin(record(0, 0.0));
-        let event = |kind| DrivingEvent { kind, vehicle: 0, time: 0.0, chain: ChainIndex(0), x: 0.0 };
+        let event =
+            |kind| DrivingEvent { kind, vehicle: 0, time: 0.0, at: Position::new(ChainIndex(0), 0.0) };
         for stood in [2.0, 3.5] {
             journal.note(&event(DrivingEventKind::Halt));
             journal.note(&event(DrivingEventKind::SetOff { stood }));

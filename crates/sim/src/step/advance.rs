@@ -7,13 +7,11 @@ use crate::junction::passages::NO_PASSAGE;
 use crate::state::clock::Clock;
 use crate::state::goal::TripEnd;
 use crate::state::lane::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
-use crate::view::pose::least_way;
+use crate::view::pose::crossing;
 use laneweave_network::{ChainIndex, Position};
 
 /// How fast a desired speed above a new, lower limit comes down [m/s²].
 const EASING: f64 = 1.5;
-/// Share of its usual pace at which a change goes on at standstill.
-const SLOWEST_SHARE: f64 = 0.2;
 
 /// Where vehicles go off a chain.
 #[derive(Clone, Copy)]
@@ -60,8 +58,8 @@ pub(crate) fn advance(
                 twin.x += upkeep.distance * f64::from(twin.stretch);
             }
             let manner = &characters[car.character as usize].manner;
-            let duration = manner.duration(f64::from(mind.urgency));
-            has_ended |= go_across(motion, car, mind, chain, clock, duration, outbox);
+            let step = crossing(manner, motion, mind).progress_in(clock.dt) as f32;
+            has_ended |= go_across(motion, car, mind, chain, clock, step, outbox);
         }
         if car.needs_full_update {
             mind.lets_in = Mind::NOBODY;
@@ -137,19 +135,16 @@ fn milestone(motion: &Motion, mind: &Mind, chain: ChainIndex, what: Reached) -> 
     }
 }
 
-/// A change goes on, or back. Both entries of a vehicle come to the same. Returns whether this entry has ended.
+/// A change goes on by `step` of its time, or back. Both entries of a vehicle come to the same. Returns whether this entry has ended.
 fn go_across(
     motion: &Motion,
     car: &mut Car,
     mind: &mut Mind,
     chain: ChainIndex,
     clock: Clock,
-    duration: f64,
+    step: f32,
     outbox: &mut Outbox,
 ) -> bool {
-    // A slow vehicle needs way, not time.
-    let pace = (motion.speed * duration / least_way(motion)).clamp(SLOWEST_SHARE, 1.0);
-    let step = (pace * clock.dt / duration) as f32;
     let was = mind.progress;
     match car.phase {
         Phase::Changes => {

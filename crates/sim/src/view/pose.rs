@@ -1,9 +1,10 @@
 //! Where a vehicle's body is. Computed when somebody asks.
 
-use laneweave_models::change::moved_share;
+use laneweave_models::Manner;
+use laneweave_models::lateral::Crossing;
 use laneweave_network::{ChainIndex, Network, Point, Pose, Position};
 
-use crate::state::lane::{Entry, Motion};
+use crate::state::lane::{Entry, Mind, Motion};
 use crate::state::trail::Trail;
 use crate::view::scene::{Scene, Spot};
 
@@ -79,20 +80,16 @@ fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
     if progress == 0.0 {
         return [0.0; 2];
     }
-    // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
     let manner = &scene.style_of(car).manner;
-    let duration = manner.duration(f64::from(mind.urgency));
-    let way = (motion.speed * duration).max(least_way(motion));
-    let half = 0.5 * f64::from(motion.length) / way * 4.0 * progress * (1.0 - progress);
-    let moved = [progress + half, progress - half].map(moved_share);
+    let moved = manner.lateral.bumpers(crossing(manner, motion, mind), progress);
     if mind.progress < 0.5 { moved } else { moved.map(|it| 1.0 - it) }
 }
 
-/// Shortest way on which a vehicle can change lanes [m].
-pub(crate) fn least_way(motion: &Motion) -> f64 {
-    const OF_A_SHORT_ONE: f64 = 25.0;
-    const LENGTHS: f64 = 3.0;
-    (LENGTHS * f64::from(motion.length)).max(OF_A_SHORT_ONE)
+/// The vehicle in its lane change, as the lateral model sees it.
+#[inline]
+pub(crate) fn crossing(manner: &Manner, motion: &Motion, mind: &Mind) -> Crossing {
+    let duration = manner.duration(f64::from(mind.urgency));
+    Crossing { speed: motion.speed, length: f64::from(motion.length), duration }
 }
 
 /// Distance between the centre lines of the two lanes [m].

@@ -1,0 +1,41 @@
+//! How a lane change moves a vehicle sideways: how fast the change goes on, and how far across the vehicle is by then.
+//!
+//! A lateral model says how far across a vehicle is after a share of the time of its change. How long that time is says
+//! the style ([`crate::Manner::duration`]); a slow vehicle needs more of it, whatever the model ([`Crossing`]).
+
+mod crossing;
+mod quintic;
+
+pub use crossing::Crossing;
+pub use quintic::{moved_share, peak_lateral_acceleration, peak_lateral_speed};
+
+use serde::{Deserialize, Serialize};
+
+/// A lateral model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LateralModel {
+    /// A quintic in time, without lateral speed and acceleration at both ends.
+    #[default]
+    Quintic,
+}
+
+impl LateralModel {
+    /// Share of the way across after the share `progress` of the time, both 0…1. Half of the way is done at half of the
+    /// time: then the vehicle's centre crosses the line.
+    #[inline]
+    pub fn moved_share(self, progress: f64) -> f64 {
+        match self {
+            LateralModel::Quintic => quintic::moved_share(progress),
+        }
+    }
+
+    /// Shares of the way across of the front and of the rear bumper after the share `progress` of the time. Both follow
+    /// one path, the rear bumper later, so that a long vehicle does not swing out.
+    #[inline]
+    pub fn bumpers(self, crossing: Crossing, progress: f64) -> [f64; 2] {
+        // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
+        let half = 0.5 * crossing.length / crossing.way() * 4.0 * progress * (1.0 - progress);
+        [progress + half, progress - half].map(|it| self.moved_share(it))
+    }
+}
