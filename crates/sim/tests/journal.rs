@@ -119,7 +119,7 @@ fn what_happens_on_the_way_is_told_with_who_where_and_when_as_often_as_it_is_cou
         for event in world.events() {
             let Event::Driving(event) = event else { continue };
             assert_eq!(event.time, before);
-            assert!((0.0..=world.network().chain(event.chain).length).contains(&event.x), "{event:?}");
+            assert!((0.0..=world.network().chain(event.at.chain).length).contains(&event.at.x), "{event:?}");
             match event.kind {
                 DrivingEventKind::Halt => assert!(stands.insert(event.vehicle), "{event:?}"),
                 DrivingEventKind::SetOff { stood } => assert!(stands.remove(&event.vehicle) && stood > 0.0),
