@@ -190,7 +190,7 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
             let scene = world.scene();
             for it in world.vehicles() {
                 let was = phases.insert(it.id(), it.car.phase);
-                let Some(twin) = it.mind.twin.filter(|_| was == Some(Phase::Wants)) else { continue };
+                let Some(twin) = it.mind.counterpart.filter(|_| was == Some(Phase::Wants)) else { continue };
                 let from = scene.viewpoint_at(scene.viewpoint(it.spot), twin.chain, twin.x);
                 let Some(found) = scene.follower(from).filter(|it| it.distance < NEAR) else { continue };
                 let (other, egoist) = (scene.motion(found.spot), it.car.character >= both.shares[1].first);

@@ -23,7 +23,7 @@ fn world() -> World {
 
 fn seen(vehicle: &Vehicle) -> Seen {
     let Vehicle { spot, motion, car, mind, .. } = vehicle;
-    let other = mind.twin.filter(|_| car.phase.is_between_lanes());
+    let other = mind.counterpart.filter(|_| car.phase.is_between_lanes());
     Seen {
         id: motion.id,
         chain: spot.chain,
@@ -35,10 +35,10 @@ fn seen(vehicle: &Vehicle) -> Seen {
         character: car.character,
         desired: f64::from(car.desired),
         destination: car.goal.destination(),
-        change: other.map(|twin| Across {
+        change: other.map(|counterpart| Across {
             side: mind.side,
             progress: f64::from(mind.progress),
-            other: Position::new(twin.chain, twin.x),
+            other: Position::new(counterpart.chain, counterpart.x),
         }),
     }
 }

@@ -123,7 +123,7 @@ fn who_cannot_enter_knows_why() {
     let before_a_full_town = held(world(streets(2), 8000.0));
     let of = |times: &[(Held, u32)], held| times.iter().find(|it| it.0 == held).unwrap().1;
     assert!(of(&on_motorway, Held::Traffic) > 300, "{on_motorway:?}");
-    assert_eq!(of(&on_motorway, Held::RedLight) + of(&on_motorway, Held::Room), 0, "{on_motorway:?}");
+    assert_eq!(of(&on_motorway, Held::RedLight) + of(&on_motorway, Held::Space), 0, "{on_motorway:?}");
     assert!(of(&before_lights, Held::RedLight) > 300, "{before_lights:?}");
     assert_eq!(of(&before_lights, Held::FullMap), 0, "{before_lights:?}");
     assert!(of(&before_a_full_town, Held::FullMap) > 300, "{before_a_full_town:?}");

@@ -1,7 +1,7 @@
 //! How full a town is, and its places inside the map.
 
 use laneweave_network::{ChainIndex, Light, Sign};
-use laneweave_sim::{Demand, InnerPlace, Metering, Place};
+use laneweave_sim::{Demand, InnerPlace, PerimeterControl, Place};
 
 use super::conflict::{Approach, approaches};
 use super::delay;
@@ -13,9 +13,9 @@ use super::{Bottleneck, Load, Roads, once};
 /// junctions, which grow with the flows.
 pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<Load> {
     const HALVINGS: u32 = 40;
-    let metering = Metering::new(roads.network)?;
-    let town = Town::new(roads, &metering, movements);
-    let is_full = |growth: f64| town.taken(growth) > metering.bearable();
+    let perimeter = PerimeterControl::new(roads.network)?;
+    let town = Town::new(roads, &perimeter, movements);
+    let is_full = |growth: f64| town.taken(growth) > perimeter.bearable();
     let (mut low, mut high) = (0.0, most);
     if !is_full(high) {
         return None;
@@ -47,10 +47,10 @@ struct Lit<'a> {
 }
 
 impl<'a> Town<'a> {
-    fn new(roads: &Roads<'a>, metering: &Metering, movements: &'a [Movement]) -> Town<'a> {
+    fn new(roads: &Roads<'a>, perimeter: &PerimeterControl, movements: &'a [Movement]) -> Town<'a> {
         let (mut driving, mut lit) = (0.0, Vec::new());
         let mut known: Vec<((usize, f64), f64)> = Vec::new();
-        for chain in roads.chains().filter(|it| metering.is_town(*it)) {
+        for chain in roads.chains().filter(|it| perimeter.is_core(*it)) {
             driving += driving_on(roads, chain);
             for stop in &roads.network.junctions.on(chain).stops {
                 let Sign::Light(light) = stop.sign else { continue };
@@ -63,8 +63,8 @@ impl<'a> Town<'a> {
             }
         }
         let mut approaches = approaches(roads.network, movements);
-        approaches.retain(|it| metering.is_town(it.chain));
-        let room = roads.mixture(1.0).mean_of(|length, _| Metering::taken_by(length));
+        approaches.retain(|it| perimeter.is_core(it.chain));
+        let room = roads.mixture(1.0).mean_of(|length, _| PerimeterControl::taken_by(length));
         Town { movements, driving, room, lit, approaches }
     }
 
@@ -92,7 +92,7 @@ fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     let parts = roads.assignment.on(chain).iter();
     let metres: f64 = parts.map(|it| it.flow * (it.to.min(here.length) - it.from)).sum();
     let mixture = roads.mixture(here.limit(0.0));
-    mixture.mean_of(|length, desired| Metering::taken_by(length) * metres / desired)
+    mixture.mean_of(|length, desired| PerimeterControl::taken_by(length) * metres / desired)
 }
 
 /// The loads of places inside the map: who starts from one makes room for the next.

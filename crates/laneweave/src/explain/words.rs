@@ -46,7 +46,7 @@ fn stays(account: &Account) -> String {
     if best.is_out_of_question {
         return format!(
             "stays: it changed, or gave a change up, and is calm for {:.1} s more",
-            account.calm_for
+            account.cooldown_left
         );
     }
     if best.appraisal.gain == f64::NEG_INFINITY {
@@ -161,7 +161,7 @@ fn because(hindrance: &Hindrance) -> String {
         Hindrance::Junction => {
             "it would not be over before a junction, or take room there that others need".into()
         }
-        Hindrance::InPassage => "it is on its way through a junction".into(),
+        Hindrance::InReservation => "it is on its way through a junction".into(),
         Hindrance::WantedBefore => "somebody at a junction waits longer for the room there".into(),
         Hindrance::Ahead(refusal, pair) => format!("the gap to the new leader {}", refused(*refusal, pair)),
         Hindrance::Behind(refusal, pair) => {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
-use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_between};
+use laneweave_sim::{Class, Motion, Phase, PreviousLanes, World, bumpers_in_lane, pose_between};
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
@@ -37,7 +37,7 @@ pub(super) struct Seen {
     pub(super) motion: Motion,
     pub(super) chain: ChainIndex,
     pub(super) character: u32,
-    trail: Trail,
+    previous_lanes: PreviousLanes,
     pub(super) class: Class,
     pub(super) phase: Phase,
 }
@@ -81,9 +81,10 @@ impl Frame {
                 across.push(Across { place: seen.len(), bumpers, offset });
             }
             // Whose rear is on its chain has nothing behind it.
-            let trail = if motion.rear() < 0.0 { vehicle.mind.trail } else { Trail::NONE };
+            let previous_lanes =
+                if motion.rear() < 0.0 { vehicle.mind.previous_lanes } else { PreviousLanes::NONE };
             let (chain, character) = (vehicle.spot.chain, car.character);
-            seen.push(Seen { motion, chain, character, trail, class: car.class, phase: car.phase });
+            seen.push(Seen { motion, chain, character, previous_lanes, class: car.class, phase: car.phase });
         });
         instants.push((world.clock().step, seen.len()));
     }
@@ -100,7 +101,7 @@ impl Frame {
             let (lanelet, along) = names.network.chain(it.chain).lanelet(it.motion.x);
             let (bumpers, offset) = match across.next_if(|it| it.place == place) {
                 Some(it) => (it.bumpers, it.offset),
-                None => (bumpers_in_lane(&names.network, it.chain, it.trail, &it.motion), 0.0),
+                None => (bumpers_in_lane(&names.network, it.chain, it.previous_lanes, &it.motion), 0.0),
             };
             Body { lanelet, along, offset, front: bumpers[0], pose: pose_between(bumpers) }
         }));

@@ -54,7 +54,7 @@ impl HeldFor {
             Held::Queue => &mut self.queue,
             Held::RedLight => &mut self.red_light,
             Held::Priority => &mut self.priority,
-            Held::Room => &mut self.room,
+            Held::Space => &mut self.room,
             Held::FullMap => &mut self.full_map,
         }
     }

@@ -68,7 +68,7 @@ fn assert_weighed_as_by_hand(twin: &Twin, account: &Account) {
     }
     let draw = Random::new(1).uniform(account.vehicle, Purpose::Desire, (account.time / DT).round() as u32);
     assert_eq!(account.draw, draw);
-    if account.calm_for == 0.0 && matches!(account.act, Act::Stays | Act::Wants(..)) {
+    if account.cooldown_left == 0.0 && matches!(account.act, Act::Stays | Act::Wants(..)) {
         let wanted = match account.act {
             Act::Wants(side, _) => Some(side),
             _ => None,

@@ -76,7 +76,7 @@ impl<'a> Twin<'a> {
                 urgency: f64::from(it.mind.urgency),
             };
             bodies.push(body);
-            bodies.extend(it.mind.twin.map(|twin| Body { lane: twin.chain.0, x: twin.x, ..body }));
+            bodies.extend(it.mind.counterpart.map(|twin| Body { lane: twin.chain.0, x: twin.x, ..body }));
         }
         let chains = &world.network().chains;
         Twin { world, lanes: chains.len() as u32, length: chains[0].length, bodies }

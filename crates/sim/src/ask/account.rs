@@ -37,7 +37,7 @@ pub struct Account<'a> {
     /// The sides to which it may change, that for overtaking first.
     pub sides: [Option<SideAccount<'a>>; 2],
     /// For so long it makes no voluntary change after the last one [s].
-    pub calm_for: f64,
+    pub cooldown_left: f64,
     /// Epochs that pass from one turn to the next.
     pub epochs: f64,
     /// It comes to the last place for a change that it has to make, which it then wants whatever it makes of it.
@@ -117,9 +117,9 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         let beside = scene.network.chain(spot.chain).beside(side, motion.x);
         beside.map_or(0, |it| scene.lanes[it.chain.at()].ahead_of(it.across(motion.x)))
     });
-    let outlook = look(&scene, moment, &me, &attending, &waypoint, &mut hints);
+    let perception = look(&scene, moment, &me, &attending, &waypoint, &mut hints);
     let mut sides = [overtaking, overtaking.opposite()].map(|side| {
-        let situation = outlook.situation(side, outlook.beside(side)?);
+        let situation = perception.situation(side, perception.beside(side)?);
         let appraisal = change.appraise(&situation);
         let is_out_of_question = is_out_of_question(car, moment, &situation);
         Some(SideAccount { side, situation, appraisal, chance: 0.0, is_out_of_question })
@@ -140,7 +140,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         has_last_chance: has_last_chance(&style.change, motion, &waypoint),
         change,
         sides,
-        calm_for: f64::from(car.calm_until.saturating_sub(clock.step)) * clock.dt,
+        cooldown_left: f64::from(car.cooldown_until.saturating_sub(clock.step)) * clock.dt,
         epochs: attending.epochs,
         draw: moment.random.uniform(motion.id, Purpose::Desire, clock.step),
         act: act(&scene, moment, spot),

@@ -3,7 +3,7 @@
 use laneweave_network::ChainIndex;
 
 use crate::demand::source::{Queue, Start};
-use crate::driver::request_passage::surveyed;
+use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
@@ -38,7 +38,7 @@ pub enum Held {
     /// They stand because others go first at a junction, or a sign stops them.
     Priority,
     /// They stand because there is no room beyond a junction; or the room at a place inside the map is kept for others.
-    Room,
+    Space,
     /// The whole map is full: no trip begins within it.
     FullMap,
 }
@@ -46,7 +46,7 @@ pub enum Held {
 impl Held {
     /// All of them.
     pub const ALL: [Held; 6] =
-        [Held::Traffic, Held::Queue, Held::RedLight, Held::Priority, Held::Room, Held::FullMap];
+        [Held::Traffic, Held::Queue, Held::RedLight, Held::Priority, Held::Space, Held::FullMap];
 }
 
 /// Slower than this a vehicle is part of a queue [m/s], and so near to the one ahead [m]; ours.
@@ -74,13 +74,13 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
     if first.is_through_town && world.arrivals().is_full() {
         return Some(Held::FullMap);
     }
-    if starts_from_rest && scene.passages.kept_on(queue.refuge(scene.network)) > 0.0 {
-        return Some(Held::Room);
+    if starts_from_rest && scene.reservations.kept_on(queue.section(scene.network)) > 0.0 {
+        return Some(Held::Space);
     }
     match entry(&scene, queue, first, world.clock(), &mut Survey::default()) {
         Entry::Refused(Hindrance::Light) => return Some(Held::RedLight),
         Entry::Refused(Hindrance::Sign | Hindrance::Others) => return Some(Held::Priority),
-        Entry::Refused(Hindrance::Room | Hindrance::Ring) => return Some(Held::Room),
+        Entry::Refused(Hindrance::Space | Hindrance::Roundabout) => return Some(Held::Space),
         Entry::Free | Entry::Reserved { .. } => {}
     }
     let from = scene.viewpoint_at(applicant(&scene, queue, first).from, queue.chain, queue.start.station());
@@ -102,7 +102,7 @@ fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
         Ok(()) => Held::Queue,
         Err(Hindrance::Light) => Held::RedLight,
         Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,
-        Err(Hindrance::Room | Hindrance::Ring) => Held::Room,
+        Err(Hindrance::Space | Hindrance::Roundabout) => Held::Space,
     }
 }
 

@@ -3,7 +3,7 @@
 use laneweave_network::Position;
 
 use crate::driver::accelerate::{lane_end, place_to_wait};
-use crate::driver::request_passage::surveyed;
+use crate::driver::request_reservation::surveyed;
 use crate::driver::window::Window;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
@@ -93,7 +93,7 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
 
 /// Why the driver at `spot` stops `stop` ahead [m] at a junction.
 fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> StandsFor {
-    let granted = scene.passage(spot).map_or(0.0, |it| it.left().max(0.0));
+    let granted = scene.reservation(spot).map_or(0.0, |it| it.left().max(0.0));
     let from = scene.viewpoint(spot);
     let ahead = stop_ahead(scene, from, granted, sight(scene.motion(spot).speed));
     if granted > stop || ahead.is_none() {
@@ -114,8 +114,8 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
             return light.map_or(StandsFor::Nothing, StandsFor::Light);
         }
         Err(Hindrance::Sign) => return StandsFor::StopSign,
-        Err(Hindrance::Room) => JunctionHindrance::Space,
-        Err(Hindrance::Ring) => JunctionHindrance::Roundabout,
+        Err(Hindrance::Space) => JunctionHindrance::Space,
+        Err(Hindrance::Roundabout) => JunctionHindrance::Roundabout,
         Err(Hindrance::Others) => JunctionHindrance::Others,
     };
     let zones = &scene.network.junctions.zones;
@@ -123,9 +123,9 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
         survey.holds.iter().map(|it| zones[it.zone.at()].sides.map(|it| Position::new(it.chain, it.start)));
     let mut others: Vec<VehicleId> = Vec::new();
     for hold in &survey.holds {
-        let holders = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+        let holders = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
         others.extend(holders.map(|(_, it)| it.vehicle));
-        others.extend(scene.passages.claim(hold.zone, 1 - hold.side).map(|it| it.claim.id));
+        others.extend(scene.reservations.priority(hold.zone, 1 - hold.side).map(|it| it.priority.id));
     }
     others.sort_unstable();
     others.dedup();
@@ -134,7 +134,7 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
 
 /// Those from other lanes who pass before the vehicle at `spot`, which has a reservation.
 fn before_it(scene: &Scene, spot: Spot) -> Vec<VehicleId> {
-    let (own, slot) = (scene.passage(spot), scene.mind(spot).passage);
+    let (own, slot) = (scene.reservation(spot), scene.mind(spot).reservation);
     let mut others: Vec<VehicleId> = Vec::new();
     if let Some(own) = own {
         others.extend(own.holds.iter().flat_map(|it| earlier(scene, own, slot, it)).map(|it| it.vehicle));

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::demand::Demand;
-use crate::demand::metering::Metering;
+use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::source::{Queue, Source};
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
@@ -24,7 +24,7 @@ pub(crate) struct Backlog {
     /// By origin of the demand.
     sources: Vec<Source>,
     /// Where roads lead in rings.
-    metering: Option<Metering>,
+    perimeter: Option<PerimeterControl>,
     next_id: VehicleId,
 }
 
@@ -32,7 +32,7 @@ impl Arrivals {
     /// Nobody has come yet.
     pub(crate) fn new(roads: &Roads, demand: Demand) -> Arrivals {
         let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
-        let backlog = Backlog { sources, metering: Metering::new(roads.network()), next_id: 0 };
+        let backlog = Backlog { sources, perimeter: PerimeterControl::new(roads.network()), next_id: 0 };
         Arrivals { demand, backlog }
     }
 
@@ -60,18 +60,18 @@ impl Arrivals {
 
     /// Whether the town is full: nobody begins a trip through it.
     pub(crate) fn is_full(&self) -> bool {
-        self.backlog.metering.as_ref().is_some_and(Metering::is_full)
+        self.backlog.perimeter.as_ref().is_some_and(PerimeterControl::is_full)
     }
 
     /// Measures how full the town is.
     pub(crate) fn measure(&mut self, lanes: &[Lane]) {
-        self.backlog.metering.iter_mut().for_each(|it| it.measure(lanes));
+        self.backlog.perimeter.iter_mut().for_each(|it| it.measure(lanes));
     }
 
     /// Those who come to an origin by `time` [s] queue up.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
-        let Arrivals { demand, backlog: Backlog { sources, metering, next_id } } = self;
-        sources[origin].arrive(scene, demand, metering.as_ref(), random, time, next_id);
+        let Arrivals { demand, backlog: Backlog { sources, perimeter, next_id } } = self;
+        sources[origin].arrive(scene, demand, perimeter.as_ref(), random, time, next_id);
     }
 
     /// Vehicles that wait to enter.
@@ -96,8 +96,8 @@ impl Arrivals {
 }
 
 impl Backlog {
-    /// Whether it is that of the same demand and roads as `other` at `clock`, for so many drivers, and for ways that are
-    /// known.
+    /// Whether it is that of the same demand and roads as `other` at `clock`, for so many drivers, and for ways that
+    /// are known.
     pub(crate) fn fits(
         &self,
         other: &Backlog,
@@ -105,15 +105,15 @@ impl Backlog {
         characters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Backlog { sources, metering, next_id: _ } = self;
-        let metering_fits = match (metering, &other.metering) {
+        let Backlog { sources, perimeter, next_id: _ } = self;
+        let perimeter_fits = match (perimeter, &other.perimeter) {
             (Some(one), Some(other)) => one.fits(other),
             (one, other) => one.is_none() && other.is_none(),
         };
         let source_fits = |(one, other): (&Source, &Source)| one.fits(other, clock, characters, &is_known);
         sources.len() == other.sources.len()
             && sources.iter().zip(&other.sources).all(source_fits)
-            && metering_fits
+            && perimeter_fits
     }
 
     /// The ids of those who wait to enter.

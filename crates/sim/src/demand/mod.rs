@@ -4,7 +4,7 @@ pub(crate) mod arrivals;
 pub(crate) mod assignment;
 pub(crate) mod error;
 pub(crate) mod headways;
-pub(crate) mod metering;
+pub(crate) mod perimeter_control;
 pub(crate) mod places;
 pub(crate) mod rate;
 pub(crate) mod source;

@@ -8,10 +8,10 @@ use laneweave_network::{ChainIndex, Gate, Network};
 use serde::{Deserialize, Serialize};
 
 use crate::demand::headways::Headways;
-use crate::demand::metering::Metering;
+use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::rate::Rate;
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
-use crate::junction::refuge::Refuge;
+use crate::junction::storage_section::StorageSection;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::waypoint::Waypoint;
@@ -84,8 +84,8 @@ pub(crate) enum Start {
 
 impl Queue {
     /// The stretch of its lane on which its vehicles start.
-    pub(crate) fn refuge(&self, network: &Network) -> Refuge {
-        Refuge::at(&network.junctions, self.chain, self.start.station())
+    pub(crate) fn section(&self, network: &Network) -> StorageSection {
+        StorageSection::at(&network.junctions, self.chain, self.start.station())
     }
 
     /// The place in the queue of the first who may enter, if the town `is_full` or not.
@@ -170,7 +170,7 @@ impl Source {
         &mut self,
         scene: &Scene,
         demand: &Demand,
-        metering: Option<&Metering>,
+        perimeter: Option<&PerimeterControl>,
         random: &Random,
         time: f64,
         next_id: &mut VehicleId,
@@ -188,8 +188,9 @@ impl Source {
             self.draw_next(stream, random);
             let lane = self.lane_for(scene, &arrival);
             let lane = &mut self.lanes[lane];
-            let is_on_way = |it: &Metering| it.is_on_way(scene.navigator, lane.chain, arrival.destination);
-            arrival.is_through_town = metering.is_some_and(is_on_way);
+            let is_on_way =
+                |it: &PerimeterControl| it.is_on_way(scene.navigator, lane.chain, arrival.destination);
+            arrival.is_through_town = perimeter.is_some_and(is_on_way);
             lane.waiting.push_back(arrival);
         }
     }

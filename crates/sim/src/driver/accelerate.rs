@@ -93,11 +93,11 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     if !scene.car(spot).phase.is_between_lanes() {
         return chosen;
     }
-    let Some(twin) = scene.mind(spot).twin else { return chosen };
+    let Some(counterpart) = scene.mind(spot).counterpart else { return chosen };
     let id = scene.motion(spot).id;
-    let Some(index) = scene.lanes[twin.chain.at()].find(id, twin.x) else { return chosen };
-    let lane_end = self::lane_end(scene, twin.chain);
-    let other = in_lane(scene, clock, Spot { chain: twin.chain, index }, lane_end);
+    let Some(index) = scene.lanes[counterpart.chain.at()].find(id, counterpart.x) else { return chosen };
+    let lane_end = self::lane_end(scene, counterpart.chain);
+    let other = in_lane(scene, clock, Spot { chain: counterpart.chain, index }, lane_end);
     Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
 }
 
@@ -326,7 +326,7 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }
     // Who is on its way through a junction waits for no gap there.
-    let may_wait = matches!(car.phase, Phase::Cruises | Phase::Wants) && scene.passage(spot).is_none();
+    let may_wait = matches!(car.phase, Phase::Cruises | Phase::Wants) && scene.reservation(spot).is_none();
     if mind.last_place.is_finite() && may_wait {
         acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
     }

@@ -3,7 +3,7 @@
 use laneweave_models::Guidance;
 use laneweave_network::{ChainIndex, Network};
 
-use crate::route::effort::Effort;
+use crate::route::disutility::Disutility;
 use crate::route::navigate::Navigator;
 use crate::state::goal::Destination;
 use crate::state::lane::VehicleId;
@@ -62,11 +62,17 @@ impl<'a> Beliefs<'a> {
     /// What the driver adds to the times of a way and of another one for what they ask of it from `x` on `chain` on
     /// [s].
     #[inline]
-    pub(crate) fn added(&self, network: &Network, chain: ChainIndex, x: f64, ways: [Effort; 2]) -> [f64; 2] {
+    pub(crate) fn added(
+        &self,
+        network: &Network,
+        chain: ChainIndex,
+        x: f64,
+        ways: [Disutility; 2],
+    ) -> [f64; 2] {
         if self.guidance.minds_time_only() {
             return [0.0; 2];
         }
-        let passed = Effort::until(network, chain, x);
+        let passed = Disutility::until(network, chain, x);
         ways.map(|it| it.beyond(passed)).map(|it| self.guidance.added(it.turns, it.lights))
     }
 }

@@ -3,9 +3,9 @@
 use laneweave_models::change::{Appraisal, LaneChangeModel, Situation};
 use laneweave_network::Side;
 
-use crate::driver::perceive::{Dismissed, Outlook};
+use crate::driver::perceive::{Dismissed, Perception};
 use crate::driver::plan::Want;
-use crate::record::signs::Sign;
+use crate::record::desire_situations::DesireSituation;
 use crate::record::tally::Tally;
 use crate::state::lane::{Car, Kind};
 use crate::state::moment::Moment;
@@ -25,20 +25,24 @@ pub(crate) struct Choice {
 
 impl Choice {
     /// What the driver makes of both sides, that for overtaking first.
-    pub(crate) fn both(outlook: &Outlook, moment: Moment, change: &LaneChangeModel) -> [Option<Choice>; 2] {
-        let of = |side| Choice::of(outlook, moment, change, side);
+    pub(crate) fn both(
+        perception: &Perception,
+        moment: Moment,
+        change: &LaneChangeModel,
+    ) -> [Option<Choice>; 2] {
+        let of = |side| Choice::of(perception, moment, change, side);
         [of(moment.overtaking), of(moment.overtaking.opposite())]
     }
 
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
-    fn of(outlook: &Outlook, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
-        let from = outlook.beside(side)?;
-        if is_calm(outlook.car(), moment) && outlook.here().route.changes == 0 {
+    fn of(perception: &Perception, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
+        let from = perception.beside(side)?;
+        if is_calm(perception.car(), moment) && perception.here().route.changes == 0 {
             return None;
         }
-        let situation = outlook.situation(side, from);
+        let situation = perception.situation(side, from);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
-        (!is_out_of_question(outlook.car(), moment, &situation)).then(|| {
+        (!is_out_of_question(perception.car(), moment, &situation)).then(|| {
             let appraisal = change.appraise(&situation);
             Choice {
                 side,
@@ -63,7 +67,7 @@ impl Choice {
 
 /// Soon after a change a driver makes no other by choice.
 fn is_calm(car: &Car, moment: Moment) -> bool {
-    moment.clock.step < car.calm_until
+    moment.clock.step < car.cooldown_until
 }
 
 /// A driver does not weigh a side soon after a change, unless that helps its route.
@@ -75,30 +79,30 @@ pub(crate) fn is_out_of_question(car: &Car, moment: Moment, situation: &Situatio
 /// `draw` was drawn.
 #[inline]
 pub(crate) fn desire(
-    outlook: &Outlook,
+    perception: &Perception,
     moment: Moment,
     change: &LaneChangeModel,
     epochs: f64,
     draw: f64,
     tally: &mut Tally,
 ) -> Option<Choice> {
-    let (desired, here) = (f64::from(outlook.car().desired), outlook.here().prospect);
+    let (desired, here) = (f64::from(perception.car().desired), perception.here().prospect);
     if let LaneChangeModel::Mcdm(model) = change
-        && moment.clock.step >= outlook.car().calm_until
-        && let Some(Dismissed { best_prospect }) = outlook.dismisses(model, change.reach(epochs, draw))
+        && moment.clock.step >= perception.car().cooldown_until
+        && let Some(Dismissed { best_prospect }) = perception.dismisses(model, change.reach(epochs, draw))
     {
         // Whether the lane beside is free, and not only its next leader far ahead, takes a longer look.
-        let sign = Sign::of(desired, here, best_prospect);
-        if sign != Some(Sign::HeldUp) {
-            tally.count_sign(sign, false);
+        let situation = DesireSituation::of(desired, here, best_prospect);
+        if situation != Some(DesireSituation::HeldUp) {
+            tally.count_desire(situation, false);
             return None;
         }
     }
-    let options = Choice::both(outlook, moment, change);
+    let options = Choice::both(perception, moment, change);
     let symmetric = options.iter().flatten().filter(|it| it.is_symmetric);
-    let sign = Sign::of(desired, here, symmetric.map(|it| it.prospect).reduce(f64::max));
+    let situation = DesireSituation::of(desired, here, symmetric.map(|it| it.prospect).reduce(f64::max));
     let drawn =
         change.drawn([&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal)), epochs, draw);
-    tally.count_sign(sign, drawn.is_some());
+    tally.count_desire(situation, drawn.is_some());
     drawn.and_then(|it| options.into_iter().nth(it)).flatten()
 }

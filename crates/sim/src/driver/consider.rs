@@ -10,7 +10,7 @@ use crate::driver::beliefs::Beliefs;
 use crate::driver::choice::{Choice, desire};
 use crate::driver::leave::departure;
 use crate::driver::me::{Attending, Me};
-use crate::driver::perceive::Outlook;
+use crate::driver::perceive::Perception;
 use crate::driver::plan::{Ask, Concern, Note, Outbox, Plan, Request};
 use crate::driver::stuck::is_stuck;
 use crate::driver::turn::next_turn;
@@ -63,9 +63,9 @@ pub(crate) fn consider(
         let gives_up = me.car.phase == Phase::Wants;
         return keep_in_mind(Concern { gives_up, ..concern }, me.car, plan);
     }
-    let outlook = look(scene, moment, &me, &attending, &waypoint, hints);
+    let perception = look(scene, moment, &me, &attending, &waypoint, hints);
     let change = attending.model(me.style);
-    if let Some(way) = departure(scene, moment, spot, &outlook, &change, attending.epochs) {
+    if let Some(way) = departure(scene, moment, spot, &perception, &change, attending.epochs) {
         if way.is_change {
             outbox.note(scene, moment.clock, spot, DrivingEventKind::RouteChange);
         }
@@ -73,9 +73,9 @@ pub(crate) fn consider(
         return push_tight(&mut plan.concerns, rerouted);
     }
     let concern = if me.car.phase == Phase::Wants {
-        want_on(moment, &me, &outlook, &change, is_last_chance, concern)
+        want_on(moment, &me, &perception, &change, is_last_chance, concern)
     } else {
-        choose(moment, &me, &outlook, &change, (attending.epochs, is_last_chance), outbox);
+        choose(moment, &me, &perception, &change, (attending.epochs, is_last_chance), outbox);
         concern
     };
     keep_in_mind(concern, me.car, plan);
@@ -142,7 +142,7 @@ fn follow_route(
     if !waypoint.leads_on(motion.x) {
         return concern;
     }
-    // Who passed the last place takes another route, if there is one; if not, it has a passage, and is re-routed
+    // Who passed the last place takes another route, if there is one; if not, it has a reservation, and is re-routed
     // beyond.
     if is_detour && me.mind.last_place < motion.x {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
@@ -165,22 +165,22 @@ pub(crate) fn look<'s, 'a>(
     attending: &Attending,
     waypoint: &Waypoint,
     hints: &mut [usize; 2],
-) -> Outlook<'s, 'a> {
+) -> Perception<'s, 'a> {
     let goal = me.car.goal.destination();
     let beliefs = Beliefs::of(&me.style.guidance, scene.navigator, moment.random, me.motion.id, goal);
-    Outlook::new(scene, me.spot, waypoint, attending.alertness.sight, beliefs, hints)
+    Perception::new(scene, me.spot, waypoint, attending.alertness.sight, beliefs, hints)
 }
 
 /// A driver who wants to change goes on wanting it, or gives it up.
 fn want_on(
     moment: Moment,
     me: &Me,
-    outlook: &Outlook,
+    perception: &Perception,
     change: &LaneChangeModel,
     is_last_chance: bool,
     concern: Concern,
 ) -> Concern {
-    let options = Choice::both(outlook, moment, change);
+    let options = Choice::both(perception, moment, change);
     let of = |side: Side| options.iter().flatten().find(|it| it.side == side);
     let [wanted, other] = [me.mind.side, me.mind.side.opposite()].map(of);
     let leads = |it: Option<&Choice>| is_last_chance && it.is_some_and(|it| it.helps_the_route);
@@ -194,19 +194,20 @@ fn want_on(
 fn choose(
     moment: Moment,
     me: &Me,
-    outlook: &Outlook,
+    perception: &Perception,
     change: &LaneChangeModel,
     (epochs, is_last_chance): (f64, bool),
     outbox: &mut Outbox,
 ) {
     let Me { spot, motion, .. } = *me;
     let draw = moment.random.uniform(motion.id, Purpose::Desire, moment.clock.step);
-    let needed = || Choice::both(outlook, moment, change).into_iter().flatten().find(|it| it.helps_the_route);
+    let needed =
+        || Choice::both(perception, moment, change).into_iter().flatten().find(|it| it.helps_the_route);
     let choice = is_last_chance.then(needed).flatten();
-    let choice = choice.or_else(|| desire(outlook, moment, change, epochs, draw, &mut outbox.tally));
+    let choice = choice.or_else(|| desire(perception, moment, change, epochs, draw, &mut outbox.tally));
     if let Some(choice) = choice {
         let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.pressure as f32);
-        let ask = Ask::Want(choice.want(outlook.here().prospect));
+        let ask = Ask::Want(choice.want(perception.here().prospect));
         outbox.requests.push(Request { urgency, id, chain, x, ask });
     }
 }
@@ -224,8 +225,9 @@ fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Opt
     } else {
         return None;
     };
-    // Who has a passage goes the way that it was given for; who drives as the road leads has no other goal to lose.
-    let is_free = goal.is_some() && !scene.has_passage(spot, f64::NEG_INFINITY);
+    // Who has a reservation goes the way that it was granted for; who drives as the road leads has no other goal to
+    // lose.
+    let is_free = goal.is_some() && !scene.has_reservation(spot, f64::NEG_INFINITY);
     (found != goal && is_free).then_some(found)
 }
 

@@ -49,7 +49,7 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
     let Some(gap) = gap(scene, spot, mind.side) else { return };
     match gap.taken(scene, spot, moment.clock) {
         Ok(()) => outbox.requests.push(request(Ask::Change)),
-        Err(Hindrance::InPassage | Hindrance::WantedBefore | Hindrance::NotAllowed) => {}
+        Err(Hindrance::InReservation | Hindrance::WantedBefore | Hindrance::NotAllowed) => {}
         Err(_) if f64::from(mind.urgency) < asks_from => {}
         Err(_) => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {
@@ -70,7 +70,7 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
 pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-    let Some(twin) = mind.twin.filter(|_| mind.progress < 0.5) else { return };
+    let Some(counterpart) = mind.counterpart.filter(|_| mind.progress < 0.5) else { return };
     // Back in a lane that ends it could no longer stop before that.
     let left = scene.network.chain(spot.chain).driven_until(car.class.is_long()) - motion.x;
     let ends_here = scene.network.chain(spot.chain).is_lane_drop;
@@ -81,7 +81,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     let forced = |from| {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };
-    let there = forced(scene.viewpoint_at(scene.viewpoint(spot), twin.chain, twin.x));
+    let there = forced(scene.viewpoint_at(scene.viewpoint(spot), counterpart.chain, counterpart.x));
     if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
         let ask = Ask::Abort;
         outbox.requests.push(Request {

@@ -4,7 +4,7 @@ use laneweave_network::ChainIndex;
 
 use crate::driver::accelerate::{Chosen, LaneEnd, OpenRoad, behind, lane_end, with_care};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
-use crate::junction::passages::NO_PASSAGE;
+use crate::junction::reservations::NO_RESERVATION;
 use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
 use crate::state::clock::Clock;
@@ -81,16 +81,16 @@ fn drive_with_care(
     if !car.only_follows() || in_emergency {
         let motion = scene.motion(spot);
         let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
-        let slot = scene.mind(spot).passage;
-        let passage_is_over = slot != NO_PASSAGE && scene.passages.of(slot, motion.id).is_none();
-        push_tight(&mut plan.upkeep, Upkeep { index, distance, in_emergency, passage_is_over });
+        let slot = scene.mind(spot).reservation;
+        let reservation_is_over = slot != NO_RESERVATION && scene.reservations.of(slot, motion.id).is_none();
+        push_tight(&mut plan.upkeep, Upkeep { index, distance, in_emergency, reservation_is_over });
     }
     if junction.asks {
         let id = scene.motion(spot).id;
         let since = plan.waited.iter().find(|it| it.id == id).map_or(clock.step, |it| it.since);
         plan.waiting.push(Waiting { index, id, since, is_held: junction.is_held });
     }
-    outbox.returns.extend(junction.gives_back.map(|from| (index, from)));
+    outbox.returns.extend(junction.revokes_from.map(|from| (index, from)));
     (acceleration, stretch(scene, spot))
 }
 

@@ -7,7 +7,7 @@ use laneweave_network::{ChainIndex, Side};
 use crate::driver::accelerate::{lane_end, stopping_way};
 use crate::driver::perceive::driver;
 use crate::driver::window;
-use crate::junction::refuge::Refuge;
+use crate::junction::storage_section::StorageSection;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::conditions::Asking;
 use crate::right_of_way::survey::is_place_ahead;
@@ -32,7 +32,7 @@ pub enum Hindrance {
     /// others.
     Junction,
     /// It is on its way through a junction, and keeps its lane.
-    InPassage,
+    InReservation,
     /// Somebody waits longer for the room in that lane.
     WantedBefore,
     /// The gap to the new leader.
@@ -202,10 +202,10 @@ impl Gap {
     /// # Errors
     /// Why not.
     pub(crate) fn taken(&self, scene: &Scene, spot: Spot, clock: Clock) -> Result<(), Hindrance> {
-        if scene.has_passage(spot, f64::NEG_INFINITY) {
-            return Err(Hindrance::InPassage);
+        if scene.has_reservation(spot, f64::NEG_INFINITY) {
+            return Err(Hindrance::InReservation);
         }
-        if self.is_wanted_before(scene, spot, clock) {
+        if self.is_requested_before(scene, spot, clock) {
             return Err(Hindrance::WantedBefore);
         }
         self.accepted(scene, spot, clock.dt)?;
@@ -213,10 +213,10 @@ impl Gap {
     }
 
     /// Whether somebody who waits before a junction for room on that stretch comes first to it.
-    fn is_wanted_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
-        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
-        let claim = Asking::of(&Applicant::at(scene, spot), scene.mind(spot).since, clock).claim;
-        scene.passages.wanted_before(refuge, claim) > 0.0
+    fn is_requested_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
+        let section = StorageSection::at(&scene.network.junctions, self.chain, self.x);
+        let priority = Asking::of(&Applicant::at(scene, spot), scene.mind(spot).since, clock).priority;
+        scene.reservations.requested_before(section, priority) > 0.0
     }
 
     /// The first behind who makes room by braking no harder than it does to let others in: those nearer drive past.
@@ -233,14 +233,14 @@ impl Gap {
             let is_beside = gap < room && motion.speed <= STANDSTILL;
             let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
             // Nobody may come before who has a reservation: it lets in nobody.
-            let is_free = !scene.has_passage(it.spot, gap);
+            let is_free = !scene.has_reservation(it.spot, gap);
             car.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle
         };
         std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
     }
 
     /// Whether the change, which takes `way` [m], is over before the next place where somebody may have to stop, and
-    /// nobody who has a passage already comes behind.
+    /// nobody who has a reservation already comes behind.
     fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
         /// Least way before such a place on which a lane is still changed, at walking speed [m].
         const LEAST: f64 = 15.0;
@@ -250,16 +250,17 @@ impl Gap {
         let here = scene.viewpoint(spot);
         let there = Viewpoint { chain: self.chain, x: self.x, ..here };
         let way = way.max(LEAST);
-        let has_passage = |it: &Found| scene.has_passage(it.spot, it.distance - f64::from(motion.length));
+        let has_reservation =
+            |it: &Found| scene.has_reservation(it.spot, it.distance - f64::from(motion.length));
         // Room that is kept for others beyond a junction stays theirs.
-        let refuge = Refuge::at(&scene.network.junctions, self.chain, self.x);
-        let kept = scene.passages.kept_on(refuge);
+        let section = StorageSection::at(&scene.network.junctions, self.chain, self.x);
+        let kept = scene.reservations.kept_on(section);
         let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
         let is_in_fork = self.x - f64::from(motion.length) < scene.network.chain(self.chain).fork_clearance;
         !takes_room
             && !is_in_fork
             && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
-            && !self.follower.as_ref().is_some_and(has_passage)
+            && !self.follower.as_ref().is_some_and(has_reservation)
     }
 
     /// The driver's pace with the time gap that it accepts for this change.

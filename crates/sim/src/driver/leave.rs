@@ -3,7 +3,7 @@
 use laneweave_models::change::LaneChangeModel;
 
 use crate::driver::beliefs::Beliefs;
-use crate::driver::perceive::Outlook;
+use crate::driver::perceive::Perception;
 use crate::state::goal::Destination;
 use crate::state::moment::Moment;
 use crate::state::random::Purpose;
@@ -30,13 +30,13 @@ pub(crate) fn departure(
     scene: &Scene,
     moment: Moment,
     spot: Spot,
-    outlook: &Outlook,
+    perception: &Perception,
     change: &LaneChangeModel,
     epochs: f64,
 ) -> Option<Departure> {
     let own = scene.car(spot).goal.destination();
     let new = scene.navigator.recommended(own)?;
-    towards(scene, moment, spot, [own, Some(new)], outlook, change, epochs)
+    towards(scene, moment, spot, [own, Some(new)], perception, change, epochs)
 }
 
 /// The same for a driver who is recommended another way than its own.
@@ -46,15 +46,15 @@ fn towards(
     moment: Moment,
     spot: Spot,
     [own, new]: [Destination; 2],
-    outlook: &Outlook,
+    perception: &Perception,
     change: &LaneChangeModel,
     epochs: f64,
 ) -> Option<Departure> {
     let departure = if !scene.navigator.is_usual(own) && goes_on_alike(scene, spot, [own, new]) {
         Departure { to: new, is_change: false }
     } else {
-        let Beliefs { band, .. } = outlook.beliefs();
-        let route = &outlook.here().route;
+        let Beliefs { band, .. } = perception.beliefs();
+        let route = &perception.here().route;
         let appraisal = change.appraise_leaving(route.onward, route.alternative?, band)?;
         let draw = moment.random.uniform(scene.motion(spot).id, Purpose::Route, moment.clock.step);
         change.drawn([Some(&appraisal), None], epochs, draw)?;
@@ -69,8 +69,8 @@ fn goes_on_alike(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     own.goes_like(new) && own.time == new.time
 }
 
-/// Who has a passage goes the way that it was given for; others could still stop before the ways part, and are in a
-/// lane that leads on over its end.
+/// Who has a reservation goes the way that it was granted for; others could still stop before the ways part, and are in
+/// a lane that leads on over its end.
 fn can_go_over(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     let Scene { network, navigator, .. } = scene;
     let motion = scene.motion(spot);
@@ -78,6 +78,6 @@ fn can_go_over(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     let [own, new] = ways.map(|it| navigator.waypoint(it, spot.chain));
     let is_in_lane = new.last_place > network.chain(spot.chain).length || new.goes_like(own);
     is_in_lane
-        && !scene.has_passage(spot, f64::NEG_INFINITY)
+        && !scene.has_reservation(spot, f64::NEG_INFINITY)
         && navigator.part_beyond(network, ways, spot.chain, motion.x, way)
 }

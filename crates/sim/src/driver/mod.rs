@@ -12,7 +12,7 @@ pub(crate) mod leave;
 pub(crate) mod me;
 pub(crate) mod perceive;
 pub(crate) mod plan;
-pub(crate) mod request_passage;
+pub(crate) mod request_reservation;
 pub(crate) mod stuck;
 pub(crate) mod turn;
 pub(crate) mod window;

@@ -29,8 +29,8 @@ pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation
     let waypoint = scene.navigator.waypoint_from(scene.network, destination, chain, x);
     let style = scene.style(me);
     let beliefs = Beliefs::settled(&style.guidance);
-    let outlook = Outlook::new(scene, me, &waypoint, SIGHT, beliefs, &mut hints);
-    Some(outlook.situation(side, outlook.beside(side)?))
+    let perception = Perception::new(scene, me, &waypoint, SIGHT, beliefs, &mut hints);
+    Some(perception.situation(side, perception.beside(side)?))
 }
 
 /// A driver with its vehicle.
@@ -50,7 +50,7 @@ pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
 }
 
 /// A driver's view of its own lane, from which it considers both sides.
-pub(crate) struct Outlook<'s, 'a> {
+pub(crate) struct Perception<'s, 'a> {
     scene: &'s Scene<'a>,
     car: &'a Car,
     me: Driver<'a>,
@@ -66,7 +66,7 @@ pub(crate) struct Outlook<'s, 'a> {
     beside: [Option<Viewpoint>; 2],
 }
 
-impl<'s, 'a> Outlook<'s, 'a> {
+impl<'s, 'a> Perception<'s, 'a> {
     /// Looks along the own lane of a driver whose waypoint is `waypoint`, and who sees `reach` [m] ahead. The first
     /// entries ahead in the lanes beside are sought from `hints` on, left and right, and kept in them.
     pub(crate) fn new(
@@ -76,7 +76,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
         reach: f64,
         beliefs: Beliefs<'a>,
         hints: &mut [usize; 2],
-    ) -> Outlook<'s, 'a> {
+    ) -> Perception<'s, 'a> {
         let me = driver(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length, reach);
@@ -94,7 +94,7 @@ impl<'s, 'a> Outlook<'s, 'a> {
             Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })
         });
         let goes_round = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
-        Outlook { scene, car: scene.car(spot), me, from, reach, beliefs, sight, here, goes_round, beside }
+        Perception { scene, car: scene.car(spot), me, from, reach, beliefs, sight, here, goes_round, beside }
     }
 
     /// The driver's own vehicle.
@@ -242,7 +242,7 @@ fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beli
     }
     let behind = scene.navigator.time_to(scene.network, from.chain, from.x);
     let alternative = Some(waypoint.alternative).filter(|it| it.is_finite());
-    let ways = [waypoint.effort, waypoint.alternative_effort];
+    let ways = [waypoint.disutility, waypoint.alternative_effort];
     let [added, added_beside] = beliefs.added(scene.network, from.chain, from.x, ways);
     RouteView {
         changes: waypoint.changes,

@@ -4,10 +4,10 @@ use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Position, Side, ZoneIndex};
 use serde::{Deserialize, Serialize};
 
-use crate::junction::claim::Claim;
-use crate::junction::claim::Turn;
 use crate::junction::need::Survey;
-use crate::junction::refuge::Refuge;
+use crate::junction::storage_section::StorageSection;
+use crate::junction::waiting::Turn;
+use crate::junction::waiting::WaitingPriority;
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::incidents::Incident;
 use crate::record::tally::Tally;
@@ -30,7 +30,7 @@ pub(crate) struct Plan {
     pub(crate) notes: Vec<Note>,
     /// What some of them keep in mind beside.
     pub(crate) concerns: Vec<Concern>,
-    /// Drivers who wait for their passage, now and in the step before.
+    /// Drivers who wait for their reservation, now and in the step before.
     pub(crate) waiting: Vec<Waiting>,
     pub(crate) waited: Vec<Waiting>,
     /// Distance that its vehicles have driven [m]: the only count that depends on the order in which it is added up.
@@ -62,20 +62,20 @@ pub(crate) struct Outbox {
     pub(crate) milestones: Vec<Milestone>,
     /// Entries that passed the ends of their chains.
     pub(crate) leaving: Vec<(ChainIndex, Entry)>,
-    /// How far the vehicles with a passage drove.
+    /// How far the vehicles with a reservation drove.
     pub(crate) progress: Vec<Progress>,
     /// What drivers ask for at junctions.
-    pub(crate) passage_requests: Vec<PassageRequest>,
+    pub(crate) reservation_requests: Vec<ReservationRequest>,
     /// Drivers who stand because there is no room for them beyond a junction.
-    pub(crate) blocked: Vec<PassageRequest>,
+    pub(crate) blocked: Vec<ReservationRequest>,
     /// Turns of those who wait for a side of a zone because of others.
-    pub(crate) claims: Vec<(ZoneIndex, u8, Turn)>,
-    /// Drivers out of patience who wait for so much room on a refuge [m].
-    pub(crate) wants: Vec<(Refuge, Claim, f64)>,
+    pub(crate) priorities: Vec<(ZoneIndex, u8, Turn)>,
+    /// Drivers out of patience who wait for so much room on a storage section [m].
+    pub(crate) space_requests: Vec<(StorageSection, WaitingPriority, f64)>,
     /// Drivers out of patience who wait for a ring to take them in, each between two chains.
-    pub(crate) rings: Vec<([ChainIndex; 2], Claim)>,
-    /// Room for the thread's work on one driver, and on one lane: drivers who give a passage back, and from where on;
-    /// entries whose trips ended.
+    pub(crate) roundabouts: Vec<([ChainIndex; 2], WaitingPriority)>,
+    /// Room for the thread's work on one driver, and on one lane: drivers who have a reservation revoked, and from
+    /// where on; entries whose trips ended.
     pub(crate) survey: Survey,
     pub(crate) returns: Vec<(u32, f64)>,
     pub(crate) ended: Vec<u32>,
@@ -111,11 +111,11 @@ impl Outbox {
         take_over(&mut self.milestones, &mut other.milestones);
         take_over(&mut self.leaving, &mut other.leaving);
         take_over(&mut self.progress, &mut other.progress);
-        take_over(&mut self.passage_requests, &mut other.passage_requests);
-        take_over(&mut self.claims, &mut other.claims);
+        take_over(&mut self.reservation_requests, &mut other.reservation_requests);
+        take_over(&mut self.priorities, &mut other.priorities);
         take_over(&mut self.blocked, &mut other.blocked);
-        take_over(&mut self.wants, &mut other.wants);
-        take_over(&mut self.rings, &mut other.rings);
+        take_over(&mut self.space_requests, &mut other.space_requests);
+        take_over(&mut self.roundabouts, &mut other.roundabouts);
         take_over(&mut self.driving, &mut other.driving);
         take_over(&mut self.arrived, &mut other.arrived);
         take_over(&mut self.incidents, &mut other.incidents);
@@ -139,11 +139,11 @@ pub(crate) struct Upkeep {
     pub(crate) distance: f64,
     /// Kinematics decided in the present braking.
     pub(crate) in_emergency: bool,
-    /// The passage that it had is over.
-    pub(crate) passage_is_over: bool,
+    /// The reservation that it had is over.
+    pub(crate) reservation_is_over: bool,
 }
 
-/// A driver who waits for its passage.
+/// A driver who waits for its reservation.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Waiting {
     /// Its entry.
@@ -156,10 +156,10 @@ pub(crate) struct Waiting {
     pub(crate) is_held: bool,
 }
 
-/// How far a vehicle with a passage drove.
+/// How far a vehicle with a reservation drove.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Progress {
-    /// Where the passage is kept.
+    /// Where the reservation is kept.
     pub(crate) slot: u32,
     /// Whose it is.
     pub(crate) id: VehicleId,
@@ -173,7 +173,7 @@ pub(crate) struct Progress {
 
 /// What a driver asks for at a junction.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PassageRequest {
+pub(crate) struct ReservationRequest {
     /// Step in which it first asked; who asked first comes first.
     pub(crate) since: u32,
     /// Who.
@@ -191,8 +191,8 @@ pub(crate) struct PassageRequest {
 pub(crate) enum RequestKind {
     /// To pass.
     Pass,
-    /// To give a passage back from this distance from its beginning on [m].
-    GiveBack(f64),
+    /// To have a reservation revoked from this distance from its beginning on [m].
+    Revoke(f64),
 }
 
 /// What every driver keeps in mind after considering lanes.

@@ -1,6 +1,6 @@
 //! Who is stuck: it has stood for long, and nothing that is bound to end holds it.
 
-use crate::driver::request_passage::surveyed;
+use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::look;
@@ -47,7 +47,8 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
 
 fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocker {
     let from = scene.viewpoint(at);
-    let is_let_go = || scene.passage(at).is_some_and(|it| it.left() > 0.0) && look(scene, at).stop.is_none();
+    let is_let_go =
+        || scene.reservation(at).is_some_and(|it| it.left() > 0.0) && look(scene, at).stop.is_none();
     let on_way = || match scene.leader_spot(from) {
         Some(leader) => Blocker::Vehicle(leader),
         None if is_let_go() => Blocker::Nothing,
@@ -61,7 +62,7 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
     }
     let applicant = Applicant::at(scene, at);
     match may_pass(scene, &applicant, survey, Asking::of(&applicant, clock.step, clock)) {
-        Err(Hindrance::Room | Hindrance::Ring) => on_way(),
+        Err(Hindrance::Space | Hindrance::Roundabout) => on_way(),
         Err(Hindrance::Light) => {
             let since = |it| f64::from(clock.step - scene.signals.green_at(it, clock)) * clock.dt;
             let was_green = survey.lights.iter().all(|(it, _)| since(*it) <= RECENTLY);

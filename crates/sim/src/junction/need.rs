@@ -1,14 +1,14 @@
-//! What passage a driver needs.
+//! What reservation a driver needs.
 
 use laneweave_network::{ChainIndex, LightIndex};
 
-use crate::junction::claim::Hold;
-use crate::junction::refuge::Refuge;
+use crate::junction::storage_section::StorageSection;
+use crate::junction::waiting::ZoneReservation;
 
 /// Room that a vehicle needs beyond the zones beside its length [m] (ours).
-pub(crate) const SPARE_ROOM: f64 = 2.0;
+pub(crate) const SPARE_SPACE: f64 = 2.0;
 
-/// What passage a driver needs. Distances are those from its front [m].
+/// What reservation a driver needs. Distances are those from its front [m].
 #[derive(Clone, Debug)]
 pub(crate) struct Survey {
     /// Where it stops without.
@@ -18,18 +18,18 @@ pub(crate) struct Survey {
     /// It has to stop first, whoever comes.
     pub(crate) has_stop_sign: bool,
     /// Sides of zones.
-    pub(crate) holds: Vec<Hold>,
+    pub(crate) holds: Vec<ZoneReservation>,
     /// Where its front has to get for the rear to be out of all zones, and for it to be past all lines that belong to
     /// them.
     pub(crate) extent: f64,
     /// Where it can stand then.
-    pub(crate) refuge: Refuge,
+    pub(crate) section: StorageSection,
     /// Where the chain of that begins.
-    pub(crate) refuge_start: f64,
+    pub(crate) section_start: f64,
     /// Room that it needs there.
     pub(crate) needed: f64,
     /// Room that there is.
-    pub(crate) room: f64,
+    pub(crate) space: f64,
     /// Room that there would be on an empty road.
     pub(crate) most: f64,
 }
@@ -42,10 +42,10 @@ impl Default for Survey {
             has_stop_sign: false,
             holds: Vec::new(),
             extent: 0.0,
-            refuge: Refuge::first_of(ChainIndex(0)),
-            refuge_start: 0.0,
+            section: StorageSection::first_of(ChainIndex(0)),
+            section_start: 0.0,
             needed: 0.0,
-            room: 0.0,
+            space: 0.0,
             most: 0.0,
         }
     }

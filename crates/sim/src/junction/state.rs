@@ -3,7 +3,7 @@
 use laneweave_network::Network;
 use serde::{Deserialize, Serialize};
 
-use crate::junction::passages::Passages;
+use crate::junction::reservations::Reservations;
 use crate::junction::signals::Signals;
 use crate::state::clock::Clock;
 use crate::state::lane::Lane;
@@ -11,25 +11,25 @@ use crate::state::lane::Lane;
 /// Who may pass them, and what their lights show.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct JunctionState {
-    passages: Passages,
+    reservations: Reservations,
     signals: Signals,
 }
 
 impl JunctionState {
     /// Nobody may pass those of `network` yet; the lights show what they do at `clock`.
     pub(crate) fn new(network: &Network, clock: Clock) -> JunctionState {
-        JunctionState { passages: Passages::new(network), signals: Signals::new(network, clock) }
+        JunctionState { reservations: Reservations::new(network), signals: Signals::new(network, clock) }
     }
 
     /// Who may pass.
     #[inline]
-    pub(crate) fn passages(&self) -> &Passages {
-        &self.passages
+    pub(crate) fn reservations(&self) -> &Reservations {
+        &self.reservations
     }
 
     /// The same, to change.
-    pub(crate) fn passages_mut(&mut self) -> &mut Passages {
-        &mut self.passages
+    pub(crate) fn reservations_mut(&mut self) -> &mut Reservations {
+        &mut self.reservations
     }
 
     /// What the lights show.
@@ -45,7 +45,7 @@ impl JunctionState {
 
     /// Whether it is that of the same network and programs as `other`, at `clock`.
     pub(crate) fn fits(&self, other: &JunctionState, clock: Clock) -> bool {
-        let JunctionState { passages, signals } = self;
-        signals.fits(&other.signals, clock) && passages.fits(&other.passages, signals.count(), clock)
+        let JunctionState { reservations, signals } = self;
+        signals.fits(&other.signals, clock) && reservations.fits(&other.reservations, signals.count(), clock)
     }
 }

@@ -5,7 +5,7 @@ use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::record::incidents::Incident;
-use crate::record::journal::TripRecord;
+use crate::record::trip_log::TripRecord;
 use crate::state::lane::{Kind, Motion, VehicleId};
 
 /// Something that happened in a step.

@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::record::counts::Counts;
 use crate::record::events::{DrivingEvent, DrivingEventKind, Event, LaneChange};
 use crate::record::incidents::{Incident, IncidentKind, Touching};
-use crate::record::journal::{Journal, TripRecord};
-use crate::record::ledger::{Ledger, Mark, Stay};
-use crate::record::records::Records;
+use crate::record::lane_changes::Records;
+use crate::record::lanelet_aggregates::{LaneletAggregates, Mark, Stay};
 use crate::record::tally::Tally;
+use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
 use crate::state::lane::{Entry, Kind, Lane, Milestone, Phase, Reached, VehicleId};
@@ -21,9 +21,9 @@ pub(crate) struct Log {
     records: Records,
     trips: Trips,
     /// Where trips are recorded.
-    journal: Option<Journal>,
+    trip_log: Option<TripLog>,
     /// There too, what happens on the lanelets.
-    ledger: Option<Ledger>,
+    aggregates: Option<LaneletAggregates>,
     /// What happened in the last step.
     #[serde(skip)]
     events: Vec<Event>,
@@ -38,8 +38,8 @@ pub(crate) struct Log {
 impl Log {
     /// Every trip is recorded from now on until it ends, and what vehicles do on every lanelet of `network`.
     pub(crate) fn record_trips(&mut self, network: &Network) {
-        self.journal = Some(Journal::default());
-        self.ledger = Some(Ledger::new(network));
+        self.trip_log = Some(TripLog::default());
+        self.aggregates = Some(LaneletAggregates::new(network));
     }
 
     /// Overlaps are looked for at every step from now on.
@@ -74,17 +74,17 @@ impl Log {
 
     /// Forgets what vehicles did on the lanelets.
     pub(crate) fn reset_stays(&mut self, network: &Network) {
-        self.ledger = self.ledger.as_ref().map(|_| Ledger::new(network));
+        self.aggregates = self.aggregates.as_ref().map(|_| LaneletAggregates::new(network));
     }
 
     /// The record of the trip of a vehicle on the road, where trips are recorded.
     pub(crate) fn trip(&self, id: VehicleId) -> Option<&TripRecord> {
-        self.journal.as_ref()?.of(id)
+        self.trip_log.as_ref()?.of(id)
     }
 
     /// The same, to change.
     pub(crate) fn trip_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
-        self.journal.as_mut()?.of_mut(id)
+        self.trip_log.as_mut()?.of_mut(id)
     }
 
     /// A vehicle came onto the road, whose trip takes `free_time` [s] on a free road. `record` makes its record, where
@@ -96,8 +96,8 @@ impl Log {
         record: impl FnOnce() -> TripRecord,
     ) {
         self.trips.begin(id, free_time);
-        if let Some(journal) = &mut self.journal {
-            journal.begin(record());
+        if let Some(trip_log) = &mut self.trip_log {
+            trip_log.begin(record());
         }
         self.counts.entered += 1;
     }
@@ -115,7 +115,7 @@ impl Log {
         if event.kind == DrivingEventKind::Halt {
             self.trips.stop(event.vehicle);
         }
-        self.journal.iter_mut().for_each(|it| it.note(&event));
+        self.trip_log.iter_mut().for_each(|it| it.note(&event));
         self.events.push(Event::Driving(event));
     }
 
@@ -137,7 +137,7 @@ impl Log {
         if motion.x > length {
             self.pass_end(network, from);
         }
-        let trip = self.journal.as_mut().and_then(|it| it.end(motion.id));
+        let trip = self.trip_log.as_mut().and_then(|it| it.end(motion.id));
         self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion, trip });
     }
 
@@ -155,29 +155,30 @@ impl Log {
     /// What a vehicle did on the chain `from` up to the first mark is put down, where trips are recorded; it goes on
     /// from the second.
     fn leave_chain(&mut self, network: &Network, id: VehicleId, from: ChainIndex, [there, on]: [Mark; 2]) {
-        let (Some(ledger), Some(journal)) = (&mut self.ledger, &mut self.journal) else { return };
-        if let Some(trip) = journal.of_mut(id) {
-            ledger.note(network.chain(from), [std::mem::replace(&mut trip.mark, on), there]);
+        let (Some(aggregates), Some(trip_log)) = (&mut self.aggregates, &mut self.trip_log) else { return };
+        if let Some(trip) = trip_log.of_mut(id) {
+            aggregates.note(network.chain(from), [std::mem::replace(&mut trip.mark, on), there]);
         }
     }
 
     fn pass_end(&mut self, network: &Network, chain: ChainIndex) {
-        self.ledger.iter_mut().for_each(|it| it.pass_end(network.chain(chain)));
+        self.aggregates.iter_mut().for_each(|it| it.pass_end(network.chain(chain)));
     }
 
     /// Puts down what vehicles did on the lanelets up to now, where trips are recorded.
     pub(crate) fn put_down(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
-        if let (Some(ledger), Some(journal)) = (&mut self.ledger, &mut self.journal) {
-            ledger.look(network, lanes, journal, clock);
+        if let (Some(aggregates), Some(trip_log)) = (&mut self.aggregates, &mut self.trip_log) {
+            aggregates.look(network, lanes, trip_log, clock);
         }
     }
 
     /// What vehicles did on each lanelet up to now, where trips are recorded. Nothing is put down: what is put down
     /// later does not depend on who asked.
     pub(crate) fn stays(&self, network: &Network, lanes: &[Lane], clock: Clock) -> Vec<Stay> {
-        let mut copy = Log { ledger: self.ledger.clone(), journal: self.journal.clone(), ..Log::default() };
+        let mut copy =
+            Log { aggregates: self.aggregates.clone(), trip_log: self.trip_log.clone(), ..Log::default() };
         copy.put_down(network, lanes, clock);
-        copy.ledger.filter(|_| copy.journal.is_some()).map_or_else(Vec::new, |it| it.stays)
+        copy.aggregates.filter(|_| copy.trip_log.is_some()).map_or_else(Vec::new, |it| it.stays)
     }
 
     /// Keeps the record of a lane change; returns where.
@@ -260,7 +261,8 @@ impl Log {
         *self = Log { is_audited: self.is_audited, ..saved };
     }
 
-    /// Whether it knows all who are on these lanes, and all who wait with the ids `waiting` can still begin their trips;
+    /// Whether it knows all who are on these lanes, and all who wait with the ids `waiting` can still begin their
+    /// trips;
     /// `next_id` has not come yet.
     pub(crate) fn fits(
         &self,
@@ -269,19 +271,20 @@ impl Log {
         waiting: &[VehicleId],
         next_id: VehicleId,
     ) -> bool {
-        let Log { records, trips, journal, ledger, events: _, touching: _, is_audited: _, counts: _ } = self;
+        let Log { records, trips, trip_log, aggregates, events: _, touching: _, is_audited: _, counts: _ } =
+            self;
         let knows =
-            |id: VehicleId| id < next_id && trips.has(id) && journal.as_ref().is_none_or(|it| it.has(id));
+            |id: VehicleId| id < next_id && trips.has(id) && trip_log.as_ref().is_none_or(|it| it.has(id));
         let lane_fits = |lane: &Lane| {
             let mut changes =
                 lane.cars().iter().zip(lane.minds()).filter(|(it, _)| it.phase != Phase::Cruises);
             lane.motions().iter().all(|it| knows(it.id)) && changes.all(|(_, it)| records.has(it.record))
         };
         let count = waiting.len();
-        let journal_fits = |it: &Journal| it.fits(network.chains.len()) && it.reaches(next_id, count);
+        let trip_log_fits = |it: &TripLog| it.fits(network.chains.len()) && it.reaches(next_id, count);
         records.is_sound()
-            && journal.as_ref().is_none_or(journal_fits)
-            && ledger.as_ref().is_none_or(|it| it.stays.len() == network.lanelets.len())
+            && trip_log.as_ref().is_none_or(trip_log_fits)
+            && aggregates.as_ref().is_none_or(|it| it.stays.len() == network.lanelets.len())
             && lanes.iter().all(lane_fits)
             && trips.reach(next_id, count)
             && waiting.iter().all(|it| *it < next_id && trips.can_begin(*it))

@@ -1,13 +1,13 @@
 //! What is remembered: events, trips, counts and incidents.
 
 pub(crate) mod counts;
+pub(crate) mod desire_situations;
 pub(crate) mod events;
 pub(crate) mod incidents;
-pub(crate) mod journal;
-pub(crate) mod ledger;
+pub(crate) mod lane_changes;
+pub(crate) mod lanelet_aggregates;
 pub(crate) mod log;
 pub(crate) mod overlap;
-pub(crate) mod records;
-pub(crate) mod signs;
 pub(crate) mod tally;
+pub(crate) mod trip_log;
 pub(crate) mod trips;

@@ -64,7 +64,8 @@ fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, o
         .map(|(back, on)| scene.network.chain(back).following.contains(&on));
     let is_apart = |here: usize, index: usize| {
         let follows = |on: ChainIndex, index: usize, back: ChainIndex| {
-            scene.minds(on)[index].trail.last() == Some(back) || scene.motions(on)[index].rear() >= 0.0
+            scene.minds(on)[index].previous_lanes.last() == Some(back)
+                || scene.motions(on)[index].rear() >= 0.0
         };
         let gap = |back: ChainIndex, ahead: &Motion, behind: &Motion| {
             scene.network.chain(back).length - behind.x + ahead.rear()
@@ -101,7 +102,7 @@ fn within(motions: &[Motion], [from, to]: [f64; 2]) -> std::ops::Range<usize> {
 fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
     let lane = &scene.lanes[spot.chain.at()];
     let (motion, mind) = (&lane.motions()[spot.index], &lane.minds()[spot.index]);
-    let own = [Some(Position::new(spot.chain, motion.x)), mind.twin.map(|it| it.at())];
+    let own = [Some(Position::new(spot.chain, motion.x)), mind.counterpart.map(|it| it.at())];
     let beside = |side, place: Option<Position>| {
         let Position { chain, x } = place?;
         scene.network.chain(chain).beside(side, x).map(|it| Position::new(it.chain, it.across(x)))
@@ -152,9 +153,9 @@ fn main_entry(scene: &Scene, spot: Spot) -> Option<Spot> {
     if !scene.car(spot).is_shadow {
         return Some(spot);
     }
-    let twin = scene.mind(spot).twin?;
-    let index = scene.lanes[twin.chain.at()].find(scene.motion(spot).id, twin.x)?;
-    Some(Spot { chain: twin.chain, index })
+    let counterpart = scene.mind(spot).counterpart?;
+    let index = scene.lanes[counterpart.chain.at()].find(scene.motion(spot).id, counterpart.x)?;
+    Some(Spot { chain: counterpart.chain, index })
 }
 
 /// A vehicle seen from above.

@@ -1,6 +1,6 @@
 //! Counts of a run.
 
-use crate::record::signs::Sign;
+use crate::record::desire_situations::DesireSituation;
 use serde::{Deserialize, Serialize};
 
 /// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on
@@ -41,11 +41,11 @@ pub struct Tally {
 impl Tally {
     /// Counts a consideration of a driver with `sign`, and whether the desire came.
     #[inline]
-    pub(crate) fn count_sign(&mut self, sign: Option<Sign>, has_come: bool) {
-        let (considerations, desires) = match sign {
+    pub(crate) fn count_desire(&mut self, situation: Option<DesireSituation>, has_come: bool) {
+        let (considerations, desires) = match situation {
             None => return,
-            Some(Sign::Free) => (&mut self.free_considerations, &mut self.free_desires),
-            Some(Sign::HeldUp) => (&mut self.held_up_considerations, &mut self.held_up_desires),
+            Some(DesireSituation::Free) => (&mut self.free_considerations, &mut self.free_desires),
+            Some(DesireSituation::HeldUp) => (&mut self.held_up_considerations, &mut self.held_up_desires),
         };
         *considerations += 1;
         *desires += u64::from(has_come);

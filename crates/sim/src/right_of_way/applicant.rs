@@ -4,7 +4,7 @@
 use laneweave_models::Style;
 use laneweave_models::yielding::time_to_cover;
 
-use crate::junction::passages::Passage;
+use crate::junction::reservations::Reservation;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
 /// Who asks to pass a junction.
@@ -21,7 +21,7 @@ pub(crate) struct Applicant<'a> {
     /// Its driver's style.
     pub(crate) style: &'a Style,
     /// What it has been given already.
-    pub(crate) passage: Option<&'a Passage>,
+    pub(crate) reservation: Option<&'a Reservation>,
 }
 
 impl<'a> Applicant<'a> {
@@ -35,7 +35,7 @@ impl<'a> Applicant<'a> {
             speed: motion.speed,
             desired: f64::from(car.desired),
             style: scene.style_of(car),
-            passage: scene.passages.of(scene.mind(spot).passage, motion.id),
+            reservation: scene.reservations.of(scene.mind(spot).reservation, motion.id),
         }
     }
 

@@ -3,8 +3,8 @@
 use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
 
-use crate::junction::claim::Hold;
-use crate::junction::passages::Passage;
+use crate::junction::reservations::Reservation;
+use crate::junction::waiting::ZoneReservation;
 use crate::right_of_way::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead, stops_before};
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;
@@ -16,7 +16,7 @@ pub(crate) const LONG: f64 = 7.0;
 /// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design
 /// of yellow times).
 pub const STOPS_AT_YELLOW: f64 = 3.0;
-/// Drivers ask for their passage so early that they need not brake harder than this [m/s²], and a time before [s]
+/// Drivers ask for their reservation so early that they need not brake harder than this [m/s²], and a time before [s]
 /// (ours).
 const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;
@@ -34,9 +34,9 @@ pub(crate) struct Junction {
     pub(crate) asks: bool,
     /// It does not go on at the light there as long as this shows what it shows.
     pub(crate) is_held: bool,
-    /// What it cannot use of its passage now, from so far beyond its beginning on [m]: a light that it meant to pass is
-    /// no longer green, and it can stop there; or somebody without a passage came before it, and it stands.
-    pub(crate) gives_back: Option<f64>,
+    /// What it cannot use of its reservation now, from so far beyond its beginning on [m]: a light that it meant to
+    /// pass is no longer green, and it can stop there; or somebody without a reservation came before it, and it stands.
+    pub(crate) revokes_from: Option<f64>,
 }
 
 /// How far ahead a driver at `speed` [m/s] reacts to junctions [m].
@@ -45,11 +45,11 @@ pub(crate) fn sight(speed: f64) -> f64 {
     speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
 }
 
-/// Whether the driver at `spot` is far from all junctions and has no passage: there is nothing to react to.
+/// Whether the driver at `spot` is far from all junctions and has no reservation: there is nothing to react to.
 #[inline]
 pub(crate) fn is_nothing_near(scene: &Scene, spot: Spot) -> bool {
     let until = sight(scene.motion(spot).speed);
-    is_far(scene, scene.viewpoint(spot), until) && scene.passage(spot).is_none()
+    is_far(scene, scene.viewpoint(spot), until) && scene.reservation(spot).is_none()
 }
 
 /// What the driver at `spot` reacts to.
@@ -67,12 +67,13 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let (motion, car) = (scene.motion(spot), scene.car(spot));
     let mut junction = Junction::default();
     let mut granted = 0.0;
-    if let Some(passage) = scene.passage(spot) {
-        yield_to_earlier(scene, passage, scene.mind(spot).passage, &mut junction);
-        junction.gives_back = to_give_back(scene, passage, motion.speed)
-            .or_else(|| if motion.speed < STANDSTILL { cut_off_from(scene, spot, passage) } else { None });
+    if let Some(reservation) = scene.reservation(spot) {
+        yield_to_earlier(scene, reservation, scene.mind(spot).reservation, &mut junction);
+        junction.revokes_from = to_revoke(scene, reservation, motion.speed).or_else(|| {
+            if motion.speed < STANDSTILL { cut_off_from(scene, spot, reservation) } else { None }
+        });
         // What is given back is not used any more from now on.
-        let left = junction.gives_back.map_or(passage.left(), |from| from - passage.travelled);
+        let left = junction.revokes_from.map_or(reservation.left(), |from| from - reservation.travelled);
         granted = left.max(0.0);
     }
     if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
@@ -82,7 +83,7 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         let is_settled = !car.is_shadow && !car.phase.is_between_lanes();
         // Who has others before it that have to stop waits until they are let go.
         let is_first = || !stops_before(scene, scene.viewpoint(spot), stop);
-        junction.asks = keeps_lane && is_settled && junction.gives_back.is_none() && is_first();
+        junction.asks = keeps_lane && is_settled && junction.revokes_from.is_none() && is_first();
         junction.is_held =
             matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
     }
@@ -98,37 +99,38 @@ pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> 
     }
 }
 
-/// Those on the other side of a zone that the `passage` in `slot` holds who go before it.
+/// Those on the other side of a zone that the reservation in `slot` holds who go before it.
 pub(crate) fn earlier<'a>(
     scene: &'a Scene,
-    passage: &'a Passage,
+    reservation: &'a Reservation,
     slot: u32,
-    hold: &Hold,
-) -> impl Iterator<Item = &'a Passage> {
+    hold: &ZoneReservation,
+) -> impl Iterator<Item = &'a Reservation> {
     let (side, touch) = (hold.side, scene.network.junctions.zones[hold.zone.at()].touch);
-    let matters = move |other: &Passage| touch.is_of([passage.length, other.length].map(|it| it >= LONG));
+    let matters =
+        move |other: &Reservation| touch.is_of([reservation.length, other.length].map(|it| it >= LONG));
     let before =
-        scene.passages.order(hold.zone).take_while(move |(it, _)| it.slot != slot || it.side != side);
+        scene.reservations.order(hold.zone).take_while(move |(it, _)| it.slot != slot || it.side != side);
     let others = before.filter(move |(it, other)| it.side != side && it.slot != slot && matters(other));
     others.map(|(_, other)| other)
 }
 
 /// Yields to those who go before it through a zone.
-fn yield_to_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut Junction) {
-    for hold in &passage.holds {
+fn yield_to_earlier(scene: &Scene, reservation: &Reservation, slot: u32, junction: &mut Junction) {
+    for hold in &reservation.holds {
         let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
-        let mut others = earlier(scene, passage, slot, hold);
+        let mut others = earlier(scene, reservation, slot, hold);
         match kind {
             ZoneKind::Merging(_) => {
                 if let Some(other) = others.last() {
-                    let ahead = leader_into(hold.leave - passage.travelled, hold, other);
+                    let ahead = leader_into(hold.leave - reservation.travelled, hold, other);
                     let is_nearer =
                         junction.leader.is_none_or(|it| ahead.is_some_and(|new| new.gap < it.gap));
                     junction.leader = if is_nearer { ahead.or(junction.leader) } else { junction.leader };
                 }
             }
             ZoneKind::Crossing => {
-                let distance = hold.enter - passage.travelled;
+                let distance = hold.enter - reservation.travelled;
                 if distance > 0.0 && others.next().is_some() {
                     let stop = distance - BEFORE_A_ZONE;
                     junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
@@ -140,35 +142,35 @@ fn yield_to_earlier(scene: &Scene, passage: &Passage, slot: u32, junction: &mut 
 
 /// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road
 /// its speed is seen, and not whether it changes (ours).
-pub(crate) fn leader_into(to_merge: f64, hold: &Hold, other: &Passage) -> Option<Ahead> {
+pub(crate) fn leader_into(to_merge: f64, hold: &ZoneReservation, other: &Reservation) -> Option<Ahead> {
     let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead::steady(gap, other.speed))
 }
 
-/// From where on, along the `passage` of the driver at `spot`, somebody is in its way who has none, as who changed into
-/// its lane before it: whom it lets go first could wait for others, and they for it [m].
-fn cut_off_from(scene: &Scene, spot: Spot, passage: &Passage) -> Option<f64> {
+/// From where on, along the reservation of the driver at `spot`, somebody is in its way who has none, as who changed
+/// into its lane before it: whom it lets go first could wait for others, and they for it [m].
+fn cut_off_from(scene: &Scene, spot: Spot, reservation: &Reservation) -> Option<f64> {
     let from = scene.viewpoint(spot);
     let leader =
-        scene.leader_spot(from).filter(|it| scene.passage(*it).is_none_or(|own| own.left() <= 0.0))?;
+        scene.leader_spot(from).filter(|it| scene.reservation(*it).is_none_or(|own| own.left() <= 0.0))?;
     let gap = scene.ahead(from)?.gap;
     let until = parts(scene, from, leader, gap - scene.motion(leader).rear());
-    let zones = passage.holds.iter().map(|it| it.enter - passage.travelled);
+    let zones = reservation.holds.iter().map(|it| it.enter - reservation.travelled);
     let next = zones.filter(|it| *it > gap.max(0.0)).fold(f64::INFINITY, f64::min);
-    (next < f64::INFINITY && gap < until).then_some(passage.travelled + gap.max(0.0))
+    (next < f64::INFINITY && gap < until).then_some(reservation.travelled + gap.max(0.0))
 }
 
-/// Where a driver stops, from the beginning of its passage on [m], for the first light ahead that is no longer green if
-/// it can do so with comfort and outside of all zones.
-fn to_give_back(scene: &Scene, passage: &Passage, speed: f64) -> Option<f64> {
+/// Where a driver stops, from the beginning of its reservation on [m], for the first light ahead that is no longer
+/// green if it can do so with comfort and outside of all zones.
+fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64> {
     let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
-    let (_, at) = passage.lights().find(is_red)?;
-    let line = passage.travelled + at;
-    let zone = passage.zone_over(line);
+    let (_, at) = reservation.lights().find(is_red)?;
+    let line = reservation.travelled + at;
+    let zone = reservation.zone_over(line);
     let from = zone.map_or(line, |it| it.min(line));
-    let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - passage.travelled;
-    (from > passage.travelled && stops_gently(speed, stop)).then_some(from)
+    let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - reservation.travelled;
+    (from > reservation.travelled && stops_gently(speed, stop)).then_some(from)
 }
 
 /// Whether a driver at `speed` [m/s] can stop where one stops for a place `at` metres ahead without hard braking.

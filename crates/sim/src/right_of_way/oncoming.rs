@@ -12,8 +12,8 @@ const MOST_CHAINS: usize = 24;
 /// Who stands, slower than this [m/s], claims its turn where it has one; nobody need wait for it to start.
 const STANDS: f64 = 0.5;
 
-/// Least time [s] in which somebody who has no passage there arrives at the stretch `reach`, a side of `zone`; infinite
-/// if nobody is in sight.
+/// Least time [s] in which somebody who has no reservation there arrives at the stretch `reach`, a side of `zone`;
+/// infinite if nobody is in sight.
 pub(crate) fn lag(scene: &Scene, zone: ZoneIndex, reach: &Reach) -> f64 {
     let mut open: [(ChainIndex, f64, f64); MOST_CHAINS] = [(reach.chain, reach.start, 0.0); MOST_CHAINS];
     let (mut at, mut count) = (0, 1);
@@ -67,8 +67,8 @@ fn red_before(scene: &Scene, chain: ChainIndex, end: f64) -> Option<f64> {
 }
 
 fn holds(scene: &Scene, spot: Spot, zone: ZoneIndex) -> bool {
-    let passage = scene.passages.of(scene.mind(spot).passage, scene.motion(spot).id);
-    passage.is_some_and(|it| it.holds.iter().any(|hold| hold.zone == zone))
+    let reservation = scene.reservations.of(scene.mind(spot).reservation, scene.motion(spot).id);
+    reservation.is_some_and(|it| it.holds.iter().any(|hold| hold.zone == zone))
 }
 
 /// Whether the way of a vehicle leads over the chains that were looked along to get to it.

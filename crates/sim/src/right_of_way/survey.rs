@@ -1,15 +1,15 @@
-//! What a driver sees of the junction ahead: where it has to stop without a passage, and what passage it needs.
+//! What a driver sees of the junction ahead: where it has to stop without a reservation, and what reservation it needs.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
 
-use crate::junction::claim::Hold;
-use crate::junction::need::{SPARE_ROOM, Survey};
-use crate::junction::refuge::Refuge;
+use crate::junction::need::{SPARE_SPACE, Survey};
+use crate::junction::storage_section::StorageSection;
+use crate::junction::waiting::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::room::{Beyond, ROOM_SIGHT, room};
+use crate::right_of_way::storage_space::{Beyond, SPACE_SIGHT, space};
 use crate::route::walk::Leg;
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::view::scene::{Scene, Spot, Viewpoint};
@@ -107,7 +107,7 @@ fn concerns(place: &Place, is_long: bool) -> bool {
     }
 }
 
-/// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further passage than the
+/// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further reservation than the
 /// `granted` [m] it has.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
     if granted >= until || is_far(scene, from, until) {
@@ -165,15 +165,15 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
         let lane = &scene.lanes[chain.at()];
         let ahead = lane.motions()[first..].iter().zip(first..).find(|(it, _)| it.id != from.id);
         if let Some((motion, index)) = ahead {
-            let passage = scene.passage(Spot { chain, index });
-            return start + motion.x + passage.map_or(0.0, |it| it.left().max(0.0));
+            let reservation = scene.reservation(Spot { chain, index });
+            return start + motion.x + reservation.map_or(0.0, |it| it.left().max(0.0));
         }
         first = 0;
     }
     f64::INFINITY
 }
 
-/// Surveys the passage that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one
+/// Surveys the reservation that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one
 /// within `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
 pub(crate) fn survey(
     scene: &Scene,
@@ -193,7 +193,7 @@ pub(crate) fn survey(
     let mut last = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
     // As far as the vehicle will need room: zones may be longer than anybody sees.
-    let far = Cell::new(until + ROOM_SIGHT);
+    let far = Cell::new(until + SPACE_SIGHT);
     let way_end = points(scene, from, &far, |point, at, _| {
         if at <= granted {
             return ControlFlow::Continue(());
@@ -203,7 +203,7 @@ pub(crate) fn survey(
         }
         let start = *first.get_or_insert(point.stop);
         let is_apart = match point.what {
-            _ if clear > f64::NEG_INFINITY => point.stop - ROOM_AT_A_STOP >= clear + length + SPARE_ROOM,
+            _ if clear > f64::NEG_INFINITY => point.stop - ROOM_AT_A_STOP >= clear + length + SPARE_SPACE,
             _ => point.stop > start + LINE_TO_ZONE,
         };
         if is_apart {
@@ -224,9 +224,9 @@ pub(crate) fn survey(
             What::Zone(crossing, end, merge) => {
                 let leave = merge.unwrap_or(end + length);
                 let Crossing { zone, side } = crossing;
-                out.holds.push(Hold { zone, side, enter: at, leave });
+                out.holds.push(ZoneReservation { zone, side, enter: at, leave });
                 clear = clear.max(end.min(merge.unwrap_or(f64::INFINITY)));
-                far.set(far.get().max(clear + length + ROOM_SIGHT));
+                far.set(far.get().max(clear + length + SPACE_SIGHT));
             }
         }
         ControlFlow::Continue(())
@@ -240,25 +240,25 @@ pub(crate) fn survey(
     }
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = (clear + length).max(last + PAST_A_PLACE);
-    out.needed = length + SPARE_ROOM;
+    out.needed = length + SPARE_SPACE;
     let limit = if next_stop < f64::INFINITY || way_end >= far.get() { next_stop } else { way_end };
     note_storage(scene, applicant, [clear, limit], out);
     true
 }
 
-/// Notes where the applicant can stand after its passage, which is `clear` of all zones from so far ahead on, and how
-/// much room there is up to the `limit` [m].
+/// Notes where the applicant can stand after its reservation, which is `clear` of all zones from so far ahead on, and
+/// how much room there is up to the `limit` [m].
 fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], out: &mut Survey) {
     let from = applicant.from;
     let beyond = chain_at(scene, from, clear);
-    (out.refuge, out.refuge_start) =
-        (Refuge::at(&scene.network.junctions, beyond.chain, clear - beyond.start), beyond.start);
+    (out.section, out.section_start) =
+        (StorageSection::at(&scene.network.junctions, beyond.chain, clear - beyond.start), beyond.start);
     // Whose trip ends before the next place is behind others who stop there.
     let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
     let arrival = applicant.time_to(out.extent);
-    out.room = room(scene, from, Beyond { refuge: out.refuge, clear, limit, arrival });
+    out.space = space(scene, from, Beyond { section: out.section, clear, limit, arrival });
 }
 
 /// The chain on the way on which the place `distance` ahead lies [m].
@@ -267,25 +267,29 @@ fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> Leg {
     legs.last().unwrap_or(Leg { chain: from.chain, start: -from.x, before: None })
 }
 
-/// Where the vehicle that looks `from` would stand after the passage that it surveyed, back to front.
-pub(crate) fn refuges(scene: &Scene, from: Viewpoint, survey: &Survey) -> impl Iterator<Item = Refuge> {
-    let Survey { refuge, refuge_start, extent, .. } = *survey;
-    let walk = scene.navigator.walk(scene.network, from.destination, refuge.chain, refuge_start);
-    walk.within(extent).map(move |it| it.before.map_or(refuge, |_| Refuge::first_of(it.chain)))
+/// Where the vehicle that looks `from` would stand after the reservation that it surveyed, back to front.
+pub(crate) fn sections(
+    scene: &Scene,
+    from: Viewpoint,
+    survey: &Survey,
+) -> impl Iterator<Item = StorageSection> {
+    let Survey { section, section_start, extent, .. } = *survey;
+    let walk = scene.navigator.walk(scene.network, from.destination, section.chain, section_start);
+    walk.within(extent).map(move |it| it.before.map_or(section, |_| StorageSection::first_of(it.chain)))
 }
 
-/// Whether the vehicle at `spot` stands where the one that looks `from` would after the passage that it surveyed, or
-/// ahead of that before the next place: if it drives off, those between them move up.
+/// Whether the vehicle at `spot` stands where the one that looks `from` would after the reservation that it surveyed,
+/// or ahead of that before the next place: if it drives off, those between them move up.
 pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spot: Spot) -> bool {
     /// Most chains that are looked along.
     const MOST_CHAINS: usize = 24;
     let junctions = &scene.network.junctions;
-    let next = |at: &Refuge| {
+    let next = |at: &StorageSection| {
         let next = scene.next(from.destination, at.chain).filter(|_| at.is_last(junctions));
-        next.map(Refuge::first_of)
+        next.map(StorageSection::first_of)
     };
-    let stands_on = Refuge::at(junctions, spot.chain, scene.motion(spot).x);
-    std::iter::successors(Some(survey.refuge), next).take(MOST_CHAINS).any(|it| it == stands_on)
+    let stands_on = StorageSection::at(junctions, spot.chain, scene.motion(spot).x);
+    std::iter::successors(Some(survey.section), next).take(MOST_CHAINS).any(|it| it == stands_on)
 }
 
 /// How far ahead the next place on `leg` is, beyond `distance`, where drivers may have to stop [m].

@@ -6,10 +6,10 @@
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
 
-use crate::junction::claim::Turn;
-use crate::junction::claim::{Claim, Hold};
-use crate::junction::need::SPARE_ROOM;
-use crate::junction::passages::Passage;
+use crate::junction::need::SPARE_SPACE;
+use crate::junction::reservations::Reservation;
+use crate::junction::waiting::Turn;
+use crate::junction::waiting::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::LONG;
 use crate::view::scene::Scene;
@@ -20,43 +20,53 @@ const APPROACHES: f64 = 1.5;
 /// Who has its turn lets another go who is out of its way so soon after it could be there itself [s] (ours).
 const COURTESY: f64 = 1.0;
 
-/// The turns that the applicant claims on all zones that it `holds` with its passage.
+/// The turns that the applicant claims on all zones that it `holds` with its reservation.
 pub(crate) fn turns(
     scene: &Scene,
     applicant: &Applicant,
-    holds: &[Hold],
-    claim: Claim,
+    holds: &[ZoneReservation],
+    priority: WaitingPriority,
 ) -> impl Iterator<Item = (ZoneIndex, u8, Turn)> {
-    let held_up = holds.iter().map(|it| held_up(scene, applicant, it, claim)).fold(0.0, f64::max);
+    let held_up = holds.iter().map(|it| held_up(scene, applicant, it, priority)).fold(0.0, f64::max);
     holds.iter().map(move |it| {
         let begins = held_up + arrival(scene, applicant, it);
-        (it.zone, it.side, Turn { claim, begins })
+        (it.zone, it.side, Turn { priority, begins })
     })
 }
 
 /// Whether the applicant, if it goes now, is out of a zone before it would be in the way of who has its `turn` there,
 /// and is patient.
-pub(crate) fn is_out_before(scene: &Scene, applicant: &Applicant, hold: &Hold, turn: &Turn) -> bool {
+pub(crate) fn is_out_before(
+    scene: &Scene,
+    applicant: &Applicant,
+    hold: &ZoneReservation,
+    turn: &Turn,
+) -> bool {
     let out = applicant.time_to(departure(scene, hold, applicant.length));
-    turn.claim.is_patient && out <= turn.begins + COURTESY
+    turn.priority.is_patient && out <= turn.begins + COURTESY
 }
 
 /// Whether `other` will be out of the crossing by the time that the applicant gets there.
-pub(crate) fn clears(scene: &Scene, applicant: &Applicant, hold: &Hold, other: &Passage) -> bool {
+pub(crate) fn clears(
+    scene: &Scene,
+    applicant: &Applicant,
+    hold: &ZoneReservation,
+    other: &Reservation,
+) -> bool {
     clearance(scene, hold, other) <= arrival(scene, applicant, hold)
 }
 
-/// How much later than now those who have passages let the applicant begin its way to a zone [s].
-fn held_up(scene: &Scene, applicant: &Applicant, hold: &Hold, claim: Claim) -> f64 {
+/// How much later than now those who have reservations let the applicant begin its way to a zone [s].
+fn held_up(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, priority: WaitingPriority) -> f64 {
     let touch = scene.network.junctions.zones[hold.zone.at()].touch;
-    let others = scene.passages.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-    let matters = |other: &Passage| touch.is_of([claim.is_long, other.length >= LONG]);
+    let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+    let matters = |other: &Reservation| touch.is_of([priority.is_long, other.length >= LONG]);
     let clearances = others.filter(|(_, it)| matters(it)).map(|(_, it)| clearance(scene, hold, it));
     clearances.fold(0.0, f64::max) - arrival(scene, applicant, hold)
 }
 
 /// Time until the applicant can be in a zone, and others have to be out of it [s].
-fn arrival(scene: &Scene, applicant: &Applicant, hold: &Hold) -> f64 {
+fn arrival(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation) -> f64 {
     if is_merge(scene, hold) {
         applicant.time_to(hold.leave)
     } else {
@@ -65,7 +75,7 @@ fn arrival(scene: &Scene, applicant: &Applicant, hold: &Hold) -> f64 {
 }
 
 /// Time until `other` is out of the way of who would hold the other side of a zone [s].
-fn clearance(scene: &Scene, hold: &Hold, other: &Passage) -> f64 {
+fn clearance(scene: &Scene, hold: &ZoneReservation, other: &Reservation) -> f64 {
     other.across(hold).map_or(0.0, |it| {
         let distance = departure(scene, it, other.length) - other.travelled;
         time_to_cover(distance, other.speed, other.desired)
@@ -73,10 +83,10 @@ fn clearance(scene: &Scene, hold: &Hold, other: &Passage) -> f64 {
 }
 
 /// Where the front of a vehicle is when others can go through the zone, or follow it into the merge [m].
-fn departure(scene: &Scene, hold: &Hold, length: f64) -> f64 {
-    if is_merge(scene, hold) { hold.leave + length + SPARE_ROOM } else { hold.leave }
+fn departure(scene: &Scene, hold: &ZoneReservation, length: f64) -> f64 {
+    if is_merge(scene, hold) { hold.leave + length + SPARE_SPACE } else { hold.leave }
 }
 
-fn is_merge(scene: &Scene, hold: &Hold) -> bool {
+fn is_merge(scene: &Scene, hold: &ZoneReservation) -> bool {
     matches!(scene.network.junctions.zones[hold.zone.at()].kind, ZoneKind::Merging(_))
 }

@@ -1,6 +1,7 @@
 //! Which lanes lead where, and what the way costs.
 
-pub(crate) mod effort;
+pub(crate) mod class_restrictions;
+pub(crate) mod disutility;
 pub(crate) mod guidance;
 pub(crate) mod links;
 pub(crate) mod navigate;
@@ -8,7 +9,6 @@ pub(crate) mod onward;
 pub(crate) mod place;
 pub(crate) mod renew;
 pub(crate) mod roads;
-pub(crate) mod views;
 pub(crate) mod walk;
 pub(crate) mod waypoint;
 pub(crate) mod ways;

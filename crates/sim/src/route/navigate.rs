@@ -9,11 +9,11 @@ use std::borrow::Cow;
 
 use laneweave_network::{ChainIndex, Network};
 
+use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::links::Links;
 use crate::route::onward::Onward;
 use crate::route::place::{InnerPlace, Place};
 use crate::route::renew::is_planned;
-use crate::route::views::Views;
 use crate::route::walk::Walk;
 use crate::route::waypoint::Waypoint;
 use crate::route::ways::{Into, Planner, beside_into, wander};
@@ -23,19 +23,19 @@ use crate::state::vehicle::Class;
 /// The waypoints of all destinations.
 #[derive(Clone, Debug)]
 pub struct Navigator {
-    /// For each view of the roads: for each destination the waypoints by chain; last, those of drivers without one. All
+    /// For each class restriction: for each destination the waypoints by chain; last, those of drivers without one. All
     /// that for the usual way; then for the recommended ones, which are empty as long as nobody needs them.
     pub(super) tables: Vec<Vec<Waypoint>>,
     pub(super) onward: Onward,
-    /// Number of tables of each view.
-    pub(super) of_view: usize,
+    /// Number of tables of each class restriction.
+    pub(super) of_restriction: usize,
     /// For each table of a usual way that with the newest recommendation; empty where nobody is guided.
     pub(super) recommended: Vec<u16>,
     pub(super) links: Links,
     /// How often they were measured.
     pub(super) measurements: u32,
     pub(super) into: Vec<Into>,
-    pub(super) views: Views,
+    pub(super) restrictions: ClassRestrictions,
     /// For each chain where trips end before its end.
     pub(super) trip_ends: Vec<Vec<TripEnd>>,
 }
@@ -57,26 +57,30 @@ impl Navigator {
 
     /// Plans all routes to `destinations`, for classes that avoid nothing.
     pub fn towards(network: &Network, destinations: &[Place]) -> Navigator {
-        Navigator::with_views(network, destinations, Views::default())
+        Navigator::with_restrictions(network, destinations, ClassRestrictions::default())
     }
 
     /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with
-    /// their views of the roads.
-    pub(crate) fn with_views(network: &Network, destinations: &[Place], views: Views) -> Navigator {
+    /// their restrictions.
+    pub(crate) fn with_restrictions(
+        network: &Network,
+        destinations: &[Place],
+        restrictions: ClassRestrictions,
+    ) -> Navigator {
         let mut navigator = Navigator {
             tables: Vec::new(),
             onward: Onward::default(),
-            of_view: destinations.len() + 1,
+            of_restriction: destinations.len() + 1,
             recommended: Vec::new(),
             links: Links::default(),
             measurements: 0,
             into: beside_into(network),
-            views,
+            restrictions,
             trip_ends: vec![Vec::new(); network.chains.len()],
         };
-        for view in 0..navigator.views.count() {
+        for restriction in 0..navigator.restrictions.count() {
             for place in destinations {
-                let planner = navigator.planner(network, view);
+                let planner = navigator.planner(network, restriction);
                 let mut table = planner.plan(place);
                 planner.note_alternatives(&mut table, None);
                 navigator.end_trips(place, navigator.tables.len());
@@ -96,9 +100,9 @@ impl Navigator {
         }
     }
 
-    pub(super) fn planner<'a>(&'a self, network: &'a Network, view: usize) -> Planner<'a> {
-        let Navigator { into, links, views, .. } = self;
-        Planner { network, into, links, views, view }
+    pub(super) fn planner<'a>(&'a self, network: &'a Network, restriction: usize) -> Planner<'a> {
+        let Navigator { into, links, restrictions, .. } = self;
+        Planner { network, into, links, restrictions, restriction }
     }
 
     /// Trips of those who drive by `table` end at `place`.
@@ -121,13 +125,13 @@ impl Navigator {
 
     /// The tables of usual ways to a destination.
     pub(crate) fn usual_tables(&self) -> impl DoubleEndedIterator<Item = usize> {
-        let of_view = self.of_view;
-        (0..self.usual()).filter(move |it| it % of_view < of_view - 1)
+        let of_restriction = self.of_restriction;
+        (0..self.usual()).filter(move |it| it % of_restriction < of_restriction - 1)
     }
 
     /// Number of tables of usual ways.
     pub(super) fn usual(&self) -> usize {
-        self.views.count() * self.of_view
+        self.restrictions.count() * self.of_restriction
     }
 
     /// Whether anywhere a driver has more than one way to go.
@@ -216,18 +220,18 @@ impl Navigator {
 
     /// A destination as a class sees the way to it.
     pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
-        let number = usize::from(destination?) % self.of_view;
-        Some((self.views.of_class(class) * self.of_view + number) as u16)
+        let number = usize::from(destination?) % self.of_restriction;
+        Some((self.restrictions.of_class(class) * self.of_restriction + number) as u16)
     }
 
-    /// The view of the roads of a table.
-    fn view(&self, table: u16) -> usize {
-        usize::from(table) / self.of_view % self.views.count()
+    /// The class restriction of a table.
+    fn restriction(&self, table: u16) -> usize {
+        usize::from(table) / self.of_restriction % self.restrictions.count()
     }
 
     /// The destination's place in the list of destinations, whoever sees it.
     pub fn number(&self, destination: Destination) -> Option<usize> {
-        destination.map(|it| usize::from(it) % self.of_view)
+        destination.map(|it| usize::from(it) % self.of_restriction)
     }
 
     /// The chains on the way from the start of `chain` to `destination`, over changes of lane as well.
@@ -249,7 +253,7 @@ impl Navigator {
     /// The table by which those drive who go to `destination`.
     #[inline]
     fn table(&self, destination: Destination) -> usize {
-        destination.map_or(self.of_view - 1, usize::from)
+        destination.map_or(self.of_restriction - 1, usize::from)
     }
 
     /// The chain that comes after `chain` on the way to `destination`.
@@ -293,8 +297,8 @@ impl Navigator {
         let onward = here.following.iter().map(|it| (*it, self.waypoint(destination, *it)));
         let best = onward.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
         let possible = best.filter(|(_, it)| it.leads_there());
-        let view = destination.map_or(0, |it| self.view(it));
-        let planner = self.planner(network, view);
+        let restriction = destination.map_or(0, |it| self.restriction(it));
+        let planner = self.planner(network, restriction);
         possible.map_or(Waypoint::NOWHERE, |(next, waypoint)| planner.before(chain, next, waypoint))
     }
 
@@ -305,12 +309,12 @@ impl Navigator {
 
     fn reachable_in(
         &self,
-        view: usize,
+        restriction: usize,
         chain: ChainIndex,
         x: f64,
     ) -> impl Iterator<Item = (Destination, f64)> {
-        let first = view * self.of_view;
-        let tables = self.tables[first..].iter().zip(first..).take(self.of_view - 1);
+        let first = restriction * self.of_restriction;
+        let tables = self.tables[first..].iter().zip(first..).take(self.of_restriction - 1);
         tables.filter_map(move |(table, number)| {
             let waypoint = &table[chain.at()];
             waypoint.leads_on(x).then_some((Some(number as u16), waypoint.time))
@@ -320,8 +324,8 @@ impl Navigator {
     /// The destination of least time that can be reached from `x` on `chain`, over its end, too, for one who was on its
     /// way to `before`; of none, to wander.
     pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
-        let first = before.map_or(0, |it| self.view(it)) * self.of_view;
-        let all = (first..first + self.of_view - 1).map(|it| Some(it as u16));
+        let first = before.map_or(0, |it| self.restriction(it)) * self.of_restriction;
+        let all = (first..first + self.of_restriction - 1).map(|it| Some(it as u16));
         let reachable = all.filter_map(|it| {
             let waypoint = self.waypoint_from(network, it, chain, x);
             waypoint.leads_on(x).then_some((it, waypoint.time))
@@ -332,8 +336,8 @@ impl Navigator {
     /// The destination of least time to which the usual way leads from `x` on `chain`, for one who was on its way to
     /// `before`.
     pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
-        let view = before.map_or(0, |it| self.view(it));
-        let reachable = self.reachable_in(view, chain, x);
+        let restriction = before.map_or(0, |it| self.restriction(it));
+        let reachable = self.reachable_in(restriction, chain, x);
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 

@@ -68,13 +68,13 @@ impl Navigator {
     pub(crate) fn guide(&mut self, network: &Network, destinations: &[Place]) -> Result<(), usize> {
         let usual = self.usual();
         if usual * Navigator::WAYS > usize::from(Goal::NONE) {
-            return Err(usize::from(Goal::NONE) / Navigator::WAYS / self.views.count() - 1);
+            return Err(usize::from(Goal::NONE) / Navigator::WAYS / self.restrictions.count() - 1);
         }
         self.recommended = (0..usual as u16).collect();
         self.links = Links::of(network);
         self.tables.resize(usual * Navigator::WAYS, Vec::new());
         for table in usual..self.tables.len() {
-            if let Some(place) = destinations.get(table % self.of_view) {
+            if let Some(place) = destinations.get(table % self.of_restriction) {
                 self.end_trips(place, table);
             }
         }
@@ -103,7 +103,7 @@ impl Navigator {
         in_use: [bool; Navigator::WAYS],
     ) {
         let [usual, ..] = ways;
-        let planner = self.planner(network, usual / self.of_view);
+        let planner = self.planner(network, usual / self.of_restriction);
         let newest = usize::from(self.recommended[usual]);
         let mut best = planner.plan(place);
         planner.note_alternatives(&mut best, None);

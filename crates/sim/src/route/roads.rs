@@ -5,11 +5,11 @@ use std::sync::Arc;
 use laneweave_models::Style;
 use laneweave_network::Network;
 
+use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::renew::Guided;
-use crate::route::views::Views;
 use crate::state::clock::Clock;
 use crate::state::lane::Lane;
 use crate::state::random::Random;
@@ -35,8 +35,8 @@ impl Roads {
         fleet: &Fleet,
         random: Random,
     ) -> Roads {
-        let views = Views::of(&network, fleet);
-        let navigator = Navigator::with_views(&network, destinations, views);
+        let restrictions = ClassRestrictions::of(&network, fleet);
+        let navigator = Navigator::with_restrictions(&network, destinations, restrictions);
         Roads { network, navigator, characters, random, guidance: None }
     }
 

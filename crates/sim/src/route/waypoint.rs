@@ -3,7 +3,7 @@
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
 
-use crate::route::effort::Effort;
+use crate::route::disutility::Disutility;
 
 /// What a chain means on the way to a destination.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,9 +27,9 @@ pub struct Waypoint {
     /// Where on it the trip ends [m]; infinite where it goes on to the chain's end.
     pub end: f64,
     /// What the way from its start asks for.
-    pub effort: Effort,
+    pub disutility: Disutility,
     /// What the alternative asks for.
-    pub alternative_effort: Effort,
+    pub alternative_effort: Disutility,
 }
 
 impl Waypoint {
@@ -52,8 +52,8 @@ impl Waypoint {
         alternative: f64::INFINITY,
         distance: f64::INFINITY,
         end: f64::INFINITY,
-        effort: Effort { turns: 0, lights: 0 },
-        alternative_effort: Effort { turns: 0, lights: 0 },
+        disutility: Disutility { turns: 0, lights: 0 },
+        alternative_effort: Disutility { turns: 0, lights: 0 },
     };
 
     /// There is a way.

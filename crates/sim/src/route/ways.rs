@@ -6,10 +6,10 @@ use std::collections::BinaryHeap;
 
 use laneweave_network::{Beside, Chain, ChainIndex, Network, Position, Side};
 
-use crate::route::effort::Effort;
+use crate::route::class_restrictions::ClassRestrictions;
+use crate::route::disutility::Disutility;
 use crate::route::links::Links;
 use crate::route::place::Place;
-use crate::route::views::Views;
 use crate::route::waypoint::Waypoint;
 
 /// Stretches from which a change leads into a chain: chain, side and number.
@@ -22,8 +22,8 @@ pub(crate) struct Planner<'a> {
     /// See [`beside_into`].
     pub(crate) into: &'a [Into],
     pub(crate) links: &'a Links,
-    pub(crate) views: &'a Views,
-    pub(crate) view: usize,
+    pub(crate) restrictions: &'a ClassRestrictions,
+    pub(crate) restriction: usize,
 }
 
 impl Planner<'_> {
@@ -54,7 +54,7 @@ impl Planner<'_> {
 
     /// What a change counts for in the choice of a route for which there are `room` metres [s]: the shorter the road
     /// for it, the more of those who try will miss it.
-    fn hurry(room: f64) -> f64 {
+    fn missed_turn_penalty(room: f64) -> f64 {
         Planner::MISSED * (1.0 - room / Planner::ROOM_FOR_A_CHANGE).max(0.0)
     }
 
@@ -63,18 +63,18 @@ impl Planner<'_> {
         let here = self.network.chain(chain);
         let leading =
             Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).filter(|it| it.chain == to);
-        let windows = leading.map(|it| self.network.window(here, it, self.view > 0));
+        let windows = leading.map(|it| self.network.window(here, it, self.restriction > 0));
         windows.map(|[start, end]| (end.min(last_place) - start).max(0.0)).sum()
     }
 
     /// What `chain` asks for from its start to its end.
-    fn effort(&self, chain: ChainIndex) -> Effort {
-        Effort::until(self.network, chain, f64::INFINITY)
+    fn disutility(&self, chain: ChainIndex) -> Disutility {
+        Disutility::until(self.network, chain, f64::INFINITY)
     }
 
     /// What `chain` counts for beside its time [s].
     fn delay(&self, chain: ChainIndex) -> f64 {
-        if self.views.avoids(self.view, chain) { Planner::AVOIDED } else { 0.0 }
+        if self.restrictions.avoids(self.restriction, chain) { Planner::AVOIDED } else { 0.0 }
     }
 
     /// The waypoint of `chain` for who goes on to `next`, whose waypoint is `onward`.
@@ -87,7 +87,7 @@ impl Planner<'_> {
             next: Some(next),
             time: self.time(chain, length) + onward.time,
             distance: length + onward.distance,
-            effort: self.effort(chain).and(onward.effort),
+            disutility: self.disutility(chain).and(onward.disutility),
             ..Waypoint::NOWHERE
         }
     }
@@ -128,7 +128,7 @@ impl Planner<'_> {
             time: self.time(index, until),
             distance: until,
             end,
-            effort: Effort::until(self.network, index, until),
+            disutility: Disutility::until(self.network, index, until),
             ..Waypoint::NOWHERE
         }
     }
@@ -164,9 +164,9 @@ impl Planner<'_> {
             next: self.network.chain(chain).following.first().copied(),
             time: onward.time
                 + self.lag(chain, stretch)
-                + Planner::hurry(self.room_to_change(chain, to, last_place)),
+                + Planner::missed_turn_penalty(self.room_to_change(chain, to, last_place)),
             distance: onward.distance - across,
-            effort: onward.effort.beyond(Effort::until(self.network, to, across)),
+            disutility: onward.disutility.beyond(Disutility::until(self.network, to, across)),
             ..Waypoint::NOWHERE
         }
     }
@@ -187,7 +187,8 @@ impl Planner<'_> {
             } else {
                 let stretch = stretch_to(self.network.chain(chain), via, last_place);
                 let change = |it: &Beside| {
-                    self.lag(chain, it) + Planner::hurry(self.room_to_change(chain, via, last_place))
+                    self.lag(chain, it)
+                        + Planner::missed_turn_penalty(self.room_to_change(chain, via, last_place))
                 };
                 onward.time + stretch.map_or(0.0, change)
             };
@@ -197,7 +198,7 @@ impl Planner<'_> {
     /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, and what
     /// that asks for, by the ways of `best`, or else by its own. Of equal times that with less effort counts.
     pub(crate) fn note_alternatives(&self, table: &mut [Waypoint], best: Option<&[Waypoint]>) {
-        let mut alternatives = vec![(f64::INFINITY, Effort::default()); table.len()];
+        let mut alternatives = vec![(f64::INFINITY, Disutility::default()); table.len()];
         for chain in from_the_destination(table) {
             let it = self.network.chain(chain);
             let Waypoint { changes, via, .. } = table[chain.at()];
@@ -205,18 +206,18 @@ impl Planner<'_> {
             let onward = it.following.iter().map(|next| match next {
                 next if goes_over_end && *next == via => alternatives[next.at()],
                 next => {
-                    let Waypoint { time, effort, .. } = best.unwrap_or(table)[next.at()];
-                    (time, effort)
+                    let Waypoint { time, disutility, .. } = best.unwrap_or(table)[next.at()];
+                    (time, disutility)
                 }
             });
             let best_onward = onward.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            if let Some((time, effort)) = best_onward {
+            if let Some((time, disutility)) = best_onward {
                 let time = self.time(chain, it.length) + self.delay(chain) + time;
-                alternatives[chain.at()] = (time, self.effort(chain).and(effort));
+                alternatives[chain.at()] = (time, self.disutility(chain).and(disutility));
             }
         }
-        for (waypoint, (time, effort)) in table.iter_mut().zip(alternatives) {
-            (waypoint.alternative, waypoint.alternative_effort) = (time, effort);
+        for (waypoint, (time, disutility)) in table.iter_mut().zip(alternatives) {
+            (waypoint.alternative, waypoint.alternative_effort) = (time, disutility);
         }
     }
 }
@@ -294,7 +295,7 @@ impl Search {
                 let chain = network.chain(from);
                 let last = stretches.iter().rev().find_map(|(_, side, number)| {
                     let stretch = &chain.stretches(*side)[*number];
-                    let window = network.window(chain, stretch, planner.view > 0);
+                    let window = network.window(chain, stretch, planner.restriction > 0);
                     let last_place = Planner::last_place(stretch, window, &here, room);
                     are_short |= last_place <= window[0] && window[0] < window[1];
                     (last_place > window[0]).then_some((stretch, last_place))

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::state::goal::Goal;
 use crate::state::prefetch::prefetch;
-use crate::state::trail::Trail;
+use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
 
 /// Name of a vehicle; it never changes and is never given again.
@@ -64,7 +64,7 @@ pub struct Car {
     /// Step at which its driver considers lanes next.
     pub due: u32,
     /// Step before which there is no new voluntary change.
-    pub calm_until: u32,
+    pub cooldown_until: u32,
     /// Where it goes.
     pub goal: Goal,
     /// Its class.
@@ -134,15 +134,15 @@ pub struct Mind {
     /// Where the appraisal of the desired or current change is kept.
     pub record: u32,
     /// Where it came from.
-    pub trail: Trail,
+    pub previous_lanes: PreviousLanes,
     /// Where its other entry stands.
-    pub twin: Option<Twin>,
+    pub counterpart: Option<Counterpart>,
     /// Where a driver in a wrong lane has to have left it, along the chain [m]; infinite in a right one.
     pub last_place: f64,
     /// A vehicle that the driver lets in: gap [m], infinite if there is none, and speed [m/s].
     pub lets_in: (f32, f32),
-    /// Where its passage through a junction is kept, if it has one.
-    pub(crate) passage: u32,
+    /// Where its reservation through a junction is kept, if it has one.
+    pub(crate) reservation: u32,
 }
 
 impl Mind {
@@ -154,7 +154,7 @@ const _: () = assert!(size_of::<Mind>() <= 80, "memory of a vehicle");
 
 /// The other entry of a vehicle that changes lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Twin {
+pub struct Counterpart {
     /// Its chain.
     pub chain: ChainIndex,
     /// Its front bumper there [m].
@@ -163,7 +163,7 @@ pub struct Twin {
     pub stretch: f32,
 }
 
-impl Twin {
+impl Counterpart {
     /// Where it stands.
     pub(crate) fn at(&self) -> Position {
         Position::new(self.chain, self.x)

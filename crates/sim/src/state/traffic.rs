@@ -111,8 +111,8 @@ impl Traffic {
         let is_chain = |it: ChainIndex| it.at() < chains;
         let car_fits = |it: &Car| (it.character as usize) < characters && is_known(it.goal.destination());
         let mind_fits = |it: &Mind| {
-            it.twin.is_none_or(|it| is_chain(it.chain) && it.x.is_finite())
-                && it.trail.known().all(is_chain)
+            it.counterpart.is_none_or(|it| is_chain(it.chain) && it.x.is_finite())
+                && it.previous_lanes.known().all(is_chain)
                 && it.entered.max(it.since) <= clock.step
         };
         let lane_fits =

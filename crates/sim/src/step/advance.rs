@@ -3,10 +3,10 @@
 use laneweave_models::Style;
 
 use crate::driver::plan::{Outbox, Plan, Progress};
-use crate::junction::passages::NO_PASSAGE;
+use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
 use crate::state::goal::TripEnd;
-use crate::state::lane::{Car, Lane, Milestone, Mind, Motion, Phase, Reached, Twin};
+use crate::state::lane::{Car, Counterpart, Lane, Milestone, Mind, Motion, Phase, Reached};
 use crate::view::pose::crossing;
 use laneweave_network::{ChainIndex, Position};
 
@@ -48,14 +48,14 @@ pub(crate) fn advance(
             let eased = car.desired - (EASING * clock.dt) as f32;
             car.desired = eased.max(car.limit_desired);
         }
-        if mind.passage != NO_PASSAGE && !upkeep.passage_is_over {
+        if mind.reservation != NO_RESERVATION && !upkeep.reservation_is_over {
             let Motion { speed, id, .. } = *motion;
-            let (slot, distance, desired) = (mind.passage, upkeep.distance, f64::from(car.desired));
+            let (slot, distance, desired) = (mind.reservation, upkeep.distance, f64::from(car.desired));
             outbox.progress.push(Progress { slot, id, distance, speed, desired });
         }
         if car.phase != Phase::Cruises {
-            if let Some(twin) = &mut mind.twin {
-                twin.x += upkeep.distance * f64::from(twin.stretch);
+            if let Some(counterpart) = &mut mind.counterpart {
+                counterpart.x += upkeep.distance * f64::from(counterpart.stretch);
             }
             let manner = &characters[car.character as usize].manner;
             let step = crossing(manner, motion, mind).progress_in(clock.dt) as f32;
@@ -63,12 +63,12 @@ pub(crate) fn advance(
         }
         if car.needs_full_update {
             mind.lets_in = Mind::NOBODY;
-            if upkeep.passage_is_over {
-                mind.passage = NO_PASSAGE;
+            if upkeep.reservation_is_over {
+                mind.reservation = NO_RESERVATION;
             }
             let minds_offside = characters[car.character as usize].change.minds_offside();
             car.needs_full_update =
-                mind.last_place.is_finite() || mind.passage != NO_PASSAGE || minds_offside;
+                mind.last_place.is_finite() || mind.reservation != NO_RESERVATION || minds_offside;
         }
     }
     end_trips(lane, chain, ends.trips, plan, outbox);
@@ -130,12 +130,13 @@ fn milestone(motion: &Motion, mind: &Mind, chain: ChainIndex, what: Reached) -> 
         record: mind.record,
         what,
         at: Position::new(chain, motion.x),
-        shadow: mind.twin.map(|it| it.at()),
+        shadow: mind.counterpart.map(|it| it.at()),
         speed: motion.speed,
     }
 }
 
-/// A change goes on by `step` of its time, or back. Both entries of a vehicle come to the same. Returns whether this entry has ended.
+/// A change goes on by `step` of its time, or back. Both entries of a vehicle come to the same. Returns whether this
+/// entry has ended.
 fn go_across(
     motion: &Motion,
     car: &mut Car,
@@ -175,18 +176,22 @@ fn go_across(
     outbox.milestones.push(milestone(motion, mind, chain, reached));
     car.phase = Phase::Cruises;
     mind.progress = 0.0;
-    mind.twin = None;
+    mind.counterpart = None;
     car.due = clock.step + 1;
     false
 }
 
 /// The centre crosses the line: main entry and shadow swap their parts.
 fn cross(car: &mut Car, mind: &mut Mind) {
-    let scale = if car.is_shadow { mind.stretch } else { mind.twin.map_or(1.0, |twin| twin.stretch) };
+    let scale = if car.is_shadow {
+        mind.stretch
+    } else {
+        mind.counterpart.map_or(1.0, |counterpart| counterpart.stretch)
+    };
     car.is_shadow = !car.is_shadow;
     let (own, other) = if car.is_shadow { (1.0 / scale, 1.0) } else { (1.0, 1.0 / scale) };
     mind.stretch = own;
-    if let Some(Twin { stretch, .. }) = &mut mind.twin {
+    if let Some(Counterpart { stretch, .. }) = &mut mind.counterpart {
         *stretch = other;
     }
 }

@@ -47,7 +47,7 @@ type Saved = (
     JunctionState,
     Backlog,
     Log,
-    // By lane those who wait for a passage, and the distance driven [m].
+    // By lane those who wait for a reservation, and the distance driven [m].
     Vec<(Vec<Waiting>, f64)>,
     Tally,
     Option<(Guidance, Guided)>,

@@ -75,7 +75,7 @@ impl Entering<'_> {
             let named = Named { id: arrival.id, arrived: arrival.time };
             put(self.roads, self.traffic, self.log, vehicle, named);
             if matches!(needs, Entry::Reserved { .. }) {
-                reserve(self.traffic, self.junctions.passages_mut(), queue, &arrival, survey);
+                reserve(self.traffic, self.junctions.reservations_mut(), queue, &arrival, survey);
             }
             queue.asks_since = None;
             self.log.note_origin(arrival.id, origin);
@@ -112,7 +112,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
             let follower = scene.follower(from);
             let is_let_in = follower.is_none_or(|it| lets_start(scene, &it, style.safety.min_gap, dt));
             // Room that is kept for others stays theirs.
-            let is_free = scene.passages.kept_on(queue.refuge(scene.network)) == 0.0;
+            let is_free = scene.reservations.kept_on(queue.section(scene.network)) == 0.0;
             (leaves_room && is_let_in && is_free).then_some(0.0)?
         }
     };
@@ -159,7 +159,7 @@ fn room_to_start(style: &Style, ahead: Ahead) -> f64 {
 fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
     /// Braking that one may expect of who drives behind [m/s²], ours.
     const MODERATE: f64 = 2.0;
-    if scene.has_passage(follower.spot, follower.distance) {
+    if scene.has_reservation(follower.spot, follower.distance) {
         return false;
     }
     let behind = driver(scene, follower.spot);

@@ -14,17 +14,17 @@ pub(crate) fn note_milestones(roads: &Roads, traffic: &mut Traffic, log: &mut Lo
     for milestone in milestones.drain(..) {
         log.note_milestone(roads.network(), &milestone, traffic.clock().time());
         if milestone.what != Reached::Crossing {
-            calm(roads, traffic, &milestone);
+            begin_cooldown(roads, traffic, &milestone);
         }
     }
 }
 
 /// After a change, or giving one up, there is no new voluntary one for a while.
-fn calm(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
+fn begin_cooldown(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
     let (Position { chain, x }, clock) = (milestone.at, traffic.clock());
     let lane = traffic.lane_mut(chain);
     if let Some(index) = lane.find(milestone.id, x) {
         let car = lane.entry_mut(index).1;
-        car.calm_until = clock.step + clock.steps(roads.style(car.character).manner.calm);
+        car.cooldown_until = clock.step + clock.steps(roads.style(car.character).manner.calm);
     }
 }

@@ -4,7 +4,7 @@ use laneweave_network::ChainIndex;
 
 use crate::driver::decide::decide;
 use crate::driver::drive::drive;
-use crate::driver::request_passage::request_passages;
+use crate::driver::request_reservation::request_reservations;
 use crate::junction::state::JunctionState;
 use crate::record::overlap::overlaps;
 use crate::route::roads::Roads;
@@ -26,7 +26,7 @@ pub(crate) fn move_all(
     let pool = &pools[pool_for(traffic.crowd())];
     let Moving { clock, lanes, chosen } = traffic.moving();
     let (network, navigator, characters) = (roads.network(), roads.navigator(), roads.characters());
-    let (passages, signals) = (junctions.passages(), junctions.signals());
+    let (reservations, signals) = (junctions.reservations(), junctions.signals());
     let moment = Moment { clock, random: roads.random(), overtaking: network.driving_side.overtaking() };
     pool.look_then_act(
         outboxes,
@@ -34,12 +34,12 @@ pub(crate) fn move_all(
         plans,
         chosen,
         |lanes, outbox, index, plan| {
-            let scene = Scene { network, navigator, lanes, characters, passages, signals };
+            let scene = Scene { network, navigator, lanes, characters, reservations, signals };
             let chain = ChainIndex(index as u32);
             plan.clear();
             decide(&scene, moment, chain, plan, outbox);
             drive(&scene, clock, chain, plan, outbox);
-            request_passages(&scene, clock, chain, plan, outbox);
+            request_reservations(&scene, clock, chain, plan, outbox);
             if is_watched {
                 overlaps(&scene, chain, clock.time(), &mut outbox.incidents);
             }

@@ -21,7 +21,7 @@ pub(crate) struct Pool {
 struct Shared {
     posted: Posted,
     /// For each thread how much of its own range of items has been claimed.
-    claimed: Vec<Claimed>,
+    noted_on: Vec<Claimed>,
     progress: Progress,
     parked: Vec<AtomicBool>,
 }
@@ -97,7 +97,7 @@ impl Pool {
                 task: UnsafeCell::new(None),
                 stop: AtomicBool::new(false),
             },
-            claimed: (0..=helpers).map(|_| Claimed::default()).collect(),
+            noted_on: (0..=helpers).map(|_| Claimed::default()).collect(),
             progress: Progress::default(),
             parked: (0..helpers).map(|_| AtomicBool::new(false)).collect(),
         });
@@ -174,10 +174,10 @@ impl Pool {
     }
 
     fn start(&self, task: Task) {
-        let Shared { posted, claimed, progress, parked } = &*self.shared;
+        let Shared { posted, noted_on, progress, parked } = &*self.shared;
         // SAFETY: no worker is busy.
         unsafe { *posted.task.get() = Some(task) };
-        claimed.iter().flat_map(|it| &it.0).for_each(|it| it.store(0, Ordering::Relaxed));
+        noted_on.iter().flat_map(|it| &it.0).for_each(|it| it.store(0, Ordering::Relaxed));
         progress.busy.store(self.workers.len(), Ordering::Relaxed);
         progress.looked.store(0, Ordering::Relaxed);
         posted.job.fetch_add(1, Ordering::SeqCst);
@@ -272,7 +272,7 @@ impl Shared {
 
     fn work_on(&self, task: Task, thread: usize) {
         self.work_in(Phase::Look, task, thread);
-        if self.progress.all_looked(self.claimed.len()) {
+        if self.progress.all_looked(self.noted_on.len()) {
             self.work_in(Phase::Act, task, thread);
         }
     }
@@ -283,14 +283,14 @@ impl Shared {
     fn work_in(&self, phase: Phase, task: Task, thread: usize) {
         // SAFETY: `Pool::look_then_act` keeps the job alive until no thread is busy any more.
         let work = unsafe { &*task.work };
-        let threads = self.claimed.len();
+        let threads = self.noted_on.len();
         for owner in (thread..threads).chain(0..thread) {
             let range = |owner: usize| owner * task.items / threads;
             let (begin, end) = (range(owner), range(owner + 1));
-            let claimed = &self.claimed[owner].0[phase as usize];
+            let noted_on = &self.noted_on[owner].0[phase as usize];
             let left_to_it = if owner == thread { 0 } else { task.portion };
-            while begin + claimed.load(Ordering::Relaxed) + left_to_it < end {
-                let first = begin + claimed.fetch_add(task.portion, Ordering::Relaxed);
+            while begin + noted_on.load(Ordering::Relaxed) + left_to_it < end {
+                let first = begin + noted_on.fetch_add(task.portion, Ordering::Relaxed);
                 (first..(first + task.portion).min(end)).for_each(|index| work(phase, thread, index));
             }
         }

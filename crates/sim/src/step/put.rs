@@ -2,16 +2,16 @@
 
 use crate::demand::error::WorldError;
 use crate::driver::turn::next_turn;
-use crate::junction::passages::NO_PASSAGE;
-use crate::record::journal::TripRecord;
-use crate::record::ledger::Mark;
+use crate::junction::reservations::NO_RESERVATION;
+use crate::record::lanelet_aggregates::Mark;
 use crate::record::log::Log;
+use crate::record::trip_log::TripRecord;
 use crate::record::trips::free_time;
 use crate::route::roads::Roads;
 use crate::state::lane::{Car, Entry, Kind, Mind, Motion, Phase, VehicleId};
+use crate::state::previous_lanes::PreviousLanes;
 use crate::state::setup::NewVehicle;
 use crate::state::traffic::Traffic;
-use crate::state::trail::Trail;
 use crate::step::world::World;
 use laneweave_network::Position;
 
@@ -85,7 +85,7 @@ pub(crate) fn put(
         standing: 0.0,
         character,
         due: next_turn(id, clock.step, clock.steps(style.attention.epoch)),
-        calm_until: 0,
+        cooldown_until: 0,
         goal: destination.into(),
         class,
         phase: Phase::Cruises,
@@ -102,11 +102,11 @@ pub(crate) fn put(
         progress: 0.0,
         urgency: 0.0,
         record: 0,
-        trail: Trail::NONE,
-        twin: None,
+        previous_lanes: PreviousLanes::NONE,
+        counterpart: None,
         last_place: f64::INFINITY,
         lets_in: Mind::NOBODY,
-        passage: NO_PASSAGE,
+        reservation: NO_RESERVATION,
     };
     traffic.enter(chain, Entry { motion, car, mind });
 }

@@ -6,10 +6,10 @@ use laneweave_network::{ZoneIndex, ZoneKind};
 
 use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
-use crate::junction::claim::Hold;
-use crate::junction::claim::Turn;
 use crate::junction::need::Survey;
-use crate::junction::passages::Passages;
+use crate::junction::reservations::Reservations;
+use crate::junction::waiting::Turn;
+use crate::junction::waiting::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::lets_go;
 use crate::right_of_way::conditions::{Asking, Hindrance, leader_of, may_pass};
@@ -47,7 +47,7 @@ pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival)
     let desired = class.desired_speed(style, scene.network.chain(queue.chain).limit(0.0));
     let x = queue.start.station() - WAITS_BEFORE;
     let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, is_long: class.is_long() };
-    Applicant { from, length: class.body().length, speed: desired, desired, style, passage: None }
+    Applicant { from, length: class.body().length, speed: desired, desired, style, reservation: None }
 }
 
 /// What `arrival` needs to come onto the lane of `queue` now.
@@ -98,20 +98,20 @@ fn is_free(scene: &Scene, surveyed: &Survey, reach: f64) -> bool {
 fn first_taken(scene: &Scene, surveyed: &Survey) -> f64 {
     /// Before the place where one stops for a crossing [m].
     const BEFORE: f64 = 0.01;
-    let waits = |hold: &&Hold| {
+    let waits = |hold: &&ZoneReservation| {
         let is_crossing = scene.network.junctions.zones[hold.zone.at()].kind == ZoneKind::Crossing;
-        is_crossing && scene.passages.order(hold.zone).any(|(it, _)| it.side != hold.side)
+        is_crossing && scene.reservations.order(hold.zone).any(|(it, _)| it.side != hold.side)
     };
     let taken = surveyed.holds.iter().filter(waits).map(|it| it.enter - BEFORE);
     taken.fold(f64::INFINITY, f64::min)
 }
 
 /// The turns that those claim who wait to come onto the road because of others.
-pub(crate) fn claims_at_entrances(
+pub(crate) fn priorities_at_entrances(
     scene: &Scene,
     arrivals: &Arrivals,
     clock: Clock,
-    claims: &mut Vec<(ZoneIndex, u8, Turn)>,
+    priorities: &mut Vec<(ZoneIndex, u8, Turn)>,
     out: &mut Survey,
 ) {
     let queues = arrivals.sources().iter().flat_map(|it| it.lanes());
@@ -121,8 +121,8 @@ pub(crate) fn claims_at_entrances(
         let applicant = applicant(scene, queue, &queue.waiting[first]);
         let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
         if survey(scene, &applicant, [0.0, reach], |_, _| false, out) {
-            let claim = Asking::of(&applicant, since, clock).claim;
-            claims.extend(turns(scene, &applicant, &out.holds, claim));
+            let priority = Asking::of(&applicant, since, clock).priority;
+            priorities.extend(turns(scene, &applicant, &out.holds, priority));
         }
     }
 }
@@ -130,7 +130,7 @@ pub(crate) fn claims_at_entrances(
 /// Gives the vehicle that has just come onto the road the reservation that was surveyed before.
 pub(crate) fn reserve(
     traffic: &mut Traffic,
-    passages: &mut Passages,
+    reservations: &mut Reservations,
     queue: &Queue,
     arrival: &Arrival,
     out: &Survey,
@@ -139,9 +139,9 @@ pub(crate) fn reserve(
     let lane = traffic.lane_mut(queue.chain);
     let Some(index) = lane.find(arrival.id, length) else { return };
     let (motion, car, mind) = lane.entry_mut(index);
-    mind.passage = passages.give(mind.passage, arrival.id, length, out);
-    passages.note_since(mind.passage, queue.asks_since.unwrap_or(step));
+    mind.reservation = reservations.grant(mind.reservation, arrival.id, length, out);
+    reservations.note_since(mind.reservation, queue.asks_since.unwrap_or(step));
     car.needs_full_update = true;
     let (speed, desired) = (motion.speed, f64::from(car.desired));
-    passages.advance(mind.passage, WAITS_BEFORE + length, speed, desired);
+    reservations.advance(mind.reservation, WAITS_BEFORE + length, speed, desired);
 }

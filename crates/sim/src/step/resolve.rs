@@ -7,14 +7,14 @@ use laneweave_network::Position;
 use crate::driver::attention::concentration;
 use crate::driver::gap::gap;
 use crate::driver::plan::{Ask, Request, Want};
-use crate::junction::passages::NO_PASSAGE;
+use crate::junction::reservations::NO_RESERVATION;
 use crate::junction::state::JunctionState;
 use crate::record::events::LaneChange;
 use crate::record::log::Log;
 use crate::route::roads::Roads;
-use crate::state::lane::{Car, Entry, Mind, Motion, Phase, Twin};
+use crate::state::lane::{Car, Counterpart, Entry, Mind, Motion, Phase};
+use crate::state::previous_lanes::PreviousLanes;
 use crate::state::traffic::Traffic;
-use crate::state::trail::Trail;
 use crate::step::work::Work;
 use crate::view::scene::{Scene, Spot};
 
@@ -62,7 +62,7 @@ impl Granting<'_> {
                 let found = self.traffic.lane(chain).find(follower, x);
                 let sees_it = |index: &usize| {
                     let behind = Spot { chain, index: *index };
-                    self.has_seen(behind, since) && !self.scene().has_passage(behind, f64::from(gap))
+                    self.has_seen(behind, since) && !self.scene().has_reservation(behind, f64::from(gap))
                 };
                 if let Some(index) = found.filter(sees_it) {
                     let (_, car, mind) = self.traffic.lane_mut(chain).entry_mut(index);
@@ -129,8 +129,8 @@ impl Granting<'_> {
     fn begin_to_change(&mut self, spot: Spot) {
         let scene = self.scene();
         let mind = scene.lanes[spot.chain.at()].minds()[spot.index];
-        // Who has just been given a passage keeps its lane.
-        if scene.has_passage(spot, f64::NEG_INFINITY) {
+        // Who has just been granted a reservation keeps its lane.
+        if scene.has_reservation(spot, f64::NEG_INFINITY) {
             return;
         }
         let Some(gap) = gap(&scene, spot, mind.side) else { return };
@@ -150,18 +150,18 @@ impl Granting<'_> {
         mind.progress = 0.0;
         mind.since = clock.step;
         let (x, stretch) = (gap.x, gap.scale as f32);
-        mind.twin = Some(Twin { chain: gap.chain, x, stretch });
+        mind.counterpart = Some(Counterpart { chain: gap.chain, x, stretch });
         let Entry { motion, car, mind } = lane.entry(spot.index);
         let shadow = Entry {
             motion: Motion { x, ..motion },
             car: Car { is_shadow: true, needs_full_update: false, ..car },
             mind: Mind {
-                twin: Some(Twin { chain: spot.chain, x: motion.x, stretch: 1.0 }),
+                counterpart: Some(Counterpart { chain: spot.chain, x: motion.x, stretch: 1.0 }),
                 stretch,
-                trail: Trail::NONE,
+                previous_lanes: PreviousLanes::NONE,
                 last_place: f64::INFINITY,
                 lets_in: Mind::NOBODY,
-                passage: NO_PASSAGE,
+                reservation: NO_RESERVATION,
                 ..mind
             },
         };
@@ -172,10 +172,10 @@ impl Granting<'_> {
     fn turn_back(&mut self, spot: Spot) {
         let (motion, car, mind) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
         car.phase = Phase::Aborts;
-        let (id, twin) = (motion.id, mind.twin);
-        let Some(twin) = twin else { return };
-        let lane = self.traffic.lane_mut(twin.chain);
-        if let Some(index) = lane.find(id, twin.x) {
+        let (id, counterpart) = (motion.id, mind.counterpart);
+        let Some(counterpart) = counterpart else { return };
+        let lane = self.traffic.lane_mut(counterpart.chain);
+        if let Some(index) = lane.find(id, counterpart.x) {
             lane.entry_mut(index).1.phase = Phase::Aborts;
         }
     }

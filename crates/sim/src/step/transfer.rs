@@ -6,7 +6,7 @@ use crate::driver::plan::Outbox;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::route::roads::Roads;
-use crate::state::lane::{Entry, Milestone, Phase, Reached, Twin};
+use crate::state::lane::{Counterpart, Entry, Milestone, Phase, Reached};
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 
@@ -32,8 +32,8 @@ pub(crate) fn transfer(
         if let Some((shadow_from, mut shadow)) = own_shadow.copied() {
             index += 1;
             let shadow_onto = place_beyond(roads, shadow_from, &shadow);
-            entry.mind.twin = relocated(entry.mind.twin, shadow_onto);
-            shadow.mind.twin = relocated(shadow.mind.twin, onto);
+            entry.mind.counterpart = relocated(entry.mind.counterpart, shadow_onto);
+            shadow.mind.counterpart = relocated(shadow.mind.counterpart, onto);
             if onto.is_some() && shadow_onto.is_some() {
                 transfer.go_on_or_leave(shadow_from, shadow_onto, shadow);
             }
@@ -82,11 +82,11 @@ impl Transfer<'_> {
         }
         entry.motion.x = onto.x;
         entry.mind.last_place -= network.chain(from).length;
-        entry.mind.trail = entry.mind.trail.left(from);
+        entry.mind.previous_lanes = entry.mind.previous_lanes.left(from);
         let limit = network.chain(onto.chain).limit(onto.x);
         let style = self.roads.style(entry.car.character);
         entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
-        self.tell_twin(&entry, Some(onto));
+        self.tell_counterpart(&entry, Some(onto));
         self.traffic.insert(onto.chain, entry);
     }
 
@@ -94,12 +94,12 @@ impl Transfer<'_> {
     fn leave(&mut self, from: ChainIndex, entry: Entry) {
         let Entry { motion, car, mind } = entry;
         if car.is_shadow {
-            self.tell_twin(&entry, None);
+            self.tell_counterpart(&entry, None);
             return;
         }
-        if let Some(twin) = mind.twin {
-            let lane = self.traffic.lane_mut(twin.chain);
-            if let Some(index) = lane.find(motion.id, twin.x) {
+        if let Some(counterpart) = mind.counterpart {
+            let lane = self.traffic.lane_mut(counterpart.chain);
+            if let Some(index) = lane.find(motion.id, counterpart.x) {
                 lane.remove(index);
             }
         }
@@ -116,24 +116,24 @@ impl Transfer<'_> {
             };
             self.log.note_milestone(network, &milestone, clock.time());
         }
-        self.junctions.passages_mut().end(mind.passage, motion.id);
+        self.junctions.reservations_mut().end(mind.reservation, motion.id);
         self.traffic.leave();
         self.log.end_trip(network, clock, from, &entry);
     }
 
     /// Tells the other entry of a vehicle where this one stands now.
-    fn tell_twin(&mut self, entry: &Entry, now: Option<Position>) {
-        let Some(twin) = entry.mind.twin else { return };
-        let lane = self.traffic.lane_mut(twin.chain);
-        if let Some(index) = lane.find(entry.motion.id, twin.x) {
+    fn tell_counterpart(&mut self, entry: &Entry, now: Option<Position>) {
+        let Some(counterpart) = entry.mind.counterpart else { return };
+        let lane = self.traffic.lane_mut(counterpart.chain);
+        if let Some(index) = lane.find(entry.motion.id, counterpart.x) {
             let other = lane.entry_mut(index).2;
-            other.twin = relocated(other.twin, now);
+            other.counterpart = relocated(other.counterpart, now);
         }
     }
 }
 
-/// The twin at its new place, if it still has one.
-fn relocated(twin: Option<Twin>, place: Option<Position>) -> Option<Twin> {
+/// the counterpart at its new place, if it still has one.
+fn relocated(counterpart: Option<Counterpart>, place: Option<Position>) -> Option<Counterpart> {
     let Position { chain, x } = place?;
-    twin.map(|old| Twin { chain, x, ..old })
+    counterpart.map(|old| Counterpart { chain, x, ..old })
 }

@@ -51,7 +51,7 @@ impl<'a> Scene<'a> {
             let lane = &self.lanes[on.at()];
             let mut all = lane.motions().iter().zip(lane.minds()).enumerate();
             let is_ahead = |it: &Motion| it.id != id && (base + it.x, id) > (x, it.id);
-            let came = |mind: &Mind| mind.trail.last() == Some(came_from);
+            let came = |mind: &Mind| mind.previous_lanes.last() == Some(came_from);
             let (index, (it, _)) = all.find(|(_, (it, mind))| came(mind) && is_ahead(it))?;
             let rear = base + it.rear();
             (rear < chain.fork_clearance).then_some((Spot { chain: on, index }, rear))
@@ -81,7 +81,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has
-    /// no passage out of it, from the fork on [m].
+    /// no reservation out of it, from the fork on [m].
     #[inline]
     pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
@@ -101,13 +101,14 @@ impl<'a> Scene<'a> {
     }
 
     /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling`, if it is in the way of those
-    /// who forked off, and no passage leads it out of it [m].
+    /// who forked off, and no reservation leads it out of it [m].
     fn waits_on(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<f64> {
         let lane = &self.lanes[sibling.at()];
         let mut came = lane.motions().iter().zip(lane.minds());
         let is_ahead = |it: &Motion| it.id != id && (it.x, id) > (x, it.id);
-        let (other, mind) = came.find(|(it, mind)| is_ahead(it) && mind.trail.last() == Some(back))?;
-        let goes_on = self.passages.of(mind.passage, other.id).map_or(0.0, |it| it.left().max(0.0));
+        let (other, mind) =
+            came.find(|(it, mind)| is_ahead(it) && mind.previous_lanes.last() == Some(back))?;
+        let goes_on = self.reservations.of(mind.reservation, other.id).map_or(0.0, |it| it.left().max(0.0));
         let stays = other.rear() + goes_on < self.network.chain(sibling).fork_clearance;
         stays.then(|| other.rear())
     }

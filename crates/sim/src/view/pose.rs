@@ -5,7 +5,7 @@ use laneweave_models::lateral::Crossing;
 use laneweave_network::{ChainIndex, Network, Point, Pose, Position};
 
 use crate::state::lane::{Entry, Mind, Motion};
-use crate::state::trail::Trail;
+use crate::state::previous_lanes::PreviousLanes;
 use crate::view::scene::{Scene, Spot};
 
 /// Pose of the centre of the vehicle whose main entry is `spot`.
@@ -25,29 +25,37 @@ pub fn between([front, rear]: [Point; 2]) -> Pose {
 pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
     let Entry { motion, mind, .. } = &entry;
-    match mind.twin {
-        Some(twin) => {
+    match mind.counterpart {
+        Some(counterpart) => {
             let [share_of_front, share_of_rear] = shares(scene, &entry);
-            let between = |x: f64, twin_x: f64, share: f64| {
-                let here = on_path(network, spot.chain, mind.trail, x, 0.0);
-                here.towards(&on_path(network, twin.chain, Trail::NONE, twin_x, 0.0), share)
+            let between = |x: f64, counterpart_x: f64, share: f64| {
+                let here = on_path(network, spot.chain, mind.previous_lanes, x, 0.0);
+                here.towards(
+                    &on_path(network, counterpart.chain, PreviousLanes::NONE, counterpart_x, 0.0),
+                    share,
+                )
             };
-            let [length, twin_length] = lengths(motion, mind.progress, twin.stretch);
-            let (rear, twin_rear) = (motion.x - length, twin.x - twin_length);
-            [between(motion.x, twin.x, share_of_front), between(rear, twin_rear, share_of_rear)]
+            let [length, counterpart_length] = lengths(motion, mind.progress, counterpart.stretch);
+            let (rear, counterpart_rear) = (motion.x - length, counterpart.x - counterpart_length);
+            [between(motion.x, counterpart.x, share_of_front), between(rear, counterpart_rear, share_of_rear)]
         }
         None => {
             let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
-            let at = |x: f64, offset: f64| on_path(network, spot.chain, mind.trail, x, offset);
+            let at = |x: f64, offset: f64| on_path(network, spot.chain, mind.previous_lanes, x, offset);
             [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
         }
     }
 }
 
 /// The middles of the front and the rear bumper of a vehicle that moves on `chain` and keeps its lane, and came there
-/// over `trail`.
-pub fn bumpers_in_lane(network: &Network, chain: ChainIndex, trail: Trail, motion: &Motion) -> [Point; 2] {
-    [motion.x, motion.rear()].map(|it| on_path(network, chain, trail, it, 0.0))
+/// over `previous lanes`.
+pub fn bumpers_in_lane(
+    network: &Network,
+    chain: ChainIndex,
+    previous_lanes: PreviousLanes,
+    motion: &Motion,
+) -> [Point; 2] {
+    [motion.x, motion.rear()].map(|it| on_path(network, chain, previous_lanes, it, 0.0))
 }
 
 /// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres
@@ -95,10 +103,10 @@ pub(crate) fn crossing(manner: &Manner, motion: &Motion, mind: &Mind) -> Crossin
 /// Distance between the centre lines of the two lanes [m].
 fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
     let x = entry.motion.x;
-    match entry.mind.twin {
-        Some(twin) => {
+    match entry.mind.counterpart {
+        Some(counterpart) => {
             let here = scene.network.chain(chain).centre.at(x);
-            here.distance(&scene.network.chain(twin.chain).centre.at(twin.x))
+            here.distance(&scene.network.chain(counterpart.chain).centre.at(counterpart.x))
         }
         None => {
             let (lanelet, along) = scene.network.lanelet_at(Position::new(chain, x));
@@ -107,10 +115,16 @@ fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
     }
 }
 
-/// The point at `x` along the path that came over `trail` onto `chain`, `offset` to the left [m].
-fn on_path(network: &Network, chain: ChainIndex, trail: Trail, x: f64, offset: f64) -> Point {
+/// The point at `x` along the path that came over `previous lanes` onto `chain`, `offset` to the left [m].
+fn on_path(
+    network: &Network,
+    chain: ChainIndex,
+    previous_lanes: PreviousLanes,
+    x: f64,
+    offset: f64,
+) -> Point {
     let (mut here, mut x) = (network.chain(chain), x);
-    let mut back = trail.back(network, chain);
+    let mut back = previous_lanes.back(network, chain);
     while x < 0.0
         && let Some(previous) = back.next()
     {

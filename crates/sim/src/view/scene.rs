@@ -5,7 +5,7 @@ use laneweave_models::change::SIGHT;
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach};
 
-use crate::junction::passages::{Passage, Passages};
+use crate::junction::reservations::{Reservation, Reservations};
 use crate::junction::signals::Signals;
 use crate::junction::state::JunctionState;
 use crate::route::navigate::Navigator;
@@ -27,7 +27,7 @@ pub struct Scene<'a> {
     /// The characters of the drivers.
     pub characters: &'a [Style],
     /// Who may pass the junctions.
-    pub passages: &'a Passages,
+    pub reservations: &'a Reservations,
     /// What the lights show.
     pub signals: &'a Signals,
 }
@@ -79,7 +79,7 @@ impl<'a> Scene<'a> {
             navigator: roads.navigator(),
             lanes: traffic.lanes(),
             characters: roads.characters(),
-            passages: junctions.passages(),
+            reservations: junctions.reservations(),
             signals: junctions.signals(),
         }
     }
@@ -119,18 +119,18 @@ impl<'a> Scene<'a> {
         self.signals.shown(light)
     }
 
-    /// Whether the vehicle at `spot` has a passage that leads further than `distance` [m]: nobody may come before it
-    /// there.
-    pub(crate) fn has_passage(&self, spot: Spot, distance: f64) -> bool {
-        self.passage(spot).is_some_and(|it| it.left() > distance)
+    /// Whether the vehicle at `spot` has a reservation that leads further than `distance` [m]: nobody may come before
+    /// it there.
+    pub(crate) fn has_reservation(&self, spot: Spot, distance: f64) -> bool {
+        self.reservation(spot).is_some_and(|it| it.left() > distance)
     }
 
-    /// The passage of the vehicle at `spot`.
+    /// The reservation of the vehicle at `spot`.
     #[inline]
-    pub(crate) fn passage(&self, spot: Spot) -> Option<&'a Passage> {
+    pub(crate) fn reservation(&self, spot: Spot) -> Option<&'a Reservation> {
         // A driver with one needs a full update: the mind of others is not worth a look into cold memory.
         let mind = self.car(spot).needs_full_update.then(|| self.mind(spot))?;
-        self.passages.of(mind.passage, self.motion(spot).id)
+        self.reservations.of(mind.reservation, self.motion(spot).id)
     }
 
     /// How the entry at `spot` moves.
@@ -230,7 +230,7 @@ impl<'a> Scene<'a> {
         if it.rear() >= 0.0 {
             return gap;
         }
-        match mind.trail.last() {
+        match mind.previous_lanes.last() {
             Some(other) if other != chain => {
                 let junctions = &self.network.junctions;
                 let crossings = junctions.on(chain).crossings.iter();

@@ -3,13 +3,13 @@
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Position, Side};
 
-use crate::junction::passages::{NO_PASSAGE, Passages};
+use crate::junction::reservations::{NO_RESERVATION, Reservations};
 use crate::junction::signals::Signals;
 use crate::route::navigate::Navigator;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::lane::{Car, Entry, Kind, Lane, Mind, Motion, Phase, Twin, VehicleId};
-use crate::state::trail::Trail;
+use crate::state::lane::{Car, Counterpart, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
+use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
 use crate::view::scene::{Scene, Spot};
 
@@ -55,7 +55,7 @@ pub struct Across {
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     lanes: Vec<Lane>,
-    passages: Passages,
+    reservations: Reservations,
     signals: Signals,
     /// The main entries in order of ids.
     spots: Vec<(VehicleId, Spot)>,
@@ -82,8 +82,9 @@ impl Snapshot {
             spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
         }
         spots.sort_by_key(|(id, _)| *id);
-        let (passages, signals) = (Passages::new(network), Signals::new(network, Clock { step: 0, dt: 1.0 }));
-        Snapshot { lanes, passages, signals, spots }
+        let (reservations, signals) =
+            (Reservations::new(network), Signals::new(network, Clock { step: 0, dt: 1.0 }));
+        Snapshot { lanes, reservations, signals, spots }
     }
 
     /// The instant as drivers with `characters`, who find their ways by `navigator`, see it.
@@ -93,8 +94,8 @@ impl Snapshot {
         navigator: &'a Navigator,
         characters: &'a [Style],
     ) -> Scene<'a> {
-        let Snapshot { lanes, passages, signals, .. } = self;
-        Scene { network, navigator, lanes, characters, passages, signals }
+        let Snapshot { lanes, reservations, signals, .. } = self;
+        Scene { network, navigator, lanes, characters, reservations, signals }
     }
 
     /// The main entry of a vehicle.
@@ -123,7 +124,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         standing: 0.0,
         character: seen.character,
         due: 0,
-        calm_until: 0,
+        cooldown_until: 0,
         goal: seen.destination.into(),
         class: seen.class,
         phase: if seen.change.is_some() { Phase::Changes } else { Phase::Cruises },
@@ -131,7 +132,8 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         in_emergency: false,
         needs_full_update: false,
     };
-    let twin = |change: Across| Twin { chain: change.other.chain, x: change.other.x, stretch: 1.0 };
+    let counterpart =
+        |change: Across| Counterpart { chain: change.other.chain, x: change.other.x, stretch: 1.0 };
     let mind = Mind {
         side: seen.change.map_or(network.driving_side.overtaking(), |it| it.side),
         kind: Kind::Discretionary,
@@ -141,11 +143,11 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         progress: seen.change.map_or(0.0, |it| it.progress as f32),
         urgency: 0.0,
         record: 0,
-        trail: Trail::NONE,
-        twin: seen.change.map(twin),
+        previous_lanes: PreviousLanes::NONE,
+        counterpart: seen.change.map(counterpart),
         last_place: f64::INFINITY,
         lets_in: Mind::NOBODY,
-        passage: NO_PASSAGE,
+        reservation: NO_RESERVATION,
     };
     Entry { motion, car, mind }
 }
@@ -157,6 +159,6 @@ fn shadow(network: &Network, seen: &Seen, change: &Across) -> Entry {
     Entry {
         motion: Motion { x, ..motion },
         car: Car { is_shadow: true, ..car },
-        mind: Mind { twin: Some(Twin { chain: seen.chain, x: seen.x, stretch: 1.0 }), ..mind },
+        mind: Mind { counterpart: Some(Counterpart { chain: seen.chain, x: seen.x, stretch: 1.0 }), ..mind },
     }
 }

@@ -82,7 +82,7 @@ fn nobody_who_is_3_m_from_the_line_or_more_brakes_hard_for_a_light_that_turns_ye
     for number in 0..40 {
         let start = [line - 3.0 - 0.5 * f64::from(number), 0.4 + 0.9 * f64::from(number % 13)];
         let mut world = comer_to_a_light(&network, start);
-        // It appears without a passage, and gets one.
+        // It appears without a reservation, and gets one.
         (0..3).for_each(|_| world.step());
         let at_first = world.tally().emergency_brakings;
         let hardest = (0..150).fold(0.0, |hardest: f64, _| {

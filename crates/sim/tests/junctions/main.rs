@@ -1,9 +1,9 @@
 //! Drivers at junctions: who waits, who goes, and that nobody waits for ever.
 
 mod actuated;
+mod disutility;
 #[path = "../roads/drivers.rs"]
 mod drivers;
-mod effort;
 mod flow;
 mod giving_way;
 mod guided;

@@ -151,7 +151,7 @@ fn a_full_ring_turns() {
 #[test]
 fn who_stands_behind_another_who_came_before_it_does_not_keep_a_junction_from_others() {
     let mut world = empty(network("priority.osm"), vec![drivers::conservative(), immobile()]);
-    // Far from the junction it has its passage already, when another stops before it.
+    // Far from the junction it has its reservation already, when another stops before it.
     let comer =
         |from: Arm, distance, speed| Comer { from, to: from.turned(2), distance, speed, character: 0 };
     put(&mut world, comer(Arm::East, 60.0, 12.0));

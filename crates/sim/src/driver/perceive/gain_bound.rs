@@ -5,7 +5,7 @@ use laneweave_models::change::{Behind, GainBound, Mcdm, anticipated_speed};
 use laneweave_models::follow::Ahead;
 use laneweave_network::Side;
 
-use super::{Outlook, driver};
+use super::{Perception, driver};
 use crate::state::lane::Phase;
 use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
 
@@ -17,7 +17,7 @@ pub(crate) struct Dismissed {
     pub(crate) best_prospect: Option<f64>,
 }
 
-impl Outlook<'_, '_> {
+impl Perception<'_, '_> {
     /// Whether neither side can gain as much as `reach`. `None` where it can, or the bound does not tell.
     #[inline]
     pub(crate) fn dismisses(&self, model: &Mcdm, reach: f64) -> Option<Dismissed> {

@@ -63,7 +63,7 @@ fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere
             continue;
         }
         let from = scene.viewpoint(spot);
-        let last = refuges(&scene, from, &out).last().unwrap();
+        let last = sections(&scene, from, &out).last().unwrap();
         surveyed += 1;
         assert_eq!(
             last.chain,

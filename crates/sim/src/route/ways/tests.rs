@@ -32,9 +32,15 @@ fn chain(network: &Network, id: i64) -> ChainIndex {
 fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
     let network = fork();
     let into = beside_into(&network);
-    let views = Views::default();
+    let restrictions = ClassRestrictions::default();
     let mut links = Links::of(&network);
-    let free = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+    let free = Planner {
+        network: &network,
+        into: &into,
+        links: &links,
+        restrictions: &restrictions,
+        restriction: 0,
+    };
     let place = Place::Gate(network.exits[0].clone());
     let mut table = free.plan(&place);
     let times: Vec<f64> = (0..network.chains.len() as u32)
@@ -45,7 +51,13 @@ fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
         })
         .collect();
     links.take(times.into_iter());
-    let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+    let planner = Planner {
+        network: &network,
+        into: &into,
+        links: &links,
+        restrictions: &restrictions,
+        restriction: 0,
+    };
     let mut best = planner.plan(&place);
     planner.note_alternatives(&mut best, None);
     planner.retime(&mut table, &place);
@@ -78,14 +90,20 @@ fn two_lanes() -> Network {
 fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
     let network = two_lanes();
     let into = beside_into(&network);
-    let views = Views::default();
+    let restrictions = ClassRestrictions::default();
     let [long, short] = [1, 4].map(|id| chain(&network, id));
     let inner = InnerPlace { id: 3, chain: long, station: 950.0 };
     for jammed in 0..5 {
         let mut links = Links::of(&network);
         let times: Vec<f64> = (0..5).map(|it| if it == jammed { 900.0 } else { 30.0 }).collect();
         links.take(times.into_iter());
-        let planner = Planner { network: &network, into: &into, links: &links, views: &views, view: 0 };
+        let planner = Planner {
+            network: &network,
+            into: &into,
+            links: &links,
+            restrictions: &restrictions,
+            restriction: 0,
+        };
         let table = planner.plan(&Place::Inside(inner));
         let [here, there] = [long, short].map(|it| table[it.at()]);
         assert_eq!((here.changes, here.via), (0, long), "{jammed}");
@@ -100,7 +118,7 @@ fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
 
 #[test]
 fn a_change_counts_as_a_detour_the_more_the_less_road_there_is_for_it() {
-    let counted = [0.0, 10.0, 30.0, 40.0, 90.0].map(Planner::hurry);
+    let counted = [0.0, 10.0, 30.0, 40.0, 90.0].map(Planner::missed_turn_penalty);
     assert_eq!(counted, [120.0, 90.0, 30.0, 0.0, 0.0]);
 }
 

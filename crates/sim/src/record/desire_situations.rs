@@ -1,9 +1,9 @@
-//! What separates drivers from coins: how often the desire comes to those held up beside a free lane, and to those on a
-//! free road.
+//! What separates drivers from the null-model control: how often the desire comes to those held up beside a free lane,
+//! and to those on a free road.
 
 /// A driver whose desires are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sign {
+pub(crate) enum DesireSituation {
     /// On a free road.
     Free,
     /// Held up beside a free lane.
@@ -14,15 +14,15 @@ pub(crate) enum Sign {
 const FREE: f64 = 0.95;
 const HELD_UP: f64 = 0.9;
 
-impl Sign {
+impl DesireSituation {
     /// Of a driver who wants `desired` [m/s] and anticipates `here` in its lane, and `best_there` in the better lane
     /// beside that leads to the same place, if there is one.
-    pub(crate) fn of(desired: f64, here: f64, best_there: Option<f64>) -> Option<Sign> {
+    pub(crate) fn of(desired: f64, here: f64, best_there: Option<f64>) -> Option<DesireSituation> {
         let best_there = best_there?;
         if here >= FREE * desired {
-            Some(Sign::Free)
+            Some(DesireSituation::Free)
         } else {
-            (here <= HELD_UP * desired && best_there >= FREE * desired).then_some(Sign::HeldUp)
+            (here <= HELD_UP * desired && best_there >= FREE * desired).then_some(DesireSituation::HeldUp)
         }
     }
 }

@@ -2,22 +2,22 @@
 
 use laneweave_network::Side;
 
-use crate::junction::need::SPARE_ROOM;
-use crate::junction::refuge::Refuge;
+use crate::junction::need::SPARE_SPACE;
+use crate::junction::storage_section::StorageSection;
 use crate::right_of_way::survey::{ROUNDING, parts};
 use crate::route::walk::Leg;
 use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
 /// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).
-pub(crate) const ROOM_SIGHT: f64 = 120.0;
+pub(crate) const SPACE_SIGHT: f64 = 120.0;
 /// Braking that is expected of who is beyond the zones [m/s²] (ours).
 const EXPECTED_BRAKING: f64 = 4.0;
 
-/// Where a vehicle would stand after its passage. Distances are those from its front now [m].
+/// Where a vehicle would stand after its reservation. Distances are those from its front now [m].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beyond {
-    pub(crate) refuge: Refuge,
+    pub(crate) section: StorageSection,
     /// Where the zones end.
     pub(crate) clear: f64,
     /// Where the next place, or the end of the way, lets it go no further.
@@ -27,16 +27,16 @@ pub(crate) struct Beyond {
 }
 
 /// Room from where the zones end [m], to the limit or to where the vehicles that are out of the zones will all be; none
-/// if somebody ahead who is not out of them, and of the way, has no passage out.
-pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
+/// if somebody ahead who is not out of them, and of the way, has no reservation out.
+pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
-    let Beyond { refuge, clear, limit, arrival } = beyond;
+    let Beyond { section, clear, limit, arrival } = beyond;
     if scene.waits_beside_in_fork(from).is_some() {
         return NONE;
     }
-    let reach = clear + ROOM_SIGHT;
+    let reach = clear + SPACE_SIGHT;
     let mut first = from.ahead;
-    let mut taken = scene.passages.kept_on(refuge);
+    let mut taken = scene.reservations.kept_on(section);
     let mut end = f64::INFINITY;
     for Leg { chain, start: base, before } in scene.walk(from).within(reach) {
         let before = before.filter(|_| base < clear);
@@ -53,16 +53,16 @@ pub(crate) fn room(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
                 return end.min(limit.min(reach) - taken) - clear;
             }
             let spot = Spot { chain, index };
-            let passage = scene.passages.of(lane.minds()[index].passage, motion.id);
-            let gets_to = rear + passage.map_or(0.0, |it| it.left_for_certain().max(0.0));
+            let reservation = scene.reservations.of(lane.minds()[index].reservation, motion.id);
+            let gets_to = rear + reservation.map_or(0.0, |it| it.left_for_certain().max(0.0));
             if rear >= clear {
-                // Whose passage leads beyond the room does not stop in it.
+                // Whose reservation leads beyond the room does not stop in it.
                 if gets_to < limit {
                     let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
                     let moves_to =
                         if moves_up(scene, from, spot) { rear + motion.speed * arrival } else { rear };
                     end = end.min(moves_to.max(stops_at).max(gets_to) - taken);
-                    taken += f64::from(motion.length) + SPARE_ROOM;
+                    taken += f64::from(motion.length) + SPARE_SPACE;
                 }
                 continue;
             }

@@ -10,7 +10,7 @@ use laneweave_network::{ChainIndex, Position};
 use serde::{Deserialize, Serialize};
 
 use crate::record::events::{DrivingEvent, DrivingEventKind};
-use crate::record::ledger::Mark;
+use crate::record::lanelet_aggregates::Mark;
 use crate::state::lane::VehicleId;
 use crate::state::vehicle::Class;
 
@@ -85,7 +85,7 @@ impl TripRecord {
 
 /// The records of all vehicles on the road.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Journal {
+pub(crate) struct TripLog {
     /// The oldest vehicle whose trip is not over.
     oldest: VehicleId,
     /// For each since then where its record is.
@@ -98,10 +98,10 @@ pub(crate) struct Journal {
 const AHEAD: u32 = u32::MAX;
 const OVER: u32 = u32::MAX - 1;
 
-impl Journal {
+impl TripLog {
     /// Whether its slots are there, and its records lie on so many chains.
     pub(crate) fn fits(&self, chains: usize) -> bool {
-        let Journal { oldest: _, slots, records, free } = self;
+        let TripLog { oldest: _, slots, records, free } = self;
         let is_there = |it: u32| (it as usize) < records.len();
         slots.iter().all(|it| *it >= OVER || is_there(*it))
             && free.iter().all(|it| is_there(*it))
@@ -189,32 +189,35 @@ mod tests {
 
     #[test]
     fn who_waits_to_enter_while_later_ones_leave_is_recorded_all_the_same() {
-        let mut journal = Journal::default();
-        journal.begin(record(1, 5.0));
-        assert_eq!(journal.end(1).map(|it| it.vehicle), Some(1));
-        assert_eq!((journal.of(0), journal.of(1)), (None, None));
-        journal.begin(record(0, 4.5));
-        journal.begin(record(7, 12.0));
-        assert_eq!(journal.of(0).map(|it| it.way(104.5)), Some(100.0));
-        assert_eq!(journal.end(0).map(|it| it.vehicle), Some(0));
-        assert_eq!((journal.oldest, journal.of(7).map(|it| it.vehicle)), (2, Some(7)));
-        assert_eq!((journal.end(0), journal.of(1), journal.of(6), journal.of(8)), (None, None, None, None));
+        let mut trip_log = TripLog::default();
+        trip_log.begin(record(1, 5.0));
+        assert_eq!(trip_log.end(1).map(|it| it.vehicle), Some(1));
+        assert_eq!((trip_log.of(0), trip_log.of(1)), (None, None));
+        trip_log.begin(record(0, 4.5));
+        trip_log.begin(record(7, 12.0));
+        assert_eq!(trip_log.of(0).map(|it| it.way(104.5)), Some(100.0));
+        assert_eq!(trip_log.end(0).map(|it| it.vehicle), Some(0));
+        assert_eq!((trip_log.oldest, trip_log.of(7).map(|it| it.vehicle)), (2, Some(7)));
+        assert_eq!(
+            (trip_log.end(0), trip_log.of(1), trip_log.of(6), trip_log.of(8)),
+            (None, None, None, None)
+        );
     }
 
     #[test]
     fn halts_and_the_time_at_rest_add_up() {
-        let mut journal = Journal::default();
-        journal.begin(record(0, 0.0));
+        let mut trip_log = TripLog::default();
+        trip_log.begin(record(0, 0.0));
         let event =
             |kind| DrivingEvent { kind, vehicle: 0, time: 0.0, at: Position::new(ChainIndex(0), 0.0) };
         for stood in [2.0, 3.5] {
-            journal.note(&event(DrivingEventKind::Halt));
-            journal.note(&event(DrivingEventKind::SetOff { stood }));
+            trip_log.note(&event(DrivingEventKind::Halt));
+            trip_log.note(&event(DrivingEventKind::SetOff { stood }));
         }
-        journal.note(&event(DrivingEventKind::Halt));
-        journal.note(&event(DrivingEventKind::RouteChange));
-        journal.note(&DrivingEvent { vehicle: 4, ..event(DrivingEventKind::Halt) });
-        let trip = journal.of(0).copied();
+        trip_log.note(&event(DrivingEventKind::Halt));
+        trip_log.note(&event(DrivingEventKind::RouteChange));
+        trip_log.note(&DrivingEvent { vehicle: 4, ..event(DrivingEventKind::Halt) });
+        let trip = trip_log.of(0).copied();
         assert_eq!(
             trip.map(|it| (it.stops, it.stood, it.route_changes, it.missed_turns)),
             Some((3, 5.5, 1, 0))

@@ -5,33 +5,33 @@ use serde::{Deserialize, Serialize};
 
 /// Turns and traffic lights on a way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Effort {
+pub struct Disutility {
     /// Turns.
     pub turns: u16,
     /// Traffic lights.
     pub lights: u16,
 }
 
-impl Effort {
+impl Disutility {
     /// On `chain` from its start to `station` [m].
-    pub(crate) fn until(network: &Network, chain: ChainIndex, station: f64) -> Effort {
+    pub(crate) fn until(network: &Network, chain: ChainIndex, station: f64) -> Disutility {
         let turns = network.junctions.turns(chain).iter().filter(|it| **it <= station);
         let stops = network.junctions.on(chain).stops.iter().filter(|it| it.station <= station);
         let lights = stops.filter(|it| matches!(it.sign, Sign::Light(_)));
-        Effort { turns: turns.count() as u16, lights: lights.count() as u16 }
+        Disutility { turns: turns.count() as u16, lights: lights.count() as u16 }
     }
 
     /// This and then `onward`.
-    pub(crate) fn and(self, onward: Effort) -> Effort {
-        Effort {
+    pub(crate) fn and(self, onward: Disutility) -> Disutility {
+        Disutility {
             turns: self.turns.saturating_add(onward.turns),
             lights: self.lights.saturating_add(onward.lights),
         }
     }
 
     /// What is left of it after `passed`.
-    pub(crate) fn beyond(self, passed: Effort) -> Effort {
-        Effort {
+    pub(crate) fn beyond(self, passed: Disutility) -> Disutility {
+        Disutility {
             turns: self.turns.saturating_sub(passed.turns),
             lights: self.lights.saturating_sub(passed.lights),
         }

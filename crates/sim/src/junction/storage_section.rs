@@ -6,22 +6,22 @@ use serde::{Deserialize, Serialize};
 /// A stretch of a chain between two places where drivers may have to stop: who stands on one of them is in nobody's way
 /// on another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Refuge {
+pub(crate) struct StorageSection {
     pub(crate) chain: ChainIndex,
     /// Number of places on the chain before it.
     places: u32,
 }
 
-impl Refuge {
+impl StorageSection {
     /// The stretch from the start of a chain on.
-    pub(crate) const fn first_of(chain: ChainIndex) -> Refuge {
-        Refuge { chain, places: 0 }
+    pub(crate) const fn first_of(chain: ChainIndex) -> StorageSection {
+        StorageSection { chain, places: 0 }
     }
 
     /// The stretch on which `station` [m] of a chain lies.
-    pub(crate) fn at(junctions: &Junctions, chain: ChainIndex, station: f64) -> Refuge {
+    pub(crate) fn at(junctions: &Junctions, chain: ChainIndex, station: f64) -> StorageSection {
         let places = &junctions.on(chain).places;
-        Refuge { chain, places: places.partition_point(|it| it.station < station) as u32 }
+        StorageSection { chain, places: places.partition_point(|it| it.station < station) as u32 }
     }
 
     /// Whether it leads on to the next chain.
@@ -30,7 +30,7 @@ impl Refuge {
     }
 }
 
-/// Numbers of all refuges of a network, from 0 on; none where there are no zones.
+/// Numbers of all storage sections of a network, from 0 on; none where there are no zones.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Numbers {
     /// Those of the first of each chain.
@@ -60,9 +60,9 @@ impl Numbers {
         Numbers { first: (0..count as u32).collect(), count }
     }
 
-    /// The number of a refuge, if it has one.
+    /// The number of a storage section, if it has one.
     #[inline]
-    pub(crate) fn of_refuge(&self, refuge: Refuge) -> Option<usize> {
-        self.first.get(refuge.chain.at()).map(|first| (first + refuge.places) as usize)
+    pub(crate) fn of_section(&self, section: StorageSection) -> Option<usize> {
+        self.first.get(section.chain.at()).map(|first| (first + section.places) as usize)
     }
 }

@@ -7,7 +7,7 @@
 use laneweave_network::{Chain, Network};
 use serde::{Deserialize, Serialize};
 
-use crate::record::journal::Journal;
+use crate::record::trip_log::TripLog;
 use crate::state::clock::Clock;
 use crate::state::lane::{Lane, Motion};
 use crate::state::standstill::STANDSTILL;
@@ -68,18 +68,18 @@ impl Mark {
 
 /// Sums by lanelet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Ledger {
+pub(crate) struct LaneletAggregates {
     pub(crate) stays: Vec<Stay>,
 }
 
-impl Ledger {
+impl LaneletAggregates {
     /// Nothing yet.
-    pub(crate) fn new(network: &Network) -> Ledger {
-        Ledger { stays: vec![Stay::default(); network.lanelets.len()] }
+    pub(crate) fn new(network: &Network) -> LaneletAggregates {
+        LaneletAggregates { stays: vec![Stay::default(); network.lanelets.len()] }
     }
 
     /// Puts down where all vehicles are.
-    pub(crate) fn look(&mut self, network: &Network, lanes: &[Lane], journal: &mut Journal, clock: Clock) {
+    pub(crate) fn look(&mut self, network: &Network, lanes: &[Lane], trip_log: &mut TripLog, clock: Clock) {
         let time = clock.time();
         for (chain, lane) in network.chains.iter().zip(lanes) {
             // They stand in driving order, so that their lanelets follow each other.
@@ -91,7 +91,7 @@ impl Ledger {
                 while chain.starts.get(place + 1).is_some_and(|it| *it <= motion.x) {
                     place += 1;
                 }
-                if let Some(record) = journal.of_mut(motion.id) {
+                if let Some(record) = trip_log.of_mut(motion.id) {
                     let now = Mark { x: motion.x, time };
                     let before = std::mem::replace(&mut record.mark, now);
                     self.put_down(chain, place, [before, now], motion.speed < STANDSTILL);
@@ -162,12 +162,12 @@ mod tests {
         let plan = Motorway { lanes: 1, length_m: 500.0, ..Motorway::default() };
         let network = motorway(&plan).unwrap().build().unwrap().network;
         let chain = &network.chains[0];
-        let mut ledger = Ledger::new(&network);
+        let mut aggregates = LaneletAggregates::new(&network);
         let place = chain.starts.partition_point(|it| *it <= marks[1].x) - 1;
-        ledger.put_down(chain, place, marks, false);
+        aggregates.put_down(chain, place, marks, false);
         let rounded = |it: f64| (it * 1e6).round() / 1e6;
         let of = |it: &Stay| (rounded(it.time), rounded(it.way), it.passed);
-        chain.lanelets.iter().map(|it| of(&ledger.stays[it.at()])).collect()
+        chain.lanelets.iter().map(|it| of(&aggregates.stays[it.at()])).collect()
     }
 
     fn mark(x: f64, time: f64) -> Mark {

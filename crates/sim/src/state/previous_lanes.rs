@@ -5,38 +5,39 @@ use serde::{Deserialize, Serialize};
 
 /// The last two chains that a vehicle left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Trail {
+pub struct PreviousLanes {
     last: u32,
     before: u32,
 }
 
-impl Trail {
+impl PreviousLanes {
     const UNKNOWN: u32 = u32::MAX;
 
     /// Of a vehicle that has just appeared.
-    pub const NONE: Trail = Trail { last: Trail::UNKNOWN, before: Trail::UNKNOWN };
+    pub const NONE: PreviousLanes =
+        PreviousLanes { last: PreviousLanes::UNKNOWN, before: PreviousLanes::UNKNOWN };
 
-    /// The trail of a vehicle that goes on from `chain`.
-    pub fn left(self, chain: ChainIndex) -> Trail {
-        Trail { last: chain.0, before: self.last }
+    /// The previous lanes of a vehicle that goes on from `chain`.
+    pub fn left(self, chain: ChainIndex) -> PreviousLanes {
+        PreviousLanes { last: chain.0, before: self.last }
     }
 
     /// The chain before the one that the vehicle is on.
     #[inline]
     pub fn last(self) -> Option<ChainIndex> {
-        (self.last != Trail::UNKNOWN).then_some(ChainIndex(self.last))
+        (self.last != PreviousLanes::UNKNOWN).then_some(ChainIndex(self.last))
     }
 
     /// The chains that it is known to have come over, the latest first.
     pub fn known(self) -> impl Iterator<Item = ChainIndex> {
-        [self.last, self.before].into_iter().take_while(|it| *it != Trail::UNKNOWN).map(ChainIndex)
+        [self.last, self.before].into_iter().take_while(|it| *it != PreviousLanes::UNKNOWN).map(ChainIndex)
     }
 
     /// The chains before `chain`, the nearest first: those that are known, then those that there is no choice of.
     pub(crate) fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
         let mut known = [self.last, self.before].into_iter();
         std::iter::successors(Some(chain), move |here| match known.next() {
-            Some(index) if index != Trail::UNKNOWN => Some(ChainIndex(index)),
+            Some(index) if index != PreviousLanes::UNKNOWN => Some(ChainIndex(index)),
             _ => {
                 if let [only] = network.chain(*here).previous[..] {
                     Some(only)

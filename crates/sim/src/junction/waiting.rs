@@ -7,7 +7,7 @@ use crate::state::lane::VehicleId;
 
 /// A side of a zone that a vehicle may pass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Hold {
+pub(crate) struct ZoneReservation {
     pub(crate) zone: ZoneIndex,
     pub(crate) side: u8,
     /// Where the front comes in the way [m].
@@ -18,7 +18,7 @@ pub(crate) struct Hold {
 
 /// A driver who waits because of others. Those out of patience come before all others, then who has waited longer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(crate) struct Claim {
+pub(crate) struct WaitingPriority {
     pub(crate) is_patient: bool,
     pub(crate) since: u32,
     pub(crate) id: VehicleId,
@@ -28,7 +28,7 @@ pub(crate) struct Claim {
 /// The turn that somebody who waits claims on a side of a zone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Turn {
-    pub(crate) claim: Claim,
-    /// Time until it can be there: those who have passages hold it up, and it has to drive there [s].
+    pub(crate) priority: WaitingPriority,
+    /// Time until it can be there: those who have reservations hold it up, and it has to drive there [s].
     pub(crate) begins: f64,
 }

@@ -13,37 +13,37 @@ const ARM: f64 = 3.0;
 
 /// Chains that classes avoid.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Views {
-    /// What long vehicles avoid, by chain; `None` if nothing, so that they see the roads as all others do.
+pub(crate) struct ClassRestrictions {
+    /// What long vehicles avoid, by chain; `None` if nothing, so that they drive where all others do.
     of_long: Option<Vec<bool>>,
 }
 
-impl Views {
+impl ClassRestrictions {
     /// How a fleet sees `network`.
-    pub(crate) fn of(network: &Network, fleet: &Fleet) -> Views {
+    pub(crate) fn of(network: &Network, fleet: &Fleet) -> ClassRestrictions {
         let has_long = fleet.shares().iter().any(|(class, share)| class.is_long() && *share > 0.0);
         if !has_long {
-            return Views::default();
+            return ClassRestrictions::default();
         }
         let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&it.centre) < TIGHTEST_TURN;
         let is_tight: Vec<bool> = network.chains.iter().map(is_tight).collect();
         let differs = is_tight.contains(&true) || network.chains.iter().any(|it| it.is_narrow);
-        Views { of_long: differs.then_some(is_tight) }
+        ClassRestrictions { of_long: differs.then_some(is_tight) }
     }
 
-    /// Number of different views.
+    /// Number of different restrictions, that of no restriction included.
     pub(crate) fn count(&self) -> usize {
         1 + usize::from(self.of_long.is_some())
     }
 
-    /// The view of a class, from 0 on.
+    /// The restriction of a class, from 0 on.
     pub(crate) fn of_class(&self, class: Class) -> usize {
         usize::from(self.of_long.is_some() && class.is_long())
     }
 
-    /// Whether `chain` is avoided in a view.
-    pub(crate) fn avoids(&self, view: usize, chain: ChainIndex) -> bool {
-        view > 0 && self.of_long.as_ref().is_some_and(|it| it[chain.at()])
+    /// Whether `chain` is avoided under a restriction.
+    pub(crate) fn avoids(&self, restriction: usize, chain: ChainIndex) -> bool {
+        restriction > 0 && self.of_long.as_ref().is_some_and(|it| it[chain.at()])
     }
 }
 
@@ -121,8 +121,10 @@ mod tests {
         all.extend(turns.iter().zip(2..).map(|(it, id)| lanelet(id, turn(*it, 1.0), &[last])));
         all.push(lanelet(99, straight(100.0), &[]));
         let network = Network::new(all, DrivingSide::Right).unwrap();
-        let views = Views::of(&network, &Fleet { trucks: 0.2, buses: 0.2, motorcycles: 0.2 });
-        let navigator = Navigator::with_views(&network, &[Place::Gate(network.exits[0].clone())], views);
+        let restrictions =
+            ClassRestrictions::of(&network, &Fleet { trucks: 0.2, buses: 0.2, motorcycles: 0.2 });
+        let navigator =
+            Navigator::with_restrictions(&network, &[Place::Gate(network.exits[0].clone())], restrictions);
         let goal = navigator.seen_by(class, Some(0));
         assert_eq!((navigator.number(goal), navigator.seen_by(class, goal)), (Some(0), goal));
         navigator.waypoint(goal, ChainIndex(0)).next
@@ -144,7 +146,7 @@ mod tests {
     #[test]
     fn who_avoids_nothing_sees_the_roads_as_all_do() {
         let network = Network::new(vec![lanelet(1, turn(5.0, 1.0), &[])], DrivingSide::Right).unwrap();
-        assert_eq!(Views::of(&network, &Fleet::default()).count(), 1);
-        assert_eq!(Views::of(&network, &Fleet::with_trucks(0.1)).count(), 2);
+        assert_eq!(ClassRestrictions::of(&network, &Fleet::default()).count(), 1);
+        assert_eq!(ClassRestrictions::of(&network, &Fleet::with_trucks(0.1)).count(), 2);
     }
 }

@@ -5,15 +5,15 @@ use laneweave_network::{
     ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations,
     StopKind, StopRule,
 };
-use laneweave_sim::{Class, Effort, Navigator, NewVehicle};
+use laneweave_sim::{Class, Disutility, Navigator, NewVehicle};
 
 use crate::drivers;
 use crate::town::{Arm, empty, exit_to, lane_from, network, run_until};
 
 /// What the way from arm to arm of the only junction asks for.
-fn effort(network: &Network, from: Arm, to: Arm) -> Effort {
+fn disutility(network: &Network, from: Arm, to: Arm) -> Disutility {
     let navigator = Navigator::new(network);
-    navigator.waypoint(Some(exit_to(network, to)), lane_from(network, from)).effort
+    navigator.waypoint(Some(exit_to(network, to)), lane_from(network, from)).disutility
 }
 
 #[test]
@@ -21,7 +21,7 @@ fn a_junction_is_a_turn_for_all_but_those_who_go_straight_on() {
     for name in ["priority.osm", "right_before_left.osm", "all_way_stop.osm"] {
         let network = network(name);
         for from in Arm::ALL {
-            let turns = [1, 2, 3].map(|quarters| effort(&network, from, from.turned(quarters)).turns);
+            let turns = [1, 2, 3].map(|quarters| disutility(&network, from, from.turned(quarters)).turns);
             assert_eq!(turns, [1, 0, 1], "{name} from {from:?}");
         }
     }
@@ -31,7 +31,7 @@ fn a_junction_is_a_turn_for_all_but_those_who_go_straight_on() {
 fn the_way_through_a_roundabout_is_a_turn_into_it_and_one_out_of_it() {
     let network = network("roundabout.osm");
     for from in Arm::ALL {
-        let turns = [1, 2, 3].map(|quarters| effort(&network, from, from.turned(quarters)).turns);
+        let turns = [1, 2, 3].map(|quarters| disutility(&network, from, from.turned(quarters)).turns);
         assert_eq!(turns, [2, 2, 2], "from {from:?}");
     }
 }
@@ -83,9 +83,9 @@ fn a_way_and_its_alternative_have_the_turns_and_lights_that_lie_on_them() {
     let network = fork();
     let navigator = Navigator::new(&network);
     let waypoint = *navigator.waypoint(Some(0), chain_of(&network, 1));
-    assert_eq!(waypoint.effort, Effort { turns: 0, lights: 1 });
-    assert_eq!(waypoint.alternative_effort, Effort { turns: 2, lights: 2 });
-    assert_eq!(navigator.waypoint(Some(0), chain_of(&network, 4)).effort, Effort::default());
+    assert_eq!(waypoint.disutility, Disutility { turns: 0, lights: 1 });
+    assert_eq!(waypoint.alternative_effort, Disutility { turns: 2, lights: 2 });
+    assert_eq!(navigator.waypoint(Some(0), chain_of(&network, 4)).disutility, Disutility::default());
 }
 
 /// The road that a driver takes who hears that some crawl along the straight one.

@@ -1,0 +1,148 @@
+use laneweave_network::ChainIndex;
+
+use super::*;
+
+const LENGTH: f64 = 4.5;
+const ZONE: ZoneIndex = ZoneIndex(0);
+const REFUGE: StorageSection = StorageSection::first_of(ChainIndex(0));
+
+/// Reservations of a network with one zone, and one chain beyond it.
+fn of_one_zone() -> Reservations {
+    Reservations {
+        queues: vec![Vec::new()],
+        priorities: vec![[None; 2]],
+        numbers: Numbers::of_chains(1),
+        kept: vec![0],
+        ..Reservations::default()
+    }
+}
+
+/// Over the zone from 10 m to 15 m ahead, with a light at 8 m, to a place beyond it.
+fn over_the_zone(side: u8) -> Survey {
+    Survey {
+        lights: vec![(LightIndex(0), 8.0)],
+        holds: vec![ZoneReservation { zone: ZONE, side, enter: 10.0, leave: 15.0 + LENGTH }],
+        extent: 15.0 + LENGTH,
+        needed: LENGTH + 2.0,
+        ..Survey::default()
+    }
+}
+
+fn order(reservations: &Reservations) -> Vec<VehicleId> {
+    reservations.order(ZONE).map(|(_, reservation)| reservation.vehicle).collect()
+}
+
+#[test]
+fn who_was_given_a_reservation_first_goes_first_until_its_rear_has_left_the_zone() {
+    let mut reservations = of_one_zone();
+    let first = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    reservations.grant(NO_RESERVATION, 3, LENGTH, &over_the_zone(1));
+    assert_eq!(order(&reservations), [7, 3]);
+    reservations.advance(first, 19.4, 10.0, 14.0);
+    assert_eq!(order(&reservations), [7, 3]);
+    reservations.advance(first, 0.1, 10.0, 14.0);
+    assert_eq!(order(&reservations), [3]);
+    assert!(reservations.of(first, 7).is_none());
+}
+
+#[test]
+fn room_is_kept_beyond_the_zone_until_the_vehicle_is_there() {
+    let mut reservations = of_one_zone();
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    reservations.grant(NO_RESERVATION, 3, LENGTH, &over_the_zone(0));
+    assert_eq!(reservations.kept_on(REFUGE), 13.0);
+    reservations.advance(slot, 19.5, 10.0, 14.0);
+    assert_eq!(reservations.kept_on(REFUGE), 6.5);
+}
+
+#[test]
+fn a_reservation_can_be_given_back_from_a_place_on() {
+    let mut reservations = of_one_zone();
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    reservations.advance(slot, 2.0, 10.0, 14.0);
+    assert_eq!(reservations.of(slot, 7).map(Reservation::left), Some(17.5));
+    // Beyond where it enters the zone it keeps the zone, and gives back the room.
+    reservations.revoke(slot, 12.0);
+    assert_eq!(order(&reservations), [7]);
+    assert_eq!(reservations.of(slot, 7).map(Reservation::left), Some(10.0));
+    assert_eq!(reservations.kept_on(REFUGE), 0.0);
+    reservations.revoke(slot, 8.0);
+    assert!(order(&reservations).is_empty() && reservations.of(slot, 7).is_none());
+}
+
+#[test]
+fn what_a_light_can_take_back_is_not_certain() {
+    let mut reservations = of_one_zone();
+    let left = |it: &Reservations, slot| it.of(slot, 7).map(Reservation::left_for_certain);
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    assert_eq!(left(&reservations, slot), Some(8.0));
+    reservations.advance(slot, 8.0, 10.0, 14.0);
+    assert_eq!(left(&reservations, slot), Some(11.5));
+    reservations.end(slot, 7);
+    // Before a line within the zone one stops where the zone begins, and within it no more.
+    let within = Survey { lights: vec![(LightIndex(0), 12.0)], ..over_the_zone(0) };
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &within);
+    assert_eq!(left(&reservations, slot), Some(10.0));
+    reservations.advance(slot, 10.0, 10.0, 14.0);
+    assert_eq!(left(&reservations, slot), Some(9.5));
+    reservations.end(slot, 7);
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &within);
+    reservations.make_certain(slot);
+    assert_eq!(left(&reservations, slot), Some(19.5));
+}
+
+#[test]
+fn the_reservation_of_who_leaves_the_road_ends_and_its_slot_is_used_again() {
+    let mut reservations = of_one_zone();
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    // Not of somebody else.
+    reservations.end(slot, 8);
+    assert_eq!(order(&reservations), [7]);
+    reservations.end(slot, 7);
+    assert!(order(&reservations).is_empty());
+    assert_eq!(reservations.kept_on(REFUGE), 0.0);
+    assert_eq!(reservations.grant(slot, 9, LENGTH, &over_the_zone(1)), slot);
+    assert!(reservations.of(slot, 7).is_none() && reservations.of(slot, 9).is_some());
+}
+
+#[test]
+fn room_comes_first_to_who_has_waited_for_it_longest() {
+    let priority = |since, id| WaitingPriority { is_patient: false, since, id, is_long: false };
+    let mut reservations = Reservations { requested: vec![None], ..of_one_zone() };
+    reservations.note_space_request(REFUGE, priority(20, 1), 6.5);
+    reservations.note_space_request(REFUGE, priority(10, 2), 14.0);
+    reservations.note_space_request(REFUGE, priority(30, 3), 6.5);
+    assert_eq!(reservations.requested_before(REFUGE, priority(20, 1)), 14.0);
+    assert_eq!(reservations.requested_before(REFUGE, priority(10, 2)), 0.0);
+    reservations.clear_priorities();
+    assert_eq!(reservations.requested_before(REFUGE, priority(20, 1)), 0.0);
+}
+
+#[test]
+fn a_further_reservation_goes_on_from_where_the_vehicle_is() {
+    let mut reservations = of_one_zone();
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    reservations.advance(slot, 9.0, 10.0, 14.0);
+    assert_eq!(reservations.grant(slot, 7, LENGTH, &over_the_zone(1)), slot);
+    let reservation = reservations.of(slot, 7).expect("it was given");
+    assert_eq!(reservation.left(), 19.5);
+    assert_eq!(reservation.holds.iter().map(|it| it.enter).collect::<Vec<_>>(), [10.0, 19.0]);
+    // The light of the first is passed.
+    assert_eq!(reservation.lights().collect::<Vec<_>>(), [(LightIndex(0), 8.0)]);
+}
+
+#[test]
+fn of_those_who_wait_on_one_side_the_impatient_then_the_longest_waiting_claims_the_turn() {
+    let priority = |is_patient, since, id| WaitingPriority { is_patient, since, id, is_long: false };
+    let turn = |priority| Turn { priority, begins: 2.0 };
+    let mut reservations = of_one_zone();
+    for it in [priority(true, 20, 1), priority(true, 10, 3), priority(true, 10, 2), priority(true, 30, 0)] {
+        reservations.note_priority(ZONE, 0, turn(it));
+    }
+    assert_eq!(reservations.priority(ZONE, 0), Some(turn(priority(true, 10, 2))));
+    assert_eq!(reservations.priority(ZONE, 1), None);
+    reservations.note_priority(ZONE, 0, turn(priority(false, 40, 9)));
+    assert_eq!(reservations.priority(ZONE, 0), Some(turn(priority(false, 40, 9))));
+    reservations.clear_priorities();
+    assert_eq!(reservations.priority(ZONE, 0), None);
+}

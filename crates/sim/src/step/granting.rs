@@ -1,0 +1,139 @@
+//! Reservations are granted, and revoked: one after the other once all have moved, on the state in which it takes
+//! effect.
+
+use laneweave_network::ZoneKind;
+
+use crate::demand::arrivals::Arrivals;
+use crate::driver::plan::{Outbox, RequestKind, ReservationRequest, Waiting};
+use crate::driver::request_reservation::surveyed;
+use crate::junction::need::{SPARE_SPACE, Survey};
+use crate::junction::state::JunctionState;
+use crate::junction::waiting::ZoneReservation;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::{Asking, may_pass};
+use crate::right_of_way::survey::stands_beyond;
+use crate::route::roads::Roads;
+use crate::state::traffic::Traffic;
+use crate::step::reserve::priorities_at_entrances;
+use crate::step::wait_cycles::open_wait_cycles;
+use crate::step::work::Work;
+use crate::view::scene::{Scene, Spot};
+
+/// Of those who let each other go a vehicle may stand within zones by so much [m] until those before it have moved up:
+/// a truck comes into the place of a car (ours).
+const HANGS_OUT: f64 = 8.0;
+
+/// Vehicles with a reservation drove on: what is behind them is free for others.
+pub(crate) fn advance_reservations(junctions: &mut JunctionState, work: &mut Work) {
+    let (reservations, progress) = (junctions.reservations_mut(), &mut work.outbox().progress);
+    progress.sort_unstable_by_key(|it| it.slot);
+    for it in progress.drain(..) {
+        if reservations.of(it.slot, it.id).is_some() {
+            reservations.advance(it.slot, it.distance, it.speed, it.desired);
+        }
+    }
+}
+
+/// Reservations are revoked, and granted to those who may pass, who asked first before the others.
+pub(crate) fn grant_reservations(
+    roads: &Roads,
+    traffic: &mut Traffic,
+    junctions: &mut JunctionState,
+    arrivals: &Arrivals,
+    work: &mut Work,
+) {
+    let Outbox { priorities, roundabouts, space_requests, survey, .. } = work.outbox();
+    let scene = Scene::of(roads, traffic, junctions);
+    priorities_at_entrances(&scene, arrivals, traffic.clock(), priorities, survey);
+    let reservations = junctions.reservations_mut();
+    reservations.clear_priorities();
+    priorities.drain(..).for_each(|(zone, side, turn)| reservations.note_priority(zone, side, turn));
+    roundabouts.drain(..).for_each(|(way, priority)| reservations.roundabouts.note_priority(way, priority));
+    space_requests
+        .drain(..)
+        .for_each(|(section, priority, needed)| reservations.note_space_request(section, priority, needed));
+    let mut granting = Granting { roads, traffic, junctions };
+    let mut requests = std::mem::take(&mut work.outbox().reservation_requests);
+    requests.sort_unstable_by_key(|it| (matches!(it.what, RequestKind::Pass), it.since, it.id));
+    requests.drain(..).for_each(|it| granting.answer(&it, work));
+    let Outbox { reservation_requests, blocked, survey, .. } = work.outbox();
+    *reservation_requests = requests;
+    if blocked.len() > 1 && granting.traffic.clock().begins_a_second() {
+        blocked.sort_unstable_by_key(|it| it.id);
+        open_wait_cycles(&mut granting, blocked, survey);
+    }
+    blocked.clear();
+}
+
+/// What granting a reservation changes, and what it depends on.
+pub(super) struct Granting<'a> {
+    pub(super) roads: &'a Roads,
+    pub(super) traffic: &'a mut Traffic,
+    pub(super) junctions: &'a mut JunctionState,
+}
+
+impl Granting<'_> {
+    pub(super) fn scene(&self) -> Scene<'_> {
+        Scene::of(self.roads, self.traffic, self.junctions)
+    }
+
+    /// Gives what is requested if it can be given, or takes it back.
+    fn answer(&mut self, request: &ReservationRequest, work: &mut Work) {
+        let ReservationRequest { since, id, chain, x, what } = *request;
+        let Some(index) = self.traffic.lane(chain).find(id, x) else { return };
+        let spot = Spot { chain, index };
+        match what {
+            RequestKind::Pass => self.grant_if_it_may(spot, since, &mut work.outbox().survey),
+            RequestKind::Revoke(from) => {
+                let (slot, reservations) =
+                    (self.traffic.lane(chain).minds()[index].reservation, self.junctions.reservations_mut());
+                if reservations.of(slot, id).is_some() {
+                    reservations.revoke(slot, from);
+                    // It keeps its place among those who wait.
+                    let waiting =
+                        Waiting { index: index as u32, id, since: reservations.since(slot), is_held: true };
+                    work.plans[chain.at()].waiting.push(waiting);
+                }
+            }
+        }
+    }
+
+    fn grant_if_it_may(&mut self, spot: Spot, since: u32, survey: &mut Survey) {
+        let scene = self.scene();
+        let applicant = Applicant::at(&scene, spot);
+        let asking = Asking::of(&applicant, since, self.traffic.clock());
+        if surveyed(&scene, &applicant, survey) && may_pass(&scene, &applicant, survey, asking).is_ok() {
+            self.grant_surveyed(spot, since, survey);
+        }
+    }
+
+    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if the vehicle at `next` drives off, and
+    /// leaves it its place. Who stays within a merge for that is in nobody's way but of those who come after.
+    pub(super) fn may_after(&self, spot: Spot, asking: Asking, next: Spot, survey: &mut Survey) -> bool {
+        let scene = self.scene();
+        let applicant = Applicant::at(&scene, spot);
+        if !surveyed(&scene, &applicant, survey) {
+            return false;
+        }
+        let is_freed = stands_beyond(&scene, scene.viewpoint(spot), survey, next);
+        let space = survey.space + f64::from(scene.motion(next).length) + SPARE_SPACE + HANGS_OUT;
+        let is_merge = |it: &ZoneReservation| {
+            matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_))
+        };
+        let fits = space >= survey.needed - asking.squeezes_into() || survey.holds.iter().all(is_merge);
+        survey.space = f64::INFINITY;
+        is_freed && fits && may_pass(&scene, &applicant, survey, asking).is_ok()
+    }
+
+    /// Gives the driver at `spot`, who first asked in step `since`, the reservation that it needs next.
+    pub(super) fn grant_surveyed(&mut self, spot: Spot, since: u32, survey: &mut Survey) {
+        let scene = self.scene();
+        surveyed(&scene, &Applicant::at(&scene, spot), survey);
+        let (motion, car, mind) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
+        let reservations = self.junctions.reservations_mut();
+        mind.reservation = reservations.grant(mind.reservation, motion.id, f64::from(motion.length), survey);
+        reservations.note_since(mind.reservation, since);
+        car.needs_full_update = true;
+        reservations.advance(mind.reservation, 0.0, motion.speed, f64::from(car.desired));
+    }
+}

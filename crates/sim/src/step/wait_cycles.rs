@@ -1,0 +1,114 @@
+//! Wait cycles of drivers each of whom waits for the room that the next takes up: on a full roundabout, around a full
+//! block. None of them could ever go if each waited for the other's room to be free; so they go together, each into the
+//! room of the next.
+
+use crate::driver::plan::ReservationRequest;
+use crate::junction::need::Survey;
+use crate::junction::waiting::ZoneReservation;
+use crate::right_of_way::applicant::Applicant;
+use crate::right_of_way::conditions::Asking;
+use crate::state::standstill::STANDS;
+use crate::step::granting::Granting;
+use crate::view::scene::{Scene, Spot};
+
+/// No wait cycle of standing vehicles that leads from one waiting driver to the next is longer.
+const LONGEST_QUEUE: usize = 100;
+/// Who stands with less room ahead than this [m] stands in a queue; others wait for something of their own (ours).
+const QUEUES_WITHIN: f64 = 4.0;
+
+/// Grants reservations to those who wait for each other's room. `waiting` are those who wait for room, in the order of
+/// ids.
+pub(super) fn open_wait_cycles(granting: &mut Granting, waiting: &[ReservationRequest], survey: &mut Survey) {
+    let scene = granting.scene();
+    let spots: Vec<Option<Spot>> = waiting.iter().map(|it| spot(&scene, it)).collect();
+    let next: Vec<Option<usize>> =
+        spots.iter().map(|it| it.and_then(|it| waits_for(&scene, it, waiting))).collect();
+    for cycle in wait_cycles(&next) {
+        let members: Vec<(Spot, ReservationRequest)> =
+            cycle.iter().filter_map(|it| Some((spots[*it]?, waiting[*it]))).collect();
+        let_go_together(granting, &members, survey);
+    }
+}
+
+/// Grants reservations to all `members` of a wait cycle, if only the room that the next frees is what each of them
+/// waits for. They go, whatever lights show then.
+fn let_go_together(granting: &mut Granting, members: &[(Spot, ReservationRequest)], survey: &mut Survey) {
+    let mut holds: Vec<ZoneReservation> = Vec::new();
+    let scene = granting.scene();
+    let next = members.iter().cycle().skip(1);
+    let may_go = members.iter().zip(next).all(|((spot, request), (next, _))| {
+        let asking = Asking::of(&Applicant::at(&scene, *spot), request.since, granting.traffic.clock());
+        let may = granting.may_after(*spot, asking, *next, survey);
+        let crosses =
+            |one: &ZoneReservation| holds.iter().any(|it| it.zone == one.zone && it.side != one.side);
+        let is_apart = !survey.holds.iter().any(crosses);
+        holds.extend(survey.holds.iter().copied());
+        may && is_apart
+    });
+    if may_go {
+        for (spot, request) in members {
+            granting.grant_surveyed(*spot, request.since, survey);
+            let slot = granting.traffic.lane(spot.chain).minds()[spot.index].reservation;
+            granting.junctions.reservations_mut().make_certain(slot);
+        }
+    }
+}
+
+fn spot(scene: &Scene, request: &ReservationRequest) -> Option<Spot> {
+    let index = scene.lanes[request.chain.at()].find(request.id, request.x)?;
+    Some(Spot { chain: request.chain, index })
+}
+
+/// Which of those who wait stands at the head of the queue that the driver at `from` would join.
+fn waits_for(scene: &Scene, from: Spot, waiting: &[ReservationRequest]) -> Option<usize> {
+    let mut at = from;
+    for _ in 0..LONGEST_QUEUE {
+        at = scene.leader_spot(scene.viewpoint(at))?;
+        let motion = scene.motion(at);
+        if let Ok(place) = waiting.binary_search_by_key(&motion.id, |it| it.id) {
+            return Some(place);
+        }
+        let is_in_queue = scene.ahead(scene.viewpoint(at)).is_some_and(|it| it.gap < QUEUES_WITHIN);
+        if motion.speed > STANDS || !is_in_queue {
+            return None;
+        }
+    }
+    None
+}
+
+/// The wait cycles of a map from each place to the next, each from its first place on.
+fn wait_cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+    const NEW: usize = usize::MAX;
+    let mut seen = vec![NEW; next.len()];
+    let mut wait_cycles = Vec::new();
+    for first in 0..next.len() {
+        let mut at = Some(first);
+        while let Some(place) = at.filter(|it| seen[*it] == NEW) {
+            seen[place] = first;
+            at = next[place];
+        }
+        if let Some(start) = at.filter(|it| seen[*it] == first) {
+            let mut cycle = vec![start];
+            let mut place = next[start];
+            while let Some(member) = place.filter(|it| *it != start) {
+                cycle.push(member);
+                place = next[member];
+            }
+            wait_cycles.push(cycle);
+        }
+    }
+    wait_cycles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_are_found_wherever_one_begins_to_look() {
+        // 0 → 1 → 2 → 1, 3 → 4 → 3, 5 → nobody, 6 → itself.
+        let next = [Some(1), Some(2), Some(1), Some(4), Some(3), None, Some(6)];
+        assert_eq!(wait_cycles(&next), [vec![1, 2], vec![3, 4], vec![6]]);
+        assert_eq!(wait_cycles(&[None, None]), Vec::<Vec<usize>>::new());
+    }
+}
