@@ -96,7 +96,9 @@ fn tired_drivers_change_lanes_less_than_others_in_the_same_traffic() {
                 }
             }
             if step % STEPS_PER_SECOND == 0 {
-                world.vehicles().for_each(|it| kilometres[is_other(it.car.character)] += it.speed() / 1000.0);
+                world
+                    .vehicles()
+                    .for_each(|it| kilometres[is_other(it.driver.character)] += it.speed() / 1000.0);
             }
         });
         (0..2).for_each(|it| rates[it].push(changes[it] / kilometres[it]));
@@ -127,7 +129,7 @@ fn gap_when_noticed(style: &str, seed: u64) -> f64 {
     let mut gaps = Sum::default();
     drive(&mut world, 100, |world, _| {
         let scene = world.scene();
-        for it in world.vehicles().filter(|it| it.car.phase == Phase::Wants) {
+        for it in world.vehicles().filter(|it| it.driver.phase == Phase::Wants) {
             let Some(place) = coming.iter().position(|id| *id == it.id()) else { continue };
             coming.swap_remove(place);
             scene.ahead(scene.viewpoint(it.spot)).into_iter().for_each(|it| gaps.add(it.gap));
@@ -154,7 +156,7 @@ fn changes_off_the_route(style: &str, seed: u64) -> f64 {
         for event in world.events() {
             let Event::LaneChange(change) = event else { continue };
             let driver = world.vehicles().find(|it| it.id() == change.vehicle && change.is_completed);
-            let Some(destination) = driver.map(|it| it.car.goal.destination()) else { continue };
+            let Some(destination) = driver.map(|it| it.driver.goal.destination()) else { continue };
             let [from, to] =
                 [change.from, change.to].map(|it| navigator.waypoint(destination, it.chain).changes);
             off += u32::from(to > from);
@@ -189,11 +191,13 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
         drive(&mut world, 600, |world, step| {
             let scene = world.scene();
             for it in world.vehicles() {
-                let was = phases.insert(it.id(), it.car.phase);
-                let Some(twin) = it.mind.counterpart.filter(|_| was == Some(Phase::Wants)) else { continue };
+                let was = phases.insert(it.id(), it.driver.phase);
+                let Some(twin) = it.lane_change.counterpart.filter(|_| was == Some(Phase::Wants)) else {
+                    continue;
+                };
                 let from = scene.viewpoint_at(scene.viewpoint(it.spot), twin.chain, twin.x);
                 let Some(found) = scene.follower(from).filter(|it| it.distance < NEAR) else { continue };
-                let (other, egoist) = (scene.motion(found.spot), it.car.character >= both.shares[1].first);
+                let (other, egoist) = (scene.motion(found.spot), it.driver.character >= both.shares[1].first);
                 let at = step + AFTER * STEPS_PER_SECOND;
                 concerned.push((at, other.id, other.speed, usize::from(egoist)));
             }
@@ -209,7 +213,7 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
 
 /// Share of its desired speed that a driver lacks.
 fn shortfall(it: &Vehicle) -> f64 {
-    1.0 - it.speed() / f64::from(it.car.desired)
+    1.0 - it.speed() / f64::from(it.driver.desired)
 }
 
 #[test]
@@ -238,8 +242,9 @@ fn vehicles_that_merge_lose_less_speed_beside_altruists_than_beside_egoists() {
                     })
                     .expect("it fits on the road");
                 drive(&mut world, HEADWAY, |world, _| {
-                    let come = world.vehicles().filter(|it| it.car.character >= on_the_ramp.first);
-                    let merge = come.filter(|it| it.spot.chain == ramp || it.mind.last_place.is_finite());
+                    let come = world.vehicles().filter(|it| it.driver.character >= on_the_ramp.first);
+                    let merge =
+                        come.filter(|it| it.spot.chain == ramp || it.lane_change.last_place.is_finite());
                     merge.for_each(|it| lost.add(shortfall(&it)));
                 });
             }

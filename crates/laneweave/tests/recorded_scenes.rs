@@ -38,9 +38,9 @@ fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
             there += 1;
             let spot = frame.spot(vehicle).expect("it is there");
             let (scene, x) = (frame.scene(), frame.scene().motion(spot).x);
-            between_lanes += usize::from(scene.car(spot).phase.is_between_lanes());
+            between_lanes += usize::from(scene.driver(spot).phase.is_between_lanes());
             // Where permitted changes do not lead where it went, another destination is assumed.
-            let destination = scene.car(spot).goal.destination();
+            let destination = scene.driver(spot).goal.destination();
             let waypoint = navigator.waypoint(destination, spot.chain);
             assert!(waypoint.leads_on(x) || navigator.reachable(spot.chain, x).next().is_none());
             for situation in Side::BOTH.into_iter().filter_map(|side| frame.perceive(vehicle, side)) {

@@ -95,8 +95,8 @@ fn a_change_goes_on_from_the_beginning_to_the_end_of_the_way_across() {
             let scene = frame.scene();
             let spot = frame.spot(1).expect("it is there");
             let shadows: usize =
-                scene.lanes.iter().flat_map(|it| it.cars()).filter(|it| it.is_shadow).count();
-            (spot.chain, scene.car(spot).phase, shadows)
+                scene.lanes.iter().flat_map(|it| it.drivers()).filter(|it| it.is_shadow).count();
+            (spot.chain, scene.driver(spot).phase, shadows)
         };
         let [slow, fast] = [7.8, 13.2].map(|time| stands(time).0);
         assert_ne!(slow, fast);
@@ -211,7 +211,7 @@ fn a_front_bumper_beyond_a_fork_is_on_the_branch_that_is_driven_later() {
             // Before the fork it is known where it will go.
             let frame = replay.frame(0);
             let spot = frame.spot(1).expect("it is there");
-            let destination = frame.scene().car(spot).goal.destination();
+            let destination = frame.scene().driver(spot).goal.destination();
             let next = frame.scene().next(destination, spot.chain);
             assert_eq!(
                 next.map(|it: ChainIndex| &network.chain(it).lanelets[..]),

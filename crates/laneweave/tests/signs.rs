@@ -88,7 +88,7 @@ fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Sign
         }
         if step % 10 == 0 {
             for vehicle in world.vehicles() {
-                signs.styles[style_of(vehicle.car.character)].1 += vehicle.speed() / 1000.0;
+                signs.styles[style_of(vehicle.driver.character)].1 += vehicle.speed() / 1000.0;
             }
         }
     }

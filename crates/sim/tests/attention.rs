@@ -31,7 +31,7 @@ fn put(world: &mut World, chain: u32, x: f64, speed: f64, character: u32) -> Veh
 /// What a test follows of a driver.
 fn driver(world: &World, id: VehicleId) -> (Phase, u32, bool) {
     let vehicle = world.vehicles().find(|it| it.id() == id).expect("it is on the road");
-    (vehicle.car.phase, vehicle.car.due, vehicle.car.needs_full_update)
+    (vehicle.driver.phase, vehicle.driver.due, vehicle.driver.needs_full_update)
 }
 
 #[test]
@@ -102,13 +102,14 @@ fn a_wish_is_given_up_only_when_lanes_are_considered() {
         let mut given_up = 0;
         for _ in 0..6000 {
             let step = world.clock().step;
-            let before: Vec<_> = world.vehicles().map(|it| (it.id(), it.car.phase, it.car.due)).collect();
+            let before: Vec<_> =
+                world.vehicles().map(|it| (it.id(), it.driver.phase, it.driver.due)).collect();
             world.step();
             for (id, _, due) in before.into_iter().filter(|(_, phase, _)| *phase == Phase::Wants) {
                 let Some(now) = world.vehicles().find(|it| it.id() == id) else { continue };
-                if now.car.phase == Phase::Cruises {
+                if now.driver.phase == Phase::Cruises {
                     assert!(due <= step, "{id} gives up at {step} and looks at {due}");
-                    assert_eq!(now.car.due, step + epoch);
+                    assert_eq!(now.driver.due, step + epoch);
                     given_up += 1;
                 }
             }

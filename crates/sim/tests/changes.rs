@@ -127,7 +127,7 @@ fn v37_identical_drivers_in_equilibrium_on_equal_lanes_feel_no_desire() {
             }
             for _ in 0..1000 {
                 world.step();
-                assert!(world.vehicles().all(|it| it.car.phase == Phase::Cruises));
+                assert!(world.vehicles().all(|it| it.driver.phase == Phase::Cruises));
             }
             assert!(world.tally().considerations >= 100 * 2 * CARS as u64);
         }
@@ -162,7 +162,7 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
         let mut epochs = vec![0_u32; CARS as usize];
         for number in 0..(250.0 / step) as u32 {
             world.step();
-            let has_desire = |it: &laneweave_sim::Vehicle| it.car.phase != Phase::Cruises;
+            let has_desire = |it: &laneweave_sim::Vehicle| it.driver.phase != Phase::Cruises;
             for vehicle in world.vehicles().filter(has_desire) {
                 let first = &mut epochs[vehicle.id() as usize];
                 *first = if *first == 0 { number / steps_per_epoch + 1 } else { *first };
@@ -241,7 +241,7 @@ fn put(world: &mut World, lane: u32, x: f64, speed: f64, character: u32) {
 }
 
 fn phase_of_the_first(world: &World) -> Phase {
-    world.vehicles().find(|it| it.id() == 0).expect("it is on the road").car.phase
+    world.vehicles().find(|it| it.id() == 0).expect("it is on the road").driver.phase
 }
 
 #[test]

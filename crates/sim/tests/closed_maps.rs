@@ -66,7 +66,7 @@ fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
         }
         before = world
             .vehicles()
-            .map(|it| (it.id(), (it.spot.chain, it.x(), it.car.goal.destination())))
+            .map(|it| (it.id(), (it.spot.chain, it.x(), it.driver.goal.destination())))
             .collect();
     }
     world.counts().left

@@ -132,9 +132,9 @@ fn classes_styles_and_destinations_come_in_their_shares() {
         let is_new = |id| world.events().contains(&Event::Entered(id));
         for vehicle in world.vehicles().filter(|it| it.x() < 60.0 && is_new(it.id())) {
             entered += 1.0;
-            classes[vehicle.car.class as usize] += 1.0;
+            classes[vehicle.driver.class as usize] += 1.0;
             aggressive += f64::from(u8::from(vehicle.style().name == "aggressive"));
-            to_the_ramp += f64::from(u8::from(vehicle.car.goal.destination() == Some(1)));
+            to_the_ramp += f64::from(u8::from(vehicle.driver.goal.destination() == Some(1)));
         }
     }
     assert_eq!(entered as u64, world.counts().entered);
@@ -165,7 +165,7 @@ fn drivers_of_each_origin_go_to_its_own_destinations() {
             let origins = &world.demand().origins;
             let at = |origin: &Origin| origin.place.chains().contains(&vehicle.spot.chain);
             let origin = origins.iter().position(at).unwrap();
-            counts[origin][usize::from(vehicle.car.goal.destination().unwrap())] += 1.0;
+            counts[origin][usize::from(vehicle.driver.goal.destination().unwrap())] += 1.0;
         }
     }
     let [[onward, off], from_the_ramp] = counts;

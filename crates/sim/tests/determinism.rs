@@ -173,7 +173,7 @@ fn v38_a_mirrored_road_mirrors_all_trajectories() {
         image.step();
         assert_eq!(original.on_road(), image.on_road());
         for (one, other) in original.vehicles().zip(image.vehicles()) {
-            assert_eq!((one.id(), one.spot, one.car.phase), (other.id(), other.spot, other.car.phase));
+            assert_eq!((one.id(), one.spot, one.driver.phase), (other.id(), other.spot, other.driver.phase));
             assert_eq!(one.x().to_bits(), other.x().to_bits());
             assert_eq!(one.speed().to_bits(), other.speed().to_bits());
             assert_eq!(one.lateral_offset(), -other.lateral_offset());

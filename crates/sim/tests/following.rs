@@ -5,7 +5,7 @@ mod roads;
 use laneweave_models::Style;
 use laneweave_models::follow::{FollowingModel, Fvdm, Idm, Pace};
 use laneweave_network::ChainIndex;
-use laneweave_sim::{Class, Motion, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Kinematics, NewVehicle, Setup, World};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -94,7 +94,7 @@ fn place(world: &mut World, x: f64, speed: f64, character: u32) {
         .expect("it fits on the road");
 }
 
-fn car(world: &World, id: u32) -> Motion {
+fn car(world: &World, id: u32) -> Kinematics {
     *world.vehicles().find(|vehicle| vehicle.id() == id).expect("it is on the road").motion
 }
 

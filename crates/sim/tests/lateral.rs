@@ -159,7 +159,7 @@ fn v46_both_entries_of_a_vehicle_that_changes_drive_side_by_side() {
             if let [Some(slow), Some(fast)] = entries {
                 steps += 1;
                 assert_eq!(slow.speed.to_bits(), fast.speed.to_bits());
-                let shadows = [0, 1].map(|chain| scene.lanes[chain].cars()[0].is_shadow);
+                let shadows = [0, 1].map(|chain| scene.lanes[chain].drivers()[0].is_shadow);
                 assert_ne!(shadows[0], shadows[1]);
                 let beside = scene.network.chains[0].beside(Side::Left, slow.x).unwrap();
                 assert!((beside.across(slow.x) - fast.x).abs() < 0.02);
@@ -198,7 +198,7 @@ fn v47_of_two_who_aim_at_one_gap_exactly_one_enters() {
             // As long as the first is calm after its change.
             for _ in 0..120 {
                 world.step();
-                let phase = |id| world.vehicles().find(|it| it.id() == id).map(|it| it.car.phase);
+                let phase = |id| world.vehicles().find(|it| it.id() == id).map(|it| it.driver.phase);
                 both_wanted |= phase(0) == Some(Phase::Wants) && phase(1) == Some(Phase::Wants);
                 // They keep side by side, so that the gap never holds the second.
                 assert_ne!(phase(1), Some(Phase::Changes));

@@ -115,7 +115,7 @@ fn lmrs_drivers_fall_in_with_the_target_lane_from_the_desire_to_synchronize_on()
     let speed_after_6_s = |model| {
         let mut world = beside_a_row(model, 300.0);
         (0..60).for_each(|_| world.step());
-        assert_eq!(vehicle(&world, 0).car.phase, Phase::Wants);
+        assert_eq!(vehicle(&world, 0).driver.phase, Phase::Wants);
         vehicle(&world, 0).speed()
     };
     let falls_in = speed_after_6_s(Lmrs::default());
@@ -132,7 +132,7 @@ fn lmrs_drivers_are_let_in_from_the_desire_to_cooperate_on() {
         let mut most = 0;
         for _ in 0..50 {
             world.step();
-            let lets_in = |it: &Vehicle| it.mind.lets_in.0.is_finite();
+            let lets_in = |it: &Vehicle| it.lane_change.lets_in.0.is_finite();
             most = most.max(world.vehicles().filter(lets_in).count());
         }
         most > 0

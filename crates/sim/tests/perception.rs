@@ -214,10 +214,10 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
         world.step();
         let scene = world.scene();
         let at = spot(&world, changer);
-        let (front, phase) = (scene.motion(at), scene.car(at).phase);
+        let (front, phase) = (scene.motion(at), scene.driver(at).phase);
         let [own, left] = [slow, fast].map(|id| (scene.motion(spot(&world, id)), spot(&world, id)));
         let acceleration = f64::from(front.acceleration);
-        let gap_to = |it: &laneweave_sim::Motion| {
+        let gap_to = |it: &laneweave_sim::Kinematics| {
             Some(Ahead { gap: front.rear() - it.x, speed: front.speed, acceleration })
         };
         let from_slow = look(&scene, &world, slow, Side::Left);
@@ -258,7 +258,7 @@ impl Waiting {
         }
         // It wants to change at once, and has no room to.
         world.step();
-        let phase = world.vehicles().find(|it| it.id() == waiting).expect("it is on the road").car.phase;
+        let phase = world.vehicles().find(|it| it.id() == waiting).expect("it is on the road").driver.phase;
         assert_eq!(phase, Phase::Wants);
         Waiting { world, me, waiting }
     }
@@ -338,7 +338,7 @@ fn who_waits_at_the_end_of_its_lane_has_that_ahead_and_its_urgency() {
     let mut world = drawn(Motorway { lanes: 3, lane_drop_at: Some(2500.0), ..Motorway::default() });
     let merging = car(&mut world, 0, 2400.0, 20.0);
     let me = car(&mut world, 1, 2399.0, 20.0);
-    let phase = |world: &World| world.vehicles().find(|it| it.id() == merging).unwrap().car.phase;
+    let phase = |world: &World| world.vehicles().find(|it| it.id() == merging).unwrap().driver.phase;
     while phase(&world) != Phase::Wants {
         world.step();
     }

@@ -71,7 +71,7 @@ proptest! {
                 prop_assert!(motion.x.is_finite() && motion.speed.is_finite() && motion.acceleration.is_finite());
                 prop_assert!(motion.speed >= 0.0);
                 prop_assert!(motion.acceleration >= -HARDEST_BRAKING - 1e-4, "{} m/s²", motion.acceleration);
-                prop_assert!(f64::from(motion.acceleration) <= vehicle.car.class.body().strength);
+                prop_assert!(f64::from(motion.acceleration) <= vehicle.driver.class.body().strength);
                 if let Some(before) = places.get(&(motion.id, chain)) {
                     prop_assert!(motion.x >= *before, "{} went back", motion.id);
                     prop_assert!(motion.x - before <= (motion.speed + 8.0 * step) * step + 1e-6);

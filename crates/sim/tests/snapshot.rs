@@ -22,8 +22,8 @@ fn world() -> World {
 }
 
 fn seen(vehicle: &Vehicle) -> Seen {
-    let Vehicle { spot, motion, car, mind, .. } = vehicle;
-    let other = mind.counterpart.filter(|_| car.phase.is_between_lanes());
+    let Vehicle { spot, motion, driver, lane_change, .. } = vehicle;
+    let other = lane_change.counterpart.filter(|_| driver.phase.is_between_lanes());
     Seen {
         id: motion.id,
         chain: spot.chain,
@@ -31,13 +31,13 @@ fn seen(vehicle: &Vehicle) -> Seen {
         speed: motion.speed,
         acceleration: f64::from(motion.acceleration),
         length: f64::from(motion.length),
-        class: car.class,
-        character: car.character,
-        desired: f64::from(car.desired),
-        destination: car.goal.destination(),
+        class: driver.class,
+        character: driver.character,
+        desired: f64::from(driver.desired),
+        destination: driver.goal.destination(),
         change: other.map(|counterpart| Across {
-            side: mind.side,
-            progress: f64::from(mind.progress),
+            side: lane_change.side,
+            progress: f64::from(lane_change.progress),
             other: Position::new(counterpart.chain, counterpart.x),
         }),
     }
@@ -65,7 +65,7 @@ fn drivers_see_the_same_in_a_world_and_in_a_snapshot_of_it() {
     assert_eq!(snapshot.spots().len(), vehicles.len());
     let (mut situations, mut between_lanes) = (0, 0);
     for vehicle in &vehicles {
-        between_lanes += usize::from(vehicle.car.phase.is_between_lanes());
+        between_lanes += usize::from(vehicle.driver.phase.is_between_lanes());
         let spot = snapshot.spot(vehicle.id()).expect("it is there");
         assert_eq!(again.motion(spot).x, vehicle.x());
         for side in Side::BOTH {

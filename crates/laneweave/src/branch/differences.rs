@@ -195,7 +195,7 @@ impl Differences {
 }
 
 fn state(it: laneweave_sim::Vehicle) -> State {
-    (it.id(), it.spot.chain.0, it.x().to_bits(), it.speed().to_bits(), it.car.phase)
+    (it.id(), it.spot.chain.0, it.x().to_bits(), it.speed().to_bits(), it.driver.phase)
 }
 
 /// All vehicles in the order of their ids.
@@ -213,6 +213,6 @@ fn mean_speed(world: &World) -> f64 {
 fn found(world: &World, id: VehicleId, since_s: f64) -> Vehicle {
     let vehicle = world.vehicles().find(|it| it.id() == id);
     let style = vehicle.map_or(String::new(), |it| it.style().name.clone());
-    let class = vehicle.map_or("", |it| it.car.class.body().name);
+    let class = vehicle.map_or("", |it| it.driver.class.body().name);
     Vehicle { style, class, since_s, lane_changes: [0; 2], left_s: [None; 2] }
 }

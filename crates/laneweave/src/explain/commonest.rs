@@ -31,8 +31,8 @@ impl Commonest {
         let asks_those_who_wait = clock.step.is_multiple_of(clock.steps(1.0));
         let asked: Vec<Spot> = world
             .vehicles()
-            .filter(|it| match it.car.phase {
-                Phase::Cruises => it.car.due <= clock.step,
+            .filter(|it| match it.driver.phase {
+                Phase::Cruises => it.driver.due <= clock.step,
                 Phase::Wants => asks_those_who_wait,
                 Phase::Changes | Phase::Aborts => false,
             })

@@ -53,7 +53,7 @@ impl Boxes {
             let before = clock.time() - duration;
             let scene = world.scene();
             for (chain, lane) in (0..).map(ChainIndex).zip(scene.lanes) {
-                let entries = lane.motions().iter().zip(lane.cars());
+                let entries = lane.motions().iter().zip(lane.drivers());
                 let mut vehicles = entries.filter(|(_, car)| !car.is_shadow).map(|(it, _)| it).peekable();
                 // They stand in driving order: those in one section follow each other.
                 while let Some(first) = vehicles.peek() {

@@ -70,7 +70,7 @@ impl Driving {
         let scene = world.scene();
         for (chain, lane) in (0..).map(ChainIndex).zip(scene.lanes) {
             let motions = lane.motions();
-            for (index, (it, car)) in motions.iter().zip(lane.cars()).enumerate() {
+            for (index, (it, car)) in motions.iter().zip(lane.drivers()).enumerate() {
                 if car.is_shadow {
                     continue;
                 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
-use laneweave_sim::{Class, Motion, Phase, PreviousLanes, World, bumpers_in_lane, pose_between};
+use laneweave_sim::{Class, Kinematics, Phase, PreviousLanes, World, bumpers_in_lane, pose_between};
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
@@ -34,7 +34,7 @@ pub(super) struct Frame {
 /// A vehicle as the world holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Seen {
-    pub(super) motion: Motion,
+    pub(super) motion: Kinematics,
     pub(super) chain: ChainIndex,
     pub(super) character: u32,
     previous_lanes: PreviousLanes,
@@ -75,14 +75,14 @@ impl Frame {
         }
         let Frame { instants, seen, across, .. } = self;
         world.vehicles().for_each(|vehicle| {
-            let (motion, car) = (*vehicle.motion, vehicle.car);
+            let (motion, car) = (*vehicle.motion, vehicle.driver);
             if car.phase.is_between_lanes() {
                 let (bumpers, offset) = (vehicle.bumpers(), vehicle.lateral_offset());
                 across.push(Across { place: seen.len(), bumpers, offset });
             }
             // Whose rear is on its chain has nothing behind it.
             let previous_lanes =
-                if motion.rear() < 0.0 { vehicle.mind.previous_lanes } else { PreviousLanes::NONE };
+                if motion.rear() < 0.0 { vehicle.lane_change.previous_lanes } else { PreviousLanes::NONE };
             let (chain, character) = (vehicle.spot.chain, car.character);
             seen.push(Seen { motion, chain, character, previous_lanes, class: car.class, phase: car.phase });
         });

@@ -98,7 +98,7 @@ impl Traces {
         let time_s = world.clock().time();
         let scene = world.scene();
         for (chain, from, offset) in self.road.pieces() {
-            let entries = scene.motions(chain).iter().zip(scene.cars(chain));
+            let entries = scene.motions(chain).iter().zip(scene.drivers(chain));
             for (it, _) in entries.filter(|(it, car)| !car.is_shadow && it.x >= from) {
                 let sample = Sample { time_s, position_m: offset + it.x, speed_mps: it.speed };
                 self.current.entry(it.id).or_default().push(sample);

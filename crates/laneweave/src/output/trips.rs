@@ -93,7 +93,7 @@ impl Observer for Trips {
     fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         let on_road = world.vehicles().filter_map(|vehicle| {
             let mut record = *world.trip(vehicle.id())?;
-            record.stood += f64::from(vehicle.car.standing);
+            record.stood += f64::from(vehicle.driver.standing);
             Some(Trip { record, way: record.way(vehicle.x()), end: None })
         });
         let mut on_road: Vec<Trip> = on_road.collect();

@@ -30,7 +30,7 @@ fn motorway() -> World {
 }
 
 fn phase(world: &World, id: u32) -> Option<Phase> {
-    world.vehicles().find(|it| it.id() == id).map(|it| it.car.phase)
+    world.vehicles().find(|it| it.id() == id).map(|it| it.driver.phase)
 }
 
 /// Those who consider lanes or wait for a gap in the next step.
@@ -41,7 +41,7 @@ fn deciding(world: &World) -> Vec<Spot> {
         Phase::Wants => true,
         Phase::Changes | Phase::Aborts => false,
     };
-    world.vehicles().filter(|it| decides(it.car.phase, it.car.due)).map(|it| it.spot).collect()
+    world.vehicles().filter(|it| decides(it.driver.phase, it.driver.due)).map(|it| it.spot).collect()
 }
 
 /// What a driver said, and did.
@@ -168,13 +168,13 @@ fn driven(
     weight: f64,
 ) -> Option<Side> {
     stage.restore(saved).expect("the same world");
-    let character = stage.vehicles().find(|it| it.id() == id).expect("it is there").car.character as usize;
+    let character = stage.vehicles().find(|it| it.id() == id).expect("it is there").driver.character as usize;
     let mut characters = original.to_vec();
     characters[character] = with_weight(&characters[character], row, weight);
     stage.change_characters(characters).expect("as many");
     stage.step();
     let vehicle = stage.vehicles().find(|it| it.id() == id).expect("it is there");
-    (vehicle.car.phase == Phase::Wants).then_some(vehicle.mind.side)
+    (vehicle.driver.phase == Phase::Wants).then_some(vehicle.lane_change.side)
 }
 
 fn at(side: Side) -> usize {

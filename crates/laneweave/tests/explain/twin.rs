@@ -69,14 +69,18 @@ impl<'a> Twin<'a> {
                 x: it.x(),
                 speed: it.speed(),
                 length: f64::from(it.motion.length),
-                desired: f64::from(it.car.desired),
+                desired: f64::from(it.driver.desired),
                 tightness: f64::from(it.motion.tightness),
-                character: it.car.character as usize,
-                wants: (it.car.phase == Phase::Wants).then_some(it.mind.side),
-                urgency: f64::from(it.mind.urgency),
+                character: it.driver.character as usize,
+                wants: (it.driver.phase == Phase::Wants).then_some(it.lane_change.side),
+                urgency: f64::from(it.lane_change.urgency),
             };
             bodies.push(body);
-            bodies.extend(it.mind.counterpart.map(|twin| Body { lane: twin.chain.0, x: twin.x, ..body }));
+            bodies.extend(it.lane_change.counterpart.map(|twin| Body {
+                lane: twin.chain.0,
+                x: twin.x,
+                ..body
+            }));
         }
         let chains = &world.network().chains;
         Twin { world, lanes: chains.len() as u32, length: chains[0].length, bodies }

@@ -141,7 +141,7 @@ impl Camera {
         vehicles.sort_by_key(Vehicle::id);
         for vehicle in vehicles {
             let (id, pose) = (vehicle.id(), vehicle.pose());
-            self.character_of.insert(i64::from(id), vehicle.car.character);
+            self.character_of.insert(i64::from(id), vehicle.driver.character);
             let track = self.tracks.entry(id).or_insert_with(|| track(&vehicle));
             let [dx, dy] = error(&self.noise, id, frame as u32);
             let (x, y) = (pose.at.x + dx, pose.at.y + dy);
@@ -160,7 +160,7 @@ fn error(noise: &Random, vehicle: VehicleId, frame: u32) -> [f64; 2] {
 }
 
 fn track(vehicle: &Vehicle) -> Track {
-    let class = vehicle.car.class;
+    let class = vehicle.driver.class;
     let road_user = if class == Class::Truck { RoadUser::Truck } else { RoadUser::Car };
     let Body { length, width, .. } = *class.body();
     Track { id: i64::from(vehicle.id()), class: road_user, length, width, states: Vec::new() }
@@ -175,7 +175,7 @@ fn instant(world: &World, frame: i64) -> Instant {
     let stand = |it: &Vehicle| Stand {
         vehicle: id(it),
         chain: it.spot.chain,
-        is_between_lanes: it.car.phase.is_between_lanes(),
+        is_between_lanes: it.driver.phase.is_between_lanes(),
     };
     let sample = |it: &Vehicle, side| {
         let view = perceive(&scene, it.spot, side).as_ref().map(View::of);

@@ -114,7 +114,7 @@ fn stands(frame: &Frame<'_>) -> Vec<Stand> {
     let scene = frame.scene();
     let stand = |vehicle: i64| {
         let spot = frame.spot(vehicle)?;
-        let is_between_lanes = scene.car(spot).phase.is_between_lanes();
+        let is_between_lanes = scene.driver(spot).phase.is_between_lanes();
         Some(Stand { vehicle, chain: spot.chain, is_between_lanes })
     };
     frame.vehicles().filter_map(stand).collect()

@@ -109,7 +109,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
     let clock = world.clock();
     let moment = Moment { clock, random: world.random(), overtaking };
     let me = Me::at(&scene, spot);
-    let Me { motion, car, mind, style, .. } = me;
+    let Me { motion, driver, lane_change, style, .. } = me;
     let attending = Attending::of(&me, moment);
     let change = attending.model(style);
     let waypoint = waypoint(&scene, &me);
@@ -121,7 +121,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
     let mut sides = [overtaking, overtaking.opposite()].map(|side| {
         let situation = perception.situation(side, perception.beside(side)?);
         let appraisal = change.appraise(&situation);
-        let is_out_of_question = is_out_of_question(car, moment, &situation);
+        let is_out_of_question = is_out_of_question(driver, moment, &situation);
         Some(SideAccount { side, situation, appraisal, chance: 0.0, is_out_of_question })
     });
     let weighed =
@@ -130,7 +130,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
     for (side, chance) in sides.iter_mut().zip(chances) {
         side.iter_mut().for_each(|it| it.chance = chance);
     }
-    let found = (car.phase == Phase::Wants).then(|| gap(&scene, spot, mind.side)).flatten();
+    let found = (driver.phase == Phase::Wants).then(|| gap(&scene, spot, lane_change.side)).flatten();
     Account {
         vehicle: motion.id,
         time: clock.time(),
@@ -140,7 +140,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         has_last_chance: has_last_chance(&style.change, motion, &waypoint),
         change,
         sides,
-        cooldown_left: f64::from(car.cooldown_until.saturating_sub(clock.step)) * clock.dt,
+        cooldown_left: f64::from(driver.cooldown_until.saturating_sub(clock.step)) * clock.dt,
         epochs: attending.epochs,
         draw: moment.random.uniform(motion.id, Purpose::Desire, clock.step),
         act: act(&scene, moment, spot),
@@ -151,10 +151,10 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
 
 /// What the driver at `spot` does: it decides as in a step, and what it writes down is read.
 fn act(scene: &Scene, moment: Moment, spot: Spot) -> Act {
-    let (car, side) = (scene.car(spot), scene.mind(spot).side);
-    let is_turn = car.due <= moment.clock.step;
+    let (driver, side) = (scene.driver(spot), scene.lane_change(spot).side);
+    let is_turn = driver.due <= moment.clock.step;
     let (mut plan, mut outbox) = (Plan::default(), Outbox::default());
-    match car.phase {
+    match driver.phase {
         Phase::Changes => {
             abort_if_it_must(scene, spot, &mut outbox);
             return if outbox.requests.is_empty() { Act::Changes(side) } else { Act::GoesBack(side) };
@@ -162,7 +162,7 @@ fn act(scene: &Scene, moment: Moment, spot: Spot) -> Act {
         Phase::Aborts => return Act::GoesBack(side),
         Phase::Cruises | Phase::Wants => {}
     }
-    if car.phase == Phase::Wants {
+    if driver.phase == Phase::Wants {
         go_or_ask(scene, moment, spot, &mut outbox);
     }
     if is_turn {
@@ -177,7 +177,7 @@ fn act(scene: &Scene, moment: Moment, spot: Spot) -> Act {
     if concern.is_some_and(|it| it.rerouted.is_some()) {
         return Act::TakesAnotherRoute;
     }
-    match car.phase {
+    match driver.phase {
         Phase::Wants if concern.is_some_and(|it| it.gives_up) => Act::GivesUp(side),
         Phase::Wants if goes() => Act::Goes(side),
         Phase::Wants => {

@@ -64,7 +64,7 @@ pub enum JunctionHindrance {
 pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let scene = world.scene();
     let junction = look(&scene, spot);
-    let (motion, mind) = (scene.motion(spot), scene.mind(spot));
+    let (motion, lane_change) = (scene.motion(spot), scene.lane_change(spot));
     let from = scene.viewpoint(spot);
     let leader = scene.ahead(from).zip(scene.leader_spot(from));
     let leader =
@@ -72,17 +72,17 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let stop = junction.stop.map(|it| (it, before_a_junction(world, &scene, spot, it)));
     let merge = junction.leader.map(|it| (it.gap, StandsFor::After(before_it(&scene, spot))));
     let end = lane_end(&scene, spot.chain).map(|it| it.of_entry(&scene, spot) - motion.x);
-    let place = mind
+    let place = lane_change
         .last_place
         .is_finite()
         .then(|| place_to_wait(&scene, world.clock(), spot, Window::of(&scene, spot)));
-    let lets_in = Some(f64::from(mind.lets_in.0)).filter(|it| it.is_finite());
+    let lets_in = Some(f64::from(lane_change.lets_in.0)).filter(|it| it.is_finite());
     let all = [
         leader,
         stop,
         merge,
         end.map(|it| (it, StandsFor::LaneEnd(it))),
-        place.map(|it| (it, StandsFor::LastPlace(mind.last_place - motion.x))),
+        place.map(|it| (it, StandsFor::LastPlace(lane_change.last_place - motion.x))),
         lets_in.map(|it| (it, StandsFor::LetsIn(it))),
     ];
     /// Nobody stands for what is further ahead [m].
@@ -134,7 +134,7 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
 
 /// Those from other lanes who pass before the vehicle at `spot`, which has a reservation.
 fn before_it(scene: &Scene, spot: Spot) -> Vec<VehicleId> {
-    let (own, slot) = (scene.reservation(spot), scene.mind(spot).reservation);
+    let (own, slot) = (scene.reservation(spot), scene.lane_change(spot).reservation);
     let mut others: Vec<VehicleId> = Vec::new();
     if let Some(own) = own {
         others.extend(own.holds.iter().flat_map(|it| earlier(scene, own, slot, it)).map(|it| it.vehicle));

@@ -17,7 +17,7 @@ use crate::route::place::Place;
 use crate::route::waypoint::Waypoint;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::lane::{Motion, VehicleId};
+use crate::state::lane::{Kinematics, VehicleId};
 use crate::state::random::{Purpose, Random};
 use crate::state::vehicle::Class;
 use crate::view::scene::Scene;
@@ -245,7 +245,7 @@ impl Source {
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
-            let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Motion::rear);
+            let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Kinematics::rear);
             let (queued, room) = if arrival.class.is_long() { (0, 0.0) } else { (queue.waiting.len(), room) };
             let is_pressing = waypoint.last_place < TAKES_LANE_WITHIN * f64::from(waypoint.changes);
             (if is_pressing { waypoint.changes } else { 0 }, queued, -room)

@@ -10,7 +10,7 @@ use crate::driver::window::{self, Window};
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::Junction;
 use crate::state::clock::Clock;
-use crate::state::lane::{Car, Motion, Phase};
+use crate::state::lane::{DriverState, Kinematics, Phase};
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;
 use crate::view::scene::{Scene, Spot};
@@ -64,7 +64,7 @@ impl OpenRoad {
 
     /// Whether it reaches from a driver to a leader at `leader` [m].
     #[inline]
-    pub(crate) fn reaches(&self, motion: &Motion, leader: f64) -> bool {
+    pub(crate) fn reaches(&self, motion: &Kinematics, leader: f64) -> bool {
         // Where it may have to stop behind its leader, or where that will have gone on, it looks more closely.
         let stays_before = || self.first_place - motion.x >= stopping_way(motion.speed);
         motion.x >= self.from
@@ -76,11 +76,17 @@ impl OpenRoad {
 /// spare. `None` if it is not.
 // The most frequent call of a motorway.
 #[inline(always)]
-pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion, dt: f64) -> Option<f64> {
+pub(crate) fn behind(
+    scene: &Scene,
+    motion: &Kinematics,
+    driver: &DriverState,
+    leader: &Kinematics,
+    dt: f64,
+) -> Option<f64> {
     let ahead = leader.ahead(leader.rear() - motion.x);
-    let follow = &scene.style_of(car).follow;
-    let wish = follow.acceleration(pace(motion, car), Some(ahead));
-    let acceleration = within(wish, -HARDEST_BRAKING, car.class.strength());
+    let follow = &scene.style_of(driver).follow;
+    let wish = follow.acceleration(pace(motion, driver), Some(ahead));
+    let acceleration = within(wish, -HARDEST_BRAKING, driver.class.strength());
     let next = motion.speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
     let clear = ahead.nearer(FollowingModel::LARGEST_CLEARANCE);
@@ -90,10 +96,10 @@ pub(crate) fn behind(scene: &Scene, motion: &Motion, car: &Car, leader: &Motion,
 /// Every case. A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
 pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let chosen = in_lane(scene, clock, spot, lane_end);
-    if !scene.car(spot).phase.is_between_lanes() {
+    if !scene.driver(spot).phase.is_between_lanes() {
         return chosen;
     }
-    let Some(counterpart) = scene.mind(spot).counterpart else { return chosen };
+    let Some(counterpart) = scene.lane_change(spot).counterpart else { return chosen };
     let id = scene.motion(spot).id;
     let Some(index) = scene.lanes[counterpart.chain.at()].find(id, counterpart.x) else { return chosen };
     let lane_end = self::lane_end(scene, counterpart.chain);
@@ -105,23 +111,23 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
 /// may have to decide.
 #[inline(never)]
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
-    let needs_full_update = car.phase == Phase::Wants || car.needs_full_update;
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
+    let needs_full_update = driver.phase == Phase::Wants || driver.needs_full_update;
     let next =
         scene.motions(spot.chain).get(spot.index + 1).filter(|it| !needs_full_update && it.id != motion.id);
     let road = OpenRoad::on(scene, spot.chain, lane_end);
-    let is_usual = |it: &&Motion| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
+    let is_usual = |it: &&Kinematics| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
     let usual = next.filter(is_usual);
-    if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, car, it, clock.dt)) {
+    if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, driver, it, clock.dt)) {
         return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
     }
     let leader = scene.ahead(scene.viewpoint(spot));
-    let follow = &scene.style_of(car).follow;
-    let wish = follow.acceleration(pace(motion, car), leader);
+    let follow = &scene.style_of(driver).follow;
+    let wish = follow.acceleration(pace(motion, driver), leader);
     let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
-    let (wish, stop) = at_junction(motion, car, follow, &junction, wish, clock.dt);
-    let wish = within(wish, -HARDEST_BRAKING, car.class.strength());
+    let (wish, stop) = at_junction(motion, driver, follow, &junction, wish, clock.dt);
+    let wish = within(wish, -HARDEST_BRAKING, driver.class.strength());
     let clear = |it: Ahead| it.nearer(follow.clearance());
     let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
@@ -138,8 +144,8 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
 
 /// What a driver accelerates at a junction, and where it has to stop there.
 fn at_junction(
-    motion: &Motion,
-    car: &Car,
+    motion: &Kinematics,
+    driver: &DriverState,
     follow: &FollowingModel,
     junction: &Junction,
     wish: f64,
@@ -147,7 +153,7 @@ fn at_junction(
 ) -> (f64, Option<Ahead>) {
     let mut wish = wish;
     if junction.leader.is_some() {
-        wish = wish.min(follow.acceleration(pace(motion, car), junction.leader));
+        wish = wish.min(follow.acceleration(pace(motion, driver), junction.leader));
     }
     let Some(stop) = junction.stop else { return (wish, None) };
     wish = wish.min(to_stop_at(motion.speed, stop - ROOM_AT_A_STOP, dt));
@@ -179,8 +185,8 @@ pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
     stopping_speed(distance - ROOM_AT_A_STOP)
 }
 
-fn pace(motion: &Motion, car: &Car) -> Pace {
-    Pace { speed: motion.speed, desired: f64::from(car.desired), tightness: f64::from(motion.tightness) }
+fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
+    Pace { speed: motion.speed, desired: f64::from(driver.desired), tightness: f64::from(motion.tightness) }
 }
 
 /// `clamp` for bounds in order.
@@ -198,9 +204,9 @@ fn reacting_to_more(
     behind_leader: f64,
     lane_end: Option<LaneEnd>,
 ) -> (f64, Option<Ahead>) {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let (mut wish, mut obstacle) = (behind_leader, None);
-    if car.phase == Phase::Wants || car.needs_full_update {
+    if driver.phase == Phase::Wants || driver.needs_full_update {
         wish = wish.min(beyond_the_leader(scene, clock, spot));
     }
     if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
@@ -234,13 +240,13 @@ impl LaneEnd {
 
     /// Where it ends for the entry at `spot`.
     pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
-        let (car, has_crossed) = (scene.car(spot), scene.mind(spot).progress >= 0.5);
-        let is_leaving = match car.phase {
-            Phase::Changes => car.is_shadow == has_crossed,
-            Phase::Aborts => car.is_shadow,
+        let (driver, has_crossed) = (scene.driver(spot), scene.lane_change(spot).progress >= 0.5);
+        let is_leaving = match driver.phase {
+            Phase::Changes => driver.is_shadow == has_crossed,
+            Phase::Aborts => driver.is_shadow,
             Phase::Cruises | Phase::Wants => false,
         };
-        if is_leaving { self.drawn } else { self.open_for(car.class.is_long()) }
+        if is_leaving { self.drawn } else { self.open_for(driver.class.is_long()) }
     }
 
     /// Where it becomes too narrow for a car, or for a long vehicle [m].
@@ -265,23 +271,23 @@ pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
 
 /// A vehicle whose centre has left the lane need not mind its end.
 fn is_leaving(scene: &Scene, spot: Spot) -> bool {
-    let car = scene.car(spot);
-    car.is_shadow && car.phase == Phase::Changes && scene.mind(spot).progress >= 0.5
+    let driver = scene.driver(spot);
+    driver.is_shadow && driver.phase == Phase::Changes && scene.lane_change(spot).progress >= 0.5
 }
 
 /// Road that a driver keeps before the place where it has to have left its lane [m]. Who changes already uses it; so
 /// does who has waited there in vain, if only the vehicle behind is in the way: of two drivers side by side who want
 /// each other's lane the one ahead moves on, and both can go.
 fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (car, mind) = (scene.car(spot), scene.mind(spot));
-    let moves_up = match car.phase {
+    let (driver, lane_change) = (scene.driver(spot), scene.lane_change(spot));
+    let moves_up = match driver.phase {
         Phase::Changes => true,
         Phase::Wants => {
-            let waited = clock.since(mind.since);
-            let least = scene.style_of(car).safety.min_gap;
+            let waited = clock.since(lane_change.since);
+            let least = scene.style_of(driver).safety.min_gap;
             waited > WAITS
                 && scene.motion(spot).speed < HARDLY_MOVES
-                && leader_beside(scene, spot, mind.side).is_none_or(|it| it.gap >= least)
+                && leader_beside(scene, spot, lane_change.side).is_none_or(|it| it.gap >= least)
         }
         Phase::Cruises | Phase::Aborts => false,
     };
@@ -298,15 +304,15 @@ fn within_window(kept: f64, window: f64) -> f64 {
 
 /// What a driver reacts to beside its leader.
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-    let pace = pace(motion, car);
-    let style = scene.style_of(car);
+    let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
+    let pace = pace(motion, driver);
+    let style = scene.style_of(driver);
     let mut acceleration = f64::INFINITY;
-    if car.phase == Phase::Wants {
-        let beside = leader_beside(scene, spot, mind.side);
+    if driver.phase == Phase::Wants {
+        let beside = leader_beside(scene, spot, lane_change.side);
         // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
         let drives_on = motion.speed < HARDLY_MOVES && beside.is_some_and(|it| it.speed < STANDS);
-        let falls_in = f64::from(mind.urgency) >= style.change.synchronizes_from();
+        let falls_in = f64::from(lane_change.urgency) >= style.change.synchronizes_from();
         if falls_in && !drives_on {
             let falling_in = style.follow.acceleration(pace, beside);
             acceleration = falling_in.max(-style.manner.adjust_deceleration);
@@ -319,15 +325,15 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
             acceleration = acceleration.min(staying_behind.max(-style.manner.adjust_deceleration));
         }
     }
-    let (gap, speed) = mind.lets_in;
+    let (gap, speed) = lane_change.lets_in;
     if gap < f32::INFINITY {
         let ahead = Ahead::steady(f64::from(gap).max(0.1), f64::from(speed));
         let giving_way = style.follow.acceleration(pace, Some(ahead));
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }
     // Who is on its way through a junction waits for no gap there.
-    let may_wait = matches!(car.phase, Phase::Cruises | Phase::Wants) && scene.reservation(spot).is_none();
-    if mind.last_place.is_finite() && may_wait {
+    let may_wait = matches!(driver.phase, Phase::Cruises | Phase::Wants) && scene.reservation(spot).is_none();
+    if lane_change.last_place.is_finite() && may_wait {
         acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
     }
     acceleration
@@ -336,25 +342,27 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
 /// How far ahead the driver at `spot` waits for its last chance to change lanes, in this `window` [m].
 pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Option<Window>) -> f64 {
     let length = window.map_or(f64::INFINITY, |it| it.length());
-    scene.mind(spot).last_place - within_window(kept_room(scene, clock, spot), length) - scene.motion(spot).x
+    scene.lane_change(spot).last_place
+        - within_window(kept_room(scene, clock, spot), length)
+        - scene.motion(spot).x
 }
 
 /// How a driver comes to the last place for a change. Into a short window it drives slowly enough to change there, and
 /// on through it if it has a gap; else it stops within it, or on a motorway slows down.
 fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-    let manner = &scene.style_of(car).manner;
+    let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
+    let manner = &scene.style_of(driver).manner;
     let window = Window::of(scene, spot);
-    if let Some(window) = window.filter(|it| car.phase == Phase::Wants && it.is_near_and_short())
-        && gap(scene, spot, mind.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())
+    if let Some(window) = window.filter(|it| driver.phase == Phase::Wants && it.is_near_and_short())
+        && gap(scene, spot, lane_change.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())
     {
-        let passing = window.speed_for(manner.duration(f64::from(mind.urgency)));
+        let passing = window.speed_for(manner.duration(f64::from(lane_change.urgency)));
         return approach(motion.speed, window.start.max(0.0), passing);
     }
     let room = place_to_wait(scene, clock, spot, window);
-    let passing = 0.5 * (f64::from(car.desired) - WAITS_BELOW).max(0.0);
+    let passing = 0.5 * (f64::from(driver.desired) - WAITS_BELOW).max(0.0);
     let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.change_duration)));
-    if passing > 0.0 && car.desired > WAITS_BELOW as f32 {
+    if passing > 0.0 && driver.desired > WAITS_BELOW as f32 {
         approach(motion.speed, room, passing)
     } else {
         to_stop_at(motion.speed, room, clock.dt)

@@ -7,7 +7,7 @@ use crate::driver::perceive::{Dismissed, Perception};
 use crate::driver::plan::Want;
 use crate::record::desire_situations::DesireSituation;
 use crate::record::tally::Tally;
-use crate::state::lane::{Car, Kind};
+use crate::state::lane::{DriverState, Kind};
 use crate::state::moment::Moment;
 
 /// A side, and what the driver makes of it.
@@ -37,12 +37,12 @@ impl Choice {
     /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
     fn of(perception: &Perception, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
         let from = perception.beside(side)?;
-        if is_calm(perception.car(), moment) && perception.here().route.changes == 0 {
+        if is_calm(perception.driver(), moment) && perception.here().route.changes == 0 {
             return None;
         }
         let situation = perception.situation(side, from);
         let helps_the_route = situation.there.route.changes < situation.here.route.changes;
-        (!is_out_of_question(perception.car(), moment, &situation)).then(|| {
+        (!is_out_of_question(perception.driver(), moment, &situation)).then(|| {
             let appraisal = change.appraise(&situation);
             Choice {
                 side,
@@ -66,13 +66,13 @@ impl Choice {
 }
 
 /// Soon after a change a driver makes no other by choice.
-fn is_calm(car: &Car, moment: Moment) -> bool {
-    moment.clock.step < car.cooldown_until
+fn is_calm(driver: &DriverState, moment: Moment) -> bool {
+    moment.clock.step < driver.cooldown_until
 }
 
 /// A driver does not weigh a side soon after a change, unless that helps its route.
-pub(crate) fn is_out_of_question(car: &Car, moment: Moment, situation: &Situation) -> bool {
-    is_calm(car, moment) && situation.there.route.changes >= situation.here.route.changes
+pub(crate) fn is_out_of_question(driver: &DriverState, moment: Moment, situation: &Situation) -> bool {
+    is_calm(driver, moment) && situation.there.route.changes >= situation.here.route.changes
 }
 
 /// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where
@@ -86,9 +86,9 @@ pub(crate) fn desire(
     draw: f64,
     tally: &mut Tally,
 ) -> Option<Choice> {
-    let (desired, here) = (f64::from(perception.car().desired), perception.here().prospect);
+    let (desired, here) = (f64::from(perception.driver().desired), perception.here().prospect);
     if let LaneChangeModel::Mcdm(model) = change
-        && moment.clock.step >= perception.car().cooldown_until
+        && moment.clock.step >= perception.driver().cooldown_until
         && let Some(Dismissed { best_prospect }) = perception.dismisses(model, change.reach(epochs, draw))
     {
         // Whether the lane beside is free, and not only its next leader far ahead, takes a longer look.

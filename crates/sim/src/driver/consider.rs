@@ -18,7 +18,7 @@ use crate::driver::window;
 use crate::record::events::DrivingEventKind;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
-use crate::state::lane::{Car, Kind, Mind, Motion, Phase};
+use crate::state::lane::{DriverState, Kind, Kinematics, LaneChangeState, Phase};
 use crate::state::moment::Moment;
 use crate::state::random::Purpose;
 use crate::state::standstill::STANDSTILL;
@@ -54,14 +54,14 @@ pub(crate) fn consider(
     }
     let is_last_chance = has_last_chance(&me.style.change, me.motion, &waypoint);
     if is_last_chance
-        && me.car.phase == Phase::Cruises
+        && me.driver.phase == Phase::Cruises
         && let Some(note) = plan.notes.last_mut()
     {
         note.due = moment.clock.step + 1;
     }
     if !has_a_choice(scene, &me) {
-        let gives_up = me.car.phase == Phase::Wants;
-        return keep_in_mind(Concern { gives_up, ..concern }, me.car, plan);
+        let gives_up = me.driver.phase == Phase::Wants;
+        return keep_in_mind(Concern { gives_up, ..concern }, me.driver, plan);
     }
     let perception = look(scene, moment, &me, &attending, &waypoint, hints);
     let change = attending.model(me.style);
@@ -72,13 +72,13 @@ pub(crate) fn consider(
         let rerouted = Concern { rerouted: Some(way.to), gives_up: way.is_change, ..concern };
         return push_tight(&mut plan.concerns, rerouted);
     }
-    let concern = if me.car.phase == Phase::Wants {
+    let concern = if me.driver.phase == Phase::Wants {
         want_on(moment, &me, &perception, &change, is_last_chance, concern)
     } else {
         choose(moment, &me, &perception, &change, (attending.epochs, is_last_chance), outbox);
         concern
     };
-    keep_in_mind(concern, me.car, plan);
+    keep_in_mind(concern, me.driver, plan);
 }
 
 /// Notes that the driver had its turn, and whether it stands. Returns for how long it has [s].
@@ -90,20 +90,20 @@ fn note_turn(
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) -> f32 {
-    let Me { spot, car, .. } = *me;
+    let Me { spot, driver, .. } = *me;
     let mut note = note(scene, moment, me, period);
-    if car.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
+    if driver.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
         if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
             outbox.tally.stuck += 1;
         } else {
-            note.standing = car.standing;
+            note.standing = driver.standing;
         }
     }
-    if note.standing > 0.0 && car.standing == 0.0 {
+    if note.standing > 0.0 && driver.standing == 0.0 {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::Halt);
     }
-    if note.standing == 0.0 && car.standing > 0.0 {
-        let kind = DrivingEventKind::SetOff { stood: car.standing };
+    if note.standing == 0.0 && driver.standing > 0.0 {
+        let kind = DrivingEventKind::SetOff { stood: driver.standing };
         outbox.note(scene, moment.clock, spot, kind);
     }
     push_tight(&mut plan.notes, note);
@@ -112,7 +112,7 @@ fn note_turn(
 
 /// What its route is to a driver where it is.
 pub(crate) fn waypoint<'a>(scene: &Scene<'a>, me: &Me) -> Cow<'a, Waypoint> {
-    scene.navigator.waypoint_from(scene.network, me.car.goal.destination(), me.spot.chain, me.motion.x)
+    scene.navigator.waypoint_from(scene.network, me.driver.goal.destination(), me.spot.chain, me.motion.x)
 }
 
 /// What a driver, who has been `standing` so long [s], has to keep in mind of its route: the last place for its next
@@ -144,7 +144,7 @@ fn follow_route(
     }
     // Who passed the last place takes another route, if there is one; if not, it has a reservation, and is re-routed
     // beyond.
-    if is_detour && me.mind.last_place < motion.x {
+    if is_detour && me.lane_change.last_place < motion.x {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
     }
     let is_near = waypoint.last_place - motion.x < REACTS_WITHIN;
@@ -154,7 +154,7 @@ fn follow_route(
 /// Who may change to neither side has nothing to weigh, and nothing left to wait for.
 fn has_a_choice(scene: &Scene, me: &Me) -> bool {
     Side::BOTH.into_iter().any(|side| window::beside(scene, me.spot, side).is_some())
-        || scene.navigator.recommended(me.car.goal.destination()).is_some()
+        || scene.navigator.recommended(me.driver.goal.destination()).is_some()
 }
 
 /// What a driver sees around it at its turn.
@@ -166,7 +166,7 @@ pub(crate) fn look<'s, 'a>(
     waypoint: &Waypoint,
     hints: &mut [usize; 2],
 ) -> Perception<'s, 'a> {
-    let goal = me.car.goal.destination();
+    let goal = me.driver.goal.destination();
     let beliefs = Beliefs::of(&me.style.guidance, scene.navigator, moment.random, me.motion.id, goal);
     Perception::new(scene, me.spot, waypoint, attending.alertness.sight, beliefs, hints)
 }
@@ -182,10 +182,10 @@ fn want_on(
 ) -> Concern {
     let options = Choice::both(perception, moment, change);
     let of = |side: Side| options.iter().flatten().find(|it| it.side == side);
-    let [wanted, other] = [me.mind.side, me.mind.side.opposite()].map(of);
+    let [wanted, other] = [me.lane_change.side, me.lane_change.side.opposite()].map(of);
     let leads = |it: Option<&Choice>| is_last_chance && it.is_some_and(|it| it.helps_the_route);
     let appraisals = [wanted, other].map(|it| it.map(|it| &it.appraisal));
-    let gives_up = !leads(wanted) && (leads(other) || gives_up(moment, me.mind, me.style, appraisals));
+    let gives_up = !leads(wanted) && (leads(other) || gives_up(moment, me.lane_change, me.style, appraisals));
     Concern { gives_up, urgency: wanted.map_or(0.0, |it| it.pressure as f32), ..concern }
 }
 
@@ -216,7 +216,7 @@ fn choose(
 /// `waypoint`, or has waited for the change in vain: the nearest destination that it still can, or as the road leads.
 /// None if it goes on.
 fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Option<Destination> {
-    let (spot, goal, x) = (me.spot, me.car.goal.destination(), me.motion.x);
+    let (spot, goal, x) = (me.spot, me.driver.goal.destination(), me.motion.x);
     let found = if !waypoint.leads_on(x) {
         scene.navigator.nearest(scene.network, goal, spot.chain, x)
     } else if standing >= STANDS_IN_VAIN && waypoint.last_place - x < AT_THE_PLACE {
@@ -233,7 +233,7 @@ fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Opt
 
 /// Whether a driver comes to the last place for a change that it has to make: there it looks for a gap at every step,
 /// and wants the change whatever else speaks against it (ours).
-pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Motion, waypoint: &Waypoint) -> bool {
+pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Kinematics, waypoint: &Waypoint) -> bool {
     /// Way before that place [m], and time [s].
     const WAY: f64 = 30.0;
     const TIME: f64 = 4.0;
@@ -243,16 +243,16 @@ pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Motion, waypoin
 
 /// A driver keeps its way in mind if there is something about it to keep, or to forget.
 #[inline(never)]
-fn keep_in_mind(concern: Concern, car: &Car, plan: &mut Plan) {
+fn keep_in_mind(concern: Concern, driver: &DriverState, plan: &mut Plan) {
     let minds_more = concern.last_place.is_finite() || concern.minds_offside;
-    if car.phase != Phase::Cruises || car.needs_full_update || minds_more {
+    if driver.phase != Phase::Cruises || driver.needs_full_update || minds_more {
         push_tight(&mut plan.concerns, concern);
     }
 }
 
 /// What the driver keeps in mind whatever it decides, considering lanes once in `period` steps.
 fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
-    let Me { spot, motion, car, style, .. } = *me;
+    let Me { spot, motion, driver, style, .. } = *me;
     let limit = scene.network.chain(spot.chain).limit(motion.x);
     let stands = motion.speed < STANDSTILL;
     // Considerations between two turns add no time to that between the turns.
@@ -261,16 +261,21 @@ fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
     Note {
         index: spot.index as u32,
         due: next_turn(motion.id, moment.clock.step + 1, period),
-        limit_desired: car.class.desired_speed(style, limit) as f32,
-        standing: if stands { car.standing + since_last } else { 0.0 },
+        limit_desired: driver.class.desired_speed(style, limit) as f32,
+        standing: if stands { driver.standing + since_last } else { 0.0 },
     }
 }
 
 /// A waiting driver loses patience, or the reason to change to the side that it wanted, and not to the other.
-fn gives_up(moment: Moment, mind: &Mind, style: &Style, [wanted, other]: [Option<&Appraisal>; 2]) -> bool {
+fn gives_up(
+    moment: Moment,
+    lane_change: &LaneChangeState,
+    style: &Style,
+    [wanted, other]: [Option<&Appraisal>; 2],
+) -> bool {
     let Some(appraisal) = wanted else { return true };
-    let waited = moment.clock.since(mind.since);
-    let is_tired = mind.kind == Kind::Discretionary && waited > style.manner.patience;
+    let waited = moment.clock.since(lane_change.since);
+    let is_tired = lane_change.kind == Kind::Discretionary && waited > style.manner.patience;
     let is_pointless = style.change.would_rather_stay(appraisal);
     let is_better_elsewhere =
         other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());

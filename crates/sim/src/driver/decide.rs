@@ -14,22 +14,22 @@ use crate::view::scene::{Scene, Spot};
 pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
     let (mut hints, mut last) = ([0; 2], 0);
-    for (index, car) in lane.cars().iter().enumerate() {
-        if car.phase == Phase::Cruises && car.due > moment.clock.step {
+    for (index, driver) in lane.drivers().iter().enumerate() {
+        if driver.phase == Phase::Cruises && driver.due > moment.clock.step {
             continue;
         }
-        if car.is_shadow {
+        if driver.is_shadow {
             continue;
         }
         let spot = Spot { chain, index };
-        match car.phase {
+        match driver.phase {
             Phase::Changes => abort_if_it_must(scene, spot, outbox),
             Phase::Aborts => {}
             Phase::Cruises | Phase::Wants => {
-                if car.phase == Phase::Wants {
+                if driver.phase == Phase::Wants {
                     go_or_ask(scene, moment, spot, outbox);
                 }
-                if car.due <= moment.clock.step {
+                if driver.due <= moment.clock.step {
                     // Beside there are about as many entries between two drivers.
                     hints = hints.map(|it| it + index - last);
                     last = index;
@@ -42,15 +42,20 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
 
 /// A waiting driver goes if the gap is acceptable, else asks to be let in.
 pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
-    let (motion, mind) = (scene.motion(spot), scene.mind(spot));
+    let (motion, lane_change) = (scene.motion(spot), scene.lane_change(spot));
     let asks_from = scene.style(spot).change.asks_from();
-    let request =
-        |ask: Ask| Request { urgency: mind.urgency, id: motion.id, chain: spot.chain, x: motion.x, ask };
-    let Some(gap) = gap(scene, spot, mind.side) else { return };
+    let request = |ask: Ask| Request {
+        urgency: lane_change.urgency,
+        id: motion.id,
+        chain: spot.chain,
+        x: motion.x,
+        ask,
+    };
+    let Some(gap) = gap(scene, spot, lane_change.side) else { return };
     match gap.taken(scene, spot, moment.clock) {
         Ok(()) => outbox.requests.push(request(Ask::Change)),
         Err(Hindrance::InReservation | Hindrance::WantedBefore | Hindrance::NotAllowed) => {}
-        Err(_) if f64::from(mind.urgency) < asks_from => {}
+        Err(_) if f64::from(lane_change.urgency) < asks_from => {}
         Err(_) => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {
                 let behind = scene.motion(found.spot);
@@ -69,15 +74,15 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
 /// Before the crossing a driver goes back if its new leader forces it to brake much harder than its old one.
 pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
-    let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-    let Some(counterpart) = mind.counterpart.filter(|_| mind.progress < 0.5) else { return };
+    let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
+    let Some(counterpart) = lane_change.counterpart.filter(|_| lane_change.progress < 0.5) else { return };
     // Back in a lane that ends it could no longer stop before that.
-    let left = scene.network.chain(spot.chain).driven_until(car.class.is_long()) - motion.x;
+    let left = scene.network.chain(spot.chain).driven_until(driver.class.is_long()) - motion.x;
     let ends_here = scene.network.chain(spot.chain).is_lane_drop;
     if ends_here && deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER {
         return;
     }
-    let style = scene.style_of(car);
+    let style = scene.style_of(driver);
     let forced = |from| {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };
@@ -85,7 +90,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
         let ask = Ask::Abort;
         outbox.requests.push(Request {
-            urgency: mind.urgency,
+            urgency: lane_change.urgency,
             id: motion.id,
             chain: spot.chain,
             x: motion.x,

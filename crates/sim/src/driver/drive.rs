@@ -8,7 +8,7 @@ use crate::junction::reservations::NO_RESERVATION;
 use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
 use crate::state::clock::Clock;
-use crate::state::lane::{Lane, Motion};
+use crate::state::lane::{Kinematics, Lane};
 use crate::state::tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
@@ -24,24 +24,24 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
     let upcoming = upcoming(scene, chain);
     let road = OpenRoad::on(scene, chain, end);
     let mut updates = 0;
-    for (index, (motion, car)) in motions.iter().zip(lane.cars()).enumerate() {
+    for (index, (motion, driver)) in motions.iter().zip(lane.drivers()).enumerate() {
         if let Some(upcoming) = upcoming {
             upcoming.prefetch(index);
         }
-        let leader = motions.get(index + 1).filter(|_| car.only_follows());
+        let leader = motions.get(index + 1).filter(|_| driver.only_follows());
         let leader = leader.filter(|it| road.reaches(motion, it.x));
-        let usual = leader.and_then(|it| behind(scene, motion, car, it, clock.dt));
+        let usual = leader.and_then(|it| behind(scene, motion, driver, it, clock.dt));
         let (acceleration, stretch) = match usual {
             Some(acceleration) => (acceleration, 1.0),
             None => drive_with_care(scene, clock, Spot { chain, index }, end, plan, outbox),
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
         if next.tightness < 1.0 {
-            let manner = &scene.style_of(car).manner;
+            let manner = &scene.style_of(driver).manner;
             next.tightness = manner.relaxed(f64::from(next.tightness), clock.dt) as f32;
         }
         plan.next.push(next);
-        if !car.is_shadow {
+        if !driver.is_shadow {
             plan.distance += distance;
             updates += 1;
         }
@@ -66,22 +66,22 @@ fn drive_with_care(
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) -> (f64, f64) {
-    let car = scene.car(spot);
+    let driver = scene.driver(spot);
     let chosen = with_care(scene, clock, spot, lane_end);
     let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
-    let in_emergency = by_kinematics || (car.in_emergency && acceleration < 0.0);
+    let in_emergency = by_kinematics || (driver.in_emergency && acceleration < 0.0);
     // A shadow counts as well: kinematics in either lane is kinematics.
-    if by_kinematics && !car.in_emergency {
+    if by_kinematics && !driver.in_emergency {
         outbox.note(scene, clock, spot, DrivingEventKind::EmergencyBraking);
     }
     if touches && let Some(leader) = scene.leader_spot(scene.viewpoint(spot)) {
         touch(scene, spot, leader, clock.time(), &mut outbox.incidents);
     }
     let index = spot.index as u32;
-    if !car.only_follows() || in_emergency {
+    if !driver.only_follows() || in_emergency {
         let motion = scene.motion(spot);
         let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
-        let slot = scene.mind(spot).reservation;
+        let slot = scene.lane_change(spot).reservation;
         let reservation_is_over = slot != NO_RESERVATION && scene.reservations.of(slot, motion.id).is_none();
         push_tight(&mut plan.upkeep, Upkeep { index, distance, in_emergency, reservation_is_over });
     }
@@ -96,12 +96,12 @@ fn drive_with_care(
 
 /// Metres along the chain for a metre driven.
 fn stretch(scene: &Scene, spot: Spot) -> f64 {
-    if scene.car(spot).phase.is_between_lanes() { f64::from(scene.mind(spot).stretch) } else { 1.0 }
+    if scene.driver(spot).phase.is_between_lanes() { f64::from(scene.lane_change(spot).stretch) } else { 1.0 }
 }
 
 /// How a vehicle moves after a step, and the distance driven [m].
 #[inline]
-fn moved(motion: &Motion, acceleration: f64, stretch: f64, dt: f64) -> (Motion, f64) {
+fn moved(motion: &Kinematics, acceleration: f64, stretch: f64, dt: f64) -> (Kinematics, f64) {
     let next = motion.speed + acceleration * dt;
     let (speed, distance, acceleration) = if next >= 0.0 {
         (next, 0.5 * (motion.speed + next) * dt, acceleration)
@@ -109,5 +109,5 @@ fn moved(motion: &Motion, acceleration: f64, stretch: f64, dt: f64) -> (Motion, 
         (0.0, -0.5 * motion.speed * motion.speed / acceleration, -motion.speed / dt)
     };
     let x = motion.x + distance * stretch;
-    (Motion { x, speed, acceleration: acceleration as f32, ..*motion }, distance)
+    (Kinematics { x, speed, acceleration: acceleration as f32, ..*motion }, distance)
 }

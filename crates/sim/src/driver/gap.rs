@@ -5,7 +5,7 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::driver::accelerate::{lane_end, stopping_way};
-use crate::driver::perceive::driver;
+use crate::driver::perceive::driver_of;
 use crate::driver::window;
 use crate::junction::storage_section::StorageSection;
 use crate::right_of_way::applicant::Applicant;
@@ -81,10 +81,10 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
     const ENOUGH: f64 = 150.0;
     const ROUNDING: f64 = 1e-6;
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let start = window::beside(scene, spot, side).map_or(motion.x, |it| it.start.max(motion.x));
     let (mut x, mut permitted) = (start, 0.0);
-    for leg in scene.navigator.walk(scene.network, car.goal.destination(), spot.chain, 0.0) {
+    for leg in scene.navigator.walk(scene.network, driver.goal.destination(), spot.chain, 0.0) {
         let chain = scene.network.chain(leg.chain);
         loop {
             let Some(stretch) = chain.beside(side, x) else { return permitted };
@@ -147,13 +147,13 @@ impl Gap {
     /// Whether the road left does for the change at that `speed` [m/s] of the driver at `spot`.
     fn has_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<(), Hindrance> {
         let style = scene.style(spot);
-        let duration = style.manner.duration(f64::from(scene.mind(spot).urgency));
+        let duration = style.manner.duration(f64::from(scene.lane_change(spot).urgency));
         let crossing = 0.5 * duration * speed;
         if self.room < crossing {
             return Err(Hindrance::TooLittleRoad);
         }
         // Into a lane that ends nobody changes who could not stop before that.
-        let is_long = scene.car(spot).class.is_long();
+        let is_long = scene.driver(spot).class.is_long();
         let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
         if end.is_some_and(|it| it < 2.0 * crossing + stopping_way(speed)) {
             return Err(Hindrance::TooLittleRoad);
@@ -184,7 +184,7 @@ impl Gap {
 
     /// Who would follow whom: the driver its new leader, its new follower the driver.
     pub(crate) fn pairings<'a>(&self, scene: &Scene<'a>, spot: Spot) -> [Option<Pairing<'a>>; 2] {
-        let me = driver(scene, spot);
+        let me = driver_of(scene, spot);
         let ahead = self.ahead.map(|leader| {
             let follower = Driver { pace: self.pace(spot, scene), ..me };
             Pairing { follower, leader }
@@ -192,7 +192,7 @@ impl Gap {
         let behind = self.follower.map(|it| {
             let gap = it.distance - me.length;
             let leader = Ahead { gap, speed: me.pace.speed, acceleration: me.acceleration };
-            Pairing { follower: driver(scene, it.spot), leader }
+            Pairing { follower: driver_of(scene, it.spot), leader }
         });
         [ahead, behind]
     }
@@ -215,7 +215,7 @@ impl Gap {
     /// Whether somebody who waits before a junction for room on that stretch comes first to it.
     fn is_requested_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
         let section = StorageSection::at(&scene.network.junctions, self.chain, self.x);
-        let priority = Asking::of(&Applicant::at(scene, spot), scene.mind(spot).since, clock).priority;
+        let priority = Asking::of(&Applicant::at(scene, spot), scene.lane_change(spot).since, clock).priority;
         scene.reservations.requested_before(section, priority) > 0.0
     }
 
@@ -226,15 +226,15 @@ impl Gap {
         let motion = scene.motion(spot);
         let room = scene.style(spot).safety.min_gap + ROOM_TO_YIELD;
         let can = |it: &Found| {
-            let (behind, car) = (scene.motion(it.spot), scene.car(it.spot));
-            let gentle = scene.style_of(car).manner.yield_deceleration;
+            let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
+            let gentle = scene.style_of(driver).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
             // Who stands beside or right behind a standing vehicle cannot make room for it.
             let is_beside = gap < room && motion.speed <= STANDSTILL;
             let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
             // Nobody may come before who has a reservation: it lets in nobody.
             let is_free = !scene.has_reservation(it.spot, gap);
-            car.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle
+            driver.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle
         };
         std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
     }
@@ -265,11 +265,11 @@ impl Gap {
 
     /// The driver's pace with the time gap that it accepts for this change.
     fn pace(&self, spot: Spot, scene: &Scene) -> Pace {
-        let (motion, car) = (scene.motion(spot), scene.car(spot));
-        let style = scene.style_of(car);
-        let desire = f64::from(scene.mind(spot).urgency).max(VOLUNTARY_DESIRE);
+        let (motion, driver) = (scene.motion(spot), scene.driver(spot));
+        let style = scene.style_of(driver);
+        let desire = f64::from(scene.lane_change(spot).urgency).max(VOLUNTARY_DESIRE);
         let tightness = style.manner.tightness(desire).min(f64::from(motion.tightness));
-        Pace { speed: motion.speed, desired: f64::from(car.desired), tightness }
+        Pace { speed: motion.speed, desired: f64::from(driver.desired), tightness }
     }
 
     /// Share of the usual time gap that the driver accepts for this change.

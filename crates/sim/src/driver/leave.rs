@@ -34,7 +34,7 @@ pub(crate) fn departure(
     change: &LaneChangeModel,
     epochs: f64,
 ) -> Option<Departure> {
-    let own = scene.car(spot).goal.destination();
+    let own = scene.driver(spot).goal.destination();
     let new = scene.navigator.recommended(own)?;
     towards(scene, moment, spot, [own, Some(new)], perception, change, epochs)
 }

@@ -7,7 +7,7 @@ use laneweave_models::change::LaneChangeModel;
 use laneweave_models::{Concentration, Style};
 
 use crate::driver::attention::concentration;
-use crate::state::lane::{Car, Mind, Motion};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
 use crate::state::moment::Moment;
 use crate::view::scene::{Scene, Spot};
 
@@ -15,9 +15,9 @@ use crate::view::scene::{Scene, Spot};
 #[derive(Clone, Copy)]
 pub(crate) struct Me<'a> {
     pub(crate) spot: Spot,
-    pub(crate) motion: &'a Motion,
-    pub(crate) car: &'a Car,
-    pub(crate) mind: &'a Mind,
+    pub(crate) motion: &'a Kinematics,
+    pub(crate) driver: &'a DriverState,
+    pub(crate) lane_change: &'a LaneChangeState,
     pub(crate) style: &'a Style,
 }
 
@@ -25,8 +25,8 @@ impl<'a> Me<'a> {
     /// The driver of the entry at `spot`.
     #[inline]
     pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Me<'a> {
-        let (motion, car, mind) = (scene.motion(spot), scene.car(spot), scene.mind(spot));
-        Me { spot, motion, car, mind, style: scene.style_of(car) }
+        let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
+        Me { spot, motion, driver, lane_change, style: scene.style_of(driver) }
     }
 }
 

@@ -11,7 +11,7 @@ use laneweave_network::{Beside, Side};
 use crate::driver::beliefs::Beliefs;
 use crate::driver::window;
 use crate::route::waypoint::Waypoint;
-use crate::state::lane::{Car, Phase};
+use crate::state::lane::{DriverState, Phase};
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer};
 use crate::view::sight::LaneSight;
 
@@ -35,16 +35,16 @@ pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation
 
 /// A driver with its vehicle.
 #[inline]
-pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
+pub fn driver_of<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     Driver {
         pace: Pace {
             speed: motion.speed,
-            desired: f64::from(car.desired),
+            desired: f64::from(driver.desired),
             tightness: f64::from(motion.tightness),
         },
         acceleration: f64::from(motion.acceleration),
-        follow: &scene.style_of(car).follow,
+        follow: &scene.style_of(driver).follow,
         length: f64::from(motion.length),
     }
 }
@@ -52,7 +52,7 @@ pub fn driver<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
 /// A driver's view of its own lane, from which it considers both sides.
 pub(crate) struct Perception<'s, 'a> {
     scene: &'s Scene<'a>,
-    car: &'a Car,
+    driver: &'a DriverState,
     me: Driver<'a>,
     from: Viewpoint,
     /// How far ahead it sees [m].
@@ -77,7 +77,7 @@ impl<'s, 'a> Perception<'s, 'a> {
         beliefs: Beliefs<'a>,
         hints: &mut [usize; 2],
     ) -> Perception<'s, 'a> {
-        let me = driver(scene, spot);
+        let me = driver_of(scene, spot);
         let from = scene.viewpoint(spot);
         let sight = scene.look(from, me.pace.desired, me.length, reach);
         let here = lane_view(scene, &me, &sight, route_view(scene, from, waypoint, beliefs));
@@ -94,12 +94,23 @@ impl<'s, 'a> Perception<'s, 'a> {
             Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })
         });
         let goes_round = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
-        Perception { scene, car: scene.car(spot), me, from, reach, beliefs, sight, here, goes_round, beside }
+        Perception {
+            scene,
+            driver: scene.driver(spot),
+            me,
+            from,
+            reach,
+            beliefs,
+            sight,
+            here,
+            goes_round,
+            beside,
+        }
     }
 
     /// The driver's own vehicle.
-    pub(crate) fn car(&self) -> &'a Car {
-        self.car
+    pub(crate) fn driver(&self) -> &'a DriverState {
+        self.driver
     }
 
     /// What it believes of travel times.
@@ -182,14 +193,14 @@ impl<'s, 'a> Perception<'s, 'a> {
     /// counts as such.
     fn merging(&self, side: Side, from: Viewpoint, there: &LaneSight) -> [Option<Merging<'a>>; 2] {
         let across = self.beside(side.opposite()).and_then(|Viewpoint { chain, x, ahead, .. }| {
-            let cars = self.scene.cars(chain);
+            let drivers = self.scene.drivers(chain);
             let at = |index: usize| {
-                let signals = cars.get(index)?.phase == Phase::Wants;
+                let signals = drivers.get(index)?.phase == Phase::Wants;
                 signals.then(|| self.merging_from(Spot { chain, index }, side.opposite(), x)).flatten()
             };
             ahead.checked_sub(1).and_then(at).or_else(|| at(ahead))
         });
-        let signals = |it: &Spot| it.chain == from.chain && self.scene.car(*it).phase == Phase::Wants;
+        let signals = |it: &Spot| it.chain == from.chain && self.scene.driver(*it).phase == Phase::Wants;
         let leader = there.leader.filter(signals);
         [across, leader.and_then(|it| self.merging_from(it, side, from.x))]
     }
@@ -198,8 +209,8 @@ impl<'s, 'a> Perception<'s, 'a> {
     /// wants into the driver's lane and nobody is between it and the driver there.
     #[inline(never)]
     fn merging_from(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
-        let mind = self.scene.mind(spot);
-        if mind.side != side.opposite() {
+        let lane_change = self.scene.lane_change(spot);
+        if lane_change.side != side.opposite() {
             return None;
         }
         let forward = self.scene.motion(spot).x - x;
@@ -215,13 +226,18 @@ impl<'s, 'a> Perception<'s, 'a> {
         let me_ahead = Ahead { gap: -forward - length, speed: pace.speed, acceleration };
         let blocked = if me_ahead.gap > 0.0 { Some(me_ahead) } else { self.held_in_its_lane(spot) };
         let freed = self.sight.ahead.map(|it| Ahead { gap: it.gap - forward, ..it });
-        Some(Merging { driver: driver(self.scene, spot), blocked, freed, urgency: f64::from(mind.urgency) })
+        Some(Merging {
+            driver: driver_of(self.scene, spot),
+            blocked,
+            freed,
+            urgency: f64::from(lane_change.urgency),
+        })
     }
 
     /// What the vehicle at `spot` has ahead as long as it cannot change: its leader, or where it has to have left its
     /// lane.
     fn held_in_its_lane(&self, spot: Spot) -> Option<Ahead> {
-        let room = self.scene.mind(spot).last_place - self.scene.motion(spot).x;
+        let room = self.scene.lane_change(spot).last_place - self.scene.motion(spot).x;
         let end = room.is_finite().then(|| Ahead::standing(room.max(LEAST_ROOM)));
         nearer(self.scene.ahead(self.scene.viewpoint(spot)), end)
     }
@@ -229,7 +245,7 @@ impl<'s, 'a> Perception<'s, 'a> {
 
 fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: RouteView) -> LaneView<'a> {
     let behind =
-        sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver(scene, it.spot) });
+        sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver_of(scene, it.spot) });
     LaneView { ahead: sight.ahead, behind, flow: sight.flow, prospect: sight.prospect, route }
 }
 

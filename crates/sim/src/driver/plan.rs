@@ -13,7 +13,7 @@ use crate::record::incidents::Incident;
 use crate::record::tally::Tally;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::lane::{Entry, Kind, Milestone, Motion, VehicleId};
+use crate::state::lane::{Entry, Kind, Kinematics, Milestone, VehicleId};
 use crate::view::scene::{Scene, Spot};
 
 /// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
@@ -23,7 +23,7 @@ use crate::view::scene::{Scene, Spot};
 #[repr(align(128))]
 pub(crate) struct Plan {
     /// How each entry moves at the end of the step.
-    pub(crate) next: Vec<Motion>,
+    pub(crate) next: Vec<Kinematics>,
     /// Entries about which there is more to keep than how they move.
     pub(crate) upkeep: Vec<Upkeep>,
     /// What drivers who considered lanes keep in mind.

@@ -4,7 +4,7 @@
 use laneweave_network::{Beside, Side};
 
 use crate::route::walk::Leg;
-use crate::state::lane::Car;
+use crate::state::lane::DriverState;
 use crate::view::scene::{Scene, Spot};
 
 /// A window is short up to this length [m]: a driver who looks for a gap only there finds none in time. Ours.
@@ -24,7 +24,7 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
     let x = scene.motion(spot).x;
     let after = stretches.partition_point(|it| it.start <= x);
     match stretches[..after].last().filter(|it| x <= it.end) {
-        None if scene.car(spot).needs_full_update => coming(scene, spot, stretches),
+        None if scene.driver(spot).needs_full_update => coming(scene, spot, stretches),
         found => found,
     }
 }
@@ -33,7 +33,7 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
 /// with it.
 #[inline(never)]
 fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a Beside> {
-    let (x, last_place) = (scene.motion(spot).x, scene.mind(spot).last_place);
+    let (x, last_place) = (scene.motion(spot).x, scene.lane_change(spot).last_place);
     let next = stretches.iter().find(|it| it.start > x && last_place.is_finite() && it.start < last_place)?;
     if next.start - x > LOOKS_AHEAD {
         return None;
@@ -56,12 +56,12 @@ impl Window {
     /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where
     /// that is far.
     pub(crate) fn of(scene: &Scene, spot: Spot) -> Option<Window> {
-        let (x, place) = (scene.motion(spot).x, scene.mind(spot).last_place);
+        let (x, place) = (scene.motion(spot).x, scene.lane_change(spot).last_place);
         // A short one is near, and a long one so far ahead is not worth the search.
         if place - x > SHORT + LOOKS_AHEAD {
             return None;
         }
-        let Car { goal, class, .. } = scene.car(spot);
+        let DriverState { goal, class, .. } = scene.driver(spot);
         let (destination, is_long) = (goal.destination(), class.is_long());
         let walk = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).within(place);
         // For each side the window that ends last so far, along the own chain.

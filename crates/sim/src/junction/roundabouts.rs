@@ -126,8 +126,9 @@ impl Roundabout {
         let here = self.chains.iter().flat_map(|it| lanes[it.at()].motions());
         let coming = self.entries.iter().flat_map(|it| {
             let lane = &lanes[it.at()];
-            let all = lane.motions().iter().zip(lane.minds()).rev();
-            let coming = all.take_while(|(it, mind)| reservations.of(mind.reservation, it.id).is_some());
+            let all = lane.motions().iter().zip(lane.lane_change_states()).rev();
+            let coming =
+                all.take_while(|(it, lane_change)| reservations.of(lane_change.reservation, it.id).is_some());
             coming.map(|(it, _)| it)
         });
         here.chain(coming).map(|it| space(it.length)).sum()

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::incidents::Incident;
 use crate::record::trip_log::TripRecord;
-use crate::state::lane::{Kind, Motion, VehicleId};
+use crate::state::lane::{Kind, Kinematics, VehicleId};
 
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub enum Event {
         /// Its last chain.
         chain: ChainIndex,
         /// How it moved in its last step, which may have ended beyond the chain.
-        motion: Motion,
+        motion: Kinematics,
         /// The record of its trip, where trips are recorded.
         trip: Option<TripRecord>,
     },

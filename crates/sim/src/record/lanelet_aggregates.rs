@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::trip_log::TripLog;
 use crate::state::clock::Clock;
-use crate::state::lane::{Lane, Motion};
+use crate::state::lane::{Kinematics, Lane};
 use crate::state::standstill::STANDSTILL;
 
 /// What vehicles did on a lanelet, by their front bumpers.
@@ -58,7 +58,7 @@ pub(crate) struct Mark {
 
 impl Mark {
     /// Where a vehicle, which is beyond it now, was at the station `x` [m] of its chain in the last step.
-    pub(crate) fn at(x: f64, motion: &Motion, clock: Clock) -> Mark {
+    pub(crate) fn at(x: f64, motion: &Kinematics, clock: Clock) -> Mark {
         // Its speed changed evenly.
         let driven = (motion.speed - 0.5 * f64::from(motion.acceleration) * clock.dt) * clock.dt;
         let share = if driven > 0.0 { ((motion.x - x) / driven).clamp(0.0, 1.0) } else { 0.0 };
@@ -84,8 +84,8 @@ impl LaneletAggregates {
         for (chain, lane) in network.chains.iter().zip(lanes) {
             // They stand in driving order, so that their lanelets follow each other.
             let mut place = 0;
-            for (motion, car) in lane.motions().iter().zip(lane.cars()) {
-                if car.is_shadow {
+            for (motion, driver) in lane.motions().iter().zip(lane.drivers()) {
+                if driver.is_shadow {
                     continue;
                 }
                 while chain.starts.get(place + 1).is_some_and(|it| *it <= motion.x) {

@@ -121,8 +121,8 @@ impl Log {
 
     /// The vehicle of an entry left the map from the chain `from`.
     pub(crate) fn end_trip(&mut self, network: &Network, clock: Clock, from: ChainIndex, entry: &Entry) {
-        let Entry { motion, mind, .. } = *entry;
-        let duration = f64::from(clock.step - mind.entered) * clock.dt;
+        let Entry { motion, lane_change, .. } = *entry;
+        let duration = f64::from(clock.step - lane_change.entered) * clock.dt;
         let trip = self.trips.end(motion.id);
         self.counts.left += 1;
         self.counts.trip_time += duration;
@@ -276,8 +276,11 @@ impl Log {
         let knows =
             |id: VehicleId| id < next_id && trips.has(id) && trip_log.as_ref().is_none_or(|it| it.has(id));
         let lane_fits = |lane: &Lane| {
-            let mut changes =
-                lane.cars().iter().zip(lane.minds()).filter(|(it, _)| it.phase != Phase::Cruises);
+            let mut changes = lane
+                .drivers()
+                .iter()
+                .zip(lane.lane_change_states())
+                .filter(|(it, _)| it.phase != Phase::Cruises);
             lane.motions().iter().all(|it| knows(it.id)) && changes.all(|(_, it)| records.has(it.record))
         };
         let count = waiting.len();

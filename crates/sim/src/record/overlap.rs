@@ -4,7 +4,7 @@
 use laneweave_network::{ChainIndex, Nearby, Pose, Position, Side};
 
 use crate::record::incidents::{Incident, IncidentKind};
-use crate::state::lane::Motion;
+use crate::state::lane::Kinematics;
 use crate::state::vehicle::LONGEST;
 use crate::view::pose::pose;
 use crate::view::scene::{Scene, Spot};
@@ -24,8 +24,8 @@ pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Ve
     for nearby in scene.network.junctions.nearby(chain) {
         between_lanes(scene, chain, nearby, time, out);
     }
-    for (index, car) in scene.cars(chain).iter().enumerate() {
-        if !car.is_shadow && car.phase.is_between_lanes() {
+    for (index, driver) in scene.drivers(chain).iter().enumerate() {
+        if !driver.is_shadow && driver.phase.is_between_lanes() {
             beside(scene, Spot { chain, index }, time, out);
         }
     }
@@ -64,10 +64,10 @@ fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, o
         .map(|(back, on)| scene.network.chain(back).following.contains(&on));
     let is_apart = |here: usize, index: usize| {
         let follows = |on: ChainIndex, index: usize, back: ChainIndex| {
-            scene.minds(on)[index].previous_lanes.last() == Some(back)
+            scene.lane_change_states(on)[index].previous_lanes.last() == Some(back)
                 || scene.motions(on)[index].rear() >= 0.0
         };
-        let gap = |back: ChainIndex, ahead: &Motion, behind: &Motion| {
+        let gap = |back: ChainIndex, ahead: &Kinematics, behind: &Kinematics| {
             scene.network.chain(back).length - behind.x + ahead.rear()
         };
         (one && follows(nearby.chain, index, chain) && gap(chain, &others[index], &motions[here]) > 0.0)
@@ -89,20 +89,20 @@ fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, o
 }
 
 /// Whether a vehicle with its front on a stretch of fronts reaches back to where others are near.
-fn reaches(motion: &Motion, fronts: [f64; 2]) -> bool {
+fn reaches(motion: &Kinematics, fronts: [f64; 2]) -> bool {
     motion.rear() <= fronts[1] - LONGEST
 }
 
 /// The vehicles with their fronts on a stretch.
-fn within(motions: &[Motion], [from, to]: [f64; 2]) -> std::ops::Range<usize> {
+fn within(motions: &[Kinematics], [from, to]: [f64; 2]) -> std::ops::Range<usize> {
     motions.partition_point(|it| it.x < from)..motions.partition_point(|it| it.x <= to)
 }
 
 /// A vehicle between two lanes, and all around it on these and on those beside them.
 fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
     let lane = &scene.lanes[spot.chain.at()];
-    let (motion, mind) = (&lane.motions()[spot.index], &lane.minds()[spot.index]);
-    let own = [Some(Position::new(spot.chain, motion.x)), mind.counterpart.map(|it| it.at())];
+    let (motion, lane_change) = (&lane.motions()[spot.index], &lane.lane_change_states()[spot.index]);
+    let own = [Some(Position::new(spot.chain, motion.x)), lane_change.counterpart.map(|it| it.at())];
     let beside = |side, place: Option<Position>| {
         let Position { chain, x } = place?;
         scene.network.chain(chain).beside(side, x).map(|it| Position::new(it.chain, it.across(x)))
@@ -116,7 +116,7 @@ fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
         }
         let motions = scene.motions(chain);
         let rear = x - f64::from(motion.length);
-        let is_level = |it: &Motion| it.x > rear - ASKEW && it.rear() < x + ASKEW;
+        let is_level = |it: &Kinematics| it.x > rear - ASKEW && it.rear() < x + ASKEW;
         for index in within(motions, [x - REACH, x + REACH]).filter(|it| is_level(&motions[*it])) {
             out.extend(incident(scene, spot, Spot { chain, index }, time));
         }
@@ -139,8 +139,8 @@ fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident
         kind: if a.closes(&b) { IncidentKind::Collision } else { IncidentKind::Overlap },
         time,
         vehicles: spots.map(|it| scene.motion(it).id),
-        characters: spots.map(|it| scene.car(it).character),
-        classes: spots.map(|it| scene.car(it).class),
+        characters: spots.map(|it| scene.driver(it).character),
+        classes: spots.map(|it| scene.driver(it).class),
         places: spots.map(|it| Position::new(it.chain, scene.motion(it).x)),
         at: a.pose.at.midpoint(&b.pose.at),
         speeds: [a.speed, b.speed],
@@ -150,10 +150,10 @@ fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident
 
 /// The main entry of the vehicle whose entry is at `spot`.
 fn main_entry(scene: &Scene, spot: Spot) -> Option<Spot> {
-    if !scene.car(spot).is_shadow {
+    if !scene.driver(spot).is_shadow {
         return Some(spot);
     }
-    let counterpart = scene.mind(spot).counterpart?;
+    let counterpart = scene.lane_change(spot).counterpart?;
     let index = scene.lanes[counterpart.chain.at()].find(scene.motion(spot).id, counterpart.x)?;
     Some(Spot { chain: counterpart.chain, index })
 }
@@ -168,7 +168,7 @@ struct Rectangle {
 
 impl Rectangle {
     fn of(scene: &Scene, spot: Spot) -> Rectangle {
-        let (Motion { length, speed, .. }, class) = (*scene.motion(spot), scene.car(spot).class);
+        let (Kinematics { length, speed, .. }, class) = (*scene.motion(spot), scene.driver(spot).class);
         Rectangle { pose: pose(scene, spot), speed, length: f64::from(length), width: class.body().width }
     }
 

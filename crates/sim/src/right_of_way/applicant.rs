@@ -28,14 +28,14 @@ impl<'a> Applicant<'a> {
     /// The driver at `spot`.
     #[inline]
     pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Applicant<'a> {
-        let (motion, car) = (scene.motion(spot), scene.car(spot));
+        let (motion, driver) = (scene.motion(spot), scene.driver(spot));
         Applicant {
             from: scene.viewpoint(spot),
             length: f64::from(motion.length),
             speed: motion.speed,
-            desired: f64::from(car.desired),
-            style: scene.style_of(car),
-            reservation: scene.reservations.of(scene.mind(spot).reservation, motion.id),
+            desired: f64::from(driver.desired),
+            style: scene.style_of(driver),
+            reservation: scene.reservations.of(scene.lane_change(spot).reservation, motion.id),
         }
     }
 

@@ -64,11 +64,11 @@ pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
 /// What it reacts to within `until` [m].
 #[inline(never)]
 fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
-    let (motion, car) = (scene.motion(spot), scene.car(spot));
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let mut junction = Junction::default();
     let mut granted = 0.0;
     if let Some(reservation) = scene.reservation(spot) {
-        yield_to_earlier(scene, reservation, scene.mind(spot).reservation, &mut junction);
+        yield_to_earlier(scene, reservation, scene.lane_change(spot).reservation, &mut junction);
         junction.revokes_from = to_revoke(scene, reservation, motion.speed).or_else(|| {
             if motion.speed < STANDSTILL { cut_off_from(scene, spot, reservation) } else { None }
         });
@@ -79,8 +79,8 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // Who has to leave the lane before does not go on along it.
-        let keeps_lane = scene.mind(spot).last_place >= motion.x + stop;
-        let is_settled = !car.is_shadow && !car.phase.is_between_lanes();
+        let keeps_lane = scene.lane_change(spot).last_place >= motion.x + stop;
+        let is_settled = !driver.is_shadow && !driver.phase.is_between_lanes();
         // Who has others before it that have to stop waits until they are let go.
         let is_first = || !stops_before(scene, scene.viewpoint(spot), stop);
         junction.asks = keeps_lane && is_settled && junction.revokes_from.is_none() && is_first();

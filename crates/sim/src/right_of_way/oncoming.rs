@@ -28,20 +28,22 @@ pub(crate) fn lag(scene: &Scene, zone: ZoneIndex, reach: &Reach) -> f64 {
         let from = lane.motions().partition_point(|it| it.x < end);
         let mut is_shielded = false;
         for index in (0..from).rev() {
-            let (motion, car) = (&lane.motions()[index], &lane.cars()[index]);
+            let (motion, driver) = (&lane.motions()[index], &lane.drivers()[index]);
             let distance = base + end - motion.x;
             if distance > SIGHT || red.is_some_and(|red| motion.x < red) {
                 is_shielded = true;
                 break;
             }
             let spot = Spot { chain, index };
-            if car.is_shadow || holds(scene, spot, zone) || (is_before_it && !comes(scene, spot, &open[..at]))
+            if driver.is_shadow
+                || holds(scene, spot, zone)
+                || (is_before_it && !comes(scene, spot, &open[..at]))
             {
                 continue;
             }
             is_shielded = true;
             if motion.speed >= STANDS {
-                least = least.min(time_to_cover(distance, motion.speed, f64::from(car.desired)));
+                least = least.min(time_to_cover(distance, motion.speed, f64::from(driver.desired)));
             }
             break;
         }
@@ -67,13 +69,13 @@ fn red_before(scene: &Scene, chain: ChainIndex, end: f64) -> Option<f64> {
 }
 
 fn holds(scene: &Scene, spot: Spot, zone: ZoneIndex) -> bool {
-    let reservation = scene.reservations.of(scene.mind(spot).reservation, scene.motion(spot).id);
+    let reservation = scene.reservations.of(scene.lane_change(spot).reservation, scene.motion(spot).id);
     reservation.is_some_and(|it| it.holds.iter().any(|hold| hold.zone == zone))
 }
 
 /// Whether the way of a vehicle leads over the chains that were looked along to get to it.
 fn comes(scene: &Scene, spot: Spot, looked: &[(ChainIndex, f64, f64)]) -> bool {
-    let destination = scene.car(spot).goal.destination();
+    let destination = scene.driver(spot).goal.destination();
     let way = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).skip(1);
     way.take(looked.len()).any(|it| it.chain == looked[0].0)
 }

@@ -53,7 +53,7 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
                 return end.min(limit.min(reach) - taken) - clear;
             }
             let spot = Spot { chain, index };
-            let reservation = scene.reservations.of(lane.minds()[index].reservation, motion.id);
+            let reservation = scene.reservations.of(lane.lane_change_states()[index].reservation, motion.id);
             let gets_to = rear + reservation.map_or(0.0, |it| it.left_for_certain().max(0.0));
             if rear >= clear {
                 // Whose reservation leads beyond the room does not stop in it.
@@ -78,8 +78,8 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
 /// Whether the vehicle at `spot` drives on as long as those before it on the way of who looks `from` do: it goes the
 /// same way, and has to do with no other lane.
 fn moves_up(scene: &Scene, from: Viewpoint, spot: Spot) -> bool {
-    let (x, car, chain) = (scene.motion(spot).x, scene.car(spot), scene.network.chain(spot.chain));
+    let (x, driver, chain) = (scene.motion(spot).x, scene.driver(spot), scene.network.chain(spot.chain));
     let is_alone = || [Side::Left, Side::Right].iter().all(|it| chain.beside(*it, x).is_none());
-    let stays = !car.is_shadow && car.phase == Phase::Cruises && is_alone();
+    let stays = !driver.is_shadow && driver.phase == Phase::Cruises && is_alone();
     stays && parts(scene, from, spot, 0.0) == f64::INFINITY
 }

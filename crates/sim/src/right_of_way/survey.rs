@@ -306,7 +306,7 @@ pub(crate) const ROUNDING: f64 = 0.5;
 /// if it goes on along it.
 pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     let own = scene.next(from.destination, spot.chain);
-    let theirs = scene.next(scene.car(spot).goal.destination(), spot.chain);
+    let theirs = scene.next(scene.driver(spot).goal.destination(), spot.chain);
     match theirs {
         Some(next) if theirs != own => {
             base + scene.network.chain(spot.chain).length + scene.network.chain(next).fork_clearance

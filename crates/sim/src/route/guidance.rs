@@ -106,8 +106,8 @@ impl Guidance {
     /// Counts who is where.
     fn sample(&mut self, lanes: &[Lane], links: &Links) {
         for (lane, chain) in lanes.iter().zip(0..) {
-            let all = lane.motions().iter().zip(lane.cars());
-            for (motion, _) in all.filter(|(_, car)| !car.is_shadow) {
+            let all = lane.motions().iter().zip(lane.drivers());
+            for (motion, _) in all.filter(|(_, driver)| !driver.is_shadow) {
                 let meter = &mut self.meters[links.at(ChainIndex(chain), motion.x)];
                 meter.seconds += SAMPLED_EVERY;
                 meter.metres += SAMPLED_EVERY * motion.speed;
@@ -127,7 +127,8 @@ impl Guidance {
         let Guidance { due, in_use, .. } = self;
         in_use.clear();
         in_use.resize(navigator.tables(), false);
-        let goals = lanes.iter().flat_map(|lane| lane.cars()).filter_map(|car| car.goal.destination());
+        let goals =
+            lanes.iter().flat_map(|lane| lane.drivers()).filter_map(|driver| driver.goal.destination());
         goals.for_each(|table| in_use[usize::from(table)] = true);
         if due.is_empty() {
             let is_active = |table: &usize| navigator.ways(*table).iter().any(|way| in_use[*way]);

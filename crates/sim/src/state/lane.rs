@@ -1,7 +1,7 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
-//! An entry has three parts, kept in arrays of the same order: its [`Motion`], written anew at every step, is all that
-//! others need to see; [`Car`] is what its driver needs to drive on and to consider lanes; [`Mind`] what only changes
+//! An entry has three parts, kept in arrays of the same order: its [`Kinematics`], written anew at every step, is all that
+//! others need to see; [`DriverState`] is what its driver needs to drive on and to consider lanes; [`LaneChangeState`] what only changes
 //! of lane need. A vehicle that changes lanes stands in both lanes: with its main entry where its centre is, with a
 //! shadow in the other.
 
@@ -20,7 +20,7 @@ pub type VehicleId = u32;
 /// How a vehicle moves, and what others see of it: half a cache line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
-pub struct Motion {
+pub struct Kinematics {
     /// Front bumper along the chain [m].
     pub x: f64,
     /// Speed [m/s].
@@ -35,7 +35,7 @@ pub struct Motion {
     pub id: VehicleId,
 }
 
-impl Motion {
+impl Kinematics {
     /// Rear bumper along the chain [m].
     #[inline]
     pub fn rear(&self) -> f64 {
@@ -52,7 +52,7 @@ impl Motion {
 /// What the driver of a vehicle needs at every step: half a cache line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
-pub struct Car {
+pub struct DriverState {
     /// Desired speed [m/s]; a lower limit is approached gently.
     pub desired: f32,
     /// Desired speed that the current speed limit gives [m/s].
@@ -79,9 +79,10 @@ pub struct Car {
     pub needs_full_update: bool,
 }
 
-const _: () = assert!(size_of::<Motion>() == 32 && size_of::<Car>() == 32, "an entry fills one cache line");
+const _: () =
+    assert!(size_of::<Kinematics>() == 32 && size_of::<DriverState>() == 32, "an entry fills one cache line");
 
-impl Car {
+impl DriverState {
     /// Its driver only follows: no change of lanes, nothing else to react to or to remember.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
@@ -116,7 +117,7 @@ impl Phase {
 
 /// The warm part of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Mind {
+pub struct LaneChangeState {
     /// Side of the desired or current change.
     pub side: Side,
     /// Kind of the desired or current change.
@@ -145,12 +146,12 @@ pub struct Mind {
     pub(crate) reservation: u32,
 }
 
-impl Mind {
+impl LaneChangeState {
     /// Nobody to let in.
     pub(crate) const NOBODY: (f32, f32) = (f32::INFINITY, 0.0);
 }
 
-const _: () = assert!(size_of::<Mind>() <= 80, "memory of a vehicle");
+const _: () = assert!(size_of::<LaneChangeState>() <= 80, "memory of a vehicle");
 
 /// The other entry of a vehicle that changes lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -214,99 +215,106 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
     /// How it moves.
-    pub(crate) motion: Motion,
+    pub(crate) motion: Kinematics,
     /// Its driver's hot part.
-    pub(crate) car: Car,
+    pub(crate) driver: DriverState,
     /// Its driver's warm part.
-    pub(crate) mind: Mind,
+    pub(crate) lane_change: LaneChangeState,
 }
 
 /// The vehicles of one chain in driving order: the last entry is foremost.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Lane {
-    motions: Vec<Motion>,
-    cars: Vec<Car>,
-    minds: Vec<Mind>,
+    motions: Vec<Kinematics>,
+    drivers: Vec<DriverState>,
+    lane_change_states: Vec<LaneChangeState>,
 }
 
 impl Lane {
     /// Whether its arrays go together, and its vehicles stand in driving order.
     pub(crate) fn is_sound(&self) -> bool {
-        let Lane { motions, cars, minds } = self;
-        let is_number = |it: &Motion| it.x.is_finite() && it.speed.is_finite() && it.length > 0.0;
+        let Lane { motions, drivers, lane_change_states } = self;
+        let is_number = |it: &Kinematics| it.x.is_finite() && it.speed.is_finite() && it.length > 0.0;
         let is_in_order = motions.windows(2).all(|it| it[0].x <= it[1].x);
-        cars.len() == motions.len()
-            && minds.len() == motions.len()
+        drivers.len() == motions.len()
+            && lane_change_states.len() == motions.len()
             && motions.iter().all(is_number)
             && is_in_order
     }
 
     /// How they move.
     #[inline]
-    pub fn motions(&self) -> &[Motion] {
+    pub fn motions(&self) -> &[Kinematics] {
         &self.motions
     }
 
     /// Their drivers' hot parts.
     #[inline]
-    pub fn cars(&self) -> &[Car] {
-        &self.cars
+    pub fn drivers(&self) -> &[DriverState] {
+        &self.drivers
     }
 
     /// Their drivers' warm parts.
     #[inline]
-    pub fn minds(&self) -> &[Mind] {
-        &self.minds
+    pub fn lane_change_states(&self) -> &[LaneChangeState] {
+        &self.lane_change_states
     }
 
     /// Their drivers' hot parts, to change.
     #[inline]
-    pub(crate) fn cars_mut(&mut self) -> &mut [Car] {
-        &mut self.cars
+    pub(crate) fn drivers_mut(&mut self) -> &mut [DriverState] {
+        &mut self.drivers
     }
 
     /// All parts of the entry at `index`.
     pub(crate) fn entry(&self, index: usize) -> Entry {
-        Entry { motion: self.motions[index], car: self.cars[index], mind: self.minds[index] }
+        Entry {
+            motion: self.motions[index],
+            driver: self.drivers[index],
+            lane_change: self.lane_change_states[index],
+        }
     }
 
     /// The parts of the entry at `index`, to change. The order must stay that of the positions.
     #[inline]
-    pub(crate) fn entry_mut(&mut self, index: usize) -> (&mut Motion, &mut Car, &mut Mind) {
-        (&mut self.motions[index], &mut self.cars[index], &mut self.minds[index])
+    pub(crate) fn entry_mut(
+        &mut self,
+        index: usize,
+    ) -> (&mut Kinematics, &mut DriverState, &mut LaneChangeState) {
+        (&mut self.motions[index], &mut self.drivers[index], &mut self.lane_change_states[index])
     }
 
     /// Number of entries that there is room for.
     #[inline]
     pub(crate) fn capacity(&self) -> usize {
-        self.cars.capacity()
+        self.drivers.capacity()
     }
 
     /// Asks for the memory of the hot part of the driver at `index`.
     #[inline]
     pub(crate) fn prefetch_car(&self, index: u32) {
-        prefetch(&self.cars[index as usize]);
+        prefetch(&self.drivers[index as usize]);
     }
 
     /// Asks for the memory of both parts of the driver at `index`.
     #[inline]
     pub(crate) fn prefetch_driver(&self, index: u32) {
-        prefetch(&self.cars[index as usize]);
-        prefetch(&self.minds[index as usize]);
+        prefetch(&self.drivers[index as usize]);
+        prefetch(&self.lane_change_states[index as usize]);
     }
 
     /// Asks for the memory of the entry at `index`, if there is one.
     #[inline]
     pub(crate) fn prefetch(&self, index: usize) {
-        if let (Some(motion), Some(car)) = (self.motions.get(index), self.cars.get(index)) {
+        if let (Some(motion), Some(driver)) = (self.motions.get(index), self.drivers.get(index)) {
             prefetch(motion);
-            prefetch(car);
+            prefetch(driver);
         }
     }
 
     /// All move: `next` becomes how they move, and is given what it was.
     #[inline]
-    pub(crate) fn swap_motions(&mut self, next: &mut Vec<Motion>) {
+    pub(crate) fn swap_motions(&mut self, next: &mut Vec<Kinematics>) {
         assert_eq!(self.motions.len(), next.len(), "every entry moves once");
         std::mem::swap(&mut self.motions, next);
     }
@@ -345,34 +353,34 @@ impl Lane {
     /// Adds an entry at its place.
     pub(crate) fn insert(&mut self, entry: Entry) {
         let index = self.ahead_of(entry.motion.x);
-        if self.cars.len() == self.cars.capacity() {
+        if self.drivers.len() == self.drivers.capacity() {
             // Doubling would leave a third of the memory of much traffic unused.
-            let more = 4 + self.cars.len() / 32;
-            self.cars.reserve_exact(more);
-            self.minds.reserve_exact(more);
+            let more = 4 + self.drivers.len() / 32;
+            self.drivers.reserve_exact(more);
+            self.lane_change_states.reserve_exact(more);
         }
         if self.motions.len() == self.motions.capacity() {
-            self.motions.reserve_exact(self.cars.capacity() - self.motions.len());
+            self.motions.reserve_exact(self.drivers.capacity() - self.motions.len());
         }
         self.motions.insert(index, entry.motion);
-        self.cars.insert(index, entry.car);
-        self.minds.insert(index, entry.mind);
+        self.drivers.insert(index, entry.driver);
+        self.lane_change_states.insert(index, entry.lane_change);
     }
 
     /// Takes an entry out.
     pub(crate) fn remove(&mut self, index: usize) -> Entry {
         Entry {
             motion: self.motions.remove(index),
-            car: self.cars.remove(index),
-            mind: self.minds.remove(index),
+            driver: self.drivers.remove(index),
+            lane_change: self.lane_change_states.remove(index),
         }
     }
 
     /// Takes out the shadows of changes that are over.
     pub(crate) fn remove_ended(&mut self) {
         let mut index = 0;
-        while index < self.cars.len() {
-            if self.cars[index].is_shadow && self.cars[index].phase == Phase::Cruises {
+        while index < self.drivers.len() {
+            if self.drivers[index].is_shadow && self.drivers[index].phase == Phase::Cruises {
                 self.remove(index);
             } else {
                 index += 1;

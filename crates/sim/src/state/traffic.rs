@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::state::busy::Busy;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::lane::{Car, Entry, Lane, Mind};
+use crate::state::lane::{DriverState, Entry, Lane, LaneChangeState};
 
 /// The vehicles, and the instant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -109,18 +109,22 @@ impl Traffic {
     ) -> bool {
         let Traffic { clock, lanes, busy, crowd } = self;
         let is_chain = |it: ChainIndex| it.at() < chains;
-        let car_fits = |it: &Car| (it.character as usize) < characters && is_known(it.goal.destination());
-        let mind_fits = |it: &Mind| {
+        let car_fits =
+            |it: &DriverState| (it.character as usize) < characters && is_known(it.goal.destination());
+        let mind_fits = |it: &LaneChangeState| {
             it.counterpart.is_none_or(|it| is_chain(it.chain) && it.x.is_finite())
                 && it.previous_lanes.known().all(is_chain)
                 && it.entered.max(it.since) <= clock.step
         };
-        let lane_fits =
-            |it: &Lane| it.is_sound() && it.cars().iter().all(car_fits) && it.minds().iter().all(mind_fits);
-        let cars = lanes.iter().flat_map(|it| it.cars());
+        let lane_fits = |it: &Lane| {
+            it.is_sound()
+                && it.drivers().iter().all(car_fits)
+                && it.lane_change_states().iter().all(mind_fits)
+        };
+        let drivers = lanes.iter().flat_map(|it| it.drivers());
         lanes.len() == chains
             && busy.is_of(chains)
             && lanes.iter().all(lane_fits)
-            && cars.filter(|it| !it.is_shadow).count() == *crowd
+            && drivers.filter(|it| !it.is_shadow).count() == *crowd
     }
 }

@@ -6,7 +6,9 @@ use crate::driver::plan::{Outbox, Plan, Progress};
 use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
 use crate::state::goal::TripEnd;
-use crate::state::lane::{Car, Counterpart, Lane, Milestone, Mind, Motion, Phase, Reached};
+use crate::state::lane::{
+    Counterpart, DriverState, Kinematics, Lane, LaneChangeState, Milestone, Phase, Reached,
+};
 use crate::view::pose::crossing;
 use laneweave_network::{ChainIndex, Position};
 
@@ -42,33 +44,35 @@ pub(crate) fn advance(
     lane.swap_motions(&mut plan.next);
     let mut has_ended = false;
     for upkeep in &plan.upkeep {
-        let (motion, car, mind) = lane.entry_mut(upkeep.index as usize);
-        car.in_emergency = upkeep.in_emergency;
-        if car.desired != car.limit_desired {
-            let eased = car.desired - (EASING * clock.dt) as f32;
-            car.desired = eased.max(car.limit_desired);
+        let (motion, driver, lane_change) = lane.entry_mut(upkeep.index as usize);
+        driver.in_emergency = upkeep.in_emergency;
+        if driver.desired != driver.limit_desired {
+            let eased = driver.desired - (EASING * clock.dt) as f32;
+            driver.desired = eased.max(driver.limit_desired);
         }
-        if mind.reservation != NO_RESERVATION && !upkeep.reservation_is_over {
-            let Motion { speed, id, .. } = *motion;
-            let (slot, distance, desired) = (mind.reservation, upkeep.distance, f64::from(car.desired));
+        if lane_change.reservation != NO_RESERVATION && !upkeep.reservation_is_over {
+            let Kinematics { speed, id, .. } = *motion;
+            let (slot, distance, desired) =
+                (lane_change.reservation, upkeep.distance, f64::from(driver.desired));
             outbox.progress.push(Progress { slot, id, distance, speed, desired });
         }
-        if car.phase != Phase::Cruises {
-            if let Some(counterpart) = &mut mind.counterpart {
+        if driver.phase != Phase::Cruises {
+            if let Some(counterpart) = &mut lane_change.counterpart {
                 counterpart.x += upkeep.distance * f64::from(counterpart.stretch);
             }
-            let manner = &characters[car.character as usize].manner;
-            let step = crossing(manner, motion, mind).progress_in(clock.dt) as f32;
-            has_ended |= go_across(motion, car, mind, chain, clock, step, outbox);
+            let manner = &characters[driver.character as usize].manner;
+            let step = crossing(manner, motion, lane_change).progress_in(clock.dt) as f32;
+            has_ended |= go_across(motion, driver, lane_change, chain, clock, step, outbox);
         }
-        if car.needs_full_update {
-            mind.lets_in = Mind::NOBODY;
+        if driver.needs_full_update {
+            lane_change.lets_in = LaneChangeState::NOBODY;
             if upkeep.reservation_is_over {
-                mind.reservation = NO_RESERVATION;
+                lane_change.reservation = NO_RESERVATION;
             }
-            let minds_offside = characters[car.character as usize].change.minds_offside();
-            car.needs_full_update =
-                mind.last_place.is_finite() || mind.reservation != NO_RESERVATION || minds_offside;
+            let minds_offside = characters[driver.character as usize].change.minds_offside();
+            driver.needs_full_update = lane_change.last_place.is_finite()
+                || lane_change.reservation != NO_RESERVATION
+                || minds_offside;
         }
     }
     end_trips(lane, chain, ends.trips, plan, outbox);
@@ -85,9 +89,9 @@ fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &Plan,
     let (before, ended) = (&plan.next, &mut outbox.ended);
     ended.clear();
     for trip in trips {
-        let (from, cars) = (lane.ahead_of(trip.station), lane.cars());
+        let (from, drivers) = (lane.ahead_of(trip.station), lane.drivers());
         let passed = before[from..].iter().zip(from..).take_while(|(it, _)| it.x <= trip.station);
-        let ends = |index: usize| cars[index].goal == trip.goal && !cars[index].is_shadow;
+        let ends = |index: usize| drivers[index].goal == trip.goal && !drivers[index].is_shadow;
         ended.extend(passed.map(|(_, index)| index).filter(|it| ends(*it)).map(|it| it as u32));
     }
     ended.sort_unstable_by(|a, b| b.cmp(a));
@@ -98,25 +102,25 @@ fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &Plan,
 
 /// Drivers who considered lanes keep in mind what they saw and resolved.
 fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, outbox: &mut Outbox) {
-    let cars = lane.cars_mut();
+    let drivers = lane.drivers_mut();
     for note in &plan.notes {
-        let car = &mut cars[note.index as usize];
-        car.due = note.due;
-        car.limit_desired = note.limit_desired;
-        car.standing = note.standing;
+        let driver = &mut drivers[note.index as usize];
+        driver.due = note.due;
+        driver.limit_desired = note.limit_desired;
+        driver.standing = note.standing;
     }
     for concern in &plan.concerns {
-        let (motion, car, mind) = lane.entry_mut(concern.index as usize);
+        let (motion, driver, lane_change) = lane.entry_mut(concern.index as usize);
         if let Some(destination) = concern.rerouted {
-            car.goal = destination.into();
-            car.due = clock.step + 1;
+            driver.goal = destination.into();
+            driver.due = clock.step + 1;
         }
-        mind.last_place = concern.last_place;
-        mind.urgency = concern.urgency;
-        car.needs_full_update |= concern.last_place.is_finite() || concern.minds_offside;
-        if concern.gives_up && car.phase == Phase::Wants {
-            car.phase = Phase::Cruises;
-            outbox.milestones.push(milestone(motion, mind, chain, Reached::Nothing));
+        lane_change.last_place = concern.last_place;
+        lane_change.urgency = concern.urgency;
+        driver.needs_full_update |= concern.last_place.is_finite() || concern.minds_offside;
+        if concern.gives_up && driver.phase == Phase::Wants {
+            driver.phase = Phase::Cruises;
+            outbox.milestones.push(milestone(motion, lane_change, chain, Reached::Nothing));
         }
     }
 }
@@ -124,13 +128,18 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
 /// A change is done at this share of its time: the steps add up to 1 but for rounding.
 const DONE: f32 = 0.9999;
 
-fn milestone(motion: &Motion, mind: &Mind, chain: ChainIndex, what: Reached) -> Milestone {
+fn milestone(
+    motion: &Kinematics,
+    lane_change: &LaneChangeState,
+    chain: ChainIndex,
+    what: Reached,
+) -> Milestone {
     Milestone {
         id: motion.id,
-        record: mind.record,
+        record: lane_change.record,
         what,
         at: Position::new(chain, motion.x),
-        shadow: mind.counterpart.map(|it| it.at()),
+        shadow: lane_change.counterpart.map(|it| it.at()),
         speed: motion.speed,
     }
 }
@@ -138,60 +147,60 @@ fn milestone(motion: &Motion, mind: &Mind, chain: ChainIndex, what: Reached) -> 
 /// A change goes on by `step` of its time, or back. Both entries of a vehicle come to the same. Returns whether this
 /// entry has ended.
 fn go_across(
-    motion: &Motion,
-    car: &mut Car,
-    mind: &mut Mind,
+    motion: &Kinematics,
+    driver: &mut DriverState,
+    lane_change: &mut LaneChangeState,
     chain: ChainIndex,
     clock: Clock,
     step: f32,
     outbox: &mut Outbox,
 ) -> bool {
-    let was = mind.progress;
-    match car.phase {
+    let was = lane_change.progress;
+    match driver.phase {
         Phase::Changes => {
-            mind.progress = was + step;
-            if was < 0.5 && mind.progress >= 0.5 {
-                cross(car, mind);
-                if !car.is_shadow {
-                    outbox.milestones.push(milestone(motion, mind, chain, Reached::Crossing));
+            lane_change.progress = was + step;
+            if was < 0.5 && lane_change.progress >= 0.5 {
+                cross(driver, lane_change);
+                if !driver.is_shadow {
+                    outbox.milestones.push(milestone(motion, lane_change, chain, Reached::Crossing));
                 }
             }
-            if mind.progress < DONE {
+            if lane_change.progress < DONE {
                 return false;
             }
         }
         Phase::Aborts => {
-            mind.progress = was - step;
-            if mind.progress > 0.0 {
+            lane_change.progress = was - step;
+            if lane_change.progress > 0.0 {
                 return false;
             }
         }
         Phase::Cruises | Phase::Wants => return false,
     }
-    if car.is_shadow {
-        car.phase = Phase::Cruises;
+    if driver.is_shadow {
+        driver.phase = Phase::Cruises;
         return true;
     }
-    let reached = if car.phase == Phase::Changes { Reached::End } else { Reached::Return };
-    outbox.milestones.push(milestone(motion, mind, chain, reached));
-    car.phase = Phase::Cruises;
-    mind.progress = 0.0;
-    mind.counterpart = None;
-    car.due = clock.step + 1;
+    let reached = if driver.phase == Phase::Changes { Reached::End } else { Reached::Return };
+    outbox.milestones.push(milestone(motion, lane_change, chain, reached));
+    driver.phase = Phase::Cruises;
+    lane_change.progress = 0.0;
+    lane_change.counterpart = None;
+    driver.due = clock.step + 1;
     false
 }
 
 /// The centre crosses the line: main entry and shadow swap their parts.
-fn cross(car: &mut Car, mind: &mut Mind) {
-    let scale = if car.is_shadow {
-        mind.stretch
+fn cross(driver: &mut DriverState, lane_change: &mut LaneChangeState) {
+    let scale = if driver.is_shadow {
+        lane_change.stretch
     } else {
-        mind.counterpart.map_or(1.0, |counterpart| counterpart.stretch)
+        lane_change.counterpart.map_or(1.0, |counterpart| counterpart.stretch)
     };
-    car.is_shadow = !car.is_shadow;
-    let (own, other) = if car.is_shadow { (1.0 / scale, 1.0) } else { (1.0, 1.0 / scale) };
-    mind.stretch = own;
-    if let Some(Counterpart { stretch, .. }) = &mut mind.counterpart {
+    driver.is_shadow = !driver.is_shadow;
+    let (own, other) = if driver.is_shadow { (1.0 / scale, 1.0) } else { (1.0, 1.0 / scale) };
+    lane_change.stretch = own;
+    if let Some(Counterpart { stretch, .. }) = &mut lane_change.counterpart {
         *stretch = other;
     }
 }

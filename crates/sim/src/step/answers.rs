@@ -128,7 +128,11 @@ impl World {
 
     /// Vehicles on the road.
     pub fn on_road(&self) -> usize {
-        self.traffic.lanes().iter().map(|lane| lane.cars().iter().filter(|car| !car.is_shadow).count()).sum()
+        self.traffic
+            .lanes()
+            .iter()
+            .map(|lane| lane.drivers().iter().filter(|driver| !driver.is_shadow).count())
+            .sum()
     }
 
     /// Whether its steps are shared among all its threads: where few vehicles drive, one moves them all.
@@ -150,10 +154,10 @@ impl World {
     pub fn vehicles(&self) -> impl Iterator<Item = Vehicle<'_>> {
         self.traffic.lanes().iter().enumerate().flat_map(move |(index, lane)| {
             let chain = ChainIndex(index as u32);
-            let entries = lane.motions().iter().zip(lane.cars()).enumerate();
-            entries.filter(|(_, (_, car))| !car.is_shadow).map(move |(index, (motion, car))| {
-                let (spot, mind) = (Spot { chain, index }, &lane.minds()[index]);
-                Vehicle { world: self, spot, motion, car, mind }
+            let entries = lane.motions().iter().zip(lane.drivers()).enumerate();
+            entries.filter(|(_, (_, driver))| !driver.is_shadow).map(move |(index, (motion, driver))| {
+                let (spot, lane_change) = (Spot { chain, index }, &lane.lane_change_states()[index]);
+                Vehicle { world: self, spot, motion, driver, lane_change }
             })
         })
     }
@@ -170,7 +174,7 @@ impl World {
             hash.update(&lanelet.id.to_le_bytes());
             hash.update(&along.to_bits().to_le_bytes());
             hash.update(&vehicle.speed().to_bits().to_le_bytes());
-            hash.update(&[vehicle.car.phase as u8]);
+            hash.update(&[vehicle.driver.phase as u8]);
         }
         hash.digest()
     }

@@ -8,7 +8,7 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::driver::accelerate::speed_before_a_stop;
-use crate::driver::perceive::driver;
+use crate::driver::perceive::driver_of;
 use crate::junction::need::Survey;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
@@ -162,7 +162,7 @@ fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
     if scene.has_reservation(follower.spot, follower.distance) {
         return false;
     }
-    let behind = driver(scene, follower.spot);
+    let behind = driver_of(scene, follower.spot);
     let ahead = Ahead::standing(follower.distance);
     ahead.gap >= min_gap
         && is_secure(behind.pace.speed, ahead, dt)

@@ -85,8 +85,10 @@ impl Granting<'_> {
         match what {
             RequestKind::Pass => self.grant_if_it_may(spot, since, &mut work.outbox().survey),
             RequestKind::Revoke(from) => {
-                let (slot, reservations) =
-                    (self.traffic.lane(chain).minds()[index].reservation, self.junctions.reservations_mut());
+                let (slot, reservations) = (
+                    self.traffic.lane(chain).lane_change_states()[index].reservation,
+                    self.junctions.reservations_mut(),
+                );
                 if reservations.of(slot, id).is_some() {
                     reservations.revoke(slot, from);
                     // It keeps its place among those who wait.
@@ -129,11 +131,12 @@ impl Granting<'_> {
     pub(super) fn grant_surveyed(&mut self, spot: Spot, since: u32, survey: &mut Survey) {
         let scene = self.scene();
         surveyed(&scene, &Applicant::at(&scene, spot), survey);
-        let (motion, car, mind) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
+        let (motion, driver, lane_change) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
         let reservations = self.junctions.reservations_mut();
-        mind.reservation = reservations.grant(mind.reservation, motion.id, f64::from(motion.length), survey);
-        reservations.note_since(mind.reservation, since);
-        car.needs_full_update = true;
-        reservations.advance(mind.reservation, 0.0, motion.speed, f64::from(car.desired));
+        lane_change.reservation =
+            reservations.grant(lane_change.reservation, motion.id, f64::from(motion.length), survey);
+        reservations.note_since(lane_change.reservation, since);
+        driver.needs_full_update = true;
+        reservations.advance(lane_change.reservation, 0.0, motion.speed, f64::from(driver.desired));
     }
 }

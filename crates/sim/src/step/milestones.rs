@@ -24,7 +24,7 @@ fn begin_cooldown(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
     let (Position { chain, x }, clock) = (milestone.at, traffic.clock());
     let lane = traffic.lane_mut(chain);
     if let Some(index) = lane.find(milestone.id, x) {
-        let car = lane.entry_mut(index).1;
-        car.cooldown_until = clock.step + clock.steps(roads.style(car.character).manner.calm);
+        let driver = lane.entry_mut(index).1;
+        driver.cooldown_until = clock.step + clock.steps(roads.style(driver.character).manner.calm);
     }
 }

@@ -8,7 +8,7 @@ use crate::record::log::Log;
 use crate::record::trip_log::TripRecord;
 use crate::record::trips::free_time;
 use crate::route::roads::Roads;
-use crate::state::lane::{Car, Entry, Kind, Mind, Motion, Phase, VehicleId};
+use crate::state::lane::{DriverState, Entry, Kind, Kinematics, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::setup::NewVehicle;
 use crate::state::traffic::Traffic;
@@ -77,9 +77,9 @@ pub(crate) fn put(
         ..TripRecord::of(id, class, character)
     });
     let length = class.body().length as f32;
-    let motion = Motion { x, speed, acceleration: 0.0, tightness: 1.0, length, id };
+    let motion = Kinematics { x, speed, acceleration: 0.0, tightness: 1.0, length, id };
     let desired = desires(network.chain(chain).limit(x)) as f32;
-    let car = Car {
+    let driver = DriverState {
         desired,
         limit_desired: desired,
         standing: 0.0,
@@ -93,7 +93,7 @@ pub(crate) fn put(
         in_emergency: false,
         needs_full_update: false,
     };
-    let mind = Mind {
+    let lane_change = LaneChangeState {
         side: network.driving_side.overtaking(),
         kind: Kind::Discretionary,
         entered: clock.step,
@@ -105,8 +105,8 @@ pub(crate) fn put(
         previous_lanes: PreviousLanes::NONE,
         counterpart: None,
         last_place: f64::INFINITY,
-        lets_in: Mind::NOBODY,
+        lets_in: LaneChangeState::NOBODY,
         reservation: NO_RESERVATION,
     };
-    traffic.enter(chain, Entry { motion, car, mind });
+    traffic.enter(chain, Entry { motion, driver, lane_change });
 }

@@ -138,10 +138,10 @@ pub(crate) fn reserve(
     let (step, length) = (traffic.clock().step, arrival.class.body().length);
     let lane = traffic.lane_mut(queue.chain);
     let Some(index) = lane.find(arrival.id, length) else { return };
-    let (motion, car, mind) = lane.entry_mut(index);
-    mind.reservation = reservations.grant(mind.reservation, arrival.id, length, out);
-    reservations.note_since(mind.reservation, queue.asks_since.unwrap_or(step));
-    car.needs_full_update = true;
-    let (speed, desired) = (motion.speed, f64::from(car.desired));
-    reservations.advance(mind.reservation, WAITS_BEFORE + length, speed, desired);
+    let (motion, driver, lane_change) = lane.entry_mut(index);
+    lane_change.reservation = reservations.grant(lane_change.reservation, arrival.id, length, out);
+    reservations.note_since(lane_change.reservation, queue.asks_since.unwrap_or(step));
+    driver.needs_full_update = true;
+    let (speed, desired) = (motion.speed, f64::from(driver.desired));
+    reservations.advance(lane_change.reservation, WAITS_BEFORE + length, speed, desired);
 }

@@ -12,7 +12,7 @@ use crate::junction::state::JunctionState;
 use crate::record::events::LaneChange;
 use crate::record::log::Log;
 use crate::route::roads::Roads;
-use crate::state::lane::{Car, Counterpart, Entry, Mind, Motion, Phase};
+use crate::state::lane::{Counterpart, DriverState, Entry, Kinematics, LaneChangeState, Phase};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
@@ -53,23 +53,24 @@ impl Granting<'_> {
 
     fn grant(&mut self, spot: Spot, request: &Request) {
         let lane = self.traffic.lane(spot.chain);
-        let (phase, progress) = (lane.cars()[spot.index].phase, lane.minds()[spot.index].progress);
+        let (phase, progress) =
+            (lane.drivers()[spot.index].phase, lane.lane_change_states()[spot.index].progress);
         match request.ask {
             Ask::Want(want) if phase == Phase::Cruises => self.begin_to_want(spot, request, &want),
             Ask::Change if phase == Phase::Wants => self.begin_to_change(spot),
             Ask::LetIn { follower, chain, x, gap, speed } => {
-                let since = lane.minds()[spot.index].since;
+                let since = lane.lane_change_states()[spot.index].since;
                 let found = self.traffic.lane(chain).find(follower, x);
                 let sees_it = |index: &usize| {
                     let behind = Spot { chain, index: *index };
                     self.has_seen(behind, since) && !self.scene().has_reservation(behind, f64::from(gap))
                 };
                 if let Some(index) = found.filter(sees_it) {
-                    let (_, car, mind) = self.traffic.lane_mut(chain).entry_mut(index);
+                    let (_, driver, lane_change) = self.traffic.lane_mut(chain).entry_mut(index);
                     // Of two who want in before it the nearer comes first.
-                    if car.phase == Phase::Cruises && gap < mind.lets_in.0 {
-                        mind.lets_in = (gap, speed);
-                        car.needs_full_update = true;
+                    if driver.phase == Phase::Cruises && gap < lane_change.lets_in.0 {
+                        lane_change.lets_in = (gap, speed);
+                        driver.needs_full_update = true;
                     }
                 }
             }
@@ -83,30 +84,30 @@ impl Granting<'_> {
     /// beside what it saw when it last considered lanes.
     fn has_seen(&self, spot: Spot, since: u32) -> bool {
         let lane = self.traffic.lane(spot.chain);
-        let (id, car) = (lane.motions()[spot.index].id, &lane.cars()[spot.index]);
-        let attention = &self.roads.style(car.character).attention;
+        let (id, driver) = (lane.motions()[spot.index].id, &lane.drivers()[spot.index]);
+        let attention = &self.roads.style(driver.character).attention;
         match concentration(attention, self.roads.random(), id, self.traffic.clock().time()) {
             Concentration::Concentrated => true,
             // No longer than an epoch lies between its last consideration and the next, which is due.
             Concentration::Inattentive => {
-                since + self.traffic.clock().steps(attention.inattentive.epoch) <= car.due
+                since + self.traffic.clock().steps(attention.inattentive.epoch) <= driver.due
             }
         }
     }
 
     fn begin_to_want(&mut self, spot: Spot, request: &Request, want: &Want) {
         let step = self.traffic.clock().step;
-        let (motion, car, mind) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
-        car.phase = Phase::Wants;
-        mind.side = want.side;
-        mind.kind = want.kind;
-        mind.since = step;
-        mind.urgency = request.urgency;
+        let (motion, driver, lane_change) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
+        driver.phase = Phase::Wants;
+        lane_change.side = want.side;
+        lane_change.kind = want.kind;
+        lane_change.since = step;
+        lane_change.urgency = request.urgency;
         let here = Position::new(spot.chain, motion.x);
-        mind.record = self.log.keep_change(LaneChange {
+        lane_change.record = self.log.keep_change(LaneChange {
             vehicle: motion.id,
-            character: car.character,
-            class: car.class,
+            character: driver.character,
+            class: driver.class,
             started: 0.0,
             time: 0.0,
             duration: 0.0,
@@ -128,41 +129,41 @@ impl Granting<'_> {
     /// Puts a shadow into the target lane, if the gap is still acceptable.
     fn begin_to_change(&mut self, spot: Spot) {
         let scene = self.scene();
-        let mind = scene.lanes[spot.chain.at()].minds()[spot.index];
+        let lane_change = scene.lanes[spot.chain.at()].lane_change_states()[spot.index];
         // Who has just been granted a reservation keeps its lane.
         if scene.has_reservation(spot, f64::NEG_INFINITY) {
             return;
         }
-        let Some(gap) = gap(&scene, spot, mind.side) else { return };
+        let Some(gap) = gap(&scene, spot, lane_change.side) else { return };
         if gap.is_coming || gap.accepted(&scene, spot, self.traffic.clock().dt).is_err() {
             return;
         }
         let [gap_ahead, gap_behind, ttc_ahead, ttc_behind] = gap.measures(&scene, spot);
         let tightness = gap.tightness(&scene, spot) as f32;
         let clock = self.traffic.clock();
-        let record = self.log.change_mut(mind.record);
+        let record = self.log.change_mut(lane_change.record);
         *record =
             LaneChange { started: clock.time(), gap_ahead, gap_behind, ttc_ahead, ttc_behind, ..*record };
         let lane = self.traffic.lane_mut(spot.chain);
-        let (motion, car, mind) = lane.entry_mut(spot.index);
+        let (motion, driver, lane_change) = lane.entry_mut(spot.index);
         motion.tightness = tightness;
-        car.phase = Phase::Changes;
-        mind.progress = 0.0;
-        mind.since = clock.step;
+        driver.phase = Phase::Changes;
+        lane_change.progress = 0.0;
+        lane_change.since = clock.step;
         let (x, stretch) = (gap.x, gap.scale as f32);
-        mind.counterpart = Some(Counterpart { chain: gap.chain, x, stretch });
-        let Entry { motion, car, mind } = lane.entry(spot.index);
+        lane_change.counterpart = Some(Counterpart { chain: gap.chain, x, stretch });
+        let Entry { motion, driver, lane_change } = lane.entry(spot.index);
         let shadow = Entry {
-            motion: Motion { x, ..motion },
-            car: Car { is_shadow: true, needs_full_update: false, ..car },
-            mind: Mind {
+            motion: Kinematics { x, ..motion },
+            driver: DriverState { is_shadow: true, needs_full_update: false, ..driver },
+            lane_change: LaneChangeState {
                 counterpart: Some(Counterpart { chain: spot.chain, x: motion.x, stretch: 1.0 }),
                 stretch,
                 previous_lanes: PreviousLanes::NONE,
                 last_place: f64::INFINITY,
-                lets_in: Mind::NOBODY,
+                lets_in: LaneChangeState::NOBODY,
                 reservation: NO_RESERVATION,
-                ..mind
+                ..lane_change
             },
         };
         self.traffic.insert(gap.chain, shadow);
@@ -170,9 +171,9 @@ impl Granting<'_> {
 
     /// Both entries of a vehicle go back.
     fn turn_back(&mut self, spot: Spot) {
-        let (motion, car, mind) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
-        car.phase = Phase::Aborts;
-        let (id, counterpart) = (motion.id, mind.counterpart);
+        let (motion, driver, lane_change) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
+        driver.phase = Phase::Aborts;
+        let (id, counterpart) = (motion.id, lane_change.counterpart);
         let Some(counterpart) = counterpart else { return };
         let lane = self.traffic.lane_mut(counterpart.chain);
         if let Some(index) = lane.find(id, counterpart.x) {

@@ -22,7 +22,7 @@ pub(crate) fn transfer(
     let Outbox { leaving, arrived, .. } = work.outbox();
     transfer.end_trips(arrived, leaving);
     // A vehicle's main entry comes before its shadow.
-    leaving.sort_unstable_by_key(|(_, it)| (it.motion.id, it.car.is_shadow));
+    leaving.sort_unstable_by_key(|(_, it)| (it.motion.id, it.driver.is_shadow));
     let mut index = 0;
     while index < leaving.len() {
         let (from, mut entry) = leaving[index];
@@ -32,8 +32,8 @@ pub(crate) fn transfer(
         if let Some((shadow_from, mut shadow)) = own_shadow.copied() {
             index += 1;
             let shadow_onto = place_beyond(roads, shadow_from, &shadow);
-            entry.mind.counterpart = relocated(entry.mind.counterpart, shadow_onto);
-            shadow.mind.counterpart = relocated(shadow.mind.counterpart, onto);
+            entry.lane_change.counterpart = relocated(entry.lane_change.counterpart, shadow_onto);
+            shadow.lane_change.counterpart = relocated(shadow.lane_change.counterpart, onto);
             if onto.is_some() && shadow_onto.is_some() {
                 transfer.go_on_or_leave(shadow_from, shadow_onto, shadow);
             }
@@ -45,7 +45,7 @@ pub(crate) fn transfer(
 
 /// Where an entry that passed the end of its chain stands now.
 fn place_beyond(roads: &Roads, from: ChainIndex, entry: &Entry) -> Option<Position> {
-    let next = roads.navigator().next(roads.network(), entry.car.goal.destination(), from)?;
+    let next = roads.navigator().next(roads.network(), entry.driver.goal.destination(), from)?;
     Some(Position::new(next, entry.motion.x - roads.network().chain(from).length))
 }
 
@@ -77,38 +77,38 @@ impl Transfer<'_> {
 
     fn go_on(&mut self, from: ChainIndex, onto: Position, mut entry: Entry) {
         let network = self.roads.network();
-        if !entry.car.is_shadow {
+        if !entry.driver.is_shadow {
             self.log.go_on(network, self.traffic.clock(), from, &entry);
         }
         entry.motion.x = onto.x;
-        entry.mind.last_place -= network.chain(from).length;
-        entry.mind.previous_lanes = entry.mind.previous_lanes.left(from);
+        entry.lane_change.last_place -= network.chain(from).length;
+        entry.lane_change.previous_lanes = entry.lane_change.previous_lanes.left(from);
         let limit = network.chain(onto.chain).limit(onto.x);
-        let style = self.roads.style(entry.car.character);
-        entry.car.limit_desired = entry.car.class.desired_speed(style, limit) as f32;
+        let style = self.roads.style(entry.driver.character);
+        entry.driver.limit_desired = entry.driver.class.desired_speed(style, limit) as f32;
         self.tell_counterpart(&entry, Some(onto));
         self.traffic.insert(onto.chain, entry);
     }
 
     /// A main entry leaves the map; a shadow on a lane that ends is no longer needed.
     fn leave(&mut self, from: ChainIndex, entry: Entry) {
-        let Entry { motion, car, mind } = entry;
-        if car.is_shadow {
+        let Entry { motion, driver, lane_change } = entry;
+        if driver.is_shadow {
             self.tell_counterpart(&entry, None);
             return;
         }
-        if let Some(counterpart) = mind.counterpart {
+        if let Some(counterpart) = lane_change.counterpart {
             let lane = self.traffic.lane_mut(counterpart.chain);
             if let Some(index) = lane.find(motion.id, counterpart.x) {
                 lane.remove(index);
             }
         }
         let (network, clock) = (self.roads.network(), self.traffic.clock());
-        if car.phase != Phase::Cruises {
-            let is_across = car.phase == Phase::Changes && mind.progress >= 0.5;
+        if driver.phase != Phase::Cruises {
+            let is_across = driver.phase == Phase::Changes && lane_change.progress >= 0.5;
             let milestone = Milestone {
                 id: motion.id,
-                record: mind.record,
+                record: lane_change.record,
                 what: if is_across { Reached::End } else { Reached::Nothing },
                 at: Position::new(from, motion.x),
                 shadow: None,
@@ -116,14 +116,14 @@ impl Transfer<'_> {
             };
             self.log.note_milestone(network, &milestone, clock.time());
         }
-        self.junctions.reservations_mut().end(mind.reservation, motion.id);
+        self.junctions.reservations_mut().end(lane_change.reservation, motion.id);
         self.traffic.leave();
         self.log.end_trip(network, clock, from, &entry);
     }
 
     /// Tells the other entry of a vehicle where this one stands now.
     fn tell_counterpart(&mut self, entry: &Entry, now: Option<Position>) {
-        let Some(counterpart) = entry.mind.counterpart else { return };
+        let Some(counterpart) = entry.lane_change.counterpart else { return };
         let lane = self.traffic.lane_mut(counterpart.chain);
         if let Some(index) = lane.find(entry.motion.id, counterpart.x) {
             let other = lane.entry_mut(index).2;

@@ -3,7 +3,7 @@
 use laneweave_models::Style;
 use laneweave_network::{Point, Pose};
 
-use crate::state::lane::{Car, Mind, Motion, VehicleId};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeState, VehicleId};
 use crate::step::world::World;
 use crate::view::pose::{bumpers, lateral_offset, pose};
 use crate::view::scene::Spot;
@@ -15,11 +15,11 @@ pub struct Vehicle<'a> {
     /// Where its main entry stands.
     pub spot: Spot,
     /// How it moves.
-    pub motion: &'a Motion,
+    pub motion: &'a Kinematics,
     /// Its driver's hot part.
-    pub car: &'a Car,
+    pub driver: &'a DriverState,
     /// Its driver's warm part.
-    pub mind: &'a Mind,
+    pub lane_change: &'a LaneChangeState,
 }
 
 impl Vehicle<'_> {
@@ -55,6 +55,6 @@ impl Vehicle<'_> {
 
     /// Its driver's style.
     pub fn style(&self) -> &Style {
-        self.world.roads.style(self.car.character)
+        self.world.roads.style(self.driver.character)
     }
 }

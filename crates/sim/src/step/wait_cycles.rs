@@ -48,7 +48,7 @@ fn let_go_together(granting: &mut Granting, members: &[(Spot, ReservationRequest
     if may_go {
         for (spot, request) in members {
             granting.grant_surveyed(*spot, request.since, survey);
-            let slot = granting.traffic.lane(spot.chain).minds()[spot.index].reservation;
+            let slot = granting.traffic.lane(spot.chain).lane_change_states()[spot.index].reservation;
             granting.junctions.reservations_mut().make_certain(slot);
         }
     }

@@ -3,7 +3,7 @@
 use laneweave_models::follow::Ahead;
 use laneweave_network::ChainIndex;
 
-use crate::state::lane::{Mind, Motion, VehicleId};
+use crate::state::lane::{Kinematics, LaneChangeState, VehicleId};
 use crate::state::vehicle::LONGEST;
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer, nearest};
 
@@ -49,10 +49,10 @@ impl<'a> Scene<'a> {
         let chain = self.network.chain(sibling);
         let last = |on: ChainIndex, came_from: ChainIndex, base: f64| {
             let lane = &self.lanes[on.at()];
-            let mut all = lane.motions().iter().zip(lane.minds()).enumerate();
-            let is_ahead = |it: &Motion| it.id != id && (base + it.x, id) > (x, it.id);
-            let came = |mind: &Mind| mind.previous_lanes.last() == Some(came_from);
-            let (index, (it, _)) = all.find(|(_, (it, mind))| came(mind) && is_ahead(it))?;
+            let mut all = lane.motions().iter().zip(lane.lane_change_states()).enumerate();
+            let is_ahead = |it: &Kinematics| it.id != id && (base + it.x, id) > (x, it.id);
+            let came = |lane_change: &LaneChangeState| lane_change.previous_lanes.last() == Some(came_from);
+            let (index, (it, _)) = all.find(|(_, (it, lane_change))| came(lane_change) && is_ahead(it))?;
             let rear = base + it.rear();
             (rear < chain.fork_clearance).then_some((Spot { chain: on, index }, rear))
         };
@@ -104,11 +104,12 @@ impl<'a> Scene<'a> {
     /// who forked off, and no reservation leads it out of it [m].
     fn waits_on(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<f64> {
         let lane = &self.lanes[sibling.at()];
-        let mut came = lane.motions().iter().zip(lane.minds());
-        let is_ahead = |it: &Motion| it.id != id && (it.x, id) > (x, it.id);
-        let (other, mind) =
-            came.find(|(it, mind)| is_ahead(it) && mind.previous_lanes.last() == Some(back))?;
-        let goes_on = self.reservations.of(mind.reservation, other.id).map_or(0.0, |it| it.left().max(0.0));
+        let mut came = lane.motions().iter().zip(lane.lane_change_states());
+        let is_ahead = |it: &Kinematics| it.id != id && (it.x, id) > (x, it.id);
+        let (other, lane_change) =
+            came.find(|(it, lane_change)| is_ahead(it) && lane_change.previous_lanes.last() == Some(back))?;
+        let goes_on =
+            self.reservations.of(lane_change.reservation, other.id).map_or(0.0, |it| it.left().max(0.0));
         let stays = other.rear() + goes_on < self.network.chain(sibling).fork_clearance;
         stays.then(|| other.rear())
     }

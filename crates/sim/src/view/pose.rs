@@ -4,7 +4,7 @@ use laneweave_models::Manner;
 use laneweave_models::lateral::Crossing;
 use laneweave_network::{ChainIndex, Network, Point, Pose, Position};
 
-use crate::state::lane::{Entry, Mind, Motion};
+use crate::state::lane::{Entry, Kinematics, LaneChangeState};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::view::scene::{Scene, Spot};
 
@@ -24,24 +24,25 @@ pub fn between([front, rear]: [Point; 2]) -> Pose {
 /// out.
 pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
-    let Entry { motion, mind, .. } = &entry;
-    match mind.counterpart {
+    let Entry { motion, lane_change, .. } = &entry;
+    match lane_change.counterpart {
         Some(counterpart) => {
             let [share_of_front, share_of_rear] = shares(scene, &entry);
             let between = |x: f64, counterpart_x: f64, share: f64| {
-                let here = on_path(network, spot.chain, mind.previous_lanes, x, 0.0);
+                let here = on_path(network, spot.chain, lane_change.previous_lanes, x, 0.0);
                 here.towards(
                     &on_path(network, counterpart.chain, PreviousLanes::NONE, counterpart_x, 0.0),
                     share,
                 )
             };
-            let [length, counterpart_length] = lengths(motion, mind.progress, counterpart.stretch);
+            let [length, counterpart_length] = lengths(motion, lane_change.progress, counterpart.stretch);
             let (rear, counterpart_rear) = (motion.x - length, counterpart.x - counterpart_length);
             [between(motion.x, counterpart.x, share_of_front), between(rear, counterpart_rear, share_of_rear)]
         }
         None => {
             let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
-            let at = |x: f64, offset: f64| on_path(network, spot.chain, mind.previous_lanes, x, offset);
+            let at =
+                |x: f64, offset: f64| on_path(network, spot.chain, lane_change.previous_lanes, x, offset);
             [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
         }
     }
@@ -53,14 +54,14 @@ pub fn bumpers_in_lane(
     network: &Network,
     chain: ChainIndex,
     previous_lanes: PreviousLanes,
-    motion: &Motion,
+    motion: &Kinematics,
 ) -> [Point; 2] {
     [motion.x, motion.rear()].map(|it| on_path(network, chain, previous_lanes, it, 0.0))
 }
 
 /// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres
 /// for one [m]: true in the old lane when the change begins, and in the new one when it ends.
-fn lengths(motion: &Motion, progress: f32, stretch: f32) -> [f64; 2] {
+fn lengths(motion: &Kinematics, progress: f32, stretch: f32) -> [f64; 2] {
     let (length, progress, stretch) = (f64::from(motion.length), f64::from(progress), f64::from(stretch));
     let is_across = progress >= 0.5;
     let here = if is_across { progress } else { 1.0 - progress };
@@ -76,34 +77,34 @@ pub(crate) fn lateral_offset(scene: &Scene, spot: Spot) -> f64 {
 
 /// Offsets of the front and the rear bumper to the left [m].
 fn offsets(scene: &Scene, chain: ChainIndex, entry: &Entry) -> [f64; 2] {
-    let has_crossed = entry.mind.progress >= 0.5;
-    let spacing = entry.mind.side.sign() * lane_spacing(scene, chain, entry);
+    let has_crossed = entry.lane_change.progress >= 0.5;
+    let spacing = entry.lane_change.side.sign() * lane_spacing(scene, chain, entry);
     shares(scene, entry).map(|share| if has_crossed { -spacing * share } else { spacing * share })
 }
 
 /// Shares of the way to its other lane that the front and the rear bumper are away from the lane in which it is.
 fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
-    let Entry { motion, car, mind } = entry;
-    let progress = f64::from(mind.progress).clamp(0.0, 1.0);
+    let Entry { motion, driver, lane_change } = entry;
+    let progress = f64::from(lane_change.progress).clamp(0.0, 1.0);
     if progress == 0.0 {
         return [0.0; 2];
     }
-    let manner = &scene.style_of(car).manner;
-    let moved = manner.lateral.bumpers(crossing(manner, motion, mind), progress);
-    if mind.progress < 0.5 { moved } else { moved.map(|it| 1.0 - it) }
+    let manner = &scene.style_of(driver).manner;
+    let moved = manner.lateral.bumpers(crossing(manner, motion, lane_change), progress);
+    if lane_change.progress < 0.5 { moved } else { moved.map(|it| 1.0 - it) }
 }
 
 /// The vehicle in its lane change, as the lateral model sees it.
 #[inline]
-pub(crate) fn crossing(manner: &Manner, motion: &Motion, mind: &Mind) -> Crossing {
-    let duration = manner.duration(f64::from(mind.urgency));
+pub(crate) fn crossing(manner: &Manner, motion: &Kinematics, lane_change: &LaneChangeState) -> Crossing {
+    let duration = manner.duration(f64::from(lane_change.urgency));
     Crossing { speed: motion.speed, length: f64::from(motion.length), duration }
 }
 
 /// Distance between the centre lines of the two lanes [m].
 fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
     let x = entry.motion.x;
-    match entry.mind.counterpart {
+    match entry.lane_change.counterpart {
         Some(counterpart) => {
             let here = scene.network.chain(chain).centre.at(x);
             here.distance(&scene.network.chain(counterpart.chain).centre.at(counterpart.x))
@@ -140,7 +141,8 @@ mod tests {
 
     #[test]
     fn a_vehicle_has_the_same_length_in_both_lanes_just_before_and_after_it_crosses() {
-        let motion = Motion { x: 0.0, speed: 10.0, acceleration: 0.0, tightness: 1.0, length: 12.0, id: 1 };
+        let motion =
+            Kinematics { x: 0.0, speed: 10.0, acceleration: 0.0, tightness: 1.0, length: 12.0, id: 1 };
         for stretch in [0.7, 1.0, 1.3] {
             assert_eq!(lengths(&motion, 0.0, stretch)[0], 12.0, "true in the old lane when it begins");
             assert_eq!(lengths(&motion, 1.0, 1.0 / stretch)[0], 12.0, "true in the new one when it ends");

@@ -12,7 +12,7 @@ use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
 use crate::route::walk::{Leg, Walk};
 use crate::state::goal::Destination;
-use crate::state::lane::{Car, Lane, Mind, Motion, VehicleId};
+use crate::state::lane::{DriverState, Kinematics, Lane, LaneChangeState, VehicleId};
 use crate::state::traffic::Traffic;
 
 /// One instant of traffic on a network.
@@ -87,30 +87,30 @@ impl<'a> Scene<'a> {
     /// The style of the driver at `spot`.
     #[inline]
     pub(crate) fn style(&self, spot: Spot) -> &'a Style {
-        self.style_of(self.car(spot))
+        self.style_of(self.driver(spot))
     }
 
     /// The style of a driver.
     #[inline]
-    pub(crate) fn style_of(&self, car: &Car) -> &'a Style {
-        &self.characters[car.character as usize]
+    pub(crate) fn style_of(&self, driver: &DriverState) -> &'a Style {
+        &self.characters[driver.character as usize]
     }
 
     /// The vehicles on `chain`, as others see them.
     #[inline]
-    pub fn motions(&self, chain: ChainIndex) -> &'a [Motion] {
+    pub fn motions(&self, chain: ChainIndex) -> &'a [Kinematics] {
         self.lanes[chain.at()].motions()
     }
 
     /// The drivers on `chain`.
     #[inline]
-    pub fn cars(&self, chain: ChainIndex) -> &'a [Car] {
-        self.lanes[chain.at()].cars()
+    pub fn drivers(&self, chain: ChainIndex) -> &'a [DriverState] {
+        self.lanes[chain.at()].drivers()
     }
 
     /// The warm parts of the drivers on `chain`, the foremost last.
-    pub fn minds(&self, chain: ChainIndex) -> &'a [Mind] {
-        self.lanes[chain.at()].minds()
+    pub fn lane_change_states(&self, chain: ChainIndex) -> &'a [LaneChangeState] {
+        self.lanes[chain.at()].lane_change_states()
     }
 
     /// What a light shows.
@@ -129,33 +129,33 @@ impl<'a> Scene<'a> {
     #[inline]
     pub(crate) fn reservation(&self, spot: Spot) -> Option<&'a Reservation> {
         // A driver with one needs a full update: the mind of others is not worth a look into cold memory.
-        let mind = self.car(spot).needs_full_update.then(|| self.mind(spot))?;
-        self.reservations.of(mind.reservation, self.motion(spot).id)
+        let lane_change = self.driver(spot).needs_full_update.then(|| self.lane_change(spot))?;
+        self.reservations.of(lane_change.reservation, self.motion(spot).id)
     }
 
     /// How the entry at `spot` moves.
     #[inline]
-    pub fn motion(&self, spot: Spot) -> &'a Motion {
+    pub fn motion(&self, spot: Spot) -> &'a Kinematics {
         &self.motions(spot.chain)[spot.index]
     }
 
     /// The hot part of the entry at `spot`.
     #[inline]
-    pub fn car(&self, spot: Spot) -> &'a Car {
-        &self.cars(spot.chain)[spot.index]
+    pub fn driver(&self, spot: Spot) -> &'a DriverState {
+        &self.drivers(spot.chain)[spot.index]
     }
 
     /// The warm part of the entry at `spot`.
     #[inline]
-    pub(crate) fn mind(&self, spot: Spot) -> &'a Mind {
-        &self.lanes[spot.chain.at()].minds()[spot.index]
+    pub(crate) fn lane_change(&self, spot: Spot) -> &'a LaneChangeState {
+        &self.lanes[spot.chain.at()].lane_change_states()[spot.index]
     }
 
     /// The viewpoint of an entry.
     #[inline]
     pub fn viewpoint(&self, spot: Spot) -> Viewpoint {
-        let Motion { x, id, .. } = *self.motion(spot);
-        let Car { goal, class, .. } = self.car(spot);
+        let Kinematics { x, id, .. } = *self.motion(spot);
+        let DriverState { goal, class, .. } = self.driver(spot);
         let (destination, is_long) = (goal.destination(), class.is_long());
         Viewpoint { chain: spot.chain, x, ahead: spot.index + 1, id, destination, is_long }
     }
@@ -214,8 +214,8 @@ impl<'a> Scene<'a> {
             let lane = &self.lanes[chain.at()];
             let on_way = lane.motions().iter().position(|it| it.id != from.id);
             let leader = on_way.map(|index| {
-                let (it, mind) = (&lane.motions()[index], &lane.minds()[index]);
-                it.ahead(self.gap_to(before, start, it, mind))
+                let (it, lane_change) = (&lane.motions()[index], &lane.lane_change_states()[index]);
+                it.ahead(self.gap_to(before, start, it, lane_change))
             });
             let beside = self.beyond_the_fork(before, chain, from.id);
             let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, start + rear));
@@ -225,12 +225,12 @@ impl<'a> Scene<'a> {
 
     /// Distance to the vehicle `it`, `base` before the start of the chain that it is on [m]. Whose rear is still on
     /// another way into that chain is in the way from where the ways meet on.
-    fn gap_to(&self, chain: ChainIndex, base: f64, it: &Motion, mind: &Mind) -> f64 {
+    fn gap_to(&self, chain: ChainIndex, base: f64, it: &Kinematics, lane_change: &LaneChangeState) -> f64 {
         let gap = base + it.rear();
         if it.rear() >= 0.0 {
             return gap;
         }
-        match mind.previous_lanes.last() {
+        match lane_change.previous_lanes.last() {
             Some(other) if other != chain => {
                 let junctions = &self.network.junctions;
                 let crossings = junctions.on(chain).crossings.iter();
@@ -282,12 +282,13 @@ impl<'a> Scene<'a> {
         let previous = &self.network.chain(chain).previous;
         let mut nearest: Option<(ChainIndex, Option<Found>)> = previous.first().map(|it| (*it, None));
         for back in previous {
-            let mut foremost = self.motions(*back).iter().zip(self.cars(*back)).enumerate().rev();
-            let comes = |car: &Car| self.next(car.goal.destination(), *back) == Some(chain);
-            let found = foremost.find(|(_, (it, car))| it.id != id && comes(car)).map(|(index, (it, _))| {
-                let distance = base + self.network.chain(*back).length - it.x;
-                Found { spot: Spot { chain: *back, index }, distance }
-            });
+            let mut foremost = self.motions(*back).iter().zip(self.drivers(*back)).enumerate().rev();
+            let comes = |driver: &DriverState| self.next(driver.goal.destination(), *back) == Some(chain);
+            let found =
+                foremost.find(|(_, (it, driver))| it.id != id && comes(driver)).map(|(index, (it, _))| {
+                    let distance = base + self.network.chain(*back).length - it.x;
+                    Found { spot: Spot { chain: *back, index }, distance }
+                });
             let is_nearer = match (&nearest, &found) {
                 (Some((_, Some(old))), Some(new)) => new.distance < old.distance,
                 (_, Some(_)) => true,

@@ -5,7 +5,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, LightState, Sign, Stop};
 
 use crate::route::walk::Leg;
-use crate::state::lane::{Motion, VehicleId};
+use crate::state::lane::{Kinematics, VehicleId};
 use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
 
 /// T_h window ahead [m].
@@ -38,7 +38,7 @@ struct Window {
 
 impl Window {
     #[inline]
-    fn add(&mut self, other: &Motion) {
+    fn add(&mut self, other: &Kinematics) {
         self.count += 1.0;
         self.speeds += other.speed;
         self.lengths += f64::from(other.length);
@@ -172,7 +172,7 @@ impl View {
     #[inline]
     fn pass(
         &mut self,
-        motions: &[Motion],
+        motions: &[Kinematics],
         chain: ChainIndex,
         first: usize,
         base: f64,

@@ -8,7 +8,9 @@ use crate::junction::signals::Signals;
 use crate::route::navigate::Navigator;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::lane::{Car, Counterpart, Entry, Kind, Lane, Mind, Motion, Phase, VehicleId};
+use crate::state::lane::{
+    Counterpart, DriverState, Entry, Kind, Kinematics, Lane, LaneChangeState, Phase, VehicleId,
+};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
 use crate::view::scene::{Scene, Spot};
@@ -77,7 +79,7 @@ impl Snapshot {
         let mut spots: Vec<(VehicleId, Spot)> = Vec::new();
         for (chain, lane) in lanes.iter().enumerate() {
             let main =
-                lane.motions().iter().zip(lane.cars()).enumerate().filter(|(_, (_, it))| !it.is_shadow);
+                lane.motions().iter().zip(lane.drivers()).enumerate().filter(|(_, (_, it))| !it.is_shadow);
             let chain = ChainIndex(chain as u32);
             spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
         }
@@ -110,7 +112,7 @@ impl Snapshot {
 }
 
 fn main_entry(network: &Network, seen: &Seen) -> Entry {
-    let motion = Motion {
+    let motion = Kinematics {
         x: seen.x,
         speed: seen.speed,
         acceleration: seen.acceleration as f32,
@@ -118,7 +120,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         length: seen.length as f32,
         id: seen.id,
     };
-    let car = Car {
+    let driver = DriverState {
         desired: seen.desired as f32,
         limit_desired: seen.desired as f32,
         standing: 0.0,
@@ -134,7 +136,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
     };
     let counterpart =
         |change: Across| Counterpart { chain: change.other.chain, x: change.other.x, stretch: 1.0 };
-    let mind = Mind {
+    let lane_change = LaneChangeState {
         side: seen.change.map_or(network.driving_side.overtaking(), |it| it.side),
         kind: Kind::Discretionary,
         entered: 0,
@@ -146,19 +148,22 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         previous_lanes: PreviousLanes::NONE,
         counterpart: seen.change.map(counterpart),
         last_place: f64::INFINITY,
-        lets_in: Mind::NOBODY,
+        lets_in: LaneChangeState::NOBODY,
         reservation: NO_RESERVATION,
     };
-    Entry { motion, car, mind }
+    Entry { motion, driver, lane_change }
 }
 
 /// The entry in the other lane.
 fn shadow(network: &Network, seen: &Seen, change: &Across) -> Entry {
-    let Entry { motion, car, mind } = main_entry(network, seen);
+    let Entry { motion, driver, lane_change } = main_entry(network, seen);
     let x = change.other.x;
     Entry {
-        motion: Motion { x, ..motion },
-        car: Car { is_shadow: true, ..car },
-        mind: Mind { counterpart: Some(Counterpart { chain: seen.chain, x: seen.x, stretch: 1.0 }), ..mind },
+        motion: Kinematics { x, ..motion },
+        driver: DriverState { is_shadow: true, ..driver },
+        lane_change: LaneChangeState {
+            counterpart: Some(Counterpart { chain: seen.chain, x: seen.x, stretch: 1.0 }),
+            ..lane_change
+        },
     }
 }

@@ -74,7 +74,7 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
             false
         });
         // Those behind the first who wants to the north wait with it.
-        let waiting = world.vehicles().filter(|it| it.speed() < 0.05 && it.car.character == 0).count();
+        let waiting = world.vehicles().filter(|it| it.speed() < 0.05 && it.driver.character == 0).count();
         assert!(waiting >= 3, "{name}: {waiting} wait");
         assert_sound(&world);
     }

@@ -5,7 +5,7 @@ use laneweave_models::change::{Behind, GainBound, Mcdm, anticipated_speed};
 use laneweave_models::follow::Ahead;
 use laneweave_network::Side;
 
-use super::{Perception, driver};
+use super::{Perception, driver_of};
 use crate::state::lane::Phase;
 use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
 
@@ -40,7 +40,7 @@ impl Perception<'_, '_> {
             let prospect = ahead.map_or(desired, |it| anticipated_speed(it, desired));
             let harm = follower.filter(|_| is_courteous).map_or(0.0, |it| {
                 let behind =
-                    Behind { gap: it.distance - self.me.length, driver: driver(self.scene, it.spot) };
+                    Behind { gap: it.distance - self.me.length, driver: driver_of(self.scene, it.spot) };
                 model.courtesy.harm(&self.me, ahead, &behind)
             });
             let bound = GainBound {
@@ -63,8 +63,8 @@ impl Perception<'_, '_> {
     #[inline]
     fn signals(&self, side: Side) -> bool {
         self.beside[side.at()].is_some_and(|from| {
-            let cars = self.scene.cars(from.chain);
-            let signals = |index: usize| cars.get(index).is_some_and(|it| it.phase == Phase::Wants);
+            let drivers = self.scene.drivers(from.chain);
+            let signals = |index: usize| drivers.get(index).is_some_and(|it| it.phase == Phase::Wants);
             signals(from.ahead) || from.ahead.checked_sub(1).is_some_and(signals)
         })
     }

@@ -29,7 +29,7 @@ fn standing() -> Seen {
     }
 }
 
-fn driver() -> Style {
+fn driver_of() -> Style {
     Style {
         name: "some".into(),
         description: String::new(),
@@ -56,7 +56,7 @@ fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere
         let x = network.chain(chain).length * f64::from(number) / 6000.0;
         let truck = Seen { chain, x, destination, ..standing() };
         let snapshot = Snapshot::new(&network, [truck]);
-        let styles = [driver()];
+        let styles = [driver_of()];
         let scene = snapshot.scene(&network, &navigator, &styles);
         let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
         if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
@@ -85,7 +85,7 @@ fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, 
         let length = class.body().length;
         let seen = Seen { chain, x, length, class, destination, ..standing() };
         let snapshot = Snapshot::new(network, [seen]);
-        let styles = [driver()];
+        let styles = [driver_of()];
         let scene = snapshot.scene(network, &navigator, &styles);
         let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
         let mut out = Survey::default();
