@@ -70,7 +70,7 @@ impl Arguments {
     }
 }
 
-const VEHICLES: [Column; 8] = [
+const VEHICLES: [Column; 10] = [
     Column::integer("vehicle"),
     Column::text("style"),
     Column::text("class"),
@@ -79,6 +79,9 @@ const VEHICLES: [Column; 8] = [
     Column::integer("branch_lane_changes"),
     Column::real("base_left_s"),
     Column::real("branch_left_s"),
+    // The two before are their old names.
+    Column::real("base_completed_s"),
+    Column::real("branch_completed_s"),
 ];
 
 const INSTANTS: [Column; 7] = [
@@ -110,6 +113,8 @@ fn tables(
             seconds(it.since_s).into(),
             base.into(),
             branch.into(),
+            base_left.map(seconds).into(),
+            branch_left.map(seconds).into(),
             base_left.map(seconds).into(),
             branch_left.map(seconds).into(),
         ])?;

@@ -122,7 +122,10 @@ fn seeds_from(first: u64, count: u64) -> Result<Vec<u64>, Fault> {
 /// The columns of the table of all runs.
 fn columns() -> Vec<Column> {
     let named = [Column::text("input"), Column::text("model"), Column::integer("seed")];
-    named.into_iter().chain(MEASURES.iter().map(|it| Column::real(it.column))).collect()
+    let measured = MEASURES.iter().map(|it| Column::real(it.column));
+    // Of `left` and `waiting`, which are their old names.
+    let renamed = [Column::real("completed"), Column::real("waiting_to_enter")];
+    named.into_iter().chain(measured).chain(renamed).collect()
 }
 
 /// Appends a row for each run.
@@ -130,7 +133,8 @@ fn append(table: &mut TableWriter, input: &str, comparison: &Comparison) -> Resu
     for trial in &comparison.trials {
         let named = [input.into(), trial.model.name().into(), (trial.seed as i64).into()];
         let measured = MEASURES.iter().map(|it| (it.of)(&trial.outcome).into());
-        table.row(&named.into_iter().chain(measured).collect::<Vec<Cell>>())?;
+        let renamed = [trial.outcome.left, trial.outcome.waiting].map(Cell::from);
+        table.row(&named.into_iter().chain(measured).chain(renamed).collect::<Vec<Cell>>())?;
     }
     Ok(())
 }

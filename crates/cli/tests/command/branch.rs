@@ -2,6 +2,7 @@
 
 use crate::program::Folder;
 use crate::report::{assert_needs_nothing, figures, has_units, texts};
+use crate::run::rows;
 
 #[test]
 fn what_differs_is_told_and_lies_in_tables_and_on_a_page() {
@@ -12,6 +13,12 @@ fn what_differs_is_told_and_lies_in_tables_and_on_a_page() {
     for file in ["differences.csv", "instants.csv", "report.html"] {
         assert!(told.text().contains(&format!("out/branch/{file}")), "{}", told.text());
     }
+    // What has an old name says the same under both.
+    let differing = rows(&folder.read("out/branch/differences.csv"));
+    let same = |run: &str| {
+        differing.iter().all(|it| it[&format!("{run}_completed_s")] == it[&format!("{run}_left_s")])
+    };
+    assert!(!differing.is_empty() && same("base") && same("branch"));
     // A row for each second, and its header.
     assert_eq!(folder.read("out/branch/instants.csv").lines().count(), 1 + 120);
 

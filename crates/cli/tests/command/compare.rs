@@ -32,6 +32,8 @@ fn every_model_drives_with_every_seed_and_what_comes_out_is_what_a_run_gives() {
     assert!((per_km - expected("lane_changes_per_veh_km")).abs() < 1e-12);
     assert_eq!(found("mean_delay_s"), expected("mean_delay_s"));
     assert_eq!(found("left"), expected("left"));
+    let renamed = [("completed", "left"), ("waiting_to_enter", "waiting")];
+    assert!(renamed.iter().all(|(name, old)| found(name) == found(old) && found(name) == expected(name)));
 }
 
 #[test]

@@ -10,7 +10,18 @@ use crate::program::Folder;
 const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
     lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
     lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
-    state_hash route_changes";
+    state_hash route_changes completed waiting_to_enter estimated_capacity_veh_h lane_changes_route_driven";
+
+/// Fields of the summary, columns of `trips` and one of `lanelets` that have an old name, each with that.
+const RENAMED: [(&str, &str); 7] = [
+    ("completed", "left"),
+    ("waiting_to_enter", "waiting"),
+    ("estimated_capacity_veh_h", "entrance_capacity"),
+    ("lane_changes_route_driven", "lane_changes_route"),
+    ("completed_s", "left_s"),
+    ("insertion_delay_s", "waiting_s"),
+    ("completed", "left"),
+];
 
 const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset_m,x_m,y_m,z_m,heading_rad,\
     speed_mps,acceleration_mps2,length_m,width_m,state";
@@ -21,10 +32,11 @@ const LANE_CHANGES: &str = "time_s,started_s,duration_s,vehicle,style,class,from
     ttc_behind_s,outcome";
 
 const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,left_s,\
-    waiting_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,route_changes,missed_turns";
+    completed_s,waiting_s,insertion_delay_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,\
+    route_changes,missed_turns";
 
 const LANELETS: &str = "lanelet,sumo_lane,length_m,vehicles,flow_veh_h,density_veh_km,speed_mps,standing_s,entered,\
-    left,changes_to_left,changes_to_right,changes_from_left,changes_from_right";
+    left,completed,changes_to_left,changes_to_right,changes_from_left,changes_from_right";
 
 pub(crate) fn number(summary: &Value, field: &str) -> f64 {
     summary[field].as_f64().unwrap_or_else(|| panic!("{field}: {}", summary[field]))
@@ -72,6 +84,22 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert_eq!(summary["state_hash"].as_str().unwrap().len(), 16);
     assert_eq!(summary, serde_json::from_str::<Value>(&folder.read("out/summary.json")).unwrap());
     assert!(!folder.holds("out/trajectories.parquet"));
+}
+
+#[test]
+fn what_has_an_old_name_says_the_same_under_both() {
+    let folder = Folder::new();
+    let summary = folder.summary("MAPS/grid.osm --demand 9000 --duration 200 --record 0 --format csv");
+    let ([fields @ .., completed, delay, ended], tables) = (&RENAMED, ["trips", "lanelets"]);
+    for (name, old) in fields {
+        assert!(number(&summary, name) > 0.0, "{name}");
+        assert_eq!(summary[*name], summary[*old], "{name}");
+    }
+    let [trips, lanelets] = tables.map(|it| rows(&folder.read(&format!("out/{it}.csv"))));
+    for (table, (name, old)) in [(&trips, completed), (&trips, delay), (&lanelets, ended)] {
+        assert!(table.iter().all(|row| row[*name] == row[*old]), "{name}");
+        assert!(table.iter().any(|row| row[*name].parse::<f64>().is_ok_and(|it| it > 0.0)), "{name}");
+    }
 }
 
 #[test]

@@ -121,7 +121,7 @@ impl Writer for FlowTable {
     }
 }
 
-const LANELETS: [Column; 14] = [
+const LANELETS: [Column; 15] = [
     Column::integer("lanelet"),
     Column::text("sumo_lane"),
     Column::real("length_m"),
@@ -131,7 +131,9 @@ const LANELETS: [Column; 14] = [
     Column::real("speed_mps"),
     Column::real("standing_s"),
     Column::integer("entered"),
+    // Beside its old name.
     Column::integer("left"),
+    Column::integer("completed"),
     Column::integer("changes_to_left"),
     Column::integer("changes_to_right"),
     Column::integer("changes_from_left"),
@@ -169,6 +171,7 @@ impl Writer for LaneletTable {
                 speed.into(),
                 seconds(counts.stay.standing).into(),
                 counts.begun.into(),
+                counts.ended.into(),
                 counts.ended.into(),
                 to_left.into(),
                 to_right.into(),

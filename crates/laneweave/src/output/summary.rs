@@ -22,24 +22,32 @@ const LISTED_QUEUES: usize = 3;
 pub struct Summary {
     /// Vehicles that entered while it was measured; those on the road at its begin count as entered.
     pub entered: u64,
-    /// Vehicles that left.
+    /// Vehicles that completed their trip; old name of `completed`.
     pub left: u64,
+    /// Vehicles that completed their trip.
+    pub completed: u64,
     /// Of them, those whose trip began and ended on one lanelet, which are left out of the means over trips.
     pub trips_of_one_lanelet: u64,
     /// Vehicles on the road at the end.
     pub on_road: u64,
-    /// Vehicles that wait at the entrances at the end.
+    /// Vehicles that wait to enter at the end; old name of `waiting_to_enter`.
     pub waiting: u64,
-    /// The estimated capacity of the map [veh/h].
+    /// Vehicles that wait to enter at the end: the insertion backlog.
+    pub waiting_to_enter: u64,
+    /// The estimated capacity of the map [veh/h]; old name of `estimated_capacity_veh_h`.
     pub entrance_capacity: f64,
+    /// The estimated capacity of the map [veh/h].
+    pub estimated_capacity_veh_h: f64,
     /// What is full first when the demand grows.
     pub bottleneck: Option<String>,
     /// Lane changes.
     pub lane_changes: u64,
     /// Of them, between lanes of equal worth for the route.
     pub lane_changes_discretionary: u64,
-    /// Of them, for the route.
+    /// Of them, route-driven (mandatory) ones; old name of `lane_changes_route_driven`.
     pub lane_changes_route: u64,
+    /// Of them, route-driven (mandatory) ones.
+    pub lane_changes_route_driven: u64,
     /// Lane changes per vehicle-kilometre.
     pub lane_changes_per_veh_km: Option<f64>,
     /// Distance driven [veh km].
@@ -138,14 +146,18 @@ impl Summary {
         Summary {
             entered: counts.entered,
             left: counts.left,
+            completed: counts.left,
             trips_of_one_lanelet: ending.short_trips.count,
             on_road: world.on_road() as u64,
             waiting: world.waiting() as u64,
+            waiting_to_enter: world.waiting() as u64,
             entrance_capacity: prepared.capacity.veh_h,
+            estimated_capacity_veh_h: prepared.capacity.veh_h,
             bottleneck: prepared.capacity.bottleneck.map(|it| it.to_string()),
             lane_changes,
             lane_changes_discretionary: counts.discretionary_changes,
             lane_changes_route: counts.route_changes,
+            lane_changes_route_driven: counts.route_changes,
             lane_changes_per_veh_km: ratio(lane_changes as f64, veh_km),
             veh_km,
             collisions: tally.collisions,

@@ -104,7 +104,7 @@ impl Observer for Trips {
     }
 }
 
-const COLUMNS: [Column; 20] = [
+const COLUMNS: [Column; 22] = [
     Column::integer("vehicle"),
     Column::text("class"),
     Column::text("style"),
@@ -114,8 +114,11 @@ const COLUMNS: [Column; 20] = [
     Column::integer("to_lanelet"),
     Column::real("arrived_s"),
     Column::real("entered_s"),
+    // Beside its old name each.
     Column::real("left_s"),
+    Column::real("completed_s"),
     Column::real("waiting_s"),
+    Column::real("insertion_delay_s"),
     Column::real("duration_s"),
     Column::real("free_s"),
     Column::real("delay_s"),
@@ -171,6 +174,8 @@ fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
         seconds(record.arrived).into(),
         seconds(record.entered).into(),
         end.map(|it| seconds(it.time)).into(),
+        end.map(|it| seconds(it.time)).into(),
+        seconds(trip.waiting()).into(),
         seconds(trip.waiting()).into(),
         end.map(|it| seconds(it.duration)).into(),
         record.free_time.into(),
