@@ -102,7 +102,7 @@ pub(crate) fn unpack<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Fault> {
     postcard::from_bytes(bytes).map_err(|error| {
         Fault::new(
             FILE,
-            format!("no checkpoint of this version: {error}"),
+            format!("not a checkpoint of this version: {error}"),
             "run again from the beginning, without --resume",
         )
     })

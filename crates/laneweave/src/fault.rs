@@ -46,7 +46,10 @@ impl Fault {
             _ => Cause::Output,
         };
         let what = format!("cannot be written: {}", plain(error));
-        Fault { cause, ..Fault::new("standard output", what, "make room there, or send it elsewhere") }
+        Fault {
+            cause,
+            ..Fault::new("standard output", what, "free some space there, or redirect the output")
+        }
     }
 
     /// The system refuses to `deed` the file at `path`.
@@ -54,9 +57,9 @@ impl Fault {
         let remedy = match error.kind() {
             io::ErrorKind::NotFound => "check the path",
             io::ErrorKind::PermissionDenied => "check the permissions, or choose another place",
-            io::ErrorKind::AlreadyExists => "choose another name, or remove it first",
-            io::ErrorKind::IsADirectory => "name a file, not a folder",
-            io::ErrorKind::InvalidData => "give a file of text in UTF-8",
+            io::ErrorKind::AlreadyExists => "choose another name, or delete it first",
+            io::ErrorKind::IsADirectory => "give a file, not a folder",
+            io::ErrorKind::InvalidData => "give a text file in UTF-8",
             _ => "choose another place",
         };
         Fault::new(path.display(), format!("cannot be {deed}: {}", plain(error)), remedy)

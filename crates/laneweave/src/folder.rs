@@ -55,13 +55,13 @@ impl Claim {
     /// If it cannot be made, or another program has claimed it.
     pub fn on(dir: &Path) -> Result<Claim, Fault> {
         fs::create_dir_all(dir)
-            .map_err(|error| Fault::refused(dir, "made the folder of the results", &error))?;
+            .map_err(|error| Fault::refused(dir, "created as the results folder", &error))?;
         let claim = |folder| Claim { dir: dir.to_owned(), folder };
         let Ok(folder) = File::open(dir) else { return Ok(claim(None)) };
         match folder.try_lock() {
             Ok(()) => Ok(claim(Some(folder))),
             Err(TryLockError::WouldBlock) => {
-                let what = "another laneweave is writing its results into this folder";
+                let what = "another laneweave process is writing its results into this folder";
                 Err(Fault::new(dir.display(), what, "wait until it has ended, or choose another folder"))
             }
             Err(TryLockError::Error(_)) => Ok(claim(None)),

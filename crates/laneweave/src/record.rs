@@ -63,8 +63,8 @@ pub fn clear(claim: &Claim) -> Result<(), Fault> {
         read => read.map_err(|error| Fault::refused(&path, "read", &error))?,
     };
     if former.split(|it| *it == b'\n').nth(1) != Some(MARK.as_bytes()) {
-        let what = "this scenario was left by no run, and would be replaced by what this one leaves";
-        return Err(Fault::new(path.display(), what, "choose another folder for the results with --out"));
+        let what = "this scenario was not written by a run; the results of this run would replace it";
+        return Err(Fault::new(path.display(), what, "choose another results folder with --out"));
     }
     let branch = claim.dir().join(BRANCH);
     if branch.is_dir() {
@@ -217,16 +217,17 @@ impl Record {
     /// # Errors
     /// If there are none, or what the run depended on has changed since.
     pub fn open(dir: &Path) -> Result<Record, Fault> {
-        let remedy = "name the folder of results that a run has left, that of its --out, with summary.json and scenario.toml";
+        let remedy =
+            "give the results folder of a run (its --out), which contains summary.json and scenario.toml";
         if !dir.is_dir() {
-            let what = if dir.exists() { "this is a file" } else { "there is no such folder" };
+            let what = if dir.exists() { "this is a file" } else { "this folder does not exist" };
             return Err(Fault::new(dir.display(), format!("no results of a run: {what}"), remedy));
         }
         let summary = dir.join(SUMMARY);
         let text = fs::read_to_string(&summary).map_err(|error| {
             if error.kind() == io::ErrorKind::NotFound && dir.join(SCENARIO).exists() {
-                let remedy = format!("wait, or go on with it: laneweave run {} --resume", dir.display());
-                return Fault::new(dir.display(), "this run has not ended", remedy);
+                let remedy = format!("wait, or resume it: laneweave run {} --resume", dir.display());
+                return Fault::new(dir.display(), "this run is not complete", remedy);
             }
             match error.kind() {
                 io::ErrorKind::NotFound => Fault::new(
@@ -238,7 +239,7 @@ impl Record {
             }
         })?;
         let end: End = serde_json::from_str(&text).map_err(|error| {
-            Fault::new(summary.display(), format!("no summary of a run of this version: {error}"), remedy)
+            Fault::new(summary.display(), format!("not a summary of a run of this version: {error}"), remedy)
         })?;
         let (scenario, origin) = Origin::open(&dir.join(SCENARIO))?;
         let record = Record { scenario, origin, end };

@@ -164,7 +164,7 @@ fn the_report_names_the_first_place_and_lists_the_first_incidents() {
     let (summary, _) = run.until(f64::INFINITY).expect("it ends");
     let (first, report) = (summary.first_incident.expect("there is one"), run.report());
     let told =
-        format!("first {}; the table incidents has every place; there should be none", first.to_text());
+        format!("first {}; the table incidents lists all of them; this should not happen", first.to_text());
     assert!(report.contains(&told), "{told}");
     assert!(report.contains("Incidents: the first 1 of 1, as in the table incidents."));
     let lanelets = format!("<td data-name=\"lanelets\">{0} and {0}</td>", first.lanelet);

@@ -83,9 +83,11 @@ fn who_only_goes_on_round_a_roundabout_never_arrives_and_that_is_told() {
     let fault =
         prepare(&everywhere("roundabout.osm", |angle| -angle), &Origin::default()).err().expect("no exit");
     let entrance = prepared(&scenario("roundabout.osm", &[])).world.network().entrances[0].id;
-    let what =
-        format!("100 % of those who come at the entrance {entrance} go round for ever with these shares");
-    assert_eq!(fault.to_string(), format!("turns: {what}; let some of them leave the round"));
+    let what = format!("with these shares 100 % of the drivers from the entrance {entrance} never arrive");
+    assert_eq!(
+        fault.to_string(),
+        format!("turns: {what}; give a share above 0 to a turn that leads out of the loop")
+    );
 }
 
 #[test]
@@ -124,7 +126,7 @@ fn shares_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
     for (turns, message) in [
         (
             vec![Turns { from: 4711, ..turns }],
-            "turns.0.from: the map has no lanelet 4711 for vehicles; name a lanelet of the road to the junction".into(),
+            "turns.0.from: the map has no lanelet 4711 for vehicles; give a lanelet of the road to the junction".into(),
         ),
         (
             vec![Turns { from: exit, ..turns }],
@@ -136,11 +138,11 @@ fn shares_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
         ),
         (
             vec![Turns { left: 0.0, straight: 0.0, right: 0.0, ..turns }],
-            format!("turns.0.from: nobody goes on from {from}; give left, straight or right a share above 0"),
+            format!("turns.0.from: all shares from {from} are 0; give left, straight or right a share above 0"),
         ),
         (
             vec![turns, turns],
-            format!("turns.1.from: the lanelets {from} and {from} lead to one junction; leave out one of them"),
+            format!("turns.1.from: the lanelets {from} and {from} lead to the same junction; remove one of them"),
         ),
     ] {
         let fault = prepare(&scenario("priority.osm", &turns), &Origin::default()).err().expect("refused");
@@ -149,8 +151,8 @@ fn shares_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
     let mut both = scenario("priority.osm", &[turns]);
     both.demand.exits = [(exit.to_string(), 2.0)].into();
     let fault = prepare(&both, &Origin::default()).err().expect("refused");
-    let message = "turns: turning shares and weights of exits, of which each says where drivers go; leave out demand.exits, \
-                   or the turns";
+    let message = "turns: both turning shares and weights of exits; remove demand.exits or the turns: each of them defines the \
+                   destinations";
     assert_eq!(fault.to_string(), message);
 }
 
@@ -161,7 +163,7 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
     let turns = Turns { from, left: 1.0, straight: 9.0, right: 0.0 };
     let fault = prepare(&scenario("off_ramp.osm", &[turns]), &Origin::default()).err().expect("refused");
     assert_eq!(fault.place, "turns.0.left");
-    assert_eq!(fault.what, format!("no way leads left from {from}"));
+    assert_eq!(fault.what, format!("no lane leads left from {from}"));
 }
 
 #[test]
@@ -175,7 +177,7 @@ fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where
         return;
     }
     let fault = prepare(&scenario, &Origin::default()).err().expect("refused");
-    let what = "no lane leads from the entrance -101122 to where these shares send its drivers";
+    let what = "no lane leads from the entrance -101122 to the destinations of these shares";
     assert_eq!((fault.place.as_str(), fault.what.as_str()), ("turns", what));
     scenario.turns[0] = Turns { straight: 2.0, right: 1.0, ..turns };
     let weights = prepared(&scenario).world.demand().origins[0].weights.clone();

@@ -44,10 +44,11 @@ fn double_borders(network: &Network) -> impl Iterator<Item = Problem> {
             element: format!("lanelet {}", id(it.left)),
             line: None,
             what: format!(
-                "lanelet {} lies beside it on the right for {length:.0} m, but they share no border, so nobody changes between them",
+                "lanelet {} lies beside it on the right for {length:.0} m, but they share no border, so lane changes between them \
+                 are impossible",
                 id(it.right)
             ),
-            remedy: "let both use the same way as border, or leave it if there is a kerb".into(),
+            remedy: "use the same way as border of both, or keep it if there is a kerb".into(),
         }
     })
 }
@@ -75,7 +76,7 @@ fn broken_joints(network: &Network) -> Vec<Problem> {
                 element: format!("lanelet {}", lanelet.id),
                 line: None,
                 what,
-                remedy: "join the last points of the one's borders with the first points of the other's"
+                remedy: "connect the last points of the borders of the first with the first points of the borders of the second"
                     .into(),
             });
         };

@@ -32,7 +32,7 @@ impl Conflicts {
             Problem {
                 element: format!("lanelet {id}"),
                 line,
-                what: "it lies on one heap with so many others that not all conflicts between them are known"
+                what: "it overlaps so many other lanelets that not all conflicts between them are known"
                     .into(),
                 remedy: "delete lanelets that were drawn twice".into(),
             }

@@ -16,10 +16,10 @@ pub enum MapError {
     #[error("there is no such file; check the path")]
     Missing,
     /// It is a folder.
-    #[error("this is a folder; name a map file inside it")]
+    #[error("this is a folder; give a map file in it")]
     Folder,
     /// There is nothing in it.
-    #[error("the file is empty; get the map again, or choose another file")]
+    #[error("the file is empty; download the map again, or choose another file")]
     Empty,
     /// The system refuses to read it.
     #[error("the file cannot be read: {0}; check its permissions")]
@@ -33,21 +33,23 @@ pub enum MapError {
         known: String,
     },
     /// It is larger than what is to be read, unpacked if it is compressed.
-    #[error("the map is larger than the limit of {largest}; cut it into smaller ones, or allow for more")]
+    #[error(
+        "the map is larger than the limit of {largest}; split it into smaller ones, or increase the limit"
+    )]
     TooLarge {
         /// The largest size that is read.
         largest: Size,
     },
     /// It is called compressed but cannot be unpacked.
     #[error(
-        "the file cannot be unpacked ({0}); compress it again, or take .gz off its name if it is not compressed"
+        "the file cannot be unpacked ({0}); compress it again, or remove .gz from its name if it is not compressed"
     )]
     Compressed(io::Error),
     /// It is not the XML that its format is.
     #[error(transparent)]
     Xml(#[from] XmlError),
     /// The origin given for the projection is no place on earth that UTM covers.
-    #[error("the origin ({0}, {1}) is no latitude within ±84° and longitude within ±180°; correct it")]
+    #[error("the origin ({0}, {1}) is not a latitude within ±84° and a longitude within ±180°; correct it")]
     Origin(f64, f64),
     /// No lanelet is left that vehicles can use.
     #[error("none of its {lanelets} lanelets can be used by vehicles{}; {remedy}", first(.problems))]

@@ -36,7 +36,7 @@ impl Shape {
         if left.length().max(right.length()) > MAXIMUM_LENGTH {
             return Err(Flaw {
                 what: "it is longer than 20 km",
-                remedy: "correct the point that lies far off, or cut the lanelet",
+                remedy: "correct the point that is far away, or split the lanelet",
             });
         }
         let centre = Polyline::between(&left, &right).filter(|it| it.length() >= MINIMUM_LENGTH);

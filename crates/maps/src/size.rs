@@ -46,7 +46,7 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Size, String> {
-        const REMEDY: &str = "write a size such as 500MB or 2GiB, which is the largest";
+        const REMEDY: &str = "write a size such as 500MB, at most 2GiB";
         let digits = text.trim_end_matches(|it: char| it.is_ascii_alphabetic());
         let (number, unit) = (digits.trim(), &text[digits.len()..]);
         let (_, factor) =

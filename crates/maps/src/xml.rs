@@ -27,7 +27,7 @@ pub enum XmlError {
         line: usize,
     },
     /// It is no well-formed XML.
-    #[error("line {line}: not well-formed XML ({what}); save the file again, or mend this line")]
+    #[error("line {line}: not well-formed XML ({what}); save the file again, or correct this line")]
     Broken {
         /// Where it breaks.
         line: usize,
@@ -264,7 +264,8 @@ impl<'a> Tokens<'a> {
                 Event::End(element) => {
                     // The reader knows the others.
                     if self.depth == 0 || self.depth == 1 && element.name().as_ref() != self.root {
-                        let what = format!("</{}> ends what did not begin", element.name().as_ref());
+                        let what =
+                            format!("</{}> closes an element that is not open", element.name().as_ref());
                         return Err(broken(self.line, what));
                     }
                     self.depth -= 1;

@@ -75,7 +75,10 @@ fn lanes_with_broken_borders_are_left_out_and_listed() {
     assert!(one("role='right'/>\n", "role='left'/>\n").contains("several left borders"));
     assert!(one("<nd ref='5'/>", "").contains("way 13, has fewer than two nodes"));
     assert!(one("<nd ref='5'/>", "<nd ref='77'/>").contains("runs through node 77, which is missing"));
-    assert!(one("x='0' y='8'", "x='nan' y='8'").contains("node 5 (line 6) of its border has no position"));
+    assert!(
+        one("x='0' y='8'", "x='nan' y='8'")
+            .contains("node 5 (line 6) of its border has no geographic position")
+    );
     assert!(one("x='10' y='8'", "x='0' y='8'").contains("left border has no length"));
     assert!(one("x='10' y='8'", "x='21000' y='8'").contains("longer than 20 km"));
 }
@@ -94,7 +97,7 @@ fn elements_that_share_an_id_are_listed() {
 fn limits_and_directions_that_cannot_be_used_are_listed_but_the_lane_stays() {
     let (problems, ids) = broken("v='36'", "v='-36'");
     assert_eq!((problems.len(), ids.len()), (1, 2));
-    assert!(problems[0].starts_with("lanelet 22 (line 13): its speed_limit \"-36\" is no speed"));
+    assert!(problems[0].starts_with("lanelet 22 (line 13): its speed_limit \"-36\" is not a speed"));
     let tag = "<tag k='speed_limit' v='36'/>";
     let (problems, ids) = broken(tag, "<tag k='one_way' v='no'/>");
     assert_eq!((problems.len(), ids.len()), (1, 2));
@@ -155,7 +158,7 @@ fn files_that_cannot_be_read_say_why() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let refusal = |path: &Path| load(path, &ReadOptions::default()).unwrap_err().to_string();
     assert_eq!(refusal(&root.join("nowhere.osm")), "there is no such file; check the path");
-    assert_eq!(refusal(root), "this is a folder; name a map file inside it");
+    assert_eq!(refusal(root), "this is a folder; give a map file in it");
     assert_eq!(
         refusal(&root.join("Cargo.toml")),
         "no map format has the extension \"toml\"; known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"

@@ -49,8 +49,8 @@ fn a_line_is_drawn_for_no_more_than_32_rules() {
     assert_eq!(
         problems,
         [
-            "regulatory element 32 (line 2): 10 of its refers are ways that 32 others name already, so it does \
-          without; name each way once"
+            "regulatory element 32 (line 2): 10 of its refers are ways that 32 others already use, so they are ignored; use each \
+          way once"
         ]
     );
 }

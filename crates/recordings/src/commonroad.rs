@@ -77,7 +77,7 @@ impl Visitor for Draft {
                     None => self.problems.push(Problem {
                         element: format!("{path} {}", id.unwrap_or_default()).trim_end().into(),
                         line: Some(element.line),
-                        what: "its id is missing or no whole number, so it is left out".into(),
+                        what: "its id is missing or not a whole number, so it is left out".into(),
                         remedy: "give it an id of its own".into(),
                     }),
                 }

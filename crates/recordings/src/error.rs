@@ -10,7 +10,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RecordingError {
     /// It is larger than any recording this program can hold.
-    #[error("the file has {bytes} bytes, the limit is {limit}; cut the recording into shorter ones")]
+    #[error("the file has {bytes} bytes, the limit is {limit}; split the recording into shorter ones")]
     TooLarge {
         /// Its size [B].
         bytes: u64,
@@ -18,7 +18,7 @@ pub enum RecordingError {
         limit: u64,
     },
     /// A column is missing that cannot be done without.
-    #[error("line 1: the column {column} is missing; name it in the header, which has: {found}")]
+    #[error("line 1: the column {column} is missing; add it to the header, which has: {found}")]
     MissingColumn {
         /// Its name.
         column: &'static str,

@@ -94,15 +94,15 @@ impl Reader {
     fn begin(&mut self, row: &Row, line: usize) -> Track {
         let element = || format!("track {}", row.track);
         if let Some(unknown) = &row.unknown_class {
-            let remedy = "name one of car, van, truck, bus, motorcycle, bicycle, pedestrian";
+            let remedy = "use one of car, van, truck, bus, motorcycle, bicycle, pedestrian";
             self.problems.add("unknown agent_type", remedy, line, || {
-                (element(), format!("its agent_type {unknown:?} is not known, so it is no vehicle"))
+                (element(), format!("its agent_type {unknown:?} is unknown, so it is not used as a vehicle"))
             });
         }
         let (length, width) = row.class.usual_size();
         if row.class.is_vehicle() && (row.length.is_none() || row.width.is_none()) {
             self.problems.add("vehicle without a size", "fill in length and width", line, || {
-                (element(), format!("it has no size, so it is taken as {length} m × {width} m"))
+                (element(), format!("it has no size, so {length} m × {width} m is assumed"))
             });
         }
         Track {
@@ -164,9 +164,9 @@ impl Reading {
                 let Time { frame, line, .. } = self.times[*later];
                 let is_again = frame == self.times[*kept].frame;
                 if is_again {
-                    problems.add("row that comes twice", "keep one row for a frame", line, || {
+                    problems.add("duplicate row", "keep one row for each frame", line, || {
                         let element = format!("track {}", self.track.id);
-                        (element, format!("frame {frame} comes again, so only its first row is taken"))
+                        (element, format!("frame {frame} occurs again, so only its first row is used"))
                     });
                 }
                 is_again

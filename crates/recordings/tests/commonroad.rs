@@ -116,16 +116,16 @@ fn states_that_cannot_be_used_are_counted() {
     };
     assert_eq!(
         why("<time><exact>2</exact></time>", "<time><exact>2.5</exact></time>"),
-        "obstacle 7 (line 2): 1 of its states are left out (the first, line 7: its time is no whole number of \
-         steps); correct or delete them"
+        "obstacle 7 (line 2): 1 of its states are left out (the first, line 7: its time is not a whole number of steps); correct or \
+         delete them"
     );
     assert!(why("<x>31</x>", "<x>1e9</x>").contains("line 7: it has no position"));
     assert!(why("<x>31</x>", "<x>wide</x>").contains("line 7: it has no position"));
     let heading =
         "<orientation><intervalStart>-0.1</intervalStart><intervalEnd>0.3</intervalEnd></orientation>";
     assert!(why(heading, "").contains("line 6: it has no orientation"));
-    assert!(why("<exact>20</exact>", "<exact>200</exact>").contains("no velocity up to 150 m/s"));
-    assert!(why("<x>31</x>", "<x>310</x>").contains("no velocity up to 150 m/s"));
+    assert!(why("<exact>20</exact>", "<exact>200</exact>").contains("do not give a velocity up to 150 m/s"));
+    assert!(why("<x>31</x>", "<x>310</x>").contains("do not give a velocity up to 150 m/s"));
     assert!(why("<time><exact>2</exact></time>", "<time><exact>1</exact></time>").contains("the same time"));
     for absurd in ["-1", "nan", "1e12", ""] {
         why("<time><exact>2</exact></time>", &format!("<time><exact>{absurd}</exact></time>"));
@@ -152,7 +152,7 @@ fn obstacles_that_cannot_be_used_are_left_out() {
     };
     assert_eq!(with(""), (vec![], vec![7, 1]));
     for (more, what) in [
-        (good.replace("'1'", "'x'"), "obstacle x (line 11): its id is missing or no whole number"),
+        (good.replace("'1'", "'x'"), "obstacle x (line 11): its id is missing or not a whole number"),
         (good.into(), "obstacle 1 (line 11): another obstacle above has the same id"),
         (
             good.replace("'1'", "'2'").replace("<radius>1<", "<radius>-1<"),
@@ -184,7 +184,7 @@ fn occupancy_sets_are_passed_over() {
     let (problems, tracks) = broken("</dynamicObstacle>", set);
     assert_eq!(
         problems,
-        ["obstacle 7 (line 2): its occupancy set is passed over; give it a trajectory if it was seen"]
+        ["obstacle 7 (line 2): its occupancy set is ignored; give it a trajectory if it was observed"]
     );
     assert_eq!(tracks, read(TWO_CARS).unwrap().0.tracks);
 }

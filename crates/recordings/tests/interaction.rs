@@ -42,7 +42,7 @@ fn a_missing_column_is_named() {
         let found = header.join(",");
         assert_eq!(
             refusal(&format!("{found}\n")),
-            format!("line 1: the column {column} is missing; name it in the header, which has: {found}")
+            format!("line 1: the column {column} is missing; add it to the header, which has: {found}")
         );
     }
     assert!(refusal("").starts_with("line 1: the column track_id is missing"));
@@ -68,7 +68,7 @@ fn a_car_without_a_size_gets_the_usual_one_and_is_listed() {
     assert_eq!((recording.tracks[0].length, recording.tracks[0].width), (4.5, 1.8));
     assert_eq!(
         problems,
-        ["track 1 (line 2): it has no size, so it is taken as 4.5 m × 1.8 m; fill in length and width"]
+        ["track 1 (line 2): it has no size, so 4.5 m × 1.8 m is assumed; fill in length and width"]
     );
 }
 
@@ -89,13 +89,13 @@ fn rows_that_cannot_be_used_are_left_out_and_listed_with_their_line() {
     assert_eq!(
         problems,
         [
-            "row (line 3): x is \"zero\", which is no number of its kind, so it is left out; correct the number",
+            "row (line 3): x is \"zero\", which is not a valid number for it, so it is left out; correct the number",
             "row (line 4): it has 5 fields, the header names at least 8, so it is left out; fill in all columns",
-            "track 1 (line 6): frame 4 comes again, so only its first row is taken; keep one row for a frame",
+            "track 1 (line 6): frame 4 occurs again, so only its first row is used; keep one row for each frame",
             "row (line 7): frame_id is 1152921504606846976, beyond ±1125899906842624, so it is left out; correct \
              the number",
-            "track 3 (line 8): its agent_type \"hovercraft\" is not known, so it is no vehicle; name one of car, \
-             van, truck, bus, motorcycle, bicycle, pedestrian",
+            "track 3 (line 8): its agent_type \"hovercraft\" is unknown, so it is not used as a vehicle; use one of car, van, \
+             truck, bus, motorcycle, bicycle, pedestrian",
         ]
     );
 }

@@ -15,17 +15,17 @@ use super::say;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The folder of results of a run, which is repeated.
+    /// The folder with the results of a run; the run is repeated.
     #[arg(value_name = "OUT")]
     out: PathBuf,
-    /// From when on something is otherwise, in seconds as in the tables.
+    /// The time from which on the change holds, in seconds as in the tables.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     at: f64,
-    /// What is otherwise: a key of all styles (style.speed.weight=2), or of one (aggressive.follow.time_gap=0.9); may
+    /// The change: a key of all styles (style.speed.weight=2), or of one style (aggressive.follow.time_gap=0.9); may
     /// be repeated.
     #[arg(long = "set", value_name = "STYLE.KEY=VALUE")]
     settings: Vec<Setting>,
-    /// Folder of the differences [default: OUT/branch].
+    /// Folder for the differences [default: OUT/branch].
     #[arg(long, value_name = "DIR")]
     into: Option<PathBuf>,
 }
@@ -36,7 +36,7 @@ impl Arguments {
         let record = Record::open(&out)?;
         let folder = into.unwrap_or_else(|| out.join(BRANCH));
         if folder.join(SCENARIO).exists() {
-            let what = "this folder holds a scenario, and what a run of it leaves would be mixed with the differences";
+            let what = "this folder contains a scenario; the results of a run of it would be mixed with the differences";
             return Err(Fault::new(folder.display(), what, "choose another folder with --into"));
         }
         let mut twins = Twins::part(&record, at, &settings)?;
@@ -45,8 +45,10 @@ impl Arguments {
         let differences = twins.drive();
         let end = format!("{:016x}", twins.base.state_hash());
         if end != record.end.state_hash {
-            let what =
-                format!("the run ended with the state {}, and repeated with {end}", record.end.state_hash);
+            let what = format!(
+                "the run ended with state hash {}, but its repetition with {end}",
+                record.end.state_hash
+            );
             return Err(Fault::new(out.display(), what, "report this as a bug"));
         }
         let texts: Vec<&str> = settings.iter().map(Setting::text).collect();

@@ -27,10 +27,10 @@ pub(crate) struct Arguments {
     /// Print the report as one JSON object.
     #[arg(long)]
     json: bool,
-    /// Write the routing graph here, as one JSON object keyed by the ids of the lanelets.
+    /// Write the routing graph to this file, as one JSON object with lanelet ids as keys.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     graph: Option<PathBuf>,
-    /// Write a picture of the map here.
+    /// Write a picture of the map to this file.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
 }
@@ -38,10 +38,11 @@ pub(crate) struct Arguments {
 /// How a map is read.
 #[derive(Debug, Args)]
 pub(crate) struct Reading {
-    /// Latitude and longitude in degrees that become (0, 0) [default: those of the map's first node, rounded to 0.1].
+    /// Latitude and longitude in degrees of the origin (0, 0) [default: those of the map's first node, rounded to
+    /// 0.1].
     #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
     origin: Option<[f64; 2]>,
-    /// Whose speed limits hold where the map gives none [default: germany].
+    /// The traffic law whose speed limits apply where the map gives none [default: germany].
     #[arg(long, value_parser = law())]
     law: Option<Law>,
     #[command(flatten)]
@@ -75,7 +76,8 @@ impl Reading {
 }
 
 fn place(text: &str) -> Result<[f64; 2], String> {
-    let degrees = |part: &str| part.trim().parse().map_err(|_| format!("{part:?} is no number of degrees"));
+    let degrees =
+        |part: &str| part.trim().parse().map_err(|_| format!("{part:?} is not a number of degrees"));
     let (latitude, longitude) = text.split_once(',').ok_or("write LAT,LON, such as 49,8.4")?;
     Ok([degrees(latitude)?, degrees(longitude)?])
 }
@@ -96,7 +98,7 @@ impl Arguments {
         if extension(&self.file) == "csv" {
             return Err(Fault::new(
                 self.file.display(),
-                "a recording needs the map of its place",
+                "a recording needs the map of its location",
                 "add --map MAP",
             ));
         }
@@ -129,13 +131,13 @@ impl Arguments {
         for (number, (option, path)) in outputs.iter().enumerate() {
             let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
             if !folder.is_dir() {
-                let what = format!("there is no folder {}", folder.display());
-                return Err(Fault::new(option, what, "make it first, or choose another place"));
+                let what = format!("the folder {} does not exist", folder.display());
+                return Err(Fault::new(option, what, "create it first, or choose another folder"));
             }
             let is_input =
                 path.canonicalize().is_ok_and(|it| self.file.canonicalize().is_ok_and(|own| it == own));
             if is_input || outputs[..number].iter().any(|(_, other)| place(other) == place(path)) {
-                let what = format!("{} is another file of this command", path.display());
+                let what = format!("{} is already used for another file of this command", path.display());
                 return Err(Fault::new(option, what, "choose another name"));
             }
         }

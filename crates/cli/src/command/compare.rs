@@ -28,10 +28,10 @@ pub(crate) struct Arguments {
     /// A lane-change model for all drivers; may be repeated [default: mcdm, mobil, lmrs, null, constant-hazard].
     #[arg(long = "model", value_name = "MODEL", value_parser = model())]
     models: Vec<Model>,
-    /// How many seeds each model is driven with, from that of the scenario on.
+    /// Number of seeds for each model; the first is the seed of the scenario.
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     seeds: u64,
-    /// Vehicles per hour in total, whatever the scenarios say of them.
+    /// Vehicles per hour in total; replaces all demands of the scenarios.
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     /// Simulated seconds before anything is measured [default: 0].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     warmup: Option<f64>,
-    /// Folder of the report and the table of all runs.
+    /// Folder for the report and the table of all runs.
     #[arg(long, value_name = "DIR", default_value = "comparison")]
     out: PathBuf,
     #[command(flatten)]
@@ -80,7 +80,7 @@ impl Arguments {
             asked.push((input.display().to_string(), scenario, origin, seeds));
         }
         if out.join(SCENARIO).exists() {
-            let what = "this folder holds a scenario, and what a run of it leaves would be mixed with the comparison";
+            let what = "this folder contains a scenario; the results of a run of it would be mixed with the comparison";
             return Err(Fault::new(out.display(), what, "choose another folder with --out"));
         }
         let claim = Claim::on(&out)?;

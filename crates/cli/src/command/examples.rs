@@ -11,68 +11,63 @@ Examples:
   laneweave scenario new maps/on_ramp.osm --out mine.toml
   laneweave run mine.toml";
 
-pub(super) const RUN: &str = "\
-Options go before what the scenario says. The folder of the results then holds summary.json, tables of lane changes \
-and trajectories, and figures.
+pub(super) const RUN: &str = "Options override the scenario. The results folder then contains summary.json, tables of lane changes and trajectories, and figures.
 
 Examples:
   # Half an hour of heavy traffic on a motorway with an on-ramp
   laneweave run maps/on_ramp.osm --demand 4000 --duration 1800
   # A scenario with another seed, its results elsewhere, its tables as CSV
   laneweave run scenarios/demo.toml --seed 2 --out second --format csv
-  # One egoist to three altruists, after four minutes of warm-up; nothing but the summary, as JSON
+  # One egoist to three altruists, after four minutes of warm-up; only the summary, as JSON
   laneweave run maps/ramps.osm --style egoistic=1 --style altruistic=3 --warmup 240 --json";
 
-pub(super) const EXPLAIN: &str = "\
-Nothing is logged for it: the run is repeated. Vehicles are named by their ids in the tables, times as there.
+pub(super) const EXPLAIN: &str =
+    "The run is repeated; no log is needed. Vehicle ids and times are those of the tables.
 
 Examples:
   laneweave run maps/ramps.osm --duration 120
-  # For what drivers changed lanes, and why they did not
+  # For what reasons drivers changed lanes, and why they did not
   laneweave explain out --summary
-  # One trip, and what would have turned each decision
+  # One trip, and what would have changed each decision
   laneweave explain out --vehicle 4 --flip
-  # All that went into one decision
+  # All inputs of one decision
   laneweave explain out --vehicle 4 --time 60";
 
-pub(super) const BRANCH: &str = "\
-All draws are equal, so every difference between the two is caused by what is set.
+pub(super) const BRANCH: &str =
+    "Both runs use common random numbers, so every difference between them is caused by the setting.
 
 Examples:
   laneweave run maps/ramps.osm --duration 120
-  # All drivers gain more from speed, from one minute on
+  # From one minute on, speed has more weight for all drivers
   laneweave branch out --at 60 --set style.speed.weight=2
-  # The aggressive ones stop further behind others
+  # Aggressive drivers keep a larger gap at standstill
   laneweave branch out --at 60 --set aggressive.follow.jam_gap=3 --into further";
 
-pub(super) const COMPARE: &str = "\
-Drivers, their wishes and all draws are the same for each model; what differs is how they decide on lane changes. The means \
-are those over the seeds, with 95 % intervals of Student's t.
+pub(super) const COMPARE: &str = "Drivers, their desired speeds and all random numbers are the same for each model; only the lane-change decision differs. The results are means over the seeds, with 95 % intervals (Student's t).
 
 Examples:
-  # The paper's model, MOBIL, LMRS and two controls on a motorway and in a town
+  # The paper's model, MOBIL, LMRS and two null-model controls on a motorway and in a town
   laneweave compare maps/motorway_3_lanes.osm maps/town.osm --seeds 3 --duration 120
   # Two ways to follow a route
   laneweave compare maps/ramps.osm --model mobil --model mobil-lanes --seeds 3 --duration 120";
 
-pub(super) const CHECK: &str = "\
-Problems of a map are no mistakes of the command: it ends with 0.
+pub(super) const CHECK: &str = "Problems of a map are not errors of the command: its exit code is 0.
 
 Examples:
-  # What a map holds, what is wrong with it, and a picture of it
+  # The contents of a map, its problems, and a picture of it
   laneweave check maps/ramps.osm --svg ramps.svg
-  # The routing graph, and the report for programs
+  # The routing graph, and the report as JSON
   laneweave check maps/town.osm --graph graph.json --json
-  # With the limits of the USA where the map gives none
+  # With the speed limits of the USA where the map gives none
   laneweave check maps/on_ramp.osm --law usa";
 
-pub(super) const ROUTES: &str = "\
-Of ways over the same roads, which differ in their lanes only, the fastest is named.
+pub(super) const ROUTES: &str =
+    "Routes over the same roads that differ only in their lanes count as one: the fastest is listed.
 
 Examples:
   # From the motorway in the west to the main street in the south
   laneweave routes maps/town.osm 97 241
-  # The three fastest ways only, for programs
+  # The three fastest routes only, as JSON
   laneweave routes maps/ramps.osm 1 90 --most 3 --json";
 
 pub(super) const SCENARIO: &str = "\
@@ -80,15 +75,13 @@ Examples:
   laneweave scenario new maps/on_ramp.osm --out mine.toml
   laneweave run mine.toml";
 
-pub(super) const SCENARIO_NEW: &str = "\
-The file holds every key with its meaning, those that are the default behind a #, and of the map its entrances, exits \
-and lights. As it is, it runs like the bare map.
+pub(super) const SCENARIO_NEW: &str = "The file contains every key with its meaning (keys with their default value are commented out), and the entrances, exits and traffic lights of the map. Without edits it runs like the bare map.
 
 Examples:
   # Writes ramps.toml
   laneweave scenario new maps/ramps.osm
   laneweave run ramps.toml
-  # Another name; a file of that name is replaced
+  # Another name; an existing file is replaced
   laneweave scenario new maps/town.osm --out mine.toml --force";
 
 pub(super) const GENERATE: &str = "\
@@ -97,24 +90,21 @@ Examples:
   laneweave generate grid --rows 3 --columns 4 grid.osm
   laneweave run grid.osm";
 
-pub(super) const MOTORWAY: &str = "\
-Examples:
+pub(super) const MOTORWAY: &str = "Examples:
   # Three lanes, an on-ramp, and a lane that ends after it
   laneweave generate motorway --length 8000 --on-ramp-at 3000 --lane-drop-at 6000 road.osm
-  # Two lanes with an exit, driven on the left
+  # Two lanes with an off-ramp; traffic drives on the left
   laneweave generate motorway --lanes 2 --off-ramp-at 2500 --driving-side left road.osm";
 
-pub(super) const WEAVING: &str = "\
-Examples:
-  # 300 m to change places
+pub(super) const WEAVING: &str = "Examples:
+  # A weaving section of 300 m
   laneweave generate weaving --length 300 weaving.osm
   laneweave run weaving.osm --demand 4500";
 
-pub(super) const GRID: &str = "\
-Examples:
-  # Three by four junctions with lights
+pub(super) const GRID: &str = "Examples:
+  # Three by four junctions with traffic lights
   laneweave generate grid --rows 3 --columns 4 grid.osm
-  # One junction at which the street that runs east and west goes first
+  # One junction at which the street that runs east and west has priority
   laneweave generate grid --rows 1 --columns 1 --lanes 1 --control priority crossing.osm";
 
 pub(super) const ARTERIAL: &str = "\
@@ -159,17 +149,14 @@ Examples:
   laneweave styles show aggressive
   laneweave styles show constant-hazard";
 
-pub(super) const STYLES_NEW: &str = "\
-Examples:
+pub(super) const STYLES_NEW: &str = "Examples:
   # Writes hasty.toml, every key with its meaning and source
   laneweave styles new hasty --from aggressive
   laneweave run maps/on_ramp.osm --style hasty.toml=1 --style conservative=3
-  # Like another file
+  # Start from another file
   laneweave styles new hastier --from hasty.toml --file even-more.toml";
 
-pub(super) const SCHEMA: &str = "\
-An editor that knows TOML schemas completes keys and shows their meaning where the first line of a scenario reads \
-#:schema scenario.schema.json
+pub(super) const SCHEMA: &str = "An editor that supports TOML schemas completes keys and shows their meaning if the first line of a scenario is #:schema scenario.schema.json
 
 Examples:
   laneweave schema > scenario.schema.json";

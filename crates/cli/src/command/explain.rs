@@ -12,19 +12,19 @@ use super::say;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The folder of results of a run, which is repeated.
+    /// The folder with the results of a run; the run is repeated.
     #[arg(value_name = "OUT")]
     out: PathBuf,
-    /// The vehicle that is asked, by its id in the tables.
+    /// The vehicle to explain, by its id in the tables.
     #[arg(long, value_name = "ID")]
     vehicle: Option<u32>,
-    /// When it is asked, in seconds as in the tables [default: all of its trip].
+    /// The time to explain, in seconds as in the tables [default: the whole trip].
     #[arg(long, value_name = "S", requires = "vehicle")]
     time: Option<f64>,
-    /// Say which smallest change of a weight, a gap or a speed would have turned its decisions.
+    /// Report the smallest change of a weight, a gap or a speed that would have changed each decision.
     #[arg(long, requires = "vehicle")]
     flip: bool,
-    /// Ask everybody, after the warm-up: for what drivers changed lanes, and why they did not.
+    /// Explain all drivers, after the warm-up: for what reasons they changed lanes, and why they did not.
     #[arg(long, conflicts_with = "vehicle")]
     summary: bool,
 }
@@ -34,8 +34,8 @@ impl Arguments {
         let Arguments { out, vehicle, time, flip, summary } = self;
         let Record { scenario, origin, end } = Record::open(&out)?;
         if vehicle.is_none() && !summary {
-            let remedy = "name a vehicle with --vehicle ID, or ask all with --summary";
-            return Err(Fault::new("explain", "nobody is asked", remedy));
+            let remedy = "give a vehicle with --vehicle ID, or use --summary for all";
+            return Err(Fault::new("explain", "no vehicle is given", remedy));
         }
         let End { duration_s, warmup_s, .. } = end;
         let [steps, warmup] =
@@ -46,7 +46,7 @@ impl Arguments {
             return Err(Fault::new(
                 "--time",
                 what,
-                format!("the run lasted from 0 to {last} s: choose one of them"),
+                format!("the run lasted from 0 to {last} s: choose a time in this range"),
             ));
         }
         let mut world = prepare(&scenario, &origin)?.world;
@@ -57,7 +57,7 @@ impl Arguments {
             return say(&commonest.to_text());
         };
         let never = || {
-            let what = format!("no vehicle {vehicle} came onto the road");
+            let what = format!("no vehicle {vehicle} entered the road");
             Fault::new("--vehicle", what, "choose an id of the tables lane_changes, trips or trajectories")
         };
         let Some(time) = time else {

@@ -18,16 +18,16 @@ use super::say;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Kind {
-    /// A straight motorway, with ramps and a lane drop if you like.
+    /// A straight motorway, optionally with ramps and a lane drop.
     #[command(after_help = examples::MOTORWAY)]
     Motorway(MotorwayArguments),
-    /// A straight motorway on which an on-ramp is followed by an off-ramp, with a lane between them.
+    /// A straight motorway with a weaving section: an on-ramp, an off-ramp, and an auxiliary lane between them.
     #[command(after_help = examples::WEAVING)]
     Weaving(WeavingArguments),
-    /// Streets that cross at right angles.
+    /// A grid of streets that cross at right angles.
     #[command(after_help = examples::GRID)]
     Grid(GridArguments),
-    /// A main street of two lanes in each direction, and streets of one lane that cross it at lights.
+    /// A main street of two lanes in each direction, and one-lane streets that cross it at traffic lights.
     #[command(after_help = examples::ARTERIAL)]
     Arterial(ArterialArguments),
     /// A roundabout of one lane with four arms.
@@ -39,7 +39,7 @@ pub(crate) enum Kind {
     /// A town with junctions of all kinds, and a motorway through it.
     #[command(after_help = examples::TOWN)]
     Town(Plain),
-    /// A road map put together at random, of elements that are hard to drive on, and lists these.
+    /// A random map of elements that are difficult for a simulator; it lists these elements.
     #[command(after_help = examples::RANDOM)]
     Random(RandomArguments),
 }
@@ -70,7 +70,7 @@ pub(crate) struct MotorwayArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct WeavingArguments {
-    /// Number of lanes, 1 to 12, without the one between the ramps.
+    /// Number of lanes, 1 to 12, without the auxiliary lane between the ramps.
     #[arg(long, value_name = "N", default_value_t = 2)]
     lanes: usize,
     /// From the on-ramp to the off-ramp [m], 100 to 1000.
@@ -100,7 +100,7 @@ pub(crate) struct GridArguments {
     /// Speed limit [km/h], 5 to 130.
     #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true, value_parser = number)]
     speed_limit: f64,
-    /// What orders the traffic of the junctions; with priority the streets that run east and west go first.
+    /// Control of the junctions; with priority, the streets that run east and west have priority.
     #[arg(long, value_enum, default_value_t = Order::Signals)]
     control: Order,
     #[command(flatten)]
@@ -124,7 +124,7 @@ pub(crate) struct ArterialArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct RandomArguments {
-    /// Which map: the same seed gives the same one.
+    /// Seed of the map: the same seed gives the same map.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// The map file to write (.osm); one that is there is replaced.
@@ -202,7 +202,7 @@ fn check_name(file: &Path) -> Result<(), Fault> {
     if FORMATS.iter().any(|format| format.extensions.contains(&extension.as_ref())) {
         return Ok(());
     }
-    Err(Fault::new(file.display(), "this is no name of a map file", "let it end in .osm"))
+    Err(Fault::new(file.display(), "this is not a valid name for a map file", "use a name that ends in .osm"))
 }
 
 impl MotorwayArguments {

@@ -43,34 +43,34 @@ enum Command {
     /// Simulate a scenario, or a bare map.
     #[command(after_help = examples::RUN)]
     Run(run::Arguments),
-    /// Say why a driver of a run changed lanes, waited, or stayed.
+    /// Explain why a driver of a run changed lanes, waited, or stayed in its lane.
     #[command(after_help = examples::EXPLAIN)]
     Explain(explain::Arguments),
-    /// Repeat a run, and from a time on with something otherwise: say and write what differs.
+    /// Repeat a run with one thing changed from a time on, and report what differs (a counterfactual).
     #[command(after_help = examples::BRANCH)]
     Branch(branch::Arguments),
-    /// Drive scenarios with several lane-change models, and say how they differ.
+    /// Run scenarios with several lane-change models and seeds, and compare the results.
     #[command(after_help = examples::COMPARE)]
     Compare(compare::Arguments),
-    /// Say what a map or a recording holds, and what is wrong with it.
+    /// Report what a map or a recording contains, and the problems in it.
     #[command(after_help = examples::CHECK)]
     Check(check::Arguments),
-    /// Name the sensible ways from one lanelet of a map to another.
+    /// List the sensible routes from one lanelet of a map to another.
     #[command(after_help = examples::ROUTES)]
     Routes(routes::Arguments),
-    /// Begin to write a scenario.
+    /// Create a scenario file.
     #[command(subcommand, after_help = examples::SCENARIO)]
     Scenario(scenario::Deed),
-    /// Make a map.
+    /// Generate a map.
     #[command(subcommand, after_help = examples::GENERATE)]
     Generate(generate::Kind),
-    /// See, or begin to write, styles of drivers.
+    /// List, print or create driver styles.
     #[command(subcommand, after_help = examples::STYLES)]
     Styles(styles::Deed),
     /// Print the JSON schema of scenario files.
     #[command(after_help = examples::SCHEMA)]
     Schema,
-    /// Print what a shell needs to complete commands, options and names.
+    /// Print the completion script of a shell, for commands, options and names.
     #[command(after_help = examples::COMPLETIONS)]
     Completions(shell::Completions),
     /// Write manual pages, one for each command.

@@ -79,7 +79,7 @@ impl Progress {
         let pace = (time - from) / wall;
         let left = (self.end - time) / pace.max(f64::MIN_POSITIVE);
         let text = format!(
-            "{time:.0} of {:.0} s, {vehicles} vehicles, {pace:.0} times real time, {left:.0} s to go",
+            "{time:.0} of {:.0} s, {vehicles} vehicles, {pace:.0} times real time, {left:.0} s remaining",
             self.end
         );
         if self.screen == Screen::Log {
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_log_gets_a_line_a_minute() {
-        let line = |wall, text: &str| (wall, format!("{text} to go\n"));
+        let line = |wall, text: &str| (wall, format!("{text} remaining\n"));
         let expected = [
             line(60.0, "300 of 1000 s, 7 vehicles, 5 times real time, 140 s"),
             line(120.0, "600 of 1000 s, 7 vehicles, 5 times real time, 80 s"),

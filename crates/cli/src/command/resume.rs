@@ -28,14 +28,18 @@ pub(super) fn same_run(run: Sourced, asked: Sourced) -> Result<(), Fault> {
         };
         if !is_same {
             let [given, kept] = [&of_asked, &of_run].map(|it| shown(at(it, key)));
-            differing.push(format!("{option} {given} where the run has {kept}"));
+            differing.push(format!("{option} {given} instead of {kept}"));
         }
     }
     if differing.is_empty() {
         return Ok(());
     }
-    let remedy = "leave these options out, or run again from the beginning, without --resume";
-    Err(Fault::new("--resume", format!("another run is asked for: {}", differing.join(", ")), remedy))
+    let remedy = "remove these options, or run again from the beginning without --resume";
+    Err(Fault::new(
+        "--resume",
+        format!("the options differ from those of the run: {}", differing.join(", ")),
+        remedy,
+    ))
 }
 
 fn table(scenario: &Scenario) -> Result<Table, Fault> {

@@ -19,18 +19,18 @@ pub(crate) struct Arguments {
     /// The map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
     #[arg(value_hint = ValueHint::FilePath)]
     map: PathBuf,
-    /// Id of the lanelet at whose beginning the ways begin.
+    /// Id of the first lanelet; the routes start at its beginning.
     #[arg(allow_negative_numbers = true, value_parser = id)]
     from: i64,
-    /// Id of the lanelet at whose end they end.
+    /// Id of the last lanelet; the routes end at its end.
     #[arg(allow_negative_numbers = true, value_parser = id)]
     to: i64,
     #[command(flatten)]
     reading: Reading,
-    /// Most ways that are named.
+    /// Largest number of routes to list.
     #[arg(long, value_name = "N", default_value_t = Sense::default().most)]
     most: usize,
-    /// They take at most so many times as long as the fastest one.
+    /// Longest travel time of a route, as a multiple of that of the fastest route.
     #[arg(long, value_name = "TIMES", allow_negative_numbers = true, value_parser = number, default_value_t = Sense::default().longest)]
     longest: f64,
     /// Print one JSON object.
@@ -70,12 +70,12 @@ impl Arguments {
         if self.longest.is_nan() || self.longest < 1.0 {
             return Err(Fault::new(
                 "--longest",
-                format!("{} times as long", self.longest),
+                format!("a limit of {} times the fastest travel time", self.longest),
                 "choose 1 or more",
             ));
         }
         if self.most == 0 {
-            return Err(Fault::new("--most", "no ways at all", "choose 1 or more"));
+            return Err(Fault::new("--most", "a limit of 0 routes", "choose 1 or more"));
         }
         let map = open_map(&self.map, &self.reading.options())?;
         let [from, to] = [("FROM", self.from), ("TO", self.to)].map(|(name, id)| find(&map, name, id));
@@ -101,9 +101,8 @@ fn find(map: &Map, name: &str, id: i64) -> Result<Vec<NodeIndex>, Fault> {
     });
     nodes.ok_or_else(|| {
         let nearest = lanelets.iter().map(|it| it.id).min_by_key(|it| it.abs_diff(id)).unwrap_or_default();
-        let remedy =
-            format!("choose another of its {} lanelets; the nearest id is {nearest}", lanelets.len());
-        Fault::new(name, format!("vehicles can use no lanelet {id} on this map"), remedy)
+        let remedy = format!("choose one of its {} lanelets; the nearest id is {nearest}", lanelets.len());
+        Fault::new(name, format!("this map has no lanelet {id} for vehicles"), remedy)
     })
 }
 
@@ -134,14 +133,14 @@ impl Way {
 fn text(ways: &[Way], from: i64, to: i64) -> String {
     if ways.is_empty() {
         return format!(
-            "No way leads from lanelet {from} to lanelet {to}; `laneweave check` names broken joints.\n"
+            "No route leads from lanelet {from} to lanelet {to}; `laneweave check` lists lanelets that are not connected.\n"
         );
     }
     let mut out = String::new();
     for (number, way) in ways.iter().enumerate() {
         let variants = match way.variants {
             1 => String::new(),
-            count => format!(", the fastest of {count} variants by lane"),
+            count => format!(", the fastest of {count} variants that differ in their lanes"),
         };
         // Writing to a string never fails.
         let _ = write!(
@@ -163,5 +162,5 @@ fn text(ways: &[Way], from: i64, to: i64) -> String {
         }
         out.push('\n');
     }
-    out + "(→ goes on, ↰ change to the left, ↱ to the right)\n"
+    out + "(→ next lanelet, ↰ lane change to the left, ↱ to the right)\n"
 }

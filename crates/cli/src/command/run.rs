@@ -31,11 +31,11 @@ const LISTED_PROBLEMS: usize = 3;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz); with --resume the
-    /// folder of results of a run that broke off.
+    /// folder of results of an incomplete run.
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
     input: PathBuf,
-    /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or exit
-    /// evenly over its lanelets), whatever the scenario says of them [default for a map: 70 % of its estimated
+    /// Vehicles per hour in total, split over the entrances by their number of lanes (on a map without entrance or
+    /// exit evenly over its lanelets); replaces all demands of the scenario [default for a map: 70 % of its estimated
     /// capacity].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
     demand: Option<f64>,
@@ -45,19 +45,20 @@ pub(crate) struct Arguments {
     /// Length of a step in seconds, 0.01 to 1 [default: 0.1].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     step: Option<f64>,
-    /// A style of drivers, or the path of a style file (.toml), and its weight; may be repeated, and goes in place of
-    /// all styles of the scenario [default: aggressive=1 conservative=7.4].
+    /// A style of drivers, or the path of a style file (.toml), and its weight; may be repeated; replaces all styles
+    /// of the scenario [default: aggressive=1 conservative=7.4].
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weighted)]
     style: Vec<(String, f64)>,
-    /// One lane-change model for all drivers, in place of those of their styles; with mobil-lanes and lmrs-lanes nobody
-    /// leaves the lanes of its route, null is mcdm without incentives, and constant-hazard changes without any reason.
+    /// One lane-change model for all drivers, in place of those of their styles; with mobil-lanes and lmrs-lanes no
+    /// driver leaves the lanes of its route; null (mcdm without incentives) and constant-hazard (random changes) are
+    /// null-model controls.
     #[arg(long, value_parser = model())]
     model: Option<Model>,
-    /// Seed of all random draws [default: 1].
+    /// Seed of all random numbers [default: 1].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed)]
     seed: Option<u64>,
-    /// Number of threads, 1 to 256; results do not depend on it [default: the cores of the machine, but for one that
-    /// writes trajectories if they are recorded; at most 2].
+    /// Number of threads, 1 to 256; results do not depend on it [default: the cores of the machine, less one core for
+    /// writing if trajectories are recorded; at most 2].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
     threads: Option<NonZero<usize>>,
     /// Simulated seconds before anything is measured or recorded [default: 0].
@@ -72,25 +73,25 @@ pub(crate) struct Arguments {
     /// Seconds between two samples of a trajectory, a multiple of the step; 0: no trajectories [default: 1].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     record: Option<f64>,
-    /// Seconds over which flow, density and speed of every lanelet are measured, a multiple of the step; 0: they are
-    /// not [default: 0].
+    /// Seconds over which flow, density and speed of every lanelet are measured, a multiple of the step; 0: not
+    /// measured [default: 0].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     flows: Option<f64>,
     /// Format of the tables [default: parquet].
     #[arg(long, value_parser = format())]
     format: Option<TableFormat>,
-    /// Files that are written as SUMO writes them, separated by commas: fcd, tripinfo, lanechange [default: none].
+    /// Output files in SUMO's format, separated by commas: fcd, tripinfo, lanechange [default: none].
     #[arg(long, value_name = "FILE,...", value_delimiter = ',', value_parser = sumo_file)]
     sumo: Vec<SumoFile>,
-    /// Seconds of the run between two checkpoints, from which it can be resumed if it breaks off; 0: there are none
+    /// Simulated seconds between two checkpoints, from which an incomplete run can be resumed; 0: no checkpoints
     /// [default: 0].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     checkpoint: Option<f64>,
-    /// Go on with a run that broke off, from its last checkpoint, or from its beginning if it has none; other options
-    /// must say what the run says, but for --threads, --quiet and --json.
+    /// Resume an incomplete run from its last checkpoint, or from its beginning if it has none; other options must be
+    /// the same as in the run, except --threads, --quiet and --json.
     #[arg(long)]
     resume: bool,
-    /// Look for overlapping vehicles at every step, not only once a second.
+    /// Search for overlapping vehicles at every step, not only once a second.
     #[arg(long)]
     audit: bool,
     #[command(flatten)]
@@ -102,7 +103,7 @@ pub(crate) struct Arguments {
 /// What appears on screen.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct Screen {
-    /// Print nothing but errors, no warnings either.
+    /// Print errors only, and no warnings.
     #[arg(long)]
     quiet: bool,
     /// Print the summary as one JSON object.
@@ -112,7 +113,7 @@ pub(crate) struct Screen {
 
 fn weighted(text: &str) -> Result<(String, f64), String> {
     let (name, weight) = text.rsplit_once('=').ok_or("write NAME=WEIGHT, such as aggressive=1")?;
-    let weight = weight.parse().map_err(|_| format!("the weight {weight:?} is no number"))?;
+    let weight = weight.parse().map_err(|_| format!("the weight {weight:?} is not a number"))?;
     Ok((name.into(), weight))
 }
 
@@ -134,7 +135,7 @@ fn sumo_file(text: &str) -> Result<SumoFile, String> {
         "fcd" => Ok(SumoFile::Fcd),
         "tripinfo" => Ok(SumoFile::Tripinfo),
         "lanechange" => Ok(SumoFile::Lanechange),
-        _ => Err("choose of fcd, tripinfo and lanechange".into()),
+        _ => Err("choose among fcd, tripinfo and lanechange".into()),
     }
 }
 
@@ -153,7 +154,7 @@ impl Arguments {
     fn resume(mut self, started: Instant) -> Result<ExitCode, Fault> {
         let (dir, screen) = (&self.input.clone(), self.screen);
         let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
-            let remedy = "name the folder of results of a run that broke off";
+            let remedy = "give the results folder of an incomplete run";
             Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
         })?;
         scenario.output.dir = dir.into();
@@ -169,7 +170,7 @@ impl Arguments {
         if let Some(summary) = ended(&dir.join(SUMMARY))? {
             claim.clear(&checkpoint::FILES)?;
             if !screen.quiet {
-                eprintln!("{}: the run has ended already", dir.display());
+                eprintln!("{}: the run is already complete", dir.display());
             }
             if screen.json {
                 say(&summary)?;
@@ -262,7 +263,7 @@ fn ended(summary: &Path) -> Result<Option<String>, Fault> {
         read => read.map_err(|error| Fault::refused(summary, "read", &error))?,
     };
     let value: serde_json::Value = serde_json::from_str(&text)
-        .map_err(|error| Fault::new(summary.display(), error, "remove it, and resume again"))?;
+        .map_err(|error| Fault::new(summary.display(), error, "delete it, and resume again"))?;
     Ok((value["interrupted"] == false).then_some(text))
 }
 

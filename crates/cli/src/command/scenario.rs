@@ -13,7 +13,7 @@ use super::{examples, say};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Deed {
-    /// Write a scenario for a map, every key with its meaning and its default, to edit.
+    /// Write a scenario for a map to edit, with the meaning and the default of every key.
     #[command(after_help = examples::SCENARIO_NEW)]
     New(New),
 }
@@ -26,7 +26,7 @@ pub(crate) struct New {
     /// The file to write (.toml) [default: the name of the map, in this folder].
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
-    /// Replace the file if it is there.
+    /// Replace the file if it exists.
     #[arg(long)]
     force: bool,
     #[command(flatten)]
@@ -44,8 +44,8 @@ impl Deed {
 impl New {
     fn execute(self) -> Result<(), Fault> {
         if self.map.extension() == Some(OsStr::new("toml")) {
-            let what = "this is a scenario, where its map is wanted";
-            return Err(Fault::new(self.map.display(), what, "give the map, or copy the file"));
+            let what = "this is a scenario, but a map is expected";
+            return Err(Fault::new(self.map.display(), what, "give the map instead, or copy the file"));
         }
         let file = self.out.clone().unwrap_or_else(|| named_after(&self.map));
         self.check(&file)?;
@@ -56,7 +56,7 @@ impl New {
         let prepared = prepare(&scenario, &origin)?;
         scenario.map = from_folder_of(&file, &self.map);
         write_whole(&file, &write(&scenario, &prepared)?)?;
-        say(&format!("{0} is written; edit it, then: laneweave run {0}\n", file.display()))
+        say(&format!("{0} is written; edit it, then run: laneweave run {0}\n", file.display()))
     }
 
     /// Whether `file` may be written.
@@ -64,13 +64,13 @@ impl New {
         if file.extension() != Some(OsStr::new("toml")) {
             return Err(Fault::new(
                 file.display(),
-                "this is no name of a scenario file",
-                "let it end in .toml",
+                "this is not a valid name for a scenario file",
+                "use a name that ends in .toml",
             ));
         }
         if file.exists() && !self.force {
             let remedy = "choose another name with --out, or replace it with --force";
-            return Err(Fault::new(file.display(), "this file is there already", remedy));
+            return Err(Fault::new(file.display(), "this file already exists", remedy));
         }
         Ok(())
     }

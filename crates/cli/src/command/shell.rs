@@ -15,13 +15,13 @@ use super::say;
 
 #[derive(Debug, Args)]
 pub(crate) struct Completions {
-    /// The shell that is to complete commands, options and names.
+    /// The shell.
     shell: Shell,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Pages {
-    /// The folder of the pages, such as ~/.local/share/man/man1; it is made if it is not there.
+    /// The folder for the pages, such as ~/.local/share/man/man1; it is created if it does not exist.
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     folder: PathBuf,
 }
@@ -51,7 +51,7 @@ fn naming_styles(command: Command) -> Command {
 
 impl Pages {
     pub(crate) fn execute(&self, mut command: Command) -> Result<(), Fault> {
-        let refused = |error| Fault::refused(&self.folder, "made the folder of the pages", &error);
+        let refused = |error| Fault::refused(&self.folder, "created as the folder for the pages", &error);
         fs::create_dir_all(&self.folder).map_err(refused)?;
         command.build();
         let mut pages = Vec::new();

@@ -12,7 +12,7 @@ use super::{examples, say};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Deed {
-    /// List the styles that come with the program, each with a sentence about it.
+    /// List the built-in styles, each with a short description.
     #[command(after_help = examples::STYLES_LIST)]
     List,
     /// Print a style file.
@@ -26,10 +26,10 @@ pub(crate) enum Deed {
     New {
         /// Name of the new style.
         name: String,
-        /// The style to begin from: a built-in one, or a style file (.toml).
+        /// The style to start from: a built-in one, or a style file (.toml).
         #[arg(long, value_name = "STYLE", default_value = "conservative")]
         from: String,
-        /// The file to write; none is ever replaced [default: NAME.toml].
+        /// The file to write; an existing file is never replaced [default: NAME.toml].
         #[arg(long, value_name = "FILE")]
         file: Option<PathBuf>,
     },
@@ -52,12 +52,12 @@ impl Deed {
                 let text = copy(&named(&from)?, &name)?;
                 let file = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
                 if file.extension().is_none_or(|it| it != "toml") {
-                    let what = "this is no name of a style file";
-                    return Err(Fault::new(file.display(), what, "let it end in .toml"));
+                    let what = "this is not a valid name for a style file";
+                    return Err(Fault::new(file.display(), what, "use a name that ends in .toml"));
                 }
                 write_new(&file, &text)?;
                 say(&format!(
-                    "{} is written; edit it, then: laneweave run MAP --style {0}=1\n",
+                    "{} is written; edit it, then run: laneweave run MAP --style {0}=1\n",
                     file.display()
                 ))
             }

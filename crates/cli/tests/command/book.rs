@@ -118,7 +118,9 @@ fn every_command_works_and_prints_what_is_shown() {
                 let is_demand =
                     |it: &str| it.contains("demand: ") && it.contains(" % of the estimated capacity of ");
                 let is_expected = |it: &str| {
-                    it.starts_with("warning: ") || is_demand(it) || it.ends_with("the run has ended already")
+                    it.starts_with("warning: ")
+                        || is_demand(it)
+                        || it.ends_with("the run is already complete")
                 };
                 let is_quiet = errors.lines().all(is_expected);
                 assert!(outcome.code() == 0 && is_quiet, "{}: laneweave {line}: {errors}", page.display());

@@ -64,9 +64,9 @@ fn what_cannot_be_set_is_refused_even_if_some_styles_could_have_it() {
         run.errors()
     };
     // The one of the threshold rule could do without noise, the one with the logit cannot.
-    assert!(refused("style.sigma=0").contains("a logit rule without noise"));
+    assert!(refused("style.sigma=0").contains("a logit rule without choice noise"));
     assert!(refused("style.speeed.weight=2").contains("did you mean \"speed\"?"));
-    assert!(refused("style.theta=high").contains("no number"));
+    assert!(refused("style.theta=high").contains("not a number"));
     assert!(!folder.holds("out/branch"));
     assert_eq!(folder.laneweave("branch out --at 10 --set style.speed.weight=2").code(), 0);
     assert!(
@@ -83,7 +83,7 @@ fn with_nothing_changed_nothing_differs_and_nothing_is_written() {
     folder.summary("MAPS/lane_drop.osm --demand 3000 --duration 60 --record 0");
     let told = folder.laneweave("branch out --at 20");
     assert_eq!(told.code(), 0);
-    assert!(told.text().contains("none: both twins are the same to the last bit"), "{}", told.text());
+    assert!(told.text().contains("none: both runs are the same to the last bit"), "{}", told.text());
     assert!(!folder.holds("out/branch"));
     let refused = folder.laneweave("branch out --at nan");
     assert_eq!(refused.code(), 2);

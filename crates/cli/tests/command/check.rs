@@ -103,7 +103,7 @@ fn a_map_whose_lanelets_lack_borders_says_that_first() {
         )),
         "{told}"
     );
-    assert!(told.ends_with("); draw them, or choose another map"), "{told}");
+    assert!(told.ends_with("); add borders to them, or choose another map"), "{told}");
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn a_map_larger_than_its_limit_is_refused_before_it_is_in_memory() {
     fs::write(folder.path().join("bomb.osm.gz"), packed).unwrap();
     let expected = |limit| {
         format!(
-            "error: bomb.osm.gz: the map is larger than the limit of {limit}; cut the map into smaller ones, or allow for more with \
+            "error: bomb.osm.gz: the map is larger than the limit of {limit}; split the map into smaller ones, or increase \
              --max-map-size, at most 2GiB"
         )
     };
@@ -135,7 +135,7 @@ fn a_map_larger_than_its_limit_is_refused_before_it_is_in_memory() {
     );
     assert!(
         refusal(&folder, "check MAPS/town.osm --max-map-size 3GiB")
-            .contains("write a size such as 500MB or 2GiB")
+            .contains("write a size such as 500MB, at most 2GiB")
     );
 }
 
@@ -163,7 +163,7 @@ fn the_origin_moves_a_projected_map() {
     assert_eq!(other["speed_limits_kmh"], json!([112.7, 112.7]));
     assert_eq!(
         refusal(&folder, "check m.osm --origin 95,8"),
-        "error: --origin: the origin (95, 8) is no latitude within ±84° and longitude within ±180°; correct it"
+        "error: --origin: the origin (95, 8) is not a latitude within ±84° and a longitude within ±180°; correct it"
     );
     assert!(refusal(&folder, "check m.osm --origin 49").contains("write LAT,LON, such as 49,8.4"));
     assert!(refusal(&folder, "check m.osm --law mars").contains("[possible values: germany, usa]"));
@@ -182,10 +182,10 @@ fn a_recording_needs_its_map() {
     );
     assert_eq!(report["lane_changes"].as_array().unwrap().len(), 0);
     let text = folder.laneweave("check t.csv --map MAPS/motorway_2_lanes.osm").text();
-    assert!(text.ends_with("\nNobody changed lanes.\n"), "{text}");
+    assert!(text.ends_with("\nNo lane changes.\n"), "{text}");
     assert_eq!(
         refusal(&folder, "check t.csv"),
-        "error: t.csv: a recording needs the map of its place; add --map MAP"
+        "error: t.csv: a recording needs the map of its location; add --map MAP"
     );
     assert!(
         refusal(&folder, "check u.csv --map MAPS/ramps.osm").starts_with("error: u.csv: line 1: the column")
@@ -208,9 +208,9 @@ fn routes_lead_from_lanelet_to_lanelet() {
     assert_eq!(way["lanelets"].as_array().unwrap().len(), 27);
     let none = folder.laneweave("routes MAPS/motorway_3_lanes.osm 75 1");
     assert_eq!(none.code(), 0);
-    assert!(none.text().starts_with("No way leads from lanelet 75 to lanelet 1"));
+    assert!(none.text().starts_with("No route leads from lanelet 75 to lanelet 1"));
     assert_eq!(
         refusal(&folder, "routes MAPS/motorway_3_lanes.osm 1 76"),
-        "error: TO: vehicles can use no lanelet 76 on this map; choose another of its 75 lanelets; the nearest id is 75"
+        "error: TO: this map has no lanelet 76 for vehicles; choose one of its 75 lanelets; the nearest id is 75"
     );
 }

@@ -42,8 +42,8 @@ fn a_demand_above_the_estimate_is_warned_of_with_its_bottleneck() {
     let capacity = number(&folder.summary(&line[4..].replace(" --demand", "")), "entrance_capacity");
     let told = folder.laneweave(&format!("{line} 4000")).errors();
     let warning = format!(
-        "warning: demand: 4000 veh/h is above the estimated capacity of {capacity:.0} veh/h (bottleneck: the junction at lanelet 26): \
-         queues grow as long as it lasts\n"
+        "warning: demand: 4000 veh/h is above the estimated capacity of {capacity:.0} veh/h (bottleneck: the junction at lanelet \
+         26): queues grow as long as this lasts\n"
     );
     assert!(told.ends_with(&warning), "{told}");
     for quiet in ["900", "4000 --quiet"] {

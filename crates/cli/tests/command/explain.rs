@@ -21,7 +21,9 @@ fn a_trip_is_told_from_its_beginning_with_every_change_of_the_table() {
     let text = told.text();
     assert!(text.lines().next().is_some_and(|it| it.contains("enters on lanelet")), "{text}");
     assert!(text.contains("wants to change to the"), "{text}");
-    let across = text.lines().find(|it| it.contains("is across") && it.ends_with(&format!("at {time:.1} s")));
+    let across = text
+        .lines()
+        .find(|it| it.contains("has completed the change") && it.ends_with(&format!("at {time:.1} s")));
     assert!(across.is_some(), "{time}: {text}");
 }
 
@@ -46,15 +48,15 @@ fn a_moment_is_told_with_the_yields_that_the_table_holds_and_what_would_have_tur
         folder.laneweave(&format!("explain out --vehicle {} --time {time} --flip", cell("vehicle"))).text();
     let gain: f64 = cell("g").parse().unwrap();
     assert!(told.contains(&format!("G {gain:.4}, θ 0.1120")), "{gain}: {told}");
-    assert!(told.contains("would have turned it: "), "{told}");
+    assert!(told.contains("would have changed it: "), "{told}");
 }
 
 #[test]
 fn everybody_can_be_asked() {
     let (folder, ..) = run();
     let told = folder.laneweave("explain out --summary").text();
-    assert!(told.contains("lane changes, by style and by what spoke most for them"), "{told}");
-    assert!(told.contains("no lane beside to which it may change"), "{told}");
+    assert!(told.contains("lane changes, by style and by the leading incentive"), "{told}");
+    assert!(told.contains("no adjacent lane to which it may change"), "{told}");
     // Those of the warm-up are left out, as in the table.
     let all: usize = told.split(' ').next().unwrap().parse().unwrap();
     let table = folder.read("out/lane_changes.csv");
@@ -67,12 +69,12 @@ fn who_needs_no_reason_stays_by_chance() {
     folder.summary("MAPS/motorway_2_lanes.osm --duration 60 --record 0 --model constant-hazard");
     let told = folder.laneweave("explain out --summary").text();
     assert!(
-        told.contains("by chance: the desire did not come") && !told.contains("gains too little"),
+        told.contains("by chance: the desire did not occur") && !told.contains("the gain is too small"),
         "{told}"
     );
     let one = folder.laneweave("explain out --vehicle 5 --time 30").text();
     assert!(one.contains("stays by chance: G = 0.000"), "{one}");
-    assert!(one.contains("the desire had the probability 0.01 and did not come"), "{one}");
+    assert!(one.contains("the desire had the probability 0.01 and did not occur"), "{one}");
 }
 
 #[test]
@@ -85,7 +87,7 @@ fn what_cannot_be_told_is_refused_with_a_remedy() {
         assert_eq!(run.code(), 2, "{line}");
         run.errors()
     };
-    assert!(refused("explain out --vehicle 99999").contains("no vehicle 99999 came onto the road"));
+    assert!(refused("explain out --vehicle 99999").contains("no vehicle 99999 entered the road"));
     assert!(refused("explain out --vehicle 0 --time 61").contains("the run lasted from 0 to 60 s"));
     let early = refused("explain out --vehicle 20 --time 0");
     let times: Vec<f64> = early.split_whitespace().filter_map(|it| it.parse().ok()).collect();
@@ -102,9 +104,10 @@ fn what_cannot_be_told_is_refused_with_a_remedy() {
 fn where_there_are_no_results_it_is_said_what_is_needed() {
     let folder = Folder::new().with("empty.txt", "");
     std::fs::create_dir(folder.path().join("empty")).unwrap();
-    let needed = "name the folder of results that a run has left, that of its --out, with summary.json and scenario.toml";
+    let needed =
+        "give the results folder of a run (its --out), which contains summary.json and scenario.toml";
     for (place, what) in [
-        ("nowhere", "there is no such folder"),
+        ("nowhere", "this folder does not exist"),
         ("empty", "there is no summary.json in this folder"),
         ("empty.txt", "this is a file"),
     ] {

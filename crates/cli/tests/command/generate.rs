@@ -25,8 +25,8 @@ fn what_cannot_be_built_is_refused_and_not_written() {
         ("--length -5 own.osm", "a length of -5 m; choose 10 to 40000000 m"),
         ("--length nan own.osm", "a length of NaN m; choose 10 to 40000000 m"),
         ("--lanes 0 own.osm", "0 lanes; choose 1 to 12"),
-        ("--on-ramp-at 4900 own.osm", "of 5000 m; move it or lengthen the road"),
-        ("own.txt", "own.txt: this is no name of a map file; let it end in .osm"),
+        ("--on-ramp-at 4900 own.osm", "but its length is 5000 m; move it or lengthen the road"),
+        ("own.txt", "own.txt: this is not a valid name for a map file; use a name that ends in .osm"),
         ("none/own.osm", "none/own.osm: cannot be written"),
     ] {
         let run = folder.laneweave(&format!("generate motorway {options}"));

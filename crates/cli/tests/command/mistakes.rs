@@ -64,18 +64,18 @@ fn options_out_of_range() {
         ("--record -1", "--record: a recording interval of -1 s; choose 0 to 10000000 s"),
         (
             "--record 0.25",
-            "--record: a recording interval of 0.25 s with steps of 0.1 s; \
-             choose a multiple of the step, such as 0.3 s",
+            "--record: a recording interval of 0.25 s is not a multiple of the step of 0.1 s; choose a multiple of it, such as 0.3 \
+             s",
         ),
         ("--flows -1", "--flows: an interval of flows of -1 s; choose 0 to 10000000 s"),
         (
             "--flows 60.05",
-            "--flows: an interval of flows of 60.05 s with steps of 0.1 s; \
-             choose a multiple of the step, such as 60.1 s",
+            "--flows: an interval of flows of 60.05 s is not a multiple of the step of 0.1 s; choose a multiple of it, such as 60.1 \
+             s",
         ),
         (
             "--record 0 --sumo tripinfo,fcd",
-            "--sumo: fcd.xml is sampled at output.record_s, which is 0; leave fcd out, or set record_s = 1",
+            "--sumo: fcd.xml is sampled at output.record_s, which is 0; remove fcd, or set record_s = 1",
         ),
         (
             "--style aggressive=-1",
@@ -96,7 +96,7 @@ fn options_that_are_no_numbers_or_unknown() {
     assert!(refusal(&folder, "run MAPS/ramps.osm --demand many").contains("'--demand <VEH_PER_H>'"));
     assert!(
         refusal(&folder, "run MAPS/ramps.osm --sumo fcd,trips")
-            .contains("choose of fcd, tripinfo and lanechange")
+            .contains("choose among fcd, tripinfo and lanechange")
     );
     assert!(refusal(&folder, "run MAPS/ramps.osm --style fast").contains("write NAME=WEIGHT"));
     assert!(
@@ -168,7 +168,7 @@ fn values_of_a_scenario_that_make_no_sense() {
         ),
         (
             "[demand]\nprofile = [[9, 1], [3, 1]]\n",
-            "s.toml:3:1: the times do not rise; write [[time_s, value], …]",
+            "s.toml:3:1: the times do not increase; write [[time_s, value], …]",
         ),
         ("[demand]\nprofile = [[0, -1]]\n", "s.toml:3:1: a factor of -1; choose 0 or more"),
         (
@@ -178,7 +178,7 @@ fn values_of_a_scenario_that_make_no_sense() {
         ),
         (
             "[[demand.od]]\nfrom = \"95\"\nto = \"94\"\nvehicles_per_hour = 1\n",
-            "s.toml:4:1: nobody drives from 95 to 94: there is no way, or it is too short; leave the row out",
+            "s.toml:4:1: no trip from 95 to 94 is possible: there is no route, or it is too short; remove the row",
         ),
         (
             "[[demand.od]]\nfrom = \"1\"\nto = \"94\"\nvehicles_per_hour = -1\n",
@@ -186,12 +186,12 @@ fn values_of_a_scenario_that_make_no_sense() {
         ),
         (
             "[[demand.od]]\nfrom = \"1\"\nto = \"94\"\nvehicles_per_hour = 1\n[demand.entrances]\n1 = 5\n",
-            "s.toml:3:1: the entrance 1 has a demand of its own in demand.entrances; leave it out there, or here",
+            "s.toml:3:1: the entrance 1 also has a demand in demand.entrances; remove it there, or remove this row",
         ),
         (
             "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 6\n",
-            "s.toml:4:1: the shortest headway is 6 s, where the mean is 5.29 s: it must be shorter; choose less, or \
-             a lower demand at the entrance 1",
+            "s.toml:4:1: the shortest headway is 6 s, where the mean is 5.29 s: it must be shorter; choose less, or reduce the \
+             demand at the entrance 1",
         ),
         (
             "[demand.headways]\nlaw = \"erlang\"\nstages = 0\n",
@@ -211,7 +211,7 @@ fn a_folder_that_cannot_be_made() {
     let folder = Folder::new().with("taken", "");
     let run = folder.laneweave("run MAPS/ramps.osm --out taken/results");
     assert_eq!(run.code(), 2);
-    assert!(run.errors().starts_with("error: taken/results: cannot be made the folder of the results"));
+    assert!(run.errors().starts_with("error: taken/results: cannot be created as the results folder"));
 }
 
 /// Runs a command that must fail; returns the message.
@@ -227,20 +227,20 @@ fn folders_where_files_are_wanted() {
     std::fs::create_dir(folder.path().join("s.toml")).unwrap();
     assert_eq!(
         refusal(&folder, "run s.toml"),
-        "s.toml: cannot be read: is a directory; name a file, not a folder"
+        "s.toml: cannot be read: is a directory; give a file, not a folder"
     );
-    assert!(answer(&folder, "styles show s.toml").ends_with("is a directory; name a file, not a folder"));
+    assert!(answer(&folder, "styles show s.toml").ends_with("is a directory; give a file, not a folder"));
 }
 
 #[test]
 fn files_that_are_empty_or_no_text() {
     let folder = Folder::new().with("e.osm", "").with("e.xml", "").with("e.csv", "").with("e.toml", "");
-    let empty = "the file is empty; get the map again, or choose another file";
+    let empty = "the file is empty; download the map again, or choose another file";
     assert_eq!(refusal(&folder, "run e.osm"), format!("e.osm: {empty}"));
     assert_eq!(answer(&folder, "check e.xml"), format!("e.xml: {empty}"));
     assert_eq!(
         answer(&folder, "check e.csv --map MAPS/ramps.osm"),
-        "e.csv: the file is empty; get the recording again, or choose another file"
+        "e.csv: the file is empty; download the recording again, or choose another file"
     );
     assert_eq!(
         refusal(&folder, "run e.toml"),
@@ -251,11 +251,11 @@ fn files_that_are_empty_or_no_text() {
     }
     assert_eq!(
         refusal(&folder, "run b.toml"),
-        "b.toml: cannot be read: stream did not contain valid utf-8; give a file of text in UTF-8"
+        "b.toml: cannot be read: stream did not contain valid utf-8; give a text file in UTF-8"
     );
     assert_eq!(
         answer(&folder, "check b.csv --map MAPS/ramps.osm"),
-        "b.csv: this is no text, so no recording; choose another file, or unpack it first"
+        "b.csv: this is not a text file, so it cannot be a recording; choose another file, or decompress it first"
     );
 }
 
@@ -266,26 +266,23 @@ fn scenarios_styles_and_maps_in_place_of_each_other() {
     assert_eq!(folder.laneweave("styles new mine").code(), 0);
     assert_eq!(
         refusal(&folder, "run mine.toml"),
-        "mine.toml: this is a style of drivers, where a scenario or a map is wanted; run a map with it: laneweave run MAP \
-         --style mine.toml=1"
+        "mine.toml: this is a driver style, but a scenario or a map is expected; run a map with it: laneweave run MAP --style \
+         mine.toml=1"
     );
     assert_eq!(
         refusal(&folder, "run MAPS/ramps.osm --style s.toml=1"),
-        "--style: s.toml is a scenario, where a style is wanted; run it: laneweave run s.toml"
+        "--style: s.toml is a scenario, but a style is expected; run it: laneweave run s.toml"
     );
     for line in ["styles show s.toml", "styles new other --from s.toml"] {
-        assert!(answer(&folder, line).contains("s.toml is a scenario, where a style is wanted"), "{line}");
+        assert!(answer(&folder, line).contains("s.toml is a scenario, but a style is expected"), "{line}");
     }
-    assert!(
-        answer(&folder, "styles show road.osm").ends_with(
-            "road.osm is a map, where a style is wanted; see those there are: laneweave styles list"
-        )
-    );
+    assert!(answer(&folder, "styles show road.osm").ends_with(
+        "road.osm is a map, but a style is expected; list the styles with: laneweave styles list"
+    ));
     for line in ["check s.toml", "routes s.toml 1 2"] {
         assert_eq!(
             answer(&folder, line),
-            "s.toml: this is no map, but by its name a scenario or a style; give the map itself, which a scenario names in \
-             its key map"
+            "s.toml: by its name this is a scenario or a style, not a map; give the map itself; a scenario names it in its key map"
         );
     }
 }
@@ -341,8 +338,8 @@ fn intervals_below_a_step_are_refused_and_not_taken_for_none() {
             let run = folder.laneweave(&format!("run MAPS/ramps.osm {option} {interval}"));
             let told = run.errors();
             let expected = format!(
-                "error: {option}: {what} of {interval} s is shorter than a step of 0.1 s; choose 0.1 s or a multiple of it, 0 for \
-                 none, or a shorter step\n"
+                "error: {option}: {what} of {interval} s is shorter than a step of 0.1 s; choose 0.1 s or a multiple of it, 0 to \
+                 switch it off, or a shorter step\n"
             );
             assert_eq!((run.code(), told), (2, expected));
         }

@@ -48,8 +48,8 @@ fn limits_that_only_the_law_gives_are_counted() {
     assert_eq!(
         found,
         [
-            "8 of 8 lanelets give no speed limit: that of the law holds (130 km/h on 8); add speed_limit to them, or choose the \
-             law (--law, in a scenario map_options.law)"
+            "8 of 8 lanelets have no speed limit: that of the traffic law applies (130 km/h on 8); add speed_limit to them, or \
+             choose the law (--law, or map_options.law in a scenario)"
         ]
     );
 }
@@ -59,8 +59,9 @@ fn limits_that_are_hardly_meant_are_named() {
     for (limit, shown) in [("8", "8 km/h"), ("250", "250 km/h")] {
         let found = remarks("motorway --length 800", &[(LIMIT, &format!("k=\"speed_limit\" v=\"{limit}\""))]);
         assert_eq!(found.len(), 1, "{found:?}");
-        let expected =
-            format!("have a limit up to 10 or above 200 km/h (lanelet 1: {shown}), and drivers keep to it");
+        let expected = format!(
+            "have a speed limit up to 10 or above 200 km/h (lanelet 1: {shown}), and drivers keep to it"
+        );
         assert!(found[0].contains(&expected), "{found:?}");
     }
 }
@@ -73,10 +74,10 @@ fn limits_that_jump_are_counted() {
     let found = remarks("motorway --length 3000 --on-ramp-at 1000", &[slow]);
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(
-        found[0].starts_with("in 1 places the limit changes by more than half at once (lanelet "),
+        found[0].starts_with("in 1 places the speed limit changes by more than half at once (lanelet "),
         "{found:?}"
     );
-    assert!(found[0].contains(": 50 km/h to 120 km/h): traffic bunches or spreads there; "), "{found:?}");
+    assert!(found[0].contains(": 50 km/h to 120 km/h): vehicles bunch or spread there; "), "{found:?}");
 }
 
 #[test]
@@ -85,8 +86,8 @@ fn a_lane_alone_has_nothing_to_change_to() {
     assert_eq!(
         found,
         [
-            "no lane has another beside it to change to: styles differ in how they follow only; mark lines as dashed where they \
-             may be crossed, or choose another map"
+            "lane changes are possible nowhere: styles differ in car-following only; mark lane lines that may be crossed as dashed, \
+             or choose another map"
         ]
     );
 }
@@ -98,8 +99,8 @@ fn lanes_that_are_too_short_for_a_change_are_measured() {
     assert_eq!(
         found,
         [
-            "300 m of lane have another beside them, 150 m (4.5 s) at a stretch: hardly anybody changes lanes by choice; choose a \
-             map with longer lanes to look at lane changes"
+            "lane changes are possible on 300 m of lane, at most 150 m (4.5 s) without interruption: there will be hardly any \
+             discretionary lane changes; to study lane changes, choose a map with longer lanes"
         ]
     );
     // At 90 km/h it takes 6 s.
@@ -114,11 +115,11 @@ fn bends_are_held_against_the_limit() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(
         found[0]
-            .starts_with("8 of 64 lanelets bend so that the limit means above 4 m/s² to the side (lanelet ")
+            .starts_with("8 of 64 lanelets have bends in which the speed limit gives a lateral acceleration above 4 m/s² (lanelet ")
     );
-    assert!(
-        found[0].ends_with(": 19 at 50 km/h): nobody slows for bends; lower speed_limit there if it matters")
-    );
+    assert!(found[0].ends_with(
+        ": 19 at 50 km/h): drivers do not slow down for bends; reduce speed_limit there if this matters"
+    ));
     assert_eq!(remarks("grid --rows 1 --columns 1 --speed-limit 20", &[]), [""; 0]);
 }
 
@@ -128,7 +129,8 @@ fn entrances_before_a_stop_are_held_against_the_braking_way() {
     let found = remarks("grid --rows 1 --columns 1 --block-length 80 --speed-limit 130", &[]);
     let said = found.iter().find(|it| it.starts_with("entrance ")).unwrap_or_else(|| panic!("{found:?}"));
     assert!(
-        said.contains(" (as 3 more) is ") && said.contains(" at a limit of 130 km/h: they come more slowly"),
+        said.contains(" (and 3 more) is ")
+            && said.contains(" at a speed limit of 130 km/h: vehicles enter more slowly"),
         "{said}"
     );
     assert!(!remarks("grid --rows 1 --columns 1", &[]).iter().any(|it| it.starts_with("entrance ")));
@@ -139,7 +141,7 @@ fn a_closed_map_is_called_so() {
     let found = of(&Folder::new().with("m.osm", &closed()));
     assert_eq!(
         found[0],
-        "a closed map: trips start from rest and end along 4 lanelets; for traffic that passes through, let roads begin and end \
-         with 10 m of lane or more"
+        "closed map (no entrance or no exit): trips start from rest and end on 4 lanelets; for through traffic, make roads begin \
+         and end with a lanelet of 10 m or more"
     );
 }

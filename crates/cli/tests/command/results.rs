@@ -48,7 +48,10 @@ fn a_folder_takes_the_results_of_one_run_at_a_time() {
         let refused = folder.laneweave(line);
         assert_eq!(refused.code(), 2, "{line}");
         let told = refused.errors();
-        assert!(told.contains("out: another laneweave is writing its results into this folder"), "{told}");
+        assert!(
+            told.contains("out: another laneweave process is writing its results into this folder"),
+            "{told}"
+        );
     }
     assert!(folder.holds("out/summary.json"));
     drop(held);
@@ -101,7 +104,7 @@ fn a_scenario_and_styles_that_somebody_wrote_are_not_replaced() {
     let refused = folder.laneweave("run own/scenario.toml --out own");
     assert_eq!(refused.code(), 2);
     assert!(
-        refused.errors().contains("own/scenario.toml: this scenario was left by no run"),
+        refused.errors().contains("own/scenario.toml: this scenario was not written by a run"),
         "{}",
         refused.errors()
     );

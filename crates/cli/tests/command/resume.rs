@@ -114,7 +114,7 @@ fn a_run_that_has_ended_has_nothing_to_resume() {
     assert!(!folder.holds("out/checkpoint") && !folder.holds("out/checkpoint.pages"));
     let again = folder.laneweave("run out --resume");
     assert_eq!(again.code(), 0);
-    assert!(again.errors().contains("the run has ended already"), "{}", again.errors());
+    assert!(again.errors().contains("the run is already complete"), "{}", again.errors());
     assert_eq!(folder.summary("out --resume")["wall_s"], ended["wall_s"]);
 }
 
@@ -132,7 +132,7 @@ fn what_cannot_be_resumed_is_refused_with_a_remedy() {
     std::fs::write(folder.path().join("out/checkpoint"), b"half of a checkpoint").unwrap();
     let damaged = refused("run out --resume");
     assert!(damaged.contains("the checkpoint is damaged; run again from the beginning"), "{damaged}");
-    assert!(refused("run MAPS/ramps.osm --checkpoint 0.25").contains("choose a multiple of the step"));
+    assert!(refused("run MAPS/ramps.osm --checkpoint 0.25").contains("choose a multiple of it"));
 }
 
 #[test]
@@ -148,20 +148,20 @@ fn a_run_is_not_resumed_as_another_one() {
     assert_eq!(refused.code(), 2);
     let told = refused.errors();
     for part in [
-        "error: --resume: another run is asked for: ",
-        "--demand 800 where the run has 900",
-        "--seed 3 where the run has 1",
-        "--out other where the run has out",
-        "--record 1 where the run has 2",
-        "--sumo [\"tripinfo\"] where the run has [\"fcd\"]",
-        "--style cautious=1 where the run has styles/mild.toml=2",
-        "; leave these options out, or run again from the beginning, without --resume",
+        "error: --resume: the options differ from those of the run: ",
+        "--demand 800 instead of 900",
+        "--seed 3 instead of 1",
+        "--out other instead of out",
+        "--record 1 instead of 2",
+        "--sumo [\"tripinfo\"] instead of [\"fcd\"]",
+        "--style cautious=1 instead of styles/mild.toml=2",
+        "; remove these options, or run again from the beginning without --resume",
     ] {
         assert!(told.contains(part), "{part}: {told}");
     }
     assert!(!told.contains("--duration") && !folder.holds("other"), "{told}");
     let refused = folder.laneweave("run out --resume --model mobil").errors();
-    assert!(refused.contains("--model mobil where the run has none"), "{refused}");
+    assert!(refused.contains("--model mobil instead of none"), "{refused}");
 }
 
 #[test]
@@ -228,11 +228,11 @@ fn what_is_not_as_it_was_kept_is_not_resumed() {
     bytes[1000] ^= 1;
     std::fs::write(&pages, &bytes).unwrap();
     let told = refused();
-    assert!(told.contains("a page is damaged; run again from the beginning"), "{told}");
+    assert!(told.contains("a batch is damaged; run again from the beginning"), "{told}");
     assert!(folder.holds("out/checkpoint") && !folder.holds("out/summary.json"));
     let told = folder.laneweave("explain out --summary").errors();
     assert!(
-        told.contains("this run has not ended; wait, or go on with it: laneweave run out --resume"),
+        told.contains("this run is not complete; wait, or resume it: laneweave run out --resume"),
         "{told}"
     );
 }

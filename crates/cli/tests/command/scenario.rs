@@ -22,7 +22,7 @@ fn a_scenario_as_it_was_written_runs_like_its_map() {
     for map in tried(&folder) {
         let run = folder.laneweave(&format!("scenario new {map} --out s.toml --force"));
         assert_eq!((run.code(), run.errors().as_str()), (0, ""), "{map}");
-        assert_eq!(run.text(), "s.toml is written; edit it, then: laneweave run s.toml\n");
+        assert_eq!(run.text(), "s.toml is written; edit it, then run: laneweave run s.toml\n");
         // Around the ring somebody starts every 50 s.
         let duration = if map == "closed.osm" { 200 } else { 30 };
         let [bare, written] =
@@ -109,9 +109,11 @@ fn every_key_of_the_schema_is_in_the_file_with_its_meaning() {
     let missing: Vec<&String> = found.iter().filter(|it| !words.contains(&it.as_str())).collect();
     assert!(missing.is_empty(), "{missing:?}");
     let prose = text.lines().map(|it| it.trim_start_matches(['#', ' '])).collect::<Vec<_>>().join(" ");
-    for meaning in
-        ["Seed of all random draws.", "Longest green [s], if traffic extends it", "Share of free drivers."]
-    {
+    for meaning in [
+        "Seed of all random numbers.",
+        "Maximum green [s], if traffic extends the phase",
+        "Share of free drivers.",
+    ] {
         assert!(prose.contains(meaning), "{meaning}");
     }
 }
@@ -142,15 +144,18 @@ fn a_file_is_replaced_by_force_only() {
         (run.code(), run.errors().as_str()),
         (
             2,
-            "error: mine.toml: this file is there already; choose another name with --out, or replace it with --force\n"
+            "error: mine.toml: this file already exists; choose another name with --out, or replace it with --force\n"
         )
     );
     assert_eq!(folder.read("mine.toml"), "mine");
     assert_eq!(folder.laneweave("scenario new MAPS/on_ramp.osm --out mine.toml --force").code(), 0);
     assert!(folder.read("mine.toml").contains("[demand.entrances]"));
     for (line, message) in [
-        ("mine.toml", "this is a scenario, where its map is wanted"),
-        ("MAPS/on_ramp.osm --out mine.txt", "this is no name of a scenario file; let it end in .toml"),
+        ("mine.toml", "this is a scenario, but a map is expected"),
+        (
+            "MAPS/on_ramp.osm --out mine.txt",
+            "this is not a valid name for a scenario file; use a name that ends in .toml",
+        ),
         ("none.osm", "there is no such file"),
         ("MAPS/on_ramp.osm --out none/mine.toml", "cannot be written"),
     ] {

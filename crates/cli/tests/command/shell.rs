@@ -72,5 +72,5 @@ fn pages_need_a_folder() {
     let folder = Folder::new().with("taken", "");
     let run = folder.laneweave("man taken/man1");
     assert_eq!(run.code(), 2);
-    assert!(run.errors().starts_with("error: taken/man1: cannot be made the folder of the pages: "));
+    assert!(run.errors().starts_with("error: taken/man1: cannot be created as the folder for the pages: "));
 }

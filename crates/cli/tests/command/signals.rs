@@ -83,55 +83,54 @@ fn a_program_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
     for (signals, message) in [
         (
             format!("[[signals]]\nphases = [{}]", green("[1]")),
-            "own.toml:9:13: the map has no light 1; its lights are 65, 66, 67, 68, 69, 70, 71, 72",
+            "own.toml:9:13: the map has no traffic light 1; its traffic lights are 65, 66, 67, 68, 69, 70, 71, 72",
         ),
         (
             format!("[[signals]]\nphases = [{}]", green("[65, 67]")),
-            "own.toml:9:13: the lights 65 and 67 are green together, but lanelets 50 and 53 meet, and neither goes \
-             first; give them different phases",
+            "own.toml:9:13: the traffic lights 65 and 67 are green together, but lanelets 50 and 53 conflict, and neither has \
+             priority; put them into different phases",
         ),
         (
             format!("[[signals]]\nphases = [{}]", green(EAST_AND_WEST)),
-            "own.toml:9:13: the light 67 has no phase, but gets in the way of 65: lanelets 50 and 53 meet; name it in a \
+            "own.toml:9:13: the traffic light 67 has no phase, but conflicts with 65: lanelets 50 and 53 conflict; add it to a \
              phase of this program",
         ),
         (
             "[[signals]]\nphases = [{ green = [65], green_s = 0 }]".into(),
-            "own.toml:9:27: a green of 0 s; choose more than 0 to 3600 s",
+            "own.toml:9:27: a green time of 0 s; choose more than 0 to 3600 s",
         ),
         (
             "[[signals]]\nphases = [{ green = [65] }]".into(),
-            "own.toml:9:13: a phase without a length of green; give green_s, or max_green_s if traffic extends it",
+            "own.toml:9:13: a phase without a green time; give green_s, or max_green_s if traffic extends it",
         ),
         (
             "[[signals]]\nphases = [{ green = [65], green_s = 9, gap_s = 2 }]".into(),
-            "own.toml:9:27: a green of one length that traffic extends as well; leave out green_s, or min_green_s, \
-             max_green_s and gap_s",
+            "own.toml:9:27: both a fixed and an actuated green; remove green_s, or remove min_green_s, max_green_s and gap_s",
         ),
         (
             "[[signals]]\nphases = [{ green = [65], max_green_s = 9, min_green_s = 10 }]".into(),
-            "own.toml:9:44: a shortest green of 10 s; choose more than 0 to 9 s",
+            "own.toml:9:44: a minimum green of 10 s; choose more than 0 to 9 s",
         ),
         (
             "[[signals]]\nphases = [{ green = [65], max_green_s = 9, gap_s = -1 }]".into(),
-            "own.toml:9:44: a gap of -1 s; choose 0 to 3600 s",
+            "own.toml:9:44: a gap time of -1 s; choose 0 to 3600 s",
         ),
         (
             "[[signals]]\noffset_s = 5\nphases = [{ green = [65], max_green_s = 9 }]".into(),
-            "own.toml:9:1: an offset of a program that goes by the traffic; leave it out",
+            "own.toml:9:1: an offset of an actuated program; leave it out",
         ),
         (
             "[[signals]]\nphases = [{ green = [65], green_s = 9, yellow_s = -1 }]".into(),
-            "own.toml:9:40: a yellow of -1 s; choose more than 0 to 3600 s",
+            "own.toml:9:40: a yellow time of -1 s; choose more than 0 to 3600 s",
         ),
         (
             format!("[[signals]]\ncycle_s = 61\nphases = [{two}]"),
-            "own.toml:9:1: a cycle of 61 s, but its phases last 60 s; leave it out, or change a phase",
+            "own.toml:9:1: a cycle of 61 s, but its phases last 60 s; remove it, or change a phase",
         ),
         ("[[signals]]\nphases = []".into(), "own.toml:9:1: a program without phases; give it one or more"),
         (
             format!("[[signals]]\nphases = [{two}]\n[[signals]]\nphases = [{}]", green("[65]")),
-            "own.toml:11:1: the light 65 has a program already; name it in one of them only",
+            "own.toml:11:1: the traffic light 65 already has a program; use it in one program only",
         ),
     ] {
         let folder = folder(&signals);

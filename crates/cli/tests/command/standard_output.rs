@@ -38,7 +38,8 @@ fn a_full_standard_output_is_an_error() {
         let output = laneweave(folder.path(), line, full);
         let told = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{line}: {told}");
-        let expected = "error: standard output: cannot be written: no space left on device; make room there, or send it elsewhere\n";
+        let expected = "error: standard output: cannot be written: no space left on device; free some space there, or redirect the \
+                        output\n";
         assert!(told.ends_with(expected), "{line}: {told}");
         assert!(folder.holds(file), "{line}");
     }

@@ -101,7 +101,7 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
         refusal(|text| text
             .replace("time_gap = 1.2", "time_gap = { distribution = \"normal\", mean = 1, sd = 1 }")),
         format!(
-            "error: mine.toml:{gap}:1: follow.time_gap reaches from -inf to inf; \
+            "error: mine.toml:{gap}:1: follow.time_gap ranges from -inf to inf; \
              set its min and max: choose 0.1 to 10 s"
         )
     );
@@ -111,7 +111,8 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
         .ends_with("unknown value \"norma\"; did you mean \"normal\"?")
     );
     assert!(
-        refusal(|text| text.replace("sigma = 0.014", "sigma = 0")).contains("a logit rule without noise")
+        refusal(|text| text.replace("sigma = 0.014", "sigma = 0"))
+            .contains("a logit rule without choice noise")
     );
     assert!(refusal(|text| text.replace("model = \"idm\"", "")).contains("the key follow.model is missing"));
 }

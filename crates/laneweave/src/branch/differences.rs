@@ -154,11 +154,11 @@ impl Differences {
 
     /// The differences in words, where `settings` were changed: names and what they stand for.
     pub(super) fn facts(&self, settings: &str) -> Vec<(&'static str, String)> {
-        let mut facts = vec![("branch", format!("from {:.1} s on with {settings}", self.since_s))];
+        let mut facts = vec![("branch", format!("from {:.1} s on, with {settings}", self.since_s))];
         let first =
             self.vehicles.iter().min_by(|a, b| a.1.since_s.total_cmp(&b.1.since_s).then(a.0.cmp(b.0)));
         let Some((id, vehicle)) = first else {
-            facts.push(("differences", "none: both twins are the same to the last bit".into()));
+            facts.push(("differences", "none: both runs are the same to the last bit".into()));
             return facts;
         };
         facts.push(("first", format!("vehicle {id} ({}) at {:.1} s", vehicle.style, vehicle.since_s)));
@@ -176,12 +176,12 @@ impl Differences {
         });
         facts.push(("mean speed", both(speeds, " km/h", 1)));
         let left = [0, 1].map(|which| self.left.values().filter(|it| it[which].is_some()).count() as f64);
-        facts.push(("left", both(left, "", 0)));
+        facts.push(("completed trips", both(left, "", 0)));
         let later: Vec<f64> = self.later().collect();
         if !later.is_empty() {
             let mean = later.iter().sum::<f64>() / later.len() as f64;
             facts.push((
-                "who left in both",
+                "trips in both",
                 format!("{} vehicles, {} s later on average", later.len(), signed(mean, 2)),
             ));
         }

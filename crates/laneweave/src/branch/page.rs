@@ -16,8 +16,8 @@ const LATER: (f64, f64, usize) = (-60.0, 1.0, 120);
 /// was given.
 pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &str) -> Page {
     let lead = format!(
-        "The same traffic twice from {:.1} s on, once with {settings}; compared by laneweave {}. All draws are equal: whatever differs \
-         is caused by that.",
+        "The same run twice (twins): from {:.1} s on, one of them with {settings}; compared by laneweave {}. Both use common random \
+         numbers: the setting causes every difference.",
         differences.since_s,
         env!("CARGO_PKG_VERSION")
     );
@@ -25,21 +25,22 @@ pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &
     facts.extend(differences.facts(settings).into_iter().map(|(name, value)| (name.into(), value)));
     let mut figures = in_time(differences).to_vec();
     figures.extend(later(differences));
-    let lanes = ["as it was", "with the change"].into_iter().zip(&twins.lanes);
+    let lanes = ["base", "branch"].into_iter().zip(&twins.lanes);
     let lanes =
         lanes.filter_map(|(name, lane)| time_and_space(lane.as_ref()?, format!("Time and space {name}")));
-    Page::new("Twins: what one thing changes", lead)
+    Page::new("Twins: the effect of one change", lead)
         .section(Section::new("what", "What differs").facts(facts))
         .section(
-            Section::new("time", "In the course of time")
+            Section::new("time", "Over time")
                 .note(
-                    "Traffic is chaotic: a centimetre in one place is another lane change a minute later elsewhere. That a difference is \
-                     caused by the change does not make it typical of it: for what a change does on average, compare many seeds.",
+                    "Traffic is chaotic: a centimetre in one place can cause another lane change elsewhere a minute later. The \
+                     change causes every difference, but a single difference is not typical of the change. To measure its mean \
+                     effect, compare many seeds.",
                 )
                 .figures(figures),
         )
         .section(Section::new("roads", "Time and space").figures(lanes.collect()))
-        .section(Section::new("vehicles", "Who differs").table(vehicles(differences)))
+        .section(Section::new("vehicles", "Vehicles that differ").table(vehicles(differences)))
 }
 
 fn in_time(differences: &Differences) -> [Figure; 3] {
@@ -48,7 +49,7 @@ fn in_time(differences: &Differences) -> [Figure; 3] {
         points: differences.instants.iter().map(|it| [it.time_s, value(it)]).collect(),
     };
     let both = |value: fn(&Instant) -> [f64; 2]| {
-        [line("as it was", &|it| value(it)[0]), line("with the change", &|it| value(it)[1])]
+        [line("base", &|it| value(it)[0]), line("branch", &|it| value(it)[1])]
     };
     let figure = |label: &str, title: &str, caption: &str, lines: &[TimeLine]| Figure {
         svg: over_time(Sheet::Column, label, lines),
@@ -57,20 +58,20 @@ fn in_time(differences: &Differences) -> [Figure; 3] {
     };
     [
         figure(
-            "vehicles [number]",
-            "Who differs",
-            "Vehicles on the road in either, and those of them that are elsewhere, faster or slower, or want something else, by a bit \
-             or by much, or are on the road in one only.",
+            "Vehicles",
+            "Vehicles that differ",
+            "Vehicles on the road in at least one run, and the number of them that differ in position, speed or lane-change state, \
+             by however little, or that are on the road in one run only.",
             &[line("on the road", &|it| f64::from(it.on_road)), line("differ", &|it| f64::from(it.differ))],
         ),
         figure(
-            "lane changes [number]",
             "Lane changes",
-            "Completed changes since the twins parted.",
+            "Lane changes",
+            "Completed lane changes since the time of the branch.",
             &both(|it| it.lane_changes.map(|it| it as f64)),
         ),
         figure(
-            "mean speed [km/h]",
+            "Mean speed [km/h]",
             "Speeds",
             "Means over all vehicles on the road.",
             &both(|it| it.mean_speed_mps.map(|it| it * KMH_PER_MPS)),
@@ -88,14 +89,14 @@ fn later(differences: &Differences) -> Option<Figure> {
     (all > 0).then(|| Figure {
         svg: distribution(
             Sheet::Column,
-            ["left later with the change [s]", "share of vehicles [% per s]"],
+            ["Completed later in the branch [s]", "Share of vehicles [% per s]"],
             Upwards::Linear,
             &[Distributed { name: "", histogram: &histogram }],
         ),
-        title: "Who arrives later, and earlier".into(),
+        title: "Later and earlier arrivals".into(),
         caption: format!(
-            "By how much vehicles that left in both left later with the change; below 0 earlier. n = {} vehicles, {} of them beyond \
-             the axis.",
+            "Time by which vehicles completed their trips later in the branch than in the base; negative: earlier. Only vehicles \
+             that completed their trips in both runs. n = {} vehicles, {} of them beyond the axis.",
             counted(all),
             counted(outside)
         ),
@@ -110,18 +111,18 @@ fn vehicles(differences: &Differences) -> Table {
         ("style", Words),
         ("class", Words),
         ("differs since [s]", Numbers),
-        ("lane changes, as it was", Numbers),
-        ("with the change", Numbers),
-        ("left [s], as it was", Numbers),
-        ("with the change", Numbers),
+        ("lane changes, base", Numbers),
+        ("lane changes, branch", Numbers),
+        ("completed [s], base", Numbers),
+        ("completed [s], branch", Numbers),
     ];
     let mut all: Vec<(u64, &Vehicle)> =
         differences.vehicles.iter().map(|(id, it)| (u64::from(*id), it)).collect();
     all.sort_by(|a, b| a.1.since_s.total_cmp(&b.1.since_s).then(a.0.cmp(&b.0)));
     let caption = match all.len() {
-        0..=NAMED => "All that differ.".into(),
+        0..=NAMED => "All vehicles that differ.".into(),
         more => format!(
-            "The first {NAMED} of {} that differ; the table differences has them all.",
+            "The first {NAMED} of {} vehicles that differ; the table differences has all of them.",
             counted(more as u64)
         ),
     };

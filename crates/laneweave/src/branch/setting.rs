@@ -73,7 +73,7 @@ impl Setting {
             let known = names.iter().map(String::as_str).chain([ALL]);
             return Err(Fault::new(
                 place,
-                format!("no style {style:?} drives here"),
+                format!("the run has no style {style:?}"),
                 did_you_mean(style, known),
             ));
         }

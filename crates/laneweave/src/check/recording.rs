@@ -90,7 +90,7 @@ pub fn open_recording(path: &Path) -> Result<(Recording, Vec<Problem>), Fault> {
         "csv" => interaction::read,
         "xml" => commonroad::read,
         other => {
-            let what = format!("no format of recordings has the extension {other:?}");
+            let what = format!("no recording format has the extension {other:?}");
             return Err(Fault::new(path.display(), what, "known are INTERACTION (.csv), CommonRoad (.xml)"));
         }
     };
@@ -117,20 +117,20 @@ fn content(path: &Path) -> Result<Vec<u8>, Fault> {
     let read = File::open(path).and_then(|it| it.take(MOST).read_to_end(&mut bytes));
     read.map_err(|error| Fault::refused(path, "read", &error))?;
     if bytes.is_empty() {
-        let remedy = "get the recording again, or choose another file";
+        let remedy = "download the recording again, or choose another file";
         return Err(Fault::new(path.display(), "the file is empty", remedy));
     }
     // What is no text would be shown as it is where it is complained of.
     if bytes.contains(&0) {
-        let what = "this is no text, so no recording";
-        return Err(Fault::new(path.display(), what, "choose another file, or unpack it first"));
+        let what = "this is not a text file, so it cannot be a recording";
+        return Err(Fault::new(path.display(), what, "choose another file, or decompress it first"));
     }
     Ok(bytes)
 }
 
 fn fault(path: &Path, error: &RecordingError) -> Fault {
     let message = error.to_string();
-    let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "mend the file"));
+    let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "correct the file"));
     Fault::new(path.display(), what, remedy)
 }
 
@@ -181,11 +181,11 @@ impl RecordingReport {
         writeln!(out, "{:.1} s, a frame every {} s: {}", self.duration_s, self.step_s, tracks.join(", "))?;
         writeln!(
             out,
-            "{} states of vehicles, {} of them far from every lanelet; {} veh km",
+            "{} states of vehicles, {} of them far from every lanelet; {} veh-km",
             self.states, self.unmatched, self.veh_km
         )?;
         match self.cleaning.is_empty() {
-            true => writeln!(out, "Nothing had to be cleaned.")?,
+            true => writeln!(out, "Nothing had to be corrected.")?,
             false => writeln!(out, "\nCleaned:")?,
         }
         for (what, count) in &self.cleaning {
@@ -194,13 +194,13 @@ impl RecordingReport {
         let kinds: Vec<String> =
             self.lane_changes_by_kind.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         if self.lane_changes.is_empty() {
-            writeln!(out, "\nNobody changed lanes.")?;
+            writeln!(out, "\nNo lane changes.")?;
             return self.write_problems(out);
         }
         writeln!(out, "\n{} lane changes: {}", self.lane_changes.len(), kinds.join(", "))?;
         writeln!(
             out,
-            "{} of them permitted by the map, {} undone within 30 s",
+            "{} of them permitted by the map, {} reversed within 30 s",
             self.lane_changes_along_graph, self.lane_changes_undone
         )?;
         writeln!(out, "\n   time [s]    vehicle       from         to  side   kind           speed [m/s]")?;
@@ -262,8 +262,12 @@ fn elsewhere(recording: &Recording, network: &Network) -> Problem {
     Problem {
         element: "the recording".into(),
         line: None,
-        what: format!("most of it lies on no lanelet: it covers {}, the map {}", text(theirs), text(own)),
-        remedy: "choose the map of its place, or give the origin of its frame with --origin".into(),
+        what: format!(
+            "most of it lies outside all lanelets: the recording covers {}, the map {}",
+            text(theirs),
+            text(own)
+        ),
+        remedy: "choose the map of its location, or give the origin of its coordinates with --origin".into(),
     }
 }
 

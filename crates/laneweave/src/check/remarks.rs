@@ -76,8 +76,10 @@ fn closed(places: &Places) -> Option<Remark> {
     if inner_places == 0 {
         return None;
     }
-    let what = format!("a closed map: trips start from rest and end along {inner_places} lanelets");
-    remark(what, "for traffic that passes through, let roads begin and end with 10 m of lane or more")
+    let what = format!(
+        "closed map (no entrance or no exit): trips start from rest and end on {inner_places} lanelets"
+    );
+    remark(what, "for through traffic, make roads begin and end with a lanelet of 10 m or more")
 }
 
 /// Stretches on which lanes may be changed are short, or there are none.
@@ -86,18 +88,18 @@ fn room_to_change(network: &Network) -> Option<Remark> {
     let stretches =
         chains.flat_map(|chain| stretches(chain).map(move |it| run_of(network, chain, it, MOST_CHAINS)));
     let Some((length, time)) = stretches.max_by(|a, b| a.1.total_cmp(&b.1)) else {
-        let what = "no lane has another beside it to change to: styles differ in how they follow only".into();
-        return remark(what, "mark lines as dashed where they may be crossed, or choose another map");
+        let what = "lane changes are possible nowhere: styles differ in car-following only".into();
+        return remark(what, "mark lane lines that may be crossed as dashed, or choose another map");
     };
     if time >= TIME_TO_CHANGE {
         return None;
     }
     let total: f64 = network.chains.iter().map(beside_another).sum();
     let what = format!(
-        "{total:.0} m of lane have another beside them, {length:.0} m ({time:.1} s) at a stretch: hardly anybody changes lanes by \
-         choice"
+        "lane changes are possible on {total:.0} m of lane, at most {length:.0} m ({time:.1} s) without interruption: there will be \
+         hardly any discretionary lane changes"
     );
-    remark(what, "choose a map with longer lanes to look at lane changes")
+    remark(what, "to study lane changes, choose a map with longer lanes")
 }
 
 /// The stretches of `chain` from which a change is allowed, to the one side and to the other.
@@ -153,11 +155,11 @@ fn shared_at_the_edge(network: &Network) -> Option<Remark> {
         network.entrances.iter().flat_map(|it| &it.chains).filter_map(shares).collect();
     let [one, other] = *found.first()?;
     let what = format!(
-        "entrance {one}{} shares ground with others at the edge of the map, such as lanelet {other}: they take turns, and who has none \
-         waits outside",
+        "entrance {one}{} has a conflict area at the edge of the map, such as with lanelet {other}: vehicles enter one after the \
+         other, and wait outside for a reservation",
         and_more(found.len() - 1)
     );
-    remark(what, "draw the road on to where vehicles can pass each other, if it goes on")
+    remark(what, "extend the road to where vehicles can pass each other, if it continues")
 }
 
 /// Lanes that are too narrow for cars or for long vehicles.
@@ -171,7 +173,7 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
     let tight: Vec<i64> =
         narrow().filter(|it| !is_closed(it) && it.is_tight_for_long).map(first_id).collect();
     let parts = [
-        (closed, "narrower than a car: nobody drives there"),
+        (closed, "narrower than a car: no vehicle drives there"),
         (ends, "begin or end where they are too narrow for a car (1.8 m) or a long vehicle (2.55 m)"),
         (tight, "narrower than 2.55 m: long vehicles avoid them"),
     ];
@@ -185,7 +187,7 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
     }
     remark(
         format!("of {} lanes {}", network.chains.len(), told.join("; ")),
-        "correct their borders if it is not meant so",
+        "correct their borders if this is not intended",
     )
 }
 
@@ -198,12 +200,12 @@ fn limits_of_law(map: &Map) -> Option<Remark> {
     limits.sort_by(f64::total_cmp);
     let shown = limits.chunk_by(|a, b| a == b).map(|it| format!("{:.0} km/h on {}", it[0], it.len()));
     let what = format!(
-        "{} of {} lanelets give no speed limit: that of the law holds ({})",
+        "{} of {} lanelets have no speed limit: that of the traffic law applies ({})",
         limits.len(),
         map.network.lanelets.len(),
         shown.collect::<Vec<_>>().join(", ")
     );
-    remark(what, "add speed_limit to them, or choose the law (--law, in a scenario map_options.law)")
+    remark(what, "add speed_limit to them, or choose the law (--law, or map_options.law in a scenario)")
 }
 
 /// Limits that are hardly meant.
@@ -213,7 +215,7 @@ fn extreme_limits(lanelets: &[Lanelet]) -> Option<Remark> {
     let odd: Vec<&Lanelet> = slow.chain(fast).collect();
     let first = odd.first()?;
     let what = format!(
-        "{} of {} lanelets have a limit up to {:.0} or above {:.0} km/h (lanelet {}: {}), and drivers keep to it",
+        "{} of {} lanelets have a speed limit up to {:.0} or above {:.0} km/h (lanelet {}: {}), and drivers keep to it",
         odd.len(),
         lanelets.len(),
         CRAWL * KMH_PER_MPS,
@@ -221,7 +223,7 @@ fn extreme_limits(lanelets: &[Lanelet]) -> Option<Remark> {
         first.id,
         kmh(first.speed_limit)
     );
-    remark(what, "correct speed_limit if it is not meant so")
+    remark(what, "correct speed_limit if this is not intended")
 }
 
 /// Limits that change by more than half from one lanelet to the next.
@@ -232,14 +234,15 @@ fn jumps(lanelets: &[Lanelet]) -> Option<Remark> {
     let odd: Vec<_> = pairs.filter(|(a, b)| is_jump(a.speed_limit, b.speed_limit)).collect();
     let (from, to) = odd.first()?;
     let what = format!(
-        "in {} places the limit changes by more than half at once (lanelet {} to {}: {} to {}): traffic bunches or spreads there",
+        "in {} places the speed limit changes by more than half at once (lanelet {} to {}: {} to {}): vehicles bunch or spread \
+         there",
         odd.len(),
         from.id,
         to.id,
         kmh(from.speed_limit),
         kmh(to.speed_limit)
     );
-    remark(what, "grade the limits, or correct speed_limit")
+    remark(what, "change the limits in steps, or correct speed_limit")
 }
 
 /// Entrances after which drivers soon have to stop.
@@ -256,12 +259,12 @@ fn short_entrances(network: &Network, places: &Places) -> Option<Remark> {
     let short: Vec<(i64, f64, f64)> = short.collect();
     let (id, room, limit) = *short.first()?;
     let what = format!(
-        "entrance {id}{} is {room:.0} m from where drivers may have to stop, at a limit of {}: they come more slowly, and fewer \
-         fit through",
+        "entrance {id}{} is {room:.0} m from where drivers may have to stop, at a speed limit of {}: vehicles enter more slowly, \
+         and the flow is lower",
         and_more(short.len() - 1),
         kmh(limit)
     );
-    remark(what, "draw a longer road there")
+    remark(what, "make the road longer there")
 }
 
 /// From the start of `chain` to the first place where its drivers may have to stop, if there is one before it forks
@@ -288,14 +291,14 @@ fn bends(network: &Network) -> Option<Remark> {
     }
     let (sharpest, lateral) = found.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let what = format!(
-        "{} of {} lanelets bend so that the limit means above {LATERAL} m/s² to the side (lanelet {}: {lateral:.0} at {}): nobody \
-         slows for bends",
+        "{} of {} lanelets have bends in which the speed limit gives a lateral acceleration above {LATERAL} m/s² (lanelet {}: \
+         {lateral:.0} at {}): drivers do not slow down for bends",
         found.len(),
         network.lanelets.len(),
         sharpest.id,
         kmh(sharpest.speed_limit)
     );
-    remark(what, "lower speed_limit there if it matters")
+    remark(what, "reduce speed_limit there if this matters")
 }
 
 /// The greatest curvature of `line` from one station to another [1/m], as far as the line goes half a span before and
@@ -323,7 +326,7 @@ fn curvature(line: &Polyline, from: f64, to: f64) -> f64 {
 
 /// After the first of some.
 fn and_more(count: usize) -> String {
-    if count == 0 { String::new() } else { format!(" (as {count} more)") }
+    if count == 0 { String::new() } else { format!(" (and {count} more)") }
 }
 
 fn kmh(speed: f64) -> String {

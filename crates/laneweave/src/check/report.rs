@@ -152,7 +152,7 @@ impl Report {
         let counted: Vec<String> =
             self.elements.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         if !counted.is_empty() {
-            wrapped(out, "The file holds", &counted)?;
+            wrapped(out, "The file contains", &counted)?;
         }
         let [slowest, fastest] = self.speed_limits_kmh;
         let limits =
@@ -164,14 +164,14 @@ impl Report {
             self.lanelets, self.lane_km
         )?;
         writeln!(out, "of them two-way        {}", self.two_way)?;
-        writeln!(out, "pairs that follow      {}", self.following)?;
-        writeln!(out, "changes allowed        {left} to the left, {right} to the right")?;
-        writeln!(out, "pairs in conflict      {}", self.conflicts)?;
+        writeln!(out, "successor pairs        {}", self.following)?;
+        writeln!(out, "lane changes allowed   {left} to the left, {right} to the right")?;
+        writeln!(out, "conflicting pairs      {}", self.conflicts)?;
         writeln!(out, "lanes (chains)         {}", self.chains)?;
         writeln!(out, "entrances              {}", openings(&self.entrances))?;
         writeln!(out, "exits                  {}", openings(&self.exits))?;
         if self.inner_places > 0 {
-            writeln!(out, "closed                 trips start and end along {} lanelets", self.inner_places)?;
+            writeln!(out, "closed map             trips start and end on {} lanelets", self.inner_places)?;
         }
         writeln!(out, "lane drops             {}", listed(&self.lane_drops))?;
         let lights: Vec<i64> = self.lights.iter().map(|it| it.id).collect();

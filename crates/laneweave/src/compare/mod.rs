@@ -18,7 +18,7 @@ pub use outcome::{MEASURES, Measure, Outcome};
 pub use page::page;
 
 /// What a number behind a mean says.
-const OF_FEW: &str = "(n): only n of the seeds have anything to measure there";
+const OF_FEW: &str = "(n): mean of n seeds only; the other seeds had nothing to measure";
 
 /// One run of a comparison.
 #[derive(Clone, Debug, PartialEq)]

@@ -64,20 +64,22 @@ const fn measure(
 
 /// What is measured.
 pub const MEASURES: [Measure; 12] = [
-    measure("discretionary_per_veh_km", "changes by choice [1/veh-km]", 3, |it| Some(it.per_veh_km[0])),
-    measure("route_per_veh_km", "changes for the route [1/veh-km]", 3, |it| Some(it.per_veh_km[1])),
-    measure("gaining", "by choice, gaining anticipated speed [%]", 1, |it| it.gaining.map(|it| 100.0 * it)),
-    measure("going_back", "by choice, going back within 30 s [%]", 1, |it| {
+    measure("discretionary_per_veh_km", "discretionary lane changes [1/veh-km]", 3, |it| {
+        Some(it.per_veh_km[0])
+    }),
+    measure("route_per_veh_km", "route-driven lane changes [1/veh-km]", 3, |it| Some(it.per_veh_km[1])),
+    measure("gaining", "discretionary, with a gain of speed [%]", 1, |it| it.gaining.map(|it| 100.0 * it)),
+    measure("going_back", "discretionary, reversed within 30 s [%]", 1, |it| {
         it.going_back.map(|it| 100.0 * it)
     }),
-    measure("held_up_ratio", "desire when held up ÷ on a free road [ratio]", 1, |it| it.held_up_ratio),
+    measure("held_up_ratio", "desire when held up ÷ on a free road", 1, |it| it.held_up_ratio),
     measure("mean_speed_kmh", "mean speed [km/h]", 1, |it| it.speed_mps.map(|it| it * KMH_PER_MPS)),
     measure("mean_delay_s", "mean delay [s]", 1, |it| it.delay_s),
     measure("missed_turns", "missed turns [% of vehicles]", 2, |it| Some(100.0 * it.missed_turns)),
     measure("emergencies", "emergency brakings [1/100 veh-km]", 2, |it| Some(100.0 * it.emergencies)),
-    measure("stuck", "stuck vehicles [number]", 1, |it| Some(it.stuck)),
-    measure("left", "vehicles that left [number]", 0, |it| Some(it.left)),
-    measure("waiting", "vehicles waiting at the end [number]", 0, |it| Some(it.waiting)),
+    measure("stuck", "stuck vehicles", 1, |it| Some(it.stuck)),
+    measure("left", "completed trips", 0, |it| Some(it.left)),
+    measure("waiting", "vehicles waiting to enter at the end", 0, |it| Some(it.waiting)),
 ];
 
 impl Outcome {

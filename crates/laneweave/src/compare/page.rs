@@ -16,11 +16,11 @@ use crate::units::KMH_PER_MPS;
 /// The report of all `comparisons`, each of the input of that name, with the `command` that made them.
 pub fn page(comparisons: &[(String, Comparison)], command: &str) -> Page {
     let lead = format!(
-        "Lane-change models on the same traffic, compared by laneweave {}. Everything here follows from the maps, the scenarios and \
-         the seeds; nothing depends on the machine.",
+        "Lane-change models on the same traffic, compared by laneweave {}. All results follow from the maps, the scenarios and the \
+         seeds; nothing depends on the machine.",
         env!("CARGO_PKG_VERSION")
     );
-    let mut page = Page::new("Lane-change models side by side", lead).section(what(comparisons, command));
+    let mut page = Page::new("Comparison of lane-change models", lead).section(what(comparisons, command));
     for (number, (input, comparison)) in comparisons.iter().enumerate() {
         let name = Path::new(input).file_name().map_or(input.into(), |it| it.to_string_lossy());
         page = page.section(section(number + 1, &name, comparison));
@@ -71,11 +71,11 @@ fn rates(comparison: &Comparison) -> Figure {
     let counts: Vec<String> = series.iter().map(count).collect();
     Figure {
         svg: rate_density(Sheet::Column, "", &series),
-        title: "Lane changes by choice against density".into(),
+        title: "Discretionary lane changes against density".into(),
         caption: format!(
-            "Changes between lanes of equal worth for the route, per kilometre of lane and hour, in boxes of about 500 m of all \
-             parallel lanes and 60 s; those of like density (2 veh/km) of all seeds are pooled, with exact Poisson 95 % intervals. \
-             n = {} changes.",
+            "Discretionary lane changes (both lanes are equally good for the route) per kilometre of lane and hour, in boxes of \
+             about 500 m of all parallel lanes and 60 s. Boxes of similar density (2 veh/km) of all seeds are pooled, with exact \
+             Poisson 95 % intervals. n = {} lane changes.",
             counts.join(", ")
         ),
     }
@@ -93,19 +93,19 @@ fn diagrams(comparison: &Comparison) -> [Figure; 2] {
         let groups: Vec<Scattered> = comparison.models.iter().map(group).collect();
         let boxes: usize = comparison.trials.iter().map(|it| it.boxes.len()).sum();
         Figure {
-            svg: scatter(Sheet::Column, ["density [veh/km per lane]", label], &groups),
+            svg: scatter(Sheet::Column, ["Density [veh/km per lane]", label], &groups),
             title: title.into(),
             caption: format!(
-                "Means over boxes of all seeds in classes of {CLASS} veh/km, from {LEAST_BOXES} boxes on, by Edie's definitions, with \
-                 Student's 95 % intervals over boxes; neighbouring boxes are alike, so the intervals are rather too narrow. \
-                 n = {} boxes.",
+                "Means over boxes of all seeds in classes of {CLASS} veh/km with at least {LEAST_BOXES} boxes, by Edie's \
+                 definitions, with Student's 95 % intervals over boxes. Neighbouring boxes are correlated, so the intervals are \
+                 somewhat too narrow. n = {} boxes.",
                 counted(boxes as u64)
             ),
         }
     };
     [
-        figure("flow [veh/h per lane]", "Flow against density", |it| it.flow_veh_per_h),
-        figure("speed [km/h]", "Speed against density", |it| {
+        figure("Flow [veh/h per lane]", "Flow against density", |it| it.flow_veh_per_h),
+        figure("Speed [km/h]", "Speed against density", |it| {
             it.speed_mps.map_or(f64::NAN, |it| it * KMH_PER_MPS)
         }),
     ]
@@ -125,7 +125,7 @@ fn measured(comparison: &Comparison, measure: &Measure) -> Option<Figure> {
     let (name, _) = measure.title.rsplit_once(" [").unwrap_or((measure.title, ""));
     let least = estimates.iter().map(|it| it.replications).min().unwrap_or(0);
     Some(Figure {
-        svg: bars(Sheet::Column, [measure.title, "model [name]"], &[name], &rows),
+        svg: bars(Sheet::Column, [&capitalized(measure.title), "Model"], &[name], &rows),
         title: capitalized(name),
         caption: format!(
             "Means over the seeds{}. n = {}{} runs for each model.",
@@ -181,9 +181,9 @@ fn differences(comparison: &Comparison) -> Table {
         .chain(others.iter().map(|it| (it.name(), Align::Numbers)))
         .collect();
     let caption = format!(
-        "How much more than {}: means of the differences seed by seed ± half of Student's 95 % intervals. With a seed the same \
-         vehicles and drivers come at the same times, so that differences are surer than the means they are of; * where the \
-         interval leaves out 0; (n) as above. Of so many numbers one in twenty does by chance.",
+        "Difference from {}: means of the paired differences, seed by seed, ± half of Student's 95 % intervals. With the same seed \
+         the same vehicles and drivers arrive at the same times (common random numbers), so differences are more precise than the \
+         means. *: the interval does not contain 0; (n) as above. One in twenty such intervals excludes 0 by chance.",
         reference.name()
     );
     let mut table = Table::new(caption, &columns);
@@ -204,15 +204,16 @@ fn differences(comparison: &Comparison) -> Table {
 fn method() -> Section {
     Section::new("method", "How it was measured")
         .text(
-            "Each model drives every seed of an input once. Everything but the decision on lane changes is the same: the map, the demand, \
-             the drivers with their car-following and gap acceptance, and for each seed all draws of arrivals and characters. \
-             null and constant-hazard are controls: a claim about reasons for lane changes that holds for them, too, is no \
-             claim about reasons.",
+            "Each model runs every seed of an input once. Only the lane-change decision differs. The map, the demand, the drivers \
+             with their car-following and gap acceptance are the same, and for each seed all random numbers for arrivals and driver \
+             parameters. null and constant-hazard are null-model controls: if a claim about the reasons for lane changes also holds \
+             for them, it does not show a reason.",
         )
         .text(
-            "A lane change is by choice where both lanes lead to the same place for the driver, and for the route otherwise. Held up: the \
-             leader keeps the driver below its desired speed beside a free lane; the ratio says how many times as likely a driver then is \
-             to want a change as on a free road. A seed in which nobody on a free road wanted one has no ratio, so that the mean of the others is \
-             rather too low. Delay is time beyond that on a free road at the speeds the driver desires.",
+            "A lane change is discretionary if both lanes lead to the same place for the driver. Otherwise it is route-driven \
+             (mandatory). Held up: the leader keeps the driver below its desired speed, and the lane beside is free. The ratio \
+             compares the probability of a lane-change desire of such a driver with that on a free road. A seed in which no driver \
+             on a free road wanted to change has no ratio, so the mean of the others is somewhat too low. Delay is the trip time \
+             minus the time on a free road at the driver's desired speeds.",
         )
 }

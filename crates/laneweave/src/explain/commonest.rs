@@ -64,7 +64,7 @@ impl Commonest {
         let mut text = String::new();
         let all: u64 = self.changes.values().sum();
         // Writing to a string never fails.
-        let _ = writeln!(text, "{all} lane changes, by style and by what spoke most for them");
+        let _ = writeln!(text, "{all} lane changes, by style and by the leading incentive");
         let mut changes: Vec<_> = self.changes.iter().collect();
         changes.sort_by(|a, b| b.1.cmp(a.1));
         for ((style, row), count) in changes {
@@ -73,7 +73,7 @@ impl Commonest {
         let all: u64 = self.refusals.values().sum();
         let _ = writeln!(
             text,
-            "{all} times a driver considered its lanes and stayed, or waited for a second, because"
+            "{all} considerations in which a driver stayed in its lane, or waited for a second, because"
         );
         let mut refusals: Vec<_> = self.refusals.iter().collect();
         refusals.sort_by(|a, b| b.1.cmp(a.1));

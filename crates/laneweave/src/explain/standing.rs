@@ -7,15 +7,17 @@ use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
 pub(super) fn stands_for(it: &StandsFor, network: &Network) -> String {
     match it {
         StandsFor::Leader { vehicle, gap } => format!("it stands behind vehicle {vehicle}, {gap:.1} m ahead"),
-        StandsFor::Light(id) => format!("it waits at light {id}"),
+        StandsFor::Light(id) => format!("it waits at traffic light {id}"),
         StandsFor::StopSign => "it stops at a stop sign".into(),
-        StandsFor::After(others) => format!("it has its reservation, and goes after {}", vehicles(others)),
+        StandsFor::After(others) => format!("it has its reservation, and drives after {}", vehicles(others)),
         StandsFor::LaneEnd(distance) => format!("its lane ends {distance:.1} m ahead"),
         StandsFor::LastPlace(distance) => {
-            format!("{distance:.1} m ahead is the last place for a lane change that its route needs")
+            format!("the last place for a route-driven lane change is {distance:.1} m ahead")
         }
-        StandsFor::LetsIn(distance) => format!("it lets in a vehicle {distance:.1} m ahead"),
-        StandsFor::Nothing => "nothing holds it: it drives off".into(),
+        StandsFor::LetsIn(distance) => {
+            format!("it yields to a vehicle that changes lanes {distance:.1} m ahead")
+        }
+        StandsFor::Nothing => "nothing blocks it: it starts to drive".into(),
         StandsFor::Junction { areas, why, others } => {
             let lanelet = |it| network.lanelet_at(it).0.id;
             let areas: Vec<String> = areas
@@ -25,8 +27,8 @@ pub(super) fn stands_for(it: &StandsFor, network: &Network) -> String {
                 .collect();
             let why = match why {
                 JunctionHindrance::Others => {
-                    let go = if others.len() == 1 { "goes" } else { "go" };
-                    format!("{} {go} first", vehicles(others))
+                    let go = if others.len() == 1 { "has" } else { "have" };
+                    format!("{} {go} priority", vehicles(others))
                 }
                 JunctionHindrance::Space => "there is no storage space beyond".into(),
                 JunctionHindrance::Roundabout => "the roundabout is full".into(),

@@ -111,14 +111,17 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
                     let lanelet = |at: Position| world.network().lanelet_at(at).0.id;
                     let line = if change.is_completed {
                         let [from, to] = [change.from, change.to].map(lanelet);
-                        format!("is across; passed from lanelet {from} to {to} at {:.1} s", change.time)
+                        format!(
+                            "has completed the change; crossed from lanelet {from} to {to} at {:.1} s",
+                            change.time
+                        )
                     } else {
                         "is back in its lane".into()
                     };
                     lines.single(world.clock().time(), &line);
                 }
                 Event::Left { vehicle, duration, .. } if *vehicle == id => {
-                    lines.single(world.clock().time(), &format!("leaves, after {duration:.1} s"));
+                    lines.single(world.clock().time(), &format!("completes its trip after {duration:.1} s"));
                 }
                 _ => {}
             }
@@ -132,7 +135,7 @@ fn place(network: &Network, spot: Spot, world: &World) -> String {
     let scene = world.scene();
     let motion = scene.motion(spot);
     let (lanelet, along) = network.lanelet_at(Position::new(spot.chain, motion.x));
-    format!("on lanelet {}, {along:.1} m, with {:.1} km/h", lanelet.id, motion.speed * KMH_PER_MPS)
+    format!("on lanelet {}, {along:.1} m, at {:.1} km/h", lanelet.id, motion.speed * KMH_PER_MPS)
 }
 
 /// Lines, of which those of one kind that follow each other are one.
@@ -151,7 +154,7 @@ impl Lines {
         let kind = std::mem::discriminant(&account.act);
         let mut said = act(account);
         if let Some(flip) = flips(account, dt).first().filter(|_| with_flips) {
-            let _ = write!(said, "\n{:>22}would have turned it: {}", "", flip_in_words(account, flip));
+            let _ = write!(said, "\n{:>22}would have changed it: {}", "", flip_in_words(account, flip));
         }
         match &mut self.open {
             Some((open, _, until, count, last)) if *open == kind => {

@@ -13,26 +13,26 @@ use crate::units::KMH_PER_MPS;
 /// What a driver does, in one line.
 pub fn act(account: &Account) -> String {
     match account.act {
-        Act::DrivesOn => "drives on: it is not its turn to consider lanes".into(),
+        Act::DrivesOn => "drives on: it does not consider lane changes at this step".into(),
         Act::Stays => stays(account),
         Act::Wants(side, kind) => {
             let why = match kind {
                 Kind::Discretionary => leading(account, side),
                 Kind::Route if account.wants_its_last_chance() => {
-                    "for its route, as this is the last place for it".into()
+                    "route-driven, as this is the last place for it".into()
                 }
-                Kind::Route => "for its route".into(),
+                Kind::Route => "route-driven".into(),
             };
             format!("wants to change to the {}: {why}", name(side))
         }
         Act::Waits(side, hindrance) => {
             format!("waits for a gap on the {}: {}", name(side), because(&hindrance))
         }
-        Act::Goes(side) => format!("has its gap, and goes to the {}", name(side)),
+        Act::Goes(side) => format!("accepts the gap, and starts the change to the {}", name(side)),
         Act::GivesUp(side) => format!("gives up waiting for a gap on the {}", name(side)),
         Act::TakesAnotherRoute => "takes another route".into(),
-        Act::Changes(side) => format!("is on its way to the {}", name(side)),
-        Act::GoesBack(side) => format!("calls its change to the {} off", name(side)),
+        Act::Changes(side) => format!("is changing to the {}", name(side)),
+        Act::GoesBack(side) => format!("aborts its change to the {}", name(side)),
     }
 }
 
@@ -40,12 +40,12 @@ pub fn act(account: &Account) -> String {
 fn stays(account: &Account) -> String {
     let sides = account.sides.iter().flatten();
     let Some(best) = sides.max_by(|a, b| above(a).total_cmp(&above(b))) else {
-        return "stays: there is no lane beside to which it may change".into();
+        return "stays: there is no adjacent lane to which it may change".into();
     };
     let side = name(best.side);
     if best.is_out_of_question {
         return format!(
-            "stays: it changed, or gave a change up, and is calm for {:.1} s more",
+            "stays: it is in the cooldown after a change, or after giving one up, for {:.1} s more",
             account.cooldown_left
         );
     }
@@ -59,12 +59,12 @@ fn stays(account: &Account) -> String {
         format!("G = {:.3} to the {side} is not above θ = {:.3}", best.appraisal.gain, best.appraisal.theta);
     if is_by_chance(account, best) {
         return format!(
-            "stays by chance: G = {:.3} to the {side}, θ = {:.3}; the desire had the probability {:.2} and did not come",
+            "stays by chance: G = {:.3} to the {side}, θ = {:.3}; the desire had the probability {:.2} and did not occur",
             best.appraisal.gain, best.appraisal.theta, best.chance
         );
     }
     if product < 0.0 && !against.is_empty() {
-        return format!("stays: {gain}; most against it is {against} ({product:.3})");
+        return format!("stays: {gain}; the strongest incentive against it is {against} ({product:.3})");
     }
     format!("stays: {gain}")
 }
@@ -80,13 +80,13 @@ pub fn reason(account: &Account) -> String {
     }
     let sides = account.sides.iter().flatten();
     let Some(best) = sides.max_by(|a, b| above(a).total_cmp(&above(b))) else {
-        return "no lane beside to which it may change".into();
+        return "no adjacent lane to which it may change".into();
     };
     if best.is_out_of_question {
-        return "calm after a change, or after giving one up".into();
+        return "in the cooldown after a change, or after giving one up".into();
     }
     if is_by_chance(account, best) {
-        return "by chance: the desire did not come".into();
+        return "by chance: the desire did not occur".into();
     }
     let names = account.change.row_names();
     match best.appraisal.rows[worst(best)] {
@@ -94,9 +94,9 @@ pub fn reason(account: &Account) -> String {
             "the new follower would have to brake too hard".into()
         }
         row if product(&row) < 0.0 && !names[worst(best)].is_empty() => {
-            format!("gains too little; most against it is {}", names[worst(best)])
+            format!("the gain is too small; the strongest incentive against it is {}", names[worst(best)])
         }
-        _ => "gains too little".into(),
+        _ => "the gain is too small".into(),
     }
 }
 
@@ -105,8 +105,8 @@ fn kind(refusal: Refusal) -> &'static str {
         Refusal::Short => "is too short",
         Refusal::TimeToCollision => "closes too soon",
         Refusal::Forced => "closes too fast",
-        Refusal::Demanded => "would make who follows brake too hard",
-        Refusal::Insecure => "would not do if the one ahead braked as hard as it can",
+        Refusal::Demanded => "would make the follower brake too hard",
+        Refusal::Insecure => "would be too short if the leader braked as hard as possible",
     }
 }
 
@@ -142,11 +142,15 @@ fn leading(account: &Account, side: Side) -> String {
             let speeds = [wanted.situation.here.prospect, wanted.situation.there.prospect];
             let [here, there] = speeds.map(|it| it * KMH_PER_MPS);
             let seen = if names[index] == "speed" {
-                format!(", {here:.0} km/h here and {there:.0} there")
+                format!(", {here:.0} km/h here and {there:.0} km/h there")
             } else {
                 String::new()
             };
-            format!("most for it is {} ({:.3}{seen})", names[index], product(&wanted.appraisal.rows[index]))
+            format!(
+                "the leading incentive is {} ({:.3}{seen})",
+                names[index],
+                product(&wanted.appraisal.rows[index])
+            )
         }
         _ => "by chance, without a reason".into(),
     }
@@ -159,10 +163,10 @@ fn because(hindrance: &Hindrance) -> String {
             "a change is not allowed for as long as it takes to cross the line".into()
         }
         Hindrance::Junction => {
-            "it would not be over before a junction, or take room there that others need".into()
+            "the change would not be completed before a junction, or would take storage space that others need".into()
         }
-        Hindrance::InReservation => "it is on its way through a junction".into(),
-        Hindrance::WantedBefore => "somebody at a junction waits longer for the room there".into(),
+        Hindrance::InReservation => "it is driving through a junction".into(),
+        Hindrance::WantedBefore => "a vehicle at a junction has waited longer for the storage space there".into(),
         Hindrance::Ahead(refusal, pair) => format!("the gap to the new leader {}", refused(*refusal, pair)),
         Hindrance::Behind(refusal, pair) => {
             format!("the gap to the new follower {}", refused(*refusal, pair))
@@ -178,8 +182,10 @@ fn refused(refusal: Refusal, pair: &GapPair) -> String {
             format!("of {gap:.1} m closes in {:.1} s", time_to_collision(gap, follower, leader))
         }
         Refusal::Forced => format!("of {gap:.1} m closes too fast: {follower:.1} m/s behind {leader:.1} m/s"),
-        Refusal::Demanded => format!("of {gap:.1} m would make who follows brake by {:.1} m/s²", -demanded),
-        Refusal::Insecure => format!("of {gap:.1} m would not do if the one ahead braked as hard as it can"),
+        Refusal::Demanded => format!("of {gap:.1} m would make the follower brake by {:.1} m/s²", -demanded),
+        Refusal::Insecure => {
+            format!("of {gap:.1} m would be too short if the leader braked as hard as possible")
+        }
     }
 }
 
@@ -210,7 +216,7 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
     }
     let is_drawn = matches!(account.act, Act::Stays | Act::Wants(..)) && !account.wants_its_last_chance();
     if is_drawn && account.sides.iter().flatten().next().is_some() {
-        say(format!("  drawn {:.4}", account.draw));
+        say(format!("  random number {:.4}", account.draw));
     }
     for (who, pairing) in ["ahead", "behind"].into_iter().zip(account.pairings) {
         if let Some(it) = pairing {
@@ -226,7 +232,7 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
         }
     }
     for (number, flip) in flips.iter().enumerate() {
-        let lead = if number == 0 { "  would have turned it" } else { "                    or" };
+        let lead = if number == 0 { "  would have changed it" } else { "                    or" };
         say(format!("{lead}: {}", flip_in_words(account, flip)));
     }
     text
@@ -247,7 +253,7 @@ fn table(account: &Account, side: &SideAccount) -> Vec<String> {
     }
     let chance = match (&*account.change, account.act) {
         _ if account.wants_its_last_chance() => String::new(),
-        (_, Act::Stays | Act::Wants(..)) if side.is_out_of_question => ", calm".to_string(),
+        (_, Act::Stays | Act::Wants(..)) if side.is_out_of_question => ", in cooldown".to_string(),
         (LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_), Act::Stays | Act::Wants(..)) => {
             format!(", desire with probability {:.4}", side.chance)
         }
@@ -262,8 +268,8 @@ pub(super) fn flip_in_words(account: &Account, flip: &Flip) -> String {
     let Flip { knob, value, by, to } = flip;
     let what = match knob {
         Knob::Weight(row) => format!("the weight of {}", account.change.row_names()[*row]),
-        Knob::SpeedHere => "the speed anticipated in its lane [m/s]".into(),
-        Knob::SpeedThere(side) => format!("the speed anticipated on the {} [m/s]", name(*side)),
+        Knob::SpeedHere => "the anticipated speed in its lane [m/s]".into(),
+        Knob::SpeedThere(side) => format!("the anticipated speed on the {} [m/s]", name(*side)),
         Knob::GapAhead => "the gap to the new leader [m]".into(),
         Knob::GapBehind => "the gap to the new follower [m]".into(),
         Knob::OwnSpeed => "its own speed [m/s]".into(),
@@ -271,10 +277,10 @@ pub(super) fn flip_in_words(account: &Account, flip: &Flip) -> String {
         Knob::FollowerSpeed => "the new follower's speed [m/s]".into(),
     };
     let then = match (account.act, to) {
-        (Act::Waits(..), _) => "it would have gone".to_string(),
+        (Act::Waits(..), _) => "it would have started the change".to_string(),
         (Act::Goes(_), _) => "it would have waited".into(),
-        (_, Some(side)) => format!("it would have wanted to the {}", name(*side)),
-        (_, None) => "it would have stayed".into(),
+        (_, Some(side)) => format!("it would have wanted to change to the {}", name(*side)),
+        (_, None) => "it would have stayed in its lane".into(),
     };
     format!("{what} {:.4} instead of {value:.4} ({by:+.4}): {then}", value + by)
 }

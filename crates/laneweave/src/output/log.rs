@@ -80,7 +80,7 @@ pub(super) fn pages(path: &Path, length: u64) -> Result<impl Iterator<Item = Res
     let file = File::open(path).map_err(|error| Fault::refused(path, "read", &error))?;
     let size = file.metadata().map_err(|error| Fault::refused(path, "read", &error))?.len();
     if size < length {
-        return Err(damaged(format!("{size} bytes of {length} that the checkpoint needs")));
+        return Err(damaged(format!("it has {size} bytes, but the checkpoint needs {length}")));
     }
     let mut reader = io::BufReader::new(file.take(length));
     Ok(std::iter::from_fn(move || match reader.fill_buf() {
@@ -96,12 +96,12 @@ fn page(reader: &mut impl Read) -> io::Result<Page> {
     reader.read_exact(&mut hash)?;
     let size = u32::from_le_bytes(size);
     if size > LONGEST {
-        return Err(io::Error::other(format!("a page of {size} bytes")));
+        return Err(io::Error::other(format!("a batch of {size} bytes")));
     }
     let mut bytes = vec![0; size as usize];
     reader.read_exact(&mut bytes)?;
     if xxh3_64(&bytes).to_le_bytes() != hash {
-        return Err(io::Error::other("a page is damaged"));
+        return Err(io::Error::other("a batch is damaged"));
     }
     postcard::from_bytes(&bytes).map_err(io::Error::other)
 }

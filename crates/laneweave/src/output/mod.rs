@@ -168,7 +168,7 @@ struct Folder<'a> {
 impl Folder<'_> {
     fn make(&self) -> Result<(), Fault> {
         let Folder { dir, .. } = self;
-        fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made the folder of the results", &error))
+        fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "created as the results folder", &error))
     }
 
     /// The path of a file in it.

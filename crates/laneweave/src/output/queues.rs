@@ -75,9 +75,9 @@ impl HeldFor {
             ("no gap in the traffic", traffic),
             ("a queue ahead", queue),
             ("a red light", red_light),
-            ("others go first", priority),
-            ("no room beyond a junction", room),
-            ("a full map", full_map),
+            ("priority of other vehicles", priority),
+            ("no storage space beyond a junction", room),
+            ("perimeter control (full town)", full_map),
         ];
         reasons.retain(|(_, time)| *time > 0.0);
         reasons.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -138,6 +138,6 @@ impl Queue {
         } else {
             format!("lanelet {lanelet} of entrance {entrance}")
         };
-        format!("{waiting} at {place}; held by: {}", held_s.to_text())
+        format!("{waiting} at {place}; blocked by: {}", held_s.to_text())
     }
 }

@@ -131,7 +131,7 @@ impl Record {
         let changes: &[Mark] = traces.map_or(&[], |it| &it.changes);
         let title = match traces {
             Some(it) => format!("The lane from lanelet {} on", it.lanelet),
-            None => "Nobody comes from anywhere".into(),
+            None => "No vehicle enters".into(),
         };
         time_space(Sheet::Page, &title, &all, changes)
     }

@@ -237,7 +237,7 @@ impl Summary {
         line(
             "vehicles",
             format!(
-                "{} entered = {} left + {} on the road; {} wait at the entrances",
+                "{} entered = {} completed + {} on the road; {} waiting to enter",
                 self.entered, self.left, self.on_road, self.waiting
             ),
         );
@@ -249,7 +249,7 @@ impl Summary {
         line(
             "mean trip",
             format!(
-                "{}, of it {} of delay; {stops} stops",
+                "{}, including {} of delay; {stops} stops",
                 mean(self.mean_trip_duration_s, " s"),
                 mean(self.mean_delay_s, " s")
             ),
@@ -270,7 +270,7 @@ impl Summary {
         let per_km =
             |count: u64| ratio(count as f64, self.veh_km).map_or("-".into(), |it| format!("{it:.3}"));
         format!(
-            "{} per veh-km: {} discretionary, {} for the route",
+            "{} per veh-km: {} discretionary, {} route-driven",
             per_km(self.lane_changes),
             per_km(self.lane_changes_discretionary),
             per_km(self.lane_changes_route)

@@ -121,7 +121,7 @@ impl WriterThreads {
                 outcome
             };
             threads.push(thread::Builder::new().name(name.into()).spawn(work).map_err(|error| {
-                Fault::new("a thread that writes", error, "stop other programs, and try again")
+                Fault::new("a writer thread", error, "close other programs, and try again")
             })?);
         }
         let pen = next.ok_or_else(broke_off)?;
@@ -187,7 +187,7 @@ impl Drop for WriterThreads {
 }
 
 fn broke_off() -> Fault {
-    Fault::new("a thread that writes", "broke off", "report this as a bug")
+    Fault::new("a writer thread", "stopped early", "report this as a bug")
 }
 
 /// What a thread works with, beside its writers.

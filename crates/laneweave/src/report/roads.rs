@@ -24,9 +24,9 @@ pub(crate) fn time_and_space(traces: &Traces, title: String) -> Option<Figure> {
         svg: time_space(Sheet::Column, "", &lines, &marks),
         title,
         caption: format!(
-            "The slow lane from an entrance and where it goes on, of those on which most way is to be driven, at most 10 km and an \
-             hour: each line is a vehicle while it is on the lane, its colour the speed, taken once a second. n = {} lines{}; {} \
-             changes onto and off the lane{}.",
+            "The slow lane from an entrance on and its continuation, at most 10 km and one hour. Of all entrances, this lane has \
+             the largest product of length and demand. Each line is a vehicle while it is on the lane, sampled once a second; its \
+             colour is the speed. n = {} lines{}; {} lane changes onto and off the lane{}.",
             counted(all[0] as u64),
             of(every[0]),
             counted(all[1] as u64),

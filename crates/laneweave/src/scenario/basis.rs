@@ -47,7 +47,7 @@ impl Prepared {
     pub fn demand_warning(&self) -> Option<String> {
         let Prepared { demand_veh_h: demand, capacity, .. } = self;
         (capacity.bottleneck.is_some() && *demand > capacity.veh_h).then(|| {
-            format!("demand: {demand:.0} veh/h is above the {capacity}: queues grow as long as it lasts")
+            format!("demand: {demand:.0} veh/h is above the {capacity}: queues grow as long as this lasts")
         })
     }
 }

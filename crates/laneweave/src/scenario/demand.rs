@@ -99,8 +99,8 @@ fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Res
         let place = |key| place_in_row(origin, number, key);
         let (from, to) = ends(row, demand, place)?;
         if scenario.demand.entrances.contains_key(&row.from) {
-            let what = format!("the entrance {} has a demand of its own in demand.entrances", row.from);
-            return Err(Fault::new(place("from"), what, "leave it out there, or here"));
+            let what = format!("the entrance {} also has a demand in demand.entrances", row.from);
+            return Err(Fault::new(place("from"), what, "remove it there, or remove this row"));
         }
         let it = &mut demand.origins[from];
         if sums[from].is_none() {
@@ -132,9 +132,11 @@ pub(super) fn check_ways(scenario: &Scenario, origin: &Origin, world: &World) ->
         let place = |key| place_in_row(origin, number, key);
         let (from, to) = ends(row, world.demand(), place)?;
         if row.vehicles_per_hour > 0.0 && !world.leads(from, to) {
-            let what =
-                format!("nobody drives from {} to {}: there is no way, or it is too short", row.from, row.to);
-            return Err(Fault::new(place("to"), what, "leave the row out, or choose another exit"));
+            let what = format!(
+                "no trip from {} to {} is possible: there is no route, or it is too short",
+                row.from, row.to
+            );
+            return Err(Fault::new(place("to"), what, "remove the row, or choose another exit"));
         }
     }
     Ok(())
@@ -170,8 +172,8 @@ fn by_pieces(
     Rate::by_pieces(&pairs).ok_or_else(|| {
         Fault::new(
             place,
-            "the times do not rise",
-            "write [[time_s, value], …] with times that rise from 0 or later",
+            "the times do not increase",
+            "write [[time_s, value], …] with increasing times, the first 0 or later",
         )
     })
 }

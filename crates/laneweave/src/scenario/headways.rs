@@ -8,16 +8,16 @@ use laneweave_sim::{self as sim, Demand, HeadwayError};
 use super::Origin;
 use crate::fault::Fault;
 
-/// Law of the headways, the times between arrivals in a lane; the mean is that of the demand.
+/// Distribution of the headways, the times between arrivals in a lane; its mean follows from the demand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Headways {
-    /// Negative exponential: vehicles that know nothing of each other.
+    /// Negative exponential: vehicles that arrive independently.
     #[default]
     Exponential,
-    /// Exponential beyond a shortest headway.
+    /// Shifted exponential: exponential beyond a minimum headway.
     Shifted {
-        /// Shortest headway [s].
+        /// Minimum headway [s].
         #[serde(default = "usual_minimum")]
         minimum_s: f64,
     },
@@ -27,9 +27,9 @@ pub enum Headways {
         #[serde(default = "usual_stages")]
         stages: u32,
     },
-    /// Pearson III: gamma beyond a shortest headway.
+    /// Pearson III: gamma beyond a minimum headway.
     PearsonIii {
-        /// Shortest headway [s].
+        /// Minimum headway [s].
         #[serde(default = "usual_minimum")]
         minimum_s: f64,
         /// Standard deviation relative to the mean.
@@ -42,9 +42,9 @@ pub enum Headways {
         #[serde(default = "usual_variation")]
         variation: f64,
     },
-    /// Cowan's M3: who follows does so at the shortest headway, the free are exponential beyond it.
+    /// Cowan's M3: followers have the minimum headway; headways of free drivers are exponential beyond it.
     CowanM3 {
-        /// Shortest headway [s].
+        /// Minimum headway [s].
         #[serde(default = "usual_following")]
         minimum_s: f64,
         /// Share of free drivers.
@@ -102,7 +102,7 @@ pub(super) fn check(demand: &Demand, origin: &Origin) -> Result<(), Fault> {
         let Err(error) = demand.headways.check(it.rate_of_a_lane()) else { continue };
         let (key, remedy) = match error {
             HeadwayError::Minimum { .. } => {
-                ("minimum_s", format!("choose less, or a lower demand at the entrance {}", it.place.id()))
+                ("minimum_s", format!("choose less, or reduce the demand at the entrance {}", it.place.id()))
             }
             HeadwayError::Parameter { key, least, most, .. } => {
                 (if key == "minimum" { "minimum_s" } else { key }, format!("choose {least} to {most}"))

@@ -28,7 +28,7 @@ pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
 pub use written::write;
 
-/// A scenario of laneweave: a map, who drives on it, and what is recorded.
+/// A scenario of laneweave: a map, the traffic on it, and the output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
@@ -37,22 +37,22 @@ pub struct Scenario {
     /// How the map is read.
     #[serde(default)]
     pub map_options: MapOptions,
-    /// Who comes, how many, and where they go.
+    /// The demand: how many vehicles arrive, of which classes, and where they go.
     #[serde(default)]
     pub demand: Demand,
-    /// How drivers go on from roads to junctions, in place of the weights of the exits.
+    /// Turning shares at junctions, in place of the weights of the exits.
     #[serde(default)]
     pub turns: Vec<Turns>,
-    /// Programs of lights; the others are given one.
+    /// Signal programs of traffic lights; all other traffic lights get a generated program.
     #[serde(default)]
     pub signals: Vec<Signal>,
-    /// What programs the others are given.
+    /// Kind of the generated signal programs.
     #[serde(default)]
     pub made_signals: MadeSignals,
-    /// What drivers are told of travel times.
+    /// Guidance: the information on travel times that drivers get.
     #[serde(default)]
     pub guidance: Guidance,
-    /// How long and how finely to simulate.
+    /// Duration, step and seed of the simulation.
     #[serde(default)]
     pub run: Run,
     /// The styles of the drivers with their weights: names of built-in styles, or paths of style files (FILE.toml)
@@ -62,7 +62,7 @@ pub struct Scenario {
     /// One lane-change model for all drivers, in place of those of their styles.
     #[serde(default)]
     pub model: Option<Model>,
-    /// What is written, and where.
+    /// Output: which files are written, and where.
     #[serde(default)]
     pub output: Output,
 }
@@ -71,24 +71,24 @@ pub struct Scenario {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MapOptions {
-    /// Latitude and longitude [°] that become (0, 0); without it the place of the map's first node, rounded to 0.1°.
+    /// Latitude and longitude [°] of the origin (0, 0); default: those of the map's first node, rounded to 0.1°.
     pub origin: Option<[f64; 2]>,
-    /// Whose speed limits hold where the map gives none.
+    /// The traffic law whose speed limits apply where the map gives none.
     pub law: Law,
-    /// On which side traffic drives; without it what the map says, or else the right.
+    /// The side of the road on which traffic drives; default: the side that the map gives, otherwise right.
     pub driving_side: Option<DrivingSide>,
-    /// Largest size of the map, unpacked if it is compressed [MB]; without it 1 GiB, at most 2 GiB.
+    /// Largest size of the map, unpacked if it is compressed [MB]; default 1 GiB, at most 2 GiB.
     pub max_size_mb: Option<f64>,
 }
 
-/// Whose traffic law holds.
+/// A traffic law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Law {
-    /// That of Germany.
+    /// Germany.
     #[default]
     Germany,
-    /// That of most of the United States.
+    /// Most of the United States.
     Usa,
 }
 
@@ -111,11 +111,11 @@ pub enum DrivingSide {
     Right,
 }
 
-/// Who comes, how many, and where they go.
+/// The demand: how many vehicles arrive, of which classes, and where they go.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Demand {
-    /// Vehicles per hour in total, split over the entrances by their number of lanes; without it 70 % of the estimated
+    /// Vehicles per hour in total, split over the entrances by their number of lanes; default: 70 % of the estimated
     /// capacity.
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
@@ -124,16 +124,18 @@ pub struct Demand {
     pub buses: f64,
     /// Share of motorcycles, 0 to 1; all other vehicles are cars.
     pub motorcycles: f64,
-    /// Vehicles per hour at single entrances, by the smallest lanelet id there, in place of their split share.
+    /// Vehicles per hour at single entrances (keys: the smallest lanelet id of the entrance), in place of their share
+    /// of the total.
     pub entrances: BTreeMap<String, VehiclesPerHour>,
-    /// Weights of the exits as destinations, by the smallest lanelet id there; 1 where nothing is said.
+    /// Weights of the exits as destinations (keys: the smallest lanelet id of the exit); default 1.
     pub exits: BTreeMap<String, f64>,
-    /// Vehicles per hour from single entrances to single exits, in place of their split share and the weights of the
-    /// exits.
+    /// Vehicles per hour from single entrances to single exits, in place of the entrance's share of the total and the
+    /// weights of the exits.
     pub od: Vec<OdRow>,
-    /// Factors on all demands: [[time_s, factor], …], each from its time after the start (with the warm-up) on.
+    /// Factors on all demands: [[time_s, factor], …]. Each factor holds from its time on, counted from the start of
+    /// the simulation (with the warm-up).
     pub profile: Vec<[f64; 2]>,
-    /// Law of the headways, the times between arrivals in a lane; the mean is that of the demand.
+    /// Distribution of the headways, the times between arrivals in a lane; its mean follows from the demand.
     pub headways: Headways,
 }
 
@@ -157,30 +159,31 @@ impl Default for Demand {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "invalid value: expected a number or a list [[time_s, vehicles_per_hour], …]")]
 pub enum VehiclesPerHour {
-    /// The same at all times.
+    /// A constant rate.
     Constant(f64),
-    /// [[time_s, vehicles_per_hour], …], each from its time after the start (with the warm-up) on.
+    /// [[time_s, vehicles_per_hour], …]. Each rate holds from its time on, counted from the start of the simulation
+    /// (with the warm-up).
     OverTime(Vec<[f64; 2]>),
 }
 
-/// A row of the table of origins and destinations.
+/// A row of the origin–destination matrix.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OdRow {
-    /// The smallest lanelet id at the entrance.
+    /// The smallest lanelet id of the entrance.
     pub from: String,
-    /// The smallest lanelet id at the exit.
+    /// The smallest lanelet id of the exit.
     pub to: String,
     /// Vehicles per hour.
     pub vehicles_per_hour: f64,
 }
 
-/// What drivers are told of travel times.
+/// Guidance: the information on travel times that drivers get.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Guidance {
-    /// Time between two measurements of all travel times, after which drivers may find another way better [s], 1 or
-    /// more; 0: they know the times of the free road only.
+    /// Time between two measurements of all travel times [s], 1 or more; after each, drivers may choose a better
+    /// route. 0: drivers know free-flow travel times only.
     pub interval_s: f64,
 }
 
@@ -190,7 +193,7 @@ impl Default for Guidance {
     }
 }
 
-/// How long and how finely to simulate.
+/// Duration, step and seed of the simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Run {
@@ -198,14 +201,14 @@ pub struct Run {
     pub duration_s: f64,
     /// Length of a step [s], 0.01 to 1.
     pub step_s: f64,
-    /// Seed of all random draws.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Simulated time before anything is measured or recorded [s].
     pub warmup_s: f64,
-    /// Number of threads; results do not depend on it. Without it the cores of the machine, but for one that writes
-    /// trajectories if they are recorded; at most 2.
+    /// Number of threads; results do not depend on it. Default: the cores of the machine, less one core for writing
+    /// if trajectories are recorded; at most 2.
     pub threads: Option<NonZero<usize>>,
-    /// Whether vehicles that overlap are looked for at every step, not only once a second.
+    /// Whether to search for overlapping vehicles at every step, not only once a second.
     pub audit: bool,
 }
 
@@ -215,21 +218,21 @@ impl Default for Run {
     }
 }
 
-/// What is written, and where.
+/// Output: which files are written, and where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
-    /// The folder of all results, from the current folder on.
+    /// The folder of all results, relative to the current folder.
     pub dir: PathBuf,
     /// Time between two samples of a trajectory [s]; 0: no trajectories.
     pub record_s: f64,
-    /// Length of the intervals over which flow, density and speed of every lanelet are measured [s]; 0: they are not.
+    /// Length of the intervals over which flow, density and speed of every lanelet are measured [s]; 0: not measured.
     pub flows_s: f64,
     /// Format of the tables.
     pub format: TableFormat,
-    /// Files that are written as SUMO writes them.
+    /// Output files in SUMO's format.
     pub sumo: BTreeSet<SumoFile>,
-    /// Time between two checkpoints, from which a run that broke off can be resumed [s]; 0: there are none.
+    /// Time between two checkpoints, from which an incomplete run can be resumed [s]; 0: no checkpoints.
     pub checkpoint_s: f64,
 }
 
@@ -259,13 +262,13 @@ pub enum TableFormat {
     Csv,
 }
 
-/// A file as SUMO writes it.
+/// An output file in SUMO's format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SumoFile {
     /// fcd.xml: every vehicle at every sample.
     Fcd,
-    /// tripinfo.xml: every trip that ended.
+    /// tripinfo.xml: every completed trip.
     Tripinfo,
     /// lanechanges.xml: every completed lane change.
     Lanechange,

@@ -32,7 +32,7 @@ impl Origin {
         }
         let source = Source::read(path)?;
         if source.has_key("follow") && !source.has_key("map") {
-            let what = "this is a style of drivers, where a scenario or a map is wanted";
+            let what = "this is a driver style, but a scenario or a map is expected";
             let remedy = format!("run a map with it: laneweave run MAP --style {}=1", path.display());
             return Err(Fault::new(path.display(), what, remedy));
         }

@@ -91,8 +91,8 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
     if places.origins.is_empty() {
-        let what = "nobody can drive on the map: no lanelet of 10 m or more begins at its edge, and from none of 20 m or \
-                    more that shares its ground with no other can another be reached";
+        let what = "no vehicle can drive on the map: no lanelet of 10 m or more begins at its edge, and from no lanelet of 20 m or \
+                    more outside conflict areas can another be reached";
         return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
     }
     let network = Arc::new(network);
@@ -173,11 +173,7 @@ fn places(network: &Network, graph: &Graph) -> Places {
 fn check_samples(scenario: &Scenario, origin: &Origin, record_steps: Option<u32>) -> Result<(), Fault> {
     if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
         let what = "fcd.xml is sampled at output.record_s, which is 0";
-        return Err(Fault::new(
-            origin.place(&["output", "sumo"]),
-            what,
-            "leave fcd out, or set record_s = 1",
-        ));
+        return Err(Fault::new(origin.place(&["output", "sumo"]), what, "remove fcd, or set record_s = 1"));
     }
     Ok(())
 }
@@ -226,7 +222,7 @@ fn whole_steps(
     let steps = interval / step;
     if interval > 0.0 && steps < 1.0 - TOLERANCE {
         let what = format!("{what} of {interval} s is shorter than a step of {step} s");
-        let remedy = format!("choose {step} s or a multiple of it, 0 for none, or a shorter step");
+        let remedy = format!("choose {step} s or a multiple of it, 0 to switch it off, or a shorter step");
         return Err(Fault::new(origin.place(&["output", key]), what, remedy));
     }
     if (steps - steps.round()).abs() <= TOLERANCE {
@@ -234,8 +230,8 @@ fn whole_steps(
     }
     // Rounded, as 3 × 0.1 would be shown with all its digits.
     let above = (steps.ceil() * step * 1e6).round() / 1e6;
-    let what = format!("{what} of {interval} s with steps of {step} s");
-    let remedy = format!("choose a multiple of the step, such as {above} s");
+    let what = format!("{what} of {interval} s is not a multiple of the step of {step} s");
+    let remedy = format!("choose a multiple of it, such as {above} s");
     Err(Fault::new(origin.place(&["output", key]), what, remedy))
 }
 
@@ -281,8 +277,8 @@ pub fn open_map(path: &Path, options: &MapOptions) -> Result<Map, Fault> {
     origin.replaced("map_options.origin", "--origin");
     load(path, &ReadOptions::from(options)).map_err(|error| match error {
         MapError::UnknownFormat { found, .. } if found == "toml" => {
-            let what = "this is no map, but by its name a scenario or a style";
-            Fault::new(path.display(), what, "give the map itself, which a scenario names in its key map")
+            let what = "by its name this is a scenario or a style, not a map";
+            Fault::new(path.display(), what, "give the map itself; a scenario names it in its key map")
         }
         _ => map_fault(&error, path, &origin),
     })
@@ -307,13 +303,13 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     };
     let message = error.to_string();
     let message = line.and_then(|it| message.strip_prefix(&format!("line {it}: "))).unwrap_or(&message);
-    let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "mend the map"));
+    let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "correct the map"));
     let file = path.display();
     let named_at = origin.in_file(&["map"]);
     match (error, line, named_at) {
         (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
         (MapError::TooLarge { .. }, ..) => {
-            let remedy = "cut the map into smaller ones, or allow for more with --max-map-size, at most 2GiB";
+            let remedy = "split the map into smaller ones, or increase --max-map-size, at most 2GiB";
             Fault::new(file, what, remedy)
         }
         (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),

@@ -7,48 +7,48 @@ use serde::{Deserialize, Serialize};
 use super::{Origin, Scenario};
 use crate::fault::Fault;
 
-/// What programs lights get that have none.
+/// Kind of the generated signal programs, for traffic lights without a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum MadeSignals {
-    /// Of 60 s, whoever comes.
+    /// Fixed-time, with a cycle of 60 s.
     #[default]
     Fixed,
-    /// Greens of 5 to 40 s that traffic extends.
+    /// Actuated: greens of 5 to 40 s that traffic extends.
     Actuated,
 }
 
-/// A program for lights that get in each other's way: its phases, one after the other.
+/// A signal program for traffic lights whose movements conflict: its phases, one after the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Signal {
-    /// When the first phase begins [s].
+    /// Offset: when the first phase begins [s].
     #[serde(default)]
     pub offset_s: f64,
-    /// Length of a cycle [s], if it is to be checked: all its phases together.
+    /// Cycle length [s]; optional, checked against the sum of all phases.
     pub cycle_s: Option<f64>,
     /// The phases in order.
     pub phases: Vec<SignalPhase>,
 }
 
-/// Some lights are green, then yellow, and then all are red.
+/// A phase: some traffic lights are green, then yellow, and then all are red.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SignalPhase {
-    /// Ids of the lights that are green; one that is green in the next phase, too, stays green in between.
+    /// Ids of the traffic lights that are green; a light that is also green in the next phase stays green in between.
     pub green: Vec<i64>,
-    /// Length of green [s], if traffic does not extend it.
+    /// Green time [s], for a phase of fixed length.
     pub green_s: Option<f64>,
-    /// Longest green [s], if traffic extends it: from when on somebody waits for another phase.
+    /// Maximum green [s], if traffic extends the phase: counted from the first call for another phase.
     pub max_green_s: Option<f64>,
-    /// Shortest green that traffic extends [s]; 5 where nothing is said.
+    /// Minimum green [s], if traffic extends the phase; default 5.
     pub min_green_s: Option<f64>,
-    /// A green that traffic extends ends when nobody has come for so long [s]; 2 where nothing is said.
+    /// Gap time [s]: a green that traffic extends ends when no vehicle has arrived for so long; default 2.
     pub gap_s: Option<f64>,
-    /// Length of the yellow after it [s].
+    /// Yellow time after the green [s].
     #[serde(default = "usual_yellow")]
     pub yellow_s: f64,
-    /// Length of red for all after that [s].
+    /// All-red time after the yellow [s].
     #[serde(default = "usual_all_red")]
     pub all_red_s: f64,
 }
@@ -84,8 +84,8 @@ pub(super) fn plans(
         let plan = plan(signal, &place, network)?;
         let is_taken = |light: &LightIndex| plans.iter().any(|it| it.lights().any(|other| other == *light));
         if let Some(twice) = plan.lights().find(is_taken) {
-            let what = format!("the light {} has a program already", name(network, twice));
-            return Err(Fault::new(place.of(&["phases"]), what, "name it in one of them only"));
+            let what = format!("the traffic light {} already has a program", name(network, twice));
+            return Err(Fault::new(place.of(&["phases"]), what, "use it in one program only"));
         }
         check_conflicts(&plan, &place, network, &conflicts)?;
         plans.push(plan);
@@ -129,21 +129,21 @@ fn plan(signal: &Signal, place: &Place, network: &Network) -> Result<SignalPlan,
         let SignalPhase { yellow_s: yellow, all_red_s: all_red, .. } = *phase;
         let place_of = |key: &str| place.in_phase(number, key);
         let (green, extension) = green(phase, place_of)?;
-        check(place_of("yellow_s"), "a yellow", yellow, Least::Above(0.0), LONGEST)?;
-        check(place_of("all_red_s"), "a red for all", all_red, Least::From(0.0), LONGEST)?;
+        check(place_of("yellow_s"), "a yellow time", yellow, Least::Above(0.0), LONGEST)?;
+        check(place_of("all_red_s"), "an all-red time", all_red, Least::From(0.0), LONGEST)?;
         let lights = phase.green.iter().map(|id| light(network, *id, place_of("green")));
         turns.push(Turn { lights: lights.collect::<Result<_, _>>()?, green, extension, yellow, all_red });
     }
     let plan = SignalPlan { offset: signal.offset_s, turns };
     if plan.is_actuated() && signal.offset_s != 0.0 {
-        let what = "an offset of a program that goes by the traffic";
+        let what = "an offset of an actuated program";
         return Err(Fault::new(place.of(&["offset_s"]), what, "leave it out"));
     }
     match signal.cycle_s {
         // A millisecond is no mistake.
         Some(cycle) if cycle.is_nan() || (cycle - plan.cycle()).abs() > 1e-3 => {
             let what = format!("a cycle of {cycle} s, but its phases last {} s", plan.cycle());
-            Err(Fault::new(place.of(&["cycle_s"]), what, "leave it out, or change a phase"))
+            Err(Fault::new(place.of(&["cycle_s"]), what, "remove it, or change a phase"))
         }
         _ => Ok(plan),
     }
@@ -172,29 +172,29 @@ fn green(phase: &SignalPhase, place: impl Fn(&str) -> String) -> Result<(f64, Op
     let SignalPhase { green_s, max_green_s, min_green_s, gap_s, .. } = *phase;
     match (green_s, max_green_s) {
         (Some(green), None) if min_green_s.is_none() && gap_s.is_none() => {
-            check(place("green_s"), "a green", green, Least::Above(0.0), LONGEST)?;
+            check(place("green_s"), "a green time", green, Least::Above(0.0), LONGEST)?;
             Ok((green, None))
         }
         (None, Some(most)) => {
-            check(place("max_green_s"), "a longest green", most, Least::Above(0.0), LONGEST)?;
+            check(place("max_green_s"), "a maximum green", most, Least::Above(0.0), LONGEST)?;
             let usual = Extension::default();
             let least = min_green_s.unwrap_or(usual.least.min(most));
-            check(place("min_green_s"), "a shortest green", least, Least::Above(0.0), most)?;
+            check(place("min_green_s"), "a minimum green", least, Least::Above(0.0), most)?;
             let gap = gap_s.unwrap_or(usual.gap);
-            check(place("gap_s"), "a gap", gap, Least::From(0.0), LONGEST)?;
+            check(place("gap_s"), "a gap time", gap, Least::From(0.0), LONGEST)?;
             Ok((most, Some(Extension { least, gap })))
         }
         (Some(_), _) => {
-            let what = "a green of one length that traffic extends as well";
+            let what = "both a fixed and an actuated green";
             Err(Fault::new(
                 place("green_s"),
                 what,
-                "leave out green_s, or min_green_s, max_green_s and gap_s",
+                "remove green_s, or remove min_green_s, max_green_s and gap_s",
             ))
         }
         (None, None) => {
             let remedy = "give green_s, or max_green_s if traffic extends it";
-            Err(Fault::new(place("green"), "a phase without a length of green", remedy))
+            Err(Fault::new(place("green"), "a phase without a green time", remedy))
         }
     }
 }
@@ -209,10 +209,10 @@ fn light(network: &Network, id: i64, place: String) -> Result<LightIndex, Fault>
         let nearest: Vec<String> = known.iter().take(LISTED).map(i64::to_string).collect();
         let remedy = match known.len() {
             0 => "leave it out".into(),
-            1..=LISTED => format!("its lights are {}", nearest.join(", ")),
-            count => format!("the nearest of its {count} lights are {}", nearest.join(", ")),
+            1..=LISTED => format!("its traffic lights are {}", nearest.join(", ")),
+            count => format!("the nearest ids of its {count} traffic lights are {}", nearest.join(", ")),
         };
-        Fault::new(place, format!("the map has no light {id}"), remedy)
+        Fault::new(place, format!("the map has no traffic light {id}"), remedy)
     })
 }
 
@@ -234,11 +234,12 @@ fn check_conflicts(
         if let Some((phase, named, left_out)) = left_out {
             let [named, left_out] = [named, left_out].map(|it| name(network, it));
             let ways = ways(network, conflict);
-            let what = format!("the light {left_out} has no phase, but gets in the way of {named}: {ways}");
+            let what =
+                format!("the traffic light {left_out} has no phase, but conflicts with {named}: {ways}");
             return Err(Fault::new(
                 place.in_phase(phase, "green"),
                 what,
-                "name it in a phase of this program",
+                "add it to a phase of this program",
             ));
         }
         let together =
@@ -247,9 +248,9 @@ fn check_conflicts(
             let [one, other] = [one, other].map(|it| name(network, it));
             let ways = ways(network, conflict);
             let what = format!(
-                "the lights {one} and {other} are green together, but {ways}, and neither goes first"
+                "the traffic lights {one} and {other} are green together, but {ways}, and neither has priority"
             );
-            return Err(Fault::new(place.in_phase(phase, "green"), what, "give them different phases"));
+            return Err(Fault::new(place.in_phase(phase, "green"), what, "put them into different phases"));
         }
     }
     Ok(())
@@ -266,5 +267,5 @@ fn ways(network: &Network, conflict: &LightConflict) -> String {
         let reach = &zone.sides[usize::from(side)];
         network.lanelet_at(Position::new(reach.chain, 0.5 * (reach.start + reach.end))).0.id
     });
-    format!("lanelets {} and {} meet", lanelets[0], lanelets[1])
+    format!("lanelets {} and {} conflict", lanelets[0], lanelets[1])
 }

@@ -12,19 +12,19 @@ use serde::{Deserialize, Serialize};
 use super::{Origin, Scenario};
 use crate::fault::Fault;
 
-/// How drivers go on from a road to a junction.
+/// Turning shares of the drivers on a road to a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turns {
     /// The id of a lanelet of the road.
     pub from: i64,
-    /// Share, or number, of those who turn left, or back.
+    /// Share, or count, of drivers who turn left (or make a U-turn).
     #[serde(default)]
     pub left: f64,
-    /// Share, or number, of those who go straight on.
+    /// Share, or count, of drivers who go straight on.
     #[serde(default)]
     pub straight: f64,
-    /// Share, or number, of those who turn right.
+    /// Share, or count, of drivers who turn right.
     #[serde(default)]
     pub right: f64,
 }
@@ -54,12 +54,16 @@ pub(super) fn set_turns(
     }
     let place = origin.place(&["turns"]);
     if network.entrances.is_empty() || network.exits.is_empty() {
-        let remedy = "leave them out: there every lanelet is a destination";
+        let remedy = "remove them: on this map every lanelet is a destination";
         return Err(Fault::new(place, "turning shares on a map without entrances or exits", remedy));
     }
     if !scenario.demand.exits.is_empty() {
-        let what = "turning shares and weights of exits, of which each says where drivers go";
-        return Err(Fault::new(place, what, "leave out demand.exits, or the turns"));
+        let what = "both turning shares and weights of exits";
+        return Err(Fault::new(
+            place,
+            what,
+            "remove demand.exits or the turns: each of them defines the destinations",
+        ));
     }
     let sections = Sections::of(network);
     let ways_on = ways_on(scenario, origin, network, &sections)?;
@@ -77,11 +81,11 @@ pub(super) fn set_turns(
         it.weights.fill(0.0);
         let arrived = arrived(parts, &ways_on).map_err(|left| {
             let what = format!(
-                "{:.0} % of those who come at the entrance {} go round for ever with these shares",
+                "with these shares {:.0} % of the drivers from the entrance {} never arrive",
                 100.0 * left,
                 it.place.id()
             );
-            Fault::new(&place, what, "let some of them leave the round")
+            Fault::new(&place, what, "give a share above 0 to a turn that leads out of the loop")
         })?;
         // Lanes of one road may be exits of their own, of which not all can be reached from here.
         let is_reached = reached(network, it.place.chains());
@@ -123,8 +127,9 @@ pub(super) fn check_arrivals(scenario: &Scenario, origin: &Origin, world: &World
         let mut wanted = it.weights.iter().enumerate().filter(|it| *it.1 > 0.0);
         if !wanted.any(|(to, _)| world.leads(number, to)) {
             let id = it.place.id();
-            let what = format!("no lane leads from the entrance {id} to where these shares send its drivers");
-            let remedy = "give a way that its lanes lead a share above 0, or the entrance no demand";
+            let what = format!("no lane leads from the entrance {id} to the destinations of these shares");
+            let remedy =
+                "give a share above 0 to a turn that its lanes allow, or remove the demand of the entrance";
             return Err(Fault::new(origin.place(&["turns"]), what, remedy));
         }
     }
@@ -171,8 +176,8 @@ fn ways_on(
         let section = fork_after(turns.from, network, sections)
             .map_err(|(what, remedy)| Fault::new(place("from"), what, remedy))?;
         if let Some(other) = named[section].replace(turns.from) {
-            let what = format!("the lanelets {other} and {} lead to one junction", turns.from);
-            return Err(Fault::new(place("from"), what, "leave out one of them"));
+            let what = format!("the lanelets {other} and {} lead to the same junction", turns.from);
+            return Err(Fault::new(place("from"), what, "remove one of them"));
         }
         ways_on[section] = by_shares(turns, &sections.all()[section].following, network, place)?;
     }
@@ -185,7 +190,7 @@ fn fork_after(id: i64, network: &Network, sections: &Sections) -> Result<usize, 
     let mut same = lanelets.filter(|it| network.lanelets[it.at()].id == id);
     let first = same.next().ok_or((
         format!("the map has no lanelet {id} for vehicles"),
-        "name a lanelet of the road to the junction",
+        "give a lanelet of the road to the junction",
     ))?;
     let mut at = sections.holding(*first);
     for _ in 0..sections.all().len() {
@@ -266,13 +271,13 @@ fn by_shares(
                 .iter()
                 .map(|it| format!("{} ({})", Way::of(it).words()[1], network.lanelets[it.lanelet.at()].id));
             let known: Vec<String> = known.collect();
-            let what = format!("no way leads {reads} from {}", turns.from);
+            let what = format!("no lane leads {reads} from {}", turns.from);
             return Err(Fault::new(place(key), what, format!("its lanelets lead {}", known.join(", "))));
         }
     }
     let total: f64 = Way::ALL.into_iter().map(share).sum();
     if total <= 0.0 {
-        let what = format!("nobody goes on from {}", turns.from);
+        let what = format!("all shares from {} are 0", turns.from);
         return Err(Fault::new(place("from"), what, "give left, straight or right a share above 0"));
     }
     let part = |it: &Branch| share(Way::of(it)) / total * it.lanes as f64 / lanes(Way::of(it)) as f64;

@@ -88,7 +88,7 @@ impl Distribution {
             return Some(("a distribution with a number that is not finite".into(), "give finite numbers"));
         }
         if least > largest {
-            return Some((format!("min {least} is above max {largest}"), "exchange them"));
+            return Some((format!("min {least} is above max {largest}"), "swap them"));
         }
         match *self {
             Distribution::Normal { sd, .. } | Distribution::Lognormal { sd, .. } if sd < 0.0 => {
@@ -98,7 +98,7 @@ impl Distribution {
                 Some((format!("mean is {mean}"), "a lognormal variable has a mean above 0"))
             }
             Distribution::Uniform { low, high, .. } if low > high => {
-                Some((format!("low {low} is above high {high}"), "exchange them"))
+                Some((format!("low {low} is above high {high}"), "swap them"))
             }
             _ => None,
         }

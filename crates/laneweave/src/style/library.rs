@@ -61,15 +61,15 @@ pub fn find(name: &str, folder: &Path, place: impl Fn() -> String) -> Result<Sou
             Fault::new(place(), format!("style file {file}: {what}"), remedy)
         })?;
         if source.has_key("map") && !source.has_key("follow") {
-            let what = format!("{name} is a scenario, where a style is wanted");
+            let what = format!("{name} is a scenario, but a style is expected");
             return Err(Fault::new(place(), what, format!("run it: laneweave run {name}")));
         }
         return Ok(source);
     }
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy();
     if FORMATS.iter().any(|it| it.extensions.contains(&extension.as_ref())) {
-        let what = format!("{name} is a map, where a style is wanted");
-        return Err(Fault::new(place(), what, "see those there are: laneweave styles list"));
+        let what = format!("{name} is a map, but a style is expected");
+        return Err(Fault::new(place(), what, "list the styles with: laneweave styles list"));
     }
     let names = BUILT_IN.iter().map(|it| it.name);
     let remedy = format!("{} (or give the path of a style file, FILE.toml)", did_you_mean(name, names));
@@ -84,10 +84,10 @@ pub fn copy(source: &Source, name: &str) -> Result<String, Fault> {
     let is_name = |it: char| it.is_alphanumeric() || matches!(it, '-' | '_' | '.' | ' ');
     if name.trim().is_empty() || !name.chars().all(is_name) {
         let remedy = "choose letters, digits, - and _";
-        return Err(Fault::new("NAME", format!("{name:?} is no name for a style"), remedy));
+        return Err(Fault::new("NAME", format!("{name:?} is not a valid name for a style"), remedy));
     }
     if built_in(name).is_some() {
-        let what = format!("{name:?} is the name of a style that comes with the program");
+        let what = format!("{name:?} is the name of a built-in style");
         return Err(Fault::new("NAME", what, "choose another name"));
     }
     StyleTemplate::parse(source)?;

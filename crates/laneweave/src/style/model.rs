@@ -27,9 +27,9 @@ pub enum Model {
     Lmrs,
     /// LMRS, which never leaves the lanes of its route.
     LmrsLanes,
-    /// Multi-criteria decision-making without any weight: only its noise is left.
+    /// Null-model control: multi-criteria decision-making with all weights 0; only its choice noise is left.
     Null,
-    /// Changes at a constant rate, without a reason.
+    /// Null-model control: changes lanes at a constant rate, without a reason.
     ConstantHazard,
 }
 
@@ -73,9 +73,9 @@ impl Model {
                 "relaxation and synchronization (Schakel et al.); never leaves the lanes of its route"
             }
             Model::Null => {
-                "control: multi-criteria decision-making without any weight, only its noise is left"
+                "null-model control: multi-criteria decision-making with all weights 0; only its choice noise is left"
             }
-            Model::ConstantHazard => "control: changes at a constant rate, without a reason",
+            Model::ConstantHazard => "null-model control: changes lanes at a constant rate, without a reason",
         }
     }
 

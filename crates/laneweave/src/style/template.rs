@@ -57,13 +57,21 @@ impl StyleTemplate {
             && it.sigma == 0.0
         {
             let remedy = "give sigma a value above 0, or set rule = \"threshold\"";
-            return Err(Fault::new(source.place(&["change", "sigma"]), "a logit rule without noise", remedy));
+            return Err(Fault::new(
+                source.place(&["change", "sigma"]),
+                "a logit rule without choice noise",
+                remedy,
+            ));
         }
         if let LaneChangeModel::Lmrs(it) = &typical.change
             && !(it.free <= it.synchronize && it.synchronize < it.cooperate)
         {
             let remedy = "choose free ≤ synchronize < cooperate";
-            return Err(Fault::new(source.place(&["change"]), "thresholds of desire out of order", remedy));
+            return Err(Fault::new(
+                source.place(&["change"]),
+                "desire thresholds in the wrong order",
+                remedy,
+            ));
         }
         Ok(StyleTemplate { table, parameters, typical })
     }
@@ -117,7 +125,7 @@ impl StyleTemplate {
             inner = next.as_table_mut().ok_or_else(|| {
                 Fault::new(
                     place,
-                    format!("{key} is no section of a style"),
+                    format!("{key} is not a section of a style"),
                     "see `laneweave styles show NAME`",
                 )
             })?;
@@ -228,7 +236,7 @@ impl Reader<'_> {
             (Value::Float(_), _) => {
                 let remedy = "give a number, or a distribution such as \
                               { distribution = \"normal\", mean = 1.0, sd = 0.1, min = 0.7, max = 1.3 }";
-                Err(self.fault(format!("{} is no number", self.key()), remedy))
+                Err(self.fault(format!("{} is not a number", self.key()), remedy))
             }
             (default, found) => {
                 let what = format!("{} is a {}", self.key(), found.type_str());
@@ -256,7 +264,7 @@ impl Reader<'_> {
         let range = Range::of(&self.key());
         let (least, largest) = distribution.support();
         if !range.holds(least, largest) {
-            let what = format!("{} reaches from {least} to {largest}", self.key());
+            let what = format!("{} ranges from {least} to {largest}", self.key());
             return Err(self.fault(what, format!("set its min and max: {}", range.advice())));
         }
         let number = self.parameters.len() as u32;

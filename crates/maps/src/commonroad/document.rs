@@ -167,7 +167,7 @@ impl Drafts<'_> {
             self.problems.push(Problem {
                 element: "commonRoad".into(),
                 line: Some(element.line),
-                what: format!("its version {version:?} is not known, so elements may be passed over"),
+                what: format!("its version {version:?} is unknown, so elements may be ignored"),
                 remedy: format!("convert the file to {}", VERSIONS.join(" or ")),
             });
         }
@@ -183,7 +183,7 @@ impl Drafts<'_> {
             self.problems.push(Problem {
                 element: format!("{kind} {}", id.unwrap_or_default()).trim_end().into(),
                 line: Some(element.line),
-                what: "its id is missing or no whole number, so it is left out".into(),
+                what: "its id is missing or not a whole number, so it is left out".into(),
                 remedy: "give it an id of its own".into(),
             });
         }
@@ -201,7 +201,7 @@ impl LaneletElement {
             "predecessor" | "successor" | "adjacentLeft" | "adjacentRight" | "trafficSignRef" => {
                 let [reference, direction] = element.values(["ref", "drivingDir"])?;
                 let Some(id) = reference.as_deref().and_then(|it| it.parse().ok()) else {
-                    let what = format!("the ref of its {part} is missing or no whole number");
+                    let what = format!("the ref of its {part} is missing or not a whole number");
                     return Ok(Some(self.problem(what, "refer to the id of an element")));
                 };
                 match part {
@@ -222,13 +222,13 @@ impl LaneletElement {
             Some("opposite") => false,
             _ => {
                 let what = format!("the drivingDir of its {part} {id} is neither same nor opposite");
-                return Some(self.problem(what, "say in which direction the neighbour runs"));
+                return Some(self.problem(what, "give the direction of the neighbour"));
             }
         };
         let place = if part == "adjacentLeft" { &mut self.adjacent_left } else { &mut self.adjacent_right };
         if place.is_some() {
             let what = format!("it has a further {part}, {id}, which is left out");
-            return Some(self.problem(what, "name one neighbour on each side"));
+            return Some(self.problem(what, "give one neighbour on each side"));
         }
         *place = Some(Adjacent { id, same_direction });
         None
@@ -246,7 +246,7 @@ impl LaneletElement {
                 Ok(crossing) => bound.crossing = crossing,
                 Err(()) => {
                     bound.crossing = Some(Crossing::NEVER);
-                    let what = format!("its line marking {text:?} is unknown and taken for a solid line");
+                    let what = format!("its line marking {text:?} is unknown and treated as a solid line");
                     return Some(
                         self.problem(what, "write dashed, solid or another of the format's markings"),
                     );
@@ -270,7 +270,7 @@ impl LaneletElement {
             "laneletType" => {
                 self.types.push(text.into());
                 if !rules::is_type(text) {
-                    let what = format!("its type {text:?} is unknown and counts as no road");
+                    let what = format!("its type {text:?} is unknown, so it is not used as a road");
                     return Some(self.problem(what, "write urban, highway or another of the format's types"));
                 }
             }
@@ -360,13 +360,13 @@ mod tests {
         assert_eq!((document.lanelets.len(), document.signs.len()), (1, 0));
         assert_eq!(document.lanelets[0].left.crossing, Some(Crossing::NEVER));
         let starts = [
-            "lanelet x (line 2): its id is missing or no whole number",
+            "lanelet x (line 2): its id is missing or not a whole number",
             "traffic sign (line 2): its id is missing",
             "lanelet 1 (line 3): the ref of its successor is missing",
             "lanelet 1 (line 3): the drivingDir of its adjacentLeft 2 is neither same nor opposite",
             "lanelet 1 (line 3): it has a further adjacentRight, 4, which is left out",
-            "lanelet 1 (line 3): its line marking \"wavy\" is unknown and taken for a solid line",
-            "lanelet 1 (line 3): its type \"canal\" is unknown and counts as no road",
+            "lanelet 1 (line 3): its line marking \"wavy\" is unknown and treated as a solid line",
+            "lanelet 1 (line 3): its type \"canal\" is unknown, so it is not used as a road",
         ];
         assert_eq!(problems.len(), starts.len());
         for (problem, start) in problems.iter().zip(starts) {
@@ -381,7 +381,7 @@ mod tests {
         assert_eq!(parse(text, &mut problems).unwrap().tags, ["urban", "highway"]);
         assert_eq!(
             problems[0].to_string(),
-            "commonRoad (line 1): its version \"2017a\" is not known, so elements may be passed over; \
+            "commonRoad (line 1): its version \"2017a\" is unknown, so elements may be ignored; \
              convert the file to 2018b or 2020a"
         );
     }

@@ -39,8 +39,8 @@ pub(super) fn connect(
         for side in Side::BOTH {
             let Some(there) = beside(element, here, side, elements, places, problems) else { continue };
             if !touch_sideways(&lanelets[index], &lanelets[there.at()], side) {
-                let what = format!("its neighbour {} lies elsewhere", elements[there.at()].id);
-                problems.push(element.problem(what, "name one that shares a bound with it"));
+                let what = format!("its neighbour {} is not adjacent to it", elements[there.at()].id);
+                problems.push(element.problem(what, "give one that shares a bound with it"));
                 continue;
             }
             let lanelet = &mut lanelets[index];
@@ -82,12 +82,12 @@ impl Links {
             .iter()
             .filter(|id| place(**id, places).is_some_and(|it| !self.by_successor.contains(&(it, here))));
         let ahead = listed("successor", ahead).map(|it| {
-            let what = format!("its {it} does not name it as a predecessor; the successor counts");
-            element.problem(what, "add the predecessor there, or take out the successor here")
+            let what = format!("its {it} does not name it as a predecessor; the successor link is used");
+            element.problem(what, "add the predecessor there, or remove the successor here")
         });
         let behind = listed("predecessor", behind).map(|it| {
-            let what = format!("its {it} does not name it as a successor, so it does not follow");
-            element.problem(what, "add the successor there, or take out the predecessor here")
+            let what = format!("its {it} does not name it as a successor, so they are not connected");
+            element.problem(what, "add the successor there, or remove the predecessor here")
         });
         ahead.into_iter().chain(behind).collect()
     }
@@ -117,7 +117,7 @@ fn missing(element: &LaneletElement, places: &Places) -> Option<Problem> {
         element.predecessors.iter().chain(&element.successors).copied().chain(beside).collect();
     let list = listed("lanelet", named.iter().filter(|id| !places.contains_key(id)))?;
     let what = format!("it refers to {list}, which is missing");
-    Some(element.problem(what, "add the lanelet, or take out the reference"))
+    Some(element.problem(what, "add the lanelet, or remove the reference"))
 }
 
 /// The successors of `element` that lie where it ends; `previous` counts those that lead to each lanelet.
@@ -143,11 +143,13 @@ fn following(
         }
     }
     problems.extend(listed("successor", elsewhere.iter()).map(|it| {
-        let what = format!("its {it} begins elsewhere, so it does not follow");
-        element.problem(what, "name lanelets that begin where it ends")
+        let what = format!("its {it} begins elsewhere, so they are not connected");
+        element.problem(what, "give lanelets that begin where it ends")
     }));
     problems.extend(listed("successor", too_many.iter()).map(|it| {
-        let what = format!("its {it} does not follow: {MAXIMUM_SHARING} others part or meet there already");
+        let what = format!(
+            "its {it} is not connected: {MAXIMUM_SHARING} other lanelets already fork or merge there"
+        );
         element.problem(what, "delete lanelets that were drawn twice")
     }));
     following
@@ -185,8 +187,9 @@ fn beside(
     let back = elements[there.at()].adjacent(back_side);
     let agrees = back.is_some_and(|it| it.id == element.id && it.same_direction == adjacent.same_direction);
     if !agrees || there == here {
-        let what = format!("its neighbour {} does not name it in return, so they are none", adjacent.id);
-        problems.push(element.problem(what, "let neighbours name each other, with the same drivingDir"));
+        let what =
+            format!("its neighbour {} does not name it in return, so they are not neighbours", adjacent.id);
+        problems.push(element.problem(what, "make neighbours name each other, with the same drivingDir"));
         return None;
     }
     adjacent.same_direction.then_some(there)

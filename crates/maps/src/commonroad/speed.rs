@@ -39,7 +39,7 @@ fn shown(sign: &Sign, problems: &mut Vec<Problem>) -> Option<f64> {
         match value.filter(|it| is_limit(*it)) {
             Some(value) => limit = Some(limit.map_or(value, |it| it.min(value))),
             None => {
-                let what = format!("its value is no speed above 0 and up to {MAXIMUM} km/h");
+                let what = format!("its value is not a speed above 0 and up to {MAXIMUM} km/h");
                 let remedy = "write its additionalValue in m/s, like 13.89";
                 problems.push(problem("traffic sign", sign.id, sign.line, what, remedy));
             }
@@ -71,8 +71,8 @@ pub(super) fn limit(
     match lanelet.speed_limit {
         Some(limit) if is_limit(limit) => return limit,
         Some(_) => {
-            let what = format!("its speedLimit is no speed above 0 and up to {MAXIMUM} km/h");
-            let remedy = format!("write it in m/s, like 13.89; without one {default} km/h holds");
+            let what = format!("its speedLimit is not a speed above 0 and up to {MAXIMUM} km/h");
+            let remedy = format!("write it in m/s, like 13.89; the default is {default} km/h");
             problems.push(lanelet.problem(what, &remedy));
         }
         None => {}
@@ -83,7 +83,7 @@ pub(super) fn limit(
             0 => format!("it refers to traffic sign {first}, which is missing"),
             more => format!("it refers to traffic signs {first} and {more} more, which are missing"),
         };
-        problems.push(lanelet.problem(what, "add the sign, or take out the reference"));
+        problems.push(lanelet.problem(what, "add the sign, or remove the reference"));
     }
     let shown = lanelet.signs.iter().filter_map(|it| *signs.0.get(it)?);
     shown.reduce(f64::min).unwrap_or_else(|| {
@@ -176,15 +176,15 @@ mod tests {
             assert_eq!(kmh, 50.0);
             assert_eq!(
                 problems,
-                ["lanelet 8 (line 5): its speedLimit is no speed above 0 and up to 500 km/h; \
-                  write it in m/s, like 13.89; without one 50 km/h holds"]
+                ["lanelet 8 (line 5): its speedLimit is not a speed above 0 and up to 500 km/h; \
+                  write it in m/s, like 13.89; the default is 50 km/h"]
             );
         }
         let signs = [sign(1, &[("274", None)]), sign(2, &[]), sign(2, &[("274", Some(300.0))])];
         let lanelet = LaneletElement { signs: vec![1, 2, 3, 4, 5], ..LaneletElement::default() };
         let (kmh, problems) = limit_of(lanelet, &signs, &[]);
         assert_eq!((kmh, problems.len()), (50.0, 3));
-        assert!(problems[0].starts_with("traffic sign 1 (line 9): its value is no speed"), "{problems:?}");
+        assert!(problems[0].starts_with("traffic sign 1 (line 9): its value is not a speed"), "{problems:?}");
         assert!(problems[1].starts_with("traffic sign 2 (line 9): another sign above has the same id"));
         assert!(problems[2].contains("it refers to traffic signs 3 and 2 more, which are missing"));
     }

@@ -38,7 +38,9 @@ pub enum GenerateError {
     #[error("the only lane cannot end; choose two lanes or no lane drop")]
     OnlyLaneEnds,
     /// A ramp or lane drop does not fit on the road.
-    #[error("the {what} takes the road from {from} m to {to} m, of {length} m; move it or lengthen the road")]
+    #[error(
+        "the {what} needs the road from {from} m to {to} m, but its length is {length} m; move it or lengthen the road"
+    )]
     OutsideRoad {
         /// Which one.
         what: String,

@@ -141,10 +141,10 @@ impl Draft<'_> {
         match (members.next(), members.next()) {
             (Some(id), None) => self.lookup.way(id).ok_or_else(|| {
                 let what = format!("its {side} border is way {id}, which is missing");
-                (what, "add the way or name another")
+                (what, "add the way, or refer to another")
             }),
             (None, _) => Err((format!("{side} border is missing"), "add a way in the role of that side")),
-            (Some(_), Some(_)) => Err((format!("it has several {side} borders"), "join them to one way")),
+            (Some(_), Some(_)) => Err((format!("it has several {side} borders"), "merge them into one way")),
         }
     }
 
@@ -170,11 +170,11 @@ impl Draft<'_> {
     fn point(&mut self, way: &Way, id: i64) -> Result<u32, Flaw> {
         let place = self.lookup.node(id).ok_or_else(|| {
             let what = format!("its border, way {}, runs through node {id}, which is missing", way.id);
-            (what, "add the node or take it out of the way")
+            (what, "add the node, or remove it from the way")
         })?;
         if self.lookup.place(place).is_none() {
             let line = self.document.nodes[place].line;
-            let what = format!("node {id} (line {line}) of its border has no position on earth");
+            let what = format!("node {id} (line {line}) of its border has no geographic position");
             return Err((what, "give all nodes lat and lon, or all of them local_x and local_y"));
         }
         Ok(place as u32)

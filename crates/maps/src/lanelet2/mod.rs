@@ -78,7 +78,7 @@ impl<'a> Document<'a> {
                 const TAG: &str =
                     "give roads the tags type=lanelet and subtype=road, or participant:vehicle=yes";
                 let lack_borders = problems.first().is_some_and(|it| it.element == BORDERS);
-                let remedy = if lack_borders { "draw them, or choose another map" } else { TAG };
+                let remedy = if lack_borders { "add borders to them, or choose another map" } else { TAG };
                 Err(MapError::NotDrivable { lanelets, problems, remedy })
             }
             Err(error) => Err(error),

@@ -190,7 +190,7 @@ impl<'a> Parser<'a, '_> {
             self.problems.push(Problem {
                 element: format!("{} {}", element.name, id.unwrap_or_default()).trim_end().into(),
                 line: Some(element.line),
-                what: "its id is missing or no whole number, so it is left out".into(),
+                what: "its id is missing or not a whole number, so it is left out".into(),
                 remedy: "give it an id of its own".into(),
             });
             return Ok(());
@@ -256,7 +256,8 @@ impl<'a> Parser<'a, '_> {
                     Kind::Relation { id, .. } => format!("relation {id}"),
                 },
                 line: Some(element.line),
-                what: "a member's ref is missing or no whole number, so that member is left out".into(),
+                what: "the ref of a member is missing or not a whole number, so that member is left out"
+                    .into(),
                 remedy: "refer to the id of an element".into(),
             }),
         }

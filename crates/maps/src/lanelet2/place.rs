@@ -132,7 +132,7 @@ mod tests {
     fn an_origin_off_the_earth_is_refused() {
         let document = parse(b"<osm><node id='1'/></osm>", &mut Vec::new()).unwrap();
         let error = Frame::of(&document, Some((91.0, 0.0)), &mut Vec::new()).unwrap_err();
-        assert!(error.to_string().starts_with("the origin (91, 0) is no latitude"));
+        assert!(error.to_string().starts_with("the origin (91, 0) is not a latitude"));
     }
 
     #[test]

@@ -32,8 +32,8 @@ pub(super) fn rules(document: &Document, lookup: &Lookup, problems: &mut Vec<Pro
         problems.push(Problem {
             element: format!("lanelet {}", lanelets.first().copied().unwrap_or_default()),
             line: place.map(|it| document.relations[it].line as usize),
-            what: format!("its regulatory element {id} is missing, so nothing is regulated by it"),
-            remedy: "add the element or take it out of the lanelet's members".into(),
+            what: format!("its regulatory element {id} is missing, so it has no effect"),
+            remedy: "add the element, or remove it from the members of the lanelet".into(),
         });
     }
     rules
@@ -61,8 +61,8 @@ impl Reader<'_> {
         let needs_somebody = !matches!(kind, RuleKind::Other(_) | RuleKind::SpeedLimit);
         if lanelets.is_empty() && needs_somebody {
             self.complain(
-                "no lanelet refers to it, so it regulates nothing",
-                "name it as regulatory_element in the lanelets whose drivers obey it",
+                "no lanelet refers to it, so it has no effect",
+                "add it as regulatory_element to the lanelets whose drivers must obey it",
             );
         }
         Rule {
@@ -89,7 +89,7 @@ impl Reader<'_> {
             "crosswalk" => RuleKind::Crosswalk { lanelets: self.lanelets("refers") },
             "speed_limit" => RuleKind::SpeedLimit,
             "" => {
-                self.complain("it has no subtype, so it is of no effect", "add the tag subtype");
+                self.complain("it has no subtype, so it has no effect", "add the tag subtype");
                 RuleKind::Other("no subtype".into())
             }
             other => RuleKind::Other(other.into()),
@@ -131,17 +131,17 @@ impl Reader<'_> {
         }
         if left_out > 0 {
             let what = format!(
-                "{left_out} of its {role} are ways that {MAXIMUM_SHARING} others name already, so it does without"
+                "{left_out} of its {role} are ways that {MAXIMUM_SHARING} others already use, so they are ignored"
             );
-            self.complain(&what, "name each way once");
+            self.complain(&what, "use each way once");
         }
         lines
     }
 
     fn is_there(&mut self, id: i64, place: Option<usize>, kind: &str, role: &str) -> bool {
         if place.is_none() {
-            let what = format!("its {role} is {kind} {id}, which is missing, so it does without");
-            self.complain(&what, "add that element or name another");
+            let what = format!("its {role} is {kind} {id}, which is missing, so it is ignored");
+            self.complain(&what, "add that element, or refer to another");
         }
         place.is_some()
     }

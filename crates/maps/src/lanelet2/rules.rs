@@ -113,14 +113,14 @@ pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     match lanelet.get("subtype") {
         Some(subtype) if !SUBTYPES.contains(&subtype) && !lanelet.any("participant:") => flaws.push((
-            format!("its subtype {subtype:?} is unknown, so it counts as no road"),
+            format!("its subtype {subtype:?} is unknown, so it is not used as a road"),
             "write road, highway or another of Lanelet2's subtypes, or add participant:vehicle=yes",
         )),
         _ => {}
     }
     for key in PARTICIPANTS.into_iter().chain(ONE_WAY) {
         if let Some(value) = lanelet.get(key).filter(|_| flag(lanelet, key).is_none()) {
-            flaws.push((format!("its tag {key} is {value:?}, so it counts as not given"), "write yes or no"));
+            flaws.push((format!("its tag {key} is {value:?}, so it is ignored"), "write yes or no"));
         }
     }
     flaws
@@ -131,14 +131,16 @@ pub(super) fn flaws_of_border(border: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     for key in ["lane_change", "lane_change:left", "lane_change:right"] {
         if let Some(value) = border.get(key).filter(|_| flag(border, key).is_none()) {
-            flaws
-                .push((format!("its tag {key} is {value:?}, so nobody may change there"), "write yes or no"));
+            flaws.push((
+                format!("its tag {key} is {value:?}, so lane changes are not allowed there"),
+                "write yes or no",
+            ));
         }
     }
     let is_line = matches!(border.get("type"), Some("line_thin" | "line_thick"));
     let decided = border.get("lane_change").is_some() || border.any("lane_change:");
     if let Some(subtype) = border.get("subtype").filter(|it| is_line && !decided && !LINES.contains(it)) {
-        let what = format!("its subtype {subtype:?} is unknown, so nobody may change lanes across it");
+        let what = format!("its subtype {subtype:?} is unknown, so lane changes across it are not allowed");
         flaws.push((what, "write dashed, solid, dashed_solid or solid_dashed"));
     }
     flaws

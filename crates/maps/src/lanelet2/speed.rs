@@ -69,10 +69,8 @@ impl<'d> SpeedRules<'d> {
             problems.push(Problem {
                 element: format!("lanelet {}", lanelet.id),
                 line: Some(line as usize),
-                what: format!("its {source} {text:?} is no speed above 0 and up to {MAXIMUM} km/h"),
-                remedy: format!(
-                    "write it like 50, 50 km/h, 30 mph or 14 m/s; without one {default} km/h holds"
-                ),
+                what: format!("its {source} {text:?} is not a speed above 0 and up to {MAXIMUM} km/h"),
+                remedy: format!("write it like 50, 50 km/h, 30 mph or 14 m/s; the default is {default} km/h"),
             });
         }
         of_law.push(default);
@@ -187,7 +185,9 @@ mod tests {
             format!("<tag k='subtype' v='speed_limit'/><tag k='sign_type' v='{}'/>", "ä".repeat(100_000));
         let (limit, problems) = limit_of("", &rule);
         assert_eq!(limit, 50.0);
-        assert!(problems[0].what.contains(&format!("speed limit rule \"{}\" is no speed", "ä".repeat(40))));
+        assert!(
+            problems[0].what.contains(&format!("speed limit rule \"{}\" is not a speed", "ä".repeat(40)))
+        );
     }
 
     #[test]
@@ -196,8 +196,8 @@ mod tests {
         assert_eq!(limit, 50.0);
         assert_eq!(
             problems[0].to_string(),
-            "lanelet 8 (line 5): its speed_limit \"-3\" is no speed above 0 and up to 500 km/h; \
-             write it like 50, 50 km/h, 30 mph or 14 m/s; without one 50 km/h holds"
+            "lanelet 8 (line 5): its speed_limit \"-3\" is not a speed above 0 and up to 500 km/h; \
+             write it like 50, 50 km/h, 30 mph or 14 m/s; the default is 50 km/h"
         );
     }
 }

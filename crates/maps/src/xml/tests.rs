@@ -51,8 +51,7 @@ fn names_are_no_longer_than_128_bytes() {
     assert_eq!(walk(named(128).as_bytes(), "r", &mut Notes::default()), Ok(()));
     assert_eq!(
         refusal(&named(129)),
-        "line 2: not well-formed XML (the name of an element is too long); \
-         save the file again, or mend this line"
+        "line 2: not well-formed XML (the name of an element is too long); save the file again, or correct this line"
     );
 }
 
@@ -61,7 +60,7 @@ fn entities_of_a_documents_own_are_not_expanded() {
     let bomb = "<!DOCTYPE r [<!ENTITY a 'aa'>\n<!ENTITY b '&a;&a;'>]>\n<r>\n<a>&b;</a></r>";
     assert_eq!(
         refusal(bomb),
-        "line 4: not well-formed XML (the entity &b; is unknown); save the file again, or mend this line"
+        "line 4: not well-formed XML (the entity &b; is unknown); save the file again, or correct this line"
     );
 }
 

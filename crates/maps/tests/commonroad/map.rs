@@ -60,10 +60,9 @@ fn references_to_nothing_are_problems() {
     assert_eq!(
         problems,
         [
-            "lanelet 11 (line 2): it refers to lanelet 6 (and 1 more), which is missing; \
-             add the lanelet, or take out the reference",
-            "lanelet 12 (line 3): its predecessor 11 does not name it as a successor, so it does not follow; \
-             add the successor there, or take out the predecessor here",
+            "lanelet 11 (line 2): it refers to lanelet 6 (and 1 more), which is missing; add the lanelet, or remove the reference",
+            "lanelet 12 (line 3): its predecessor 11 does not name it as a successor, so they are not connected; add the successor \
+             there, or remove the predecessor here",
         ]
     );
     assert!(lanelets[0].following.is_empty());

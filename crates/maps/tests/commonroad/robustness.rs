@@ -26,7 +26,7 @@ fn no_more_than_32_lanelets_lead_to_one() {
     let map = read(&format!("<commonRoad commonRoadVersion='2020a'>{all}</commonRoad>")).unwrap();
     let linked = map.network.lanelets.iter().filter(|it| !it.following.is_empty()).count();
     assert_eq!(linked, 32);
-    let full = "its successor 1 does not follow: 32 others part or meet there already";
+    let full = "its successor 1 is not connected: 32 other lanelets already fork or merge there";
     assert_eq!(map.problems.iter().filter(|it| it.what == full).count(), 8);
 }
 

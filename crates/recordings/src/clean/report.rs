@@ -61,12 +61,12 @@ impl CleaningReport {
     /// Each finding with its name.
     pub fn findings(&self) -> [(&'static str, &Finding); 9] {
         [
-            ("absurd sizes, replaced", &self.sizes),
+            ("implausible sizes, replaced", &self.sizes),
             ("states that are not finite, left out", &self.not_finite),
-            ("states of a frame that comes twice, left out", &self.duplicates),
+            ("duplicate states of a frame, left out", &self.duplicates),
             ("states off the path, left out", &self.outliers),
-            ("jumps, where tracks were split", &self.jumps),
-            ("gaps of more than 1 s, where tracks were split", &self.long_gaps),
+            ("jumps; tracks were split there", &self.jumps),
+            ("gaps of more than 1 s; tracks were split there", &self.long_gaps),
             ("missing states, interpolated", &self.interpolated),
             ("speeds that contradict the positions, replaced", &self.speeds),
             ("headings that contradict the motion, replaced", &self.headings),

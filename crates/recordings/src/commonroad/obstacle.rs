@@ -95,12 +95,13 @@ impl Obstacle {
     /// Its track, with frames `step` apart [s].
     pub(super) fn track(mut self, step: f64, problems: &mut Vec<Problem>) -> Option<Track> {
         if self.has_occupancies {
-            let what = "its occupancy set is passed over";
-            problems.push(self.problem(what, "give it a trajectory if it was seen"));
+            let what = "its occupancy set is ignored";
+            problems.push(self.problem(what, "give it a trajectory if it was observed"));
         }
         let is_extent = |it: f64| it > 0.0 && it <= MAXIMUM_EXTENT;
         if !(is_extent(self.shape.length) && is_extent(self.shape.width) && self.shape.is_near()) {
-            let what = "its first shape is no rectangle or circle of a road user's size, so it is left out";
+            let what =
+                "its first shape is not a rectangle or circle of the size of a road user, so it is left out";
             problems.push(self.problem(what, "give it a rectangle with length and width in m"));
             return None;
         }
@@ -119,7 +120,7 @@ impl Obstacle {
         let given = self.states.len();
         self.states.retain(|it| it.speed.abs() <= MAXIMUM_SPEED);
         for _ in self.states.len()..given {
-            self.flaws.add(self.line, "no velocity up to 150 m/s follows from it or its neighbours");
+            self.flaws.add(self.line, "it and its neighbours do not give a velocity up to 150 m/s");
         }
         problems.extend(self.flaws.what().map(|it| self.problem(it, "correct or delete them")));
         if self.states.is_empty() {
@@ -237,7 +238,7 @@ impl Moment {
         let time = self.time.exact.or_else(|| self.time.middle().map(f64::round));
         let frame = within(time, MAXIMUM_FRAME).filter(|it| *it >= 0.0 && it.fract() == 0.0);
         Ok(State {
-            frame: frame.ok_or("its time is no whole number of steps")? as i64,
+            frame: frame.ok_or("its time is not a whole number of steps")? as i64,
             x: within(self.x, MAXIMUM_COORDINATE).ok_or("it has no position")?,
             y: within(self.y, MAXIMUM_COORDINATE).ok_or("it has no position")?,
             speed: self.velocity.middle().unwrap_or(f64::NAN),

@@ -73,7 +73,7 @@ fn class_of(name: &[u8]) -> (RoadUser, Option<String>) {
 
 fn number<T: FromStr>(column: usize, field: &[u8]) -> Result<T, Flaw> {
     str::from_utf8(field).ok().and_then(|it| it.parse().ok()).ok_or_else(|| Flaw {
-        what: format!("{} is {:?}, which is no number of its kind", COLUMNS[column], excerpt(field)),
+        what: format!("{} is {:?}, which is not a valid number for it", COLUMNS[column], excerpt(field)),
         remedy: "correct the number",
     })
 }

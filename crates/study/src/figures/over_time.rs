@@ -20,7 +20,7 @@ pub fn over_time(sheet: Sheet, label: &str, lines: &[TimeLine]) -> String {
     let from = finite().map(|it| it[0]).fold(f64::INFINITY, f64::min);
     let to = finite().map(|it| it[0]).fold(f64::NEG_INFINITY, f64::max);
     let [across, upwards] = sheet.layout().steps;
-    let x = Axis::spanning("time [s]", from, to, across);
+    let x = Axis::spanning("Time [s]", from, to, across);
     let y = Axis::from_zero(label, finite().map(|it| it[1]).fold(0.0, f64::max), upwards);
 
     let keys = lines.iter().enumerate().map(|(index, it)| line_key(&it.name, index)).collect();
@@ -54,7 +54,7 @@ mod tests {
         let svg =
             over_time(Sheet::Column, "vehicles [1]", &[TimeLine { name: "on the road".into(), points }]);
         assert!(svg.contains("d=\"M62.0 257.5L264.0 142.5L466.0 27.5\""), "{svg}");
-        for text in ["time [s]", "vehicles [1]", "on the road"] {
+        for text in ["Time [s]", "vehicles [1]", "on the road"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
     }

@@ -26,8 +26,8 @@ pub fn rate_density(sheet: Sheet, title: &str, series: &[RateSeries]) -> String 
     let [across, upwards] = sheet.layout().steps;
     let densest = all().map(|it| it.at).fold(0.0, f64::max);
     let highest = all().map(|it| it.interval.upper).fold(0.0, f64::max);
-    let x = Axis::from_zero("density [veh/km per lane]", densest, across);
-    let y = Axis::from_zero("lane-change rate [1/(km h)]", highest, upwards);
+    let x = Axis::from_zero("Density [veh/km per lane]", densest, across);
+    let y = Axis::from_zero("Lane-change rate [1/(km h)]", highest, upwards);
 
     let keys = series.iter().enumerate().map(|(index, it)| key(&it.name, index)).collect();
     let mut drawing = Drawing::new(sheet, Around { title, keys, ..Around::default() });
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn both_axes_name_their_unit_and_the_legend_its_series() {
         let svg = rate_density(Sheet::Page, "title", &[series()]);
-        for text in ["title", "density [veh/km per lane]", "lane-change rate [1/(km h)]", "A &amp; B"] {
+        for text in ["title", "Density [veh/km per lane]", "Lane-change rate [1/(km h)]", "A &amp; B"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
     }

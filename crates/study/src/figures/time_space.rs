@@ -77,10 +77,10 @@ pub fn time_space(
     let (from_s, to_s) = range(samples().map(|it| it.time_s));
     let (from_km, to_km) = range(samples().map(|it| it.position_m / METRES_PER_KM));
     let [across, upwards] = sheet.layout().steps;
-    let x = Axis::spanning("time [s]", from_s, to_s, across);
-    let y = Axis::spanning("position [km]", from_km, to_km, upwards);
+    let x = Axis::spanning("Time [s]", from_s, to_s, across);
+    let y = Axis::spanning("Position [km]", from_km, to_km, upwards);
     let fastest = samples().map(|it| it.speed_mps * KMH_PER_MPS).fold(0.0, f64::max);
-    let speeds = Axis::from_zero("speed [km/h]", fastest, 10.0);
+    let speeds = Axis::from_zero("Speed [km/h]", fastest, 10.0);
     let is_inside = |it: &&Mark| {
         let within = |axis: &Axis, value: f64| (0.0..=1.0).contains(&axis.share(value));
         within(&x, it.time_s) && within(&y, it.position_m / METRES_PER_KM)
@@ -271,7 +271,7 @@ mod tests {
     #[test]
     fn every_axis_and_the_colour_bar_name_their_unit() {
         let svg = time_space(Sheet::Page, "lane 3", &[cruise(0.0, 100, 20.0)], &[]);
-        for text in ["lane 3", "time [s]", "position [km]", "speed [km/h]"] {
+        for text in ["lane 3", "Time [s]", "Position [km]", "Speed [km/h]"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
     }

@@ -85,7 +85,7 @@ fn legend(y: f64) -> String {
     for (text, colour) in [
         ("entrance", colours::ENTRANCE),
         ("exit", colours::EXIT),
-        ("shared ground", colours::CONFLICT),
+        ("conflict area", colours::CONFLICT),
         ("traffic light and its stop line", colours::LIGHT),
         ("yield or stop", colours::PRIORITY),
         ("crosswalk", colours::CROSSWALK),

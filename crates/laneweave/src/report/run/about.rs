@@ -87,7 +87,7 @@ impl About {
         let [step, warmup, duration] = times;
         let km = number(*lane_km, 3);
         [
-            ("Map", format!("{map}: {lanelets} lanelets, {km} km of lanes, {limits} (where the map gives none, those of {law})")),
+            ("Map", format!("{map}: {lanelets} lanelets, {km} km of lanes, {limits} (where the map gives none: the law of {law})")),
             ("Drivers", drivers.join(", ")),
             ("Vehicles", vehicles.join(", ")),
             ("Demand", format!("{rate:.0} veh/h at {origins} {places}; estimated capacity {capacity:.0} veh/h{first}")),
@@ -109,7 +109,7 @@ pub(super) fn section(run: &RunReport) -> Section {
         let until = number(summary.duration_s, 4);
         note(
             "Interrupted",
-            format!("the run was stopped after {until} s; all numbers are of the time until then"),
+            format!("the run was stopped after {until} s; all numbers are of the time before"),
         );
     }
     let hash = &summary.state_hash;
@@ -120,6 +120,6 @@ pub(super) fn section(run: &RunReport) -> Section {
 /// The scenario with all that was set, so that the run can be repeated from the report alone.
 pub(super) fn scenario(run: &RunReport) -> Section {
     Section::new("scenario", "The scenario")
-        .note("All that was set, with what was left to its default, as it stands in scenario.toml beside this report: laneweave run runs it again. The paths in it are seen from there.")
+        .note("All settings and defaults, as in scenario.toml in the same folder; laneweave run runs it again. Paths are relative to that folder.")
         .listing(run.provenance.scenario.clone())
 }

@@ -12,7 +12,7 @@ use crate::output::Reasons;
 use crate::report::{Align, Figure, Section, Table, counted, number};
 use crate::units::METRES_PER_KM;
 
-const KINDS: [(Kind, &str); 2] = [(Kind::Discretionary, "discretionary"), (Kind::Route, "for the route")];
+const KINDS: [(Kind, &str); 2] = [(Kind::Discretionary, "discretionary"), (Kind::Route, "route-driven")];
 /// Incentives are counted per so many vehicle-kilometres.
 const MANY_KM: f64 = 100.0;
 /// A distribution of fewer values says nothing.
@@ -22,7 +22,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     let section = Section::new("changes", "Lane changes");
     let reasons = &run.record.reasons;
     if reasons.total() == 0 {
-        return section.text(format!("No lane change was completed; {} were called off.", reasons.aborted));
+        return section.text(format!("No lane change was completed; {} were aborted.", reasons.aborted));
     }
     let mut figures = vec![by_density(run)];
     figures.extend(gains(reasons));
@@ -31,9 +31,9 @@ pub(super) fn section(run: &RunReport) -> Section {
     figures.extend(times_to_collision(reasons));
     section
         .note(format!(
-            "The figures by style, by incentive and of gaps are of the {} changes that were completed while it was measured, the \
-             rows of the table lane_changes; {} more were called off. Discretionary: between lanes that lead to the same place \
-             for the driver. For the route: all others. A distribution of fewer than {LEAST} values is not drawn.",
+            "The figures by style, by incentive and of gaps show the {} lane changes that were completed in the measured time (the \
+             rows of the table lane_changes); {} more were aborted. Discretionary: between lanes that lead to the same place for \
+             the driver. Route-driven (mandatory): all others. A distribution of fewer than {LEAST} values is not drawn.",
             counted(reasons.total()),
             counted(reasons.aborted)
         ))
@@ -52,10 +52,10 @@ fn by_density(run: &RunReport) -> Figure {
         svg: rate_density(Sheet::Column, "", &series),
         title: "Lane changes against density".into(),
         caption: format!(
-            "Changes per kilometre of lane and hour in boxes of about 500 m of all parallel lanes and 60 s; density by Edie's \
-             definition in the same box. Boxes of like density (2 veh/km) are pooled; bars are exact Poisson 95 % intervals of \
-             the pooled counts. n = {} boxes; {} changes. A rate that rises and falls with density is no proof of the model: \
-             drivers who change at random show it too.",
+            "Lane changes per kilometre of lane and hour in boxes of about 500 m of all parallel lanes and 60 s; density by Edie's \
+             definition in the same box. Boxes of similar density (2 veh/km) are pooled; bars are exact Poisson 95 % intervals of \
+             the pooled counts. n = {} boxes; {} lane changes. A rate that rises and falls with density does not prove the model: \
+             drivers who change at random (the null-model control) show it too.",
             counted(boxes.rows(run.end).count() as u64),
             counts.join(", ")
         ),
@@ -82,11 +82,11 @@ fn by_style(run: &RunReport) -> Figure {
     };
     let rows: Vec<BarRow> = reasons.styles.iter().enumerate().map(row).collect();
     Figure {
-        svg: bars(Sheet::Column, ["lane changes [1/(veh km)]", "style [name]"], &KINDS.map(|it| it.1), &rows),
+        svg: bars(Sheet::Column, ["Lane changes [1/veh-km]", "Style"], &KINDS.map(|it| it.1), &rows),
         title: "Lane changes by style".into(),
         caption: format!(
-            "Completed changes per vehicle-kilometre that drivers of the style drove (speeds taken every five seconds), with exact \
-             Poisson 95 % intervals of the counts. n = {} changes.",
+            "Completed lane changes per vehicle-kilometre of the drivers of each style (speeds sampled every five seconds), with \
+             exact Poisson 95 % intervals of the counts. n = {} lane changes.",
             counted(reasons.total())
         ),
     }
@@ -102,14 +102,14 @@ fn by_incentive(run: &RunReport) -> Figure {
     let led = |name: &str| KINDS.iter().any(|(kind, _)| reasons.of_incentive(name, *kind) > 0);
     let named = reasons.incentives().into_iter().filter(|it| *it != "none" || led(it));
     let rows: Vec<BarRow> = named.map(row).collect();
-    let labels = ["lane changes [1/(100 veh km)]", "leading incentive [name]"];
+    let labels = ["Lane changes [1/(100 veh-km)]", "Leading incentive"];
     Figure {
         svg: bars(Sheet::Column, labels, &KINDS.map(|it| it.1), &rows),
         title: "Lane changes by leading incentive".into(),
         caption: format!(
-            "Completed changes per 100 vehicle-kilometres by the incentive with the largest product μY of weight and yield when \
-             the desire came; the others may have counted for the change too, or against it. Exact Poisson 95 % intervals. \
-             n = {} changes.",
+            "Completed lane changes per 100 vehicle-kilometres, by the incentive with the largest product μY of weight and yield \
+             when the desire began. The other incentives may also have contributed, for or against the change. Exact Poisson 95 % \
+             intervals. n = {} lane changes.",
             counted(reasons.total())
         ),
     }
@@ -123,11 +123,11 @@ fn gaps(reasons: &Reasons) -> Option<Figure> {
     let all = [("to the new leader", ahead), ("to the new follower", behind)];
     let all = all.map(|(name, histogram)| Distributed { name, histogram });
     Some(Figure {
-        svg: distribution(Sheet::Column, ["gap [m]", "share of gaps [% per 5 m]"], Upwards::Linear, &all),
-        title: "Gaps taken".into(),
+        svg: distribution(Sheet::Column, ["Gap [m]", "Share of gaps [% per 5 m]"], Upwards::Linear, &all),
+        title: "Accepted gaps".into(),
         caption: format!(
-            "Net gaps in the target lane when the lateral motion began, of completed changes with anybody there: n = {} ahead, \
-             {} behind; {} and {} of them lie beyond the axis.",
+            "Net gaps in the target lane at the start of the lateral motion, for completed changes with a leader or a follower \
+             there: n = {} ahead, {} behind; {} and {} of them lie beyond the axis.",
             counted(ahead.total()),
             counted(behind.total()),
             counted(ahead.beyond()),
@@ -144,13 +144,13 @@ fn gains(reasons: &Reasons) -> Option<Figure> {
     let trimmed = [discretionary.trimmed(&[route]), route.trimmed(&[discretionary])];
     let all = [(KINDS[0].1, &trimmed[0]), (KINDS[1].1, &trimmed[1])];
     let all = all.map(|(name, histogram)| Distributed { name, histogram });
-    let labels = ["gain of speed [m/s]", "share of changes [% per m/s]"];
+    let labels = ["Speed gain [m/s]", "Share of lane changes [% per m/s]"];
     Some(Figure {
         svg: distribution(Sheet::Column, labels, Upwards::Linear, &all),
-        title: "Gain of speed that was expected".into(),
+        title: "Anticipated speed gain".into(),
         caption: format!(
-            "Speed that the driver expected in the target lane, less that in its own, when the desire came; of completed changes, \
-             n = {} discretionary, {} for the route. Changes for the route, and for courtesy, may cost speed.",
+            "Anticipated speed in the target lane minus that in the driver's own lane, when the desire began, of completed changes. \
+             n = {} discretionary, {} route-driven. Route-driven changes, and changes out of courtesy, may cost speed.",
             counted(discretionary.total()),
             counted(route.total())
         ),
@@ -167,14 +167,15 @@ fn times_to_collision(reasons: &Reasons) -> Option<Figure> {
     Some(Figure {
         svg: distribution(
             Sheet::Column,
-            ["time to collision [s]", "share of closing pairs [% per s]"],
+            ["Time to collision [s]", "Share of closing pairs [% per s]"],
             Upwards::Linear,
             &all,
         ),
-        title: "Time to collision at the begin of changes".into(),
+        title: "Time to collision at the start of lane changes".into(),
         caption: format!(
-            "Gap over closing speed when the lateral motion began, of pairs that close in: n = {} ahead, {} behind; {} and {} of \
-             them lie beyond the axis. A time to collision says nothing of pairs at equal speeds, however near they are.",
+            "Gap divided by closing speed at the start of the lateral motion, for pairs whose gap closes: n = {} ahead, {} behind; \
+             {} and {} of them lie beyond the axis. The time to collision does not describe pairs with equal speeds, however small \
+             the gap is.",
             counted(ahead.total()),
             counted(behind.total()),
             counted(ahead.beyond()),
@@ -189,9 +190,9 @@ fn table(run: &RunReport) -> Table {
     let columns = [
         ("style", Words),
         ("discretionary", Numbers),
-        ("for the route", Numbers),
+        ("route-driven", Numbers),
         ("veh-km", Numbers),
-        ("changes per veh-km (95 % interval)", Numbers),
+        ("lane changes per veh-km (95 % interval)", Numbers),
     ];
     let mut table = Table::new("Completed lane changes by style.", &columns);
     let mut row = |name: &str, [discretionary, route]: [u64; 2], km: f64| {

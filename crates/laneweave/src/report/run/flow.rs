@@ -8,8 +8,11 @@ use crate::report::{Figure, Section, counted};
 use crate::units::KMH_PER_MPS;
 
 /// Speed limits up to which roads are alike [km/h]: streets, main roads, motorways; ours.
-const LIMITS: [(f64, &str); 3] =
-    [(40.0, "limit up to 40 km/h"), (75.0, "limit 40 to 75 km/h"), (f64::INFINITY, "limit above 75 km/h")];
+const LIMITS: [(f64, &str); 3] = [
+    (40.0, "speed limit up to 40 km/h"),
+    (75.0, "speed limit 40 to 75 km/h"),
+    (f64::INFINITY, "speed limit above 75 km/h"),
+];
 
 pub(super) fn section(run: &RunReport) -> Section {
     let section = Section::new("flow", "Density, flow and speed");
@@ -21,17 +24,17 @@ pub(super) fn section(run: &RunReport) -> Section {
     let figure = |label: &str, title: &str, definition: &str, value: &dyn Fn(&EdieRow) -> f64| {
         let point = |it: &EdieRow| [it.density_veh_per_km, value(it)];
         let groups = grouped(rows.iter().map(|it| (KMH_PER_MPS * boxes.limit(it.section), point(it))));
-        let svg = scatter(Sheet::Column, ["density [veh/km per lane]", label], &groups);
+        let svg = scatter(Sheet::Column, ["Density [veh/km per lane]", label], &groups);
         Figure { svg, title: title.into(), caption: caption(&groups, definition) }
     };
     section.figures(vec![
         figure(
-            "flow [veh/h per lane]",
+            "Flow [veh/h per lane]",
             "Fundamental diagram: flow against density",
-            "k = Σt/(LT), q = Σd/(LT), with the times t and ways d of all vehicles in a box of L metres of lane and T seconds",
+            "k = Σt/(LT), q = Σd/(LT), with the times t and distances d of all vehicles in a box of L metres of lane and T seconds",
             &|it| it.flow_veh_per_h,
         ),
-        figure("speed [km/h]", "Speed against density", "v = Σd/Σt, the space-mean speed", &|it| {
+        figure("Speed [km/h]", "Speed against density", "v = Σd/Σt, the space-mean speed", &|it| {
             it.speed_mps.map_or(f64::NAN, |it| it * KMH_PER_MPS)
         }),
     ])
@@ -59,10 +62,10 @@ fn caption(groups: &[Scattered], definition: &str) -> String {
         }
     };
     format!(
-        "Edie's definitions in boxes of about 500 m of all parallel lanes and 60 s: {definition}; vehicles are seen once a second. \
-         Small points are the boxes with anybody in them, darker where several coincide: n = {}. Large ones are means over classes \
-         of {CLASS} veh/km with Student's 95 % intervals over boxes, from {LEAST_BOXES} boxes on; neighbouring boxes are alike, so the \
-         intervals are rather too narrow.",
+        "Edie's definitions in boxes of about 500 m of all parallel lanes and 60 s: {definition}; vehicles are sampled once a \
+         second. Small points are the boxes that are not empty, darker where several coincide: n = {}. Large points are means over \
+         classes of {CLASS} veh/km with at least {LEAST_BOXES} boxes, with Student's 95 % intervals over boxes. Neighbouring boxes \
+         are correlated, so the intervals are somewhat too narrow.",
         boxes.join(", ")
     )
 }

@@ -29,20 +29,20 @@ pub(super) fn section(run: &RunReport) -> Section {
     };
     let sum = |count: fn(&StyleDriving) -> u64| drawn.iter().map(|it| count(it)).sum::<u64>();
     let mut figures = vec![Figure {
-        svg: of(|it| &it.speeds, Upwards::Linear, ["speed [km/h]", "share of samples [% per 5 km/h]"]),
+        svg: of(|it| &it.speeds, Upwards::Linear, ["Speed [km/h]", "Share of samples [% per 5 km/h]"]),
         title: "Speeds".into(),
         caption: format!(
-            "Speeds of all vehicles on all roads of the map; those that stand are in the first bin. n = {} samples.",
+            "Speeds of all vehicles on all roads of the map; stopped vehicles are in the first bin. n = {} samples.",
             counted(sum(|it| it.samples))
         ),
     }];
     if sum(|it| it.time_gaps.total()) > 0 {
         figures.push(Figure {
-            svg: of(|it| &it.time_gaps, Upwards::Linear, ["time gap to the leader [s]", "share of samples [% per 0.25 s]"]),
+            svg: of(|it| &it.time_gaps, Upwards::Linear, ["Time gap to the leader [s]", "Share of samples [% per 0.25 s]"]),
             title: "Time gaps".into(),
             caption: format!(
-                "Net gap to the leader over the own speed, of vehicles faster than 2 m/s with a leader within 295 m. n = {} samples, \
-                 {} of them beyond the axis.",
+                "Net gap to the leader divided by the vehicle's own speed, for vehicles faster than 2 m/s with a leader within 295 \
+                 m. n = {} samples, {} of them beyond the axis.",
                 counted(sum(|it| it.time_gaps.total())),
                 counted(sum(|it| it.time_gaps.beyond()))
             ),
@@ -50,29 +50,30 @@ pub(super) fn section(run: &RunReport) -> Section {
     }
     if sum(|it| it.times_to_collision.total()) > 0 {
         figures.push(Figure {
-            svg: of(|it| &it.times_to_collision, Upwards::Linear, ["time to collision [s]", "share of closing samples [% per 0.5 s]"]),
+            svg: of(|it| &it.times_to_collision, Upwards::Linear, ["Time to collision [s]", "Share of closing samples [% per 0.5 s]"]),
             title: "Times to collision".into(),
             caption: format!(
-                "Gap over closing speed, of vehicles that close in on a leader within 295 m. n = {} samples, {} of them beyond the \
-                 axis.",
+                "Gap divided by closing speed, for vehicles that approach a leader within 295 m. n = {} samples, {} of them beyond \
+                 the axis.",
                 counted(sum(|it| it.times_to_collision.total())),
                 counted(sum(|it| it.times_to_collision.beyond()))
             ),
         });
     }
     figures.push(Figure {
-        svg: of(|it| &it.accelerations, Upwards::Logarithmic, ["acceleration [m/s²]", "share of samples [% per 0.25 m/s²]"]),
+        svg: of(|it| &it.accelerations, Upwards::Logarithmic, ["Acceleration [m/s²]", "Share of samples [% per 0.25 m/s²]"]),
         title: "Accelerations".into(),
         caption: format!(
-            "Accelerations of all vehicles, negative where they brake; those that stand are among those at 0. The axis upwards is \
-             logarithmic, so that hard braking is seen though it is rare. n = {} samples.",
+            "Accelerations of all vehicles; negative values are braking, and stopped vehicles are at 0. The vertical axis is \
+             logarithmic, so that rare hard braking is visible. n = {} samples.",
             counted(sum(|it| it.samples))
         ),
     });
     section
         .note(
-            "Every vehicle on the road is looked at every five seconds. Successive samples of a vehicle are nearly the same, and so are \
-             those of a platoon: these distributions have no intervals, and their n says how much was seen, not how sure it is.",
+            "Every vehicle on the road is sampled every five seconds. Successive samples of a vehicle, and samples of a platoon, \
+             are nearly the same. Therefore these distributions have no intervals; n is the number of samples, not a measure of \
+             precision.",
         )
         .figures(figures)
         .table(table(&styles))
@@ -91,7 +92,7 @@ fn table(styles: &[&StyleDriving]) -> Table {
         ("brakes > 4 m/s²", Numbers),
     ];
     let mut table = Table::new(
-        "Following by style: shares of all samples of the style; the median is of those with a time gap.",
+        "Car-following by style: shares of all samples of the style; the median is over samples with a time gap.",
         &columns,
     );
     for it in styles {

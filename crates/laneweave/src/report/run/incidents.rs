@@ -14,17 +14,17 @@ pub(super) fn problems(run: &RunReport) -> Vec<(&'static str, String, String)> {
         (
             run.summary.collisions,
             "Collisions",
-            "there should be none: report them with the map, the command and the seed",
+            "this should not happen: report it with the map, the command and the seed",
         ),
         (
             run.summary.overlaps,
             "Overlaps of two vehicles",
-            "see there whether lanes of the map share ground without being joined (laneweave check); if not, report it with the map, the command and the seed",
+            "check there whether lanes of the map overlap without being connected (laneweave check); if not, report it with the map, the command and the seed",
         ),
     ];
     let found = kinds.into_iter().filter(|(count, ..)| *count > 0);
     let problem = |(count, what, remedy)| {
-        (what, counted(count), format!("{first}the table incidents has every place; {remedy}"))
+        (what, counted(count), format!("{first}the table incidents lists all of them; {remedy}"))
     };
     found.map(problem).collect()
 }

@@ -38,8 +38,8 @@ impl RunReport<'_> {
     /// The report as a page.
     pub fn page(&self) -> Page {
         let lead = format!(
-            "Report of a simulation run by laneweave {}. Everything here follows from the map, the scenario and the seed; \
-             nothing depends on the machine.",
+            "Report of a simulation run by laneweave {}. All results follow from the map, the scenario and the seed; nothing \
+             depends on the machine.",
             env!("CARGO_PKG_VERSION")
         );
         Page::new(format!("Traffic on {}", self.about.map), lead)
@@ -57,4 +57,4 @@ impl RunReport<'_> {
 }
 
 /// What was measured without a value is said rather than drawn: an empty figure says nothing.
-const NOBODY: &str = "Nobody drove while it was measured.";
+const NOBODY: &str = "No vehicle drove in the measured time.";

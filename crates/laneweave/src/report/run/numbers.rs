@@ -11,7 +11,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     let summary = run.summary;
     let is_driven = summary.lane_changes_per_veh_km.is_some();
     let per_km = |count: u64| rate_per(count, summary.veh_km) + " per veh\u{2011}km";
-    let if_driven = |text: String| if is_driven { text } else { "nobody drove".into() };
+    let if_driven = |text: String| if is_driven { text } else { "no vehicle drove".into() };
     let within = {
         let Interval { lower, upper } = poisson_interval(summary.lane_changes);
         let [lower, upper] = [lower, upper].map(|it| number(it / summary.veh_km, 3));
@@ -37,38 +37,34 @@ pub(super) fn section(run: &RunReport) -> Section {
         ),
         tile(
             counted(summary.lane_changes_discretionary),
-            "discretionary changes",
+            "discretionary lane changes",
             if_driven(per_km(summary.lane_changes_discretionary)),
         ),
         tile(
             counted(summary.lane_changes_route),
-            "changes for the route",
+            "route-driven lane changes",
             if_driven(per_km(summary.lane_changes_route)),
         ),
-        tile(speed, "mean speed", "way over time, all vehicles".into()),
-        tile(
-            summary.mean_delay_s.map_or("–".into(), |it| format!("{it:.1} s")),
-            "mean delay of a trip",
-            interval,
-        ),
+        tile(speed, "mean speed", "distance divided by time, all vehicles".into()),
+        tile(summary.mean_delay_s.map_or("–".into(), |it| format!("{it:.1} s")), "mean trip delay", interval),
         tile(
             summary.mean_trip_duration_s.map_or("–".into(), |it| format!("{it:.1} s")),
-            "mean time of a trip",
+            "mean trip time",
             summary.mean_stops.map_or(String::new(), |it| format!("with {it:.2} stops")),
         ),
         tile(
             counted(*entered),
             "vehicles entered",
-            format!("= {} left + {} on the road", counted(*left), counted(*on_road)),
+            format!("= {} completed + {} on the road", counted(*left), counted(*on_road)),
         ),
-        tile(counted(*waiting), "wait at the entrances", "at the end".into()),
+        tile(counted(*waiting), "vehicles waiting to enter", "at the end".into()),
     ];
     let tiles = [tiles, troubles(summary)].concat();
     Section::new("numbers", "Key numbers").tiles(tiles).note(
-        "Counts of lane changes are of crossings: the centre of the vehicle crosses the line. Their intervals are exact Poisson \
-         95 % intervals of the count, as if changes came independently of each other. Delay is time beyond that on a free road \
-         at the speeds the driver desires; its interval is Student's over trips, which share the same traffic and are not \
-         quite independent. One run says nothing of how runs differ: repeat it with other seeds.",
+        "A lane change counts when the centre of the vehicle crosses the line. The intervals of counts are exact Poisson 95 % \
+         intervals, which assume that lane changes are independent. Delay is the trip time minus the time on a free road at the \
+         driver's desired speeds. Its interval is Student's over trips, which share the same traffic and are not fully independent. \
+         One run does not show how runs differ: repeat it with other seeds.",
     )
 }
 
@@ -79,7 +75,7 @@ fn tile(value: String, name: &str, more: String) -> Tile {
 /// What should not happen, and changes of plan.
 fn troubles(summary: &Summary) -> Vec<Tile> {
     vec![
-        tile(counted(summary.collisions), "collisions", "two vehicles meet while they close".into()),
+        tile(counted(summary.collisions), "collisions", "two vehicles touch while approaching".into()),
         tile(counted(summary.overlaps), "overlaps", "of any two vehicles, whatever their lanes".into()),
         tile(
             counted(summary.emergency_brakings),
@@ -87,9 +83,9 @@ fn troubles(summary: &Summary) -> Vec<Tile> {
             "decided by kinematics, not by the model".into(),
         ),
         tile(counted(summary.stuck), "vehicles stuck", "stood for 300 s".into()),
-        tile(counted(summary.lost), "lost", "drivers without any way left".into()),
-        tile(counted(summary.missed_turns), "missed turns", "drivers who had to take another way".into()),
-        tile(counted(summary.route_changes), "routes left for a better one", "by choice".into()),
+        tile(counted(summary.lost), "lost", "drivers without a route to any destination".into()),
+        tile(counted(summary.missed_turns), "missed turns", "drivers who had to take another route".into()),
+        tile(counted(summary.route_changes), "route changes", "drivers who chose a better route".into()),
     ]
 }
 

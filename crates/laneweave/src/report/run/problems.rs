@@ -16,38 +16,40 @@ const BOX: f64 = 60.0;
 
 pub(super) fn section(run: &RunReport) -> Section {
     use Align::{Numbers, Words};
-    let columns = [("what", Words), ("how many", Numbers), ("remedy", Words)];
+    let columns = [("what", Words), ("count", Numbers), ("remedy", Words)];
     let mut of_run = Table::new("Of the run.", &columns);
     for (what, count, remedy) in run_problems(run, run.summary) {
         of_run.row([what.to_owned(), count, remedy]);
     }
-    let mut odd =
-        Table::new("Of the map: what makes traffic on it look odd.", &[("what", Words), ("remedy", Words)]);
+    let mut odd = Table::new(
+        "Of the map: properties that make its traffic unusual.",
+        &[("what", Words), ("remedy", Words)],
+    );
     for Remark { what, remedy } in &run.about.remarks {
         odd.row([what.clone(), remedy.clone()]);
     }
     let kinds = kinds(&run.about.problems);
     let total = counted(run.about.problems.len() as u64);
     let caption = match kinds.len() {
-        0..=MOST_KINDS => format!("Of the map: {total} elements that could not be used as they stand."),
+        0..=MOST_KINDS => format!("Of the map: {total} elements that could not be used as they are."),
         more => format!(
-            "Of the map: {total} elements that could not be used as they stand; {MOST_KINDS} of {more} kinds, laneweave check lists all."
+            "Of the map: {total} elements that could not be used as they are; {MOST_KINDS} of {more} kinds, laneweave check lists all."
         ),
     };
     let mut of_map =
-        Table::new(caption, &[("what", Words), ("how many", Numbers), ("such as", Words), ("remedy", Words)]);
+        Table::new(caption, &[("what", Words), ("count", Numbers), ("example", Words), ("remedy", Words)]);
     for (first, count) in kinds.into_iter().take(MOST_KINDS) {
         let Problem { element, line, what, remedy } = first;
         let place = line.map_or(element.clone(), |line| format!("{element} (line {line})"));
         of_map.row([what.clone(), counted(count), place, remedy.clone()]);
     }
     Section::new("problems", "Problems and remedies")
-        .table_unless_empty(of_run, "The run had none.")
+        .table_unless_empty(of_run, "The run had no problems.")
         .table_unless_empty(incidents::table(run), "")
         .table_unless_empty(odd, "")
         .table_unless_empty(
             of_map,
-            "No element of the map was left out when it was read; laneweave check looks closer.",
+            "No element of the map was left out when it was read; laneweave check examines the map in more detail.",
         )
 }
 
@@ -76,27 +78,27 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
         (
             summary.stuck,
             "Vehicles stuck for 300 s",
-            "see trajectories for where; less demand, or lights and priorities in the scenario that let them go",
+            "find the places in trajectories; reduce the demand, or change signal programs or priorities",
         ),
         (
             summary.emergency_brakings,
             "Emergency brakings",
-            "see trajectories where accelerations are hardest; a style with larger gaps, or a shorter step",
+            "find the strongest decelerations in trajectories; use a style with larger gaps, or a shorter step",
         ),
         (
             summary.missed_turns,
             "Missed turns",
-            "the way to the turn may be too short or too full for the changes: less demand, more weight of the incentives route and urgency, or a way without the turn",
+            "the road before the turn may be too short or too crowded for the lane changes: reduce the demand, or increase the weights of the incentives route and urgency",
         ),
         (
             summary.lost,
-            "Drivers who are lost",
-            "from where they are no way leads to any exit, as on a lane that ends beside nothing: mend the map there, or name other exits in the demand",
+            "Lost drivers",
+            "no route leads from their position to any exit, as on a lane that ends without an adjacent lane: correct the map there, or give other exits in the demand",
         ),
         (
             summary.waiting,
-            "Vehicles that wait at the entrances at the end",
-            "the entrances take less than the demand: see the queues above for what holds them, and lower the demand or mend that",
+            "Vehicles waiting to enter at the end",
+            "fewer vehicles can enter than the demand: see the causes of the queues above; reduce the demand, or remove the causes",
         ),
     ];
     for (count, what, remedy) in counts {
@@ -108,26 +110,26 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
         demand_is_higher,
         "Demand above the estimated capacity",
         share,
-        "queues grow as long as it lasts: lower it, or take the run as one of breakdown",
+        "queues grow as long as this lasts: reduce the demand, or study the run as congestion",
     );
     note(
         summary.entered == 0,
-        "Nobody entered",
+        "No vehicle entered",
         "–".into(),
-        "raise the demand or the duration, or mend what holds the queues",
+        "increase the demand or the duration, or remove what blocks the queues",
     );
-    note(summary.interrupted, "The run was stopped before its time", "–".into(), "let it end");
+    note(summary.interrupted, "The run was stopped early", "–".into(), "resume it, or run it again");
     note(
         summary.duration_s < BOX,
-        "Shorter than a box of 60 s",
+        "The run is shorter than a box of 60 s",
         "–".into(),
-        "a longer duration: without a whole box there are no rates and no fundamental diagram",
+        "use a longer duration: without a complete box there are no rates and no fundamental diagram",
     );
     note(
         run.about.times[1] == 0.0 && summary.entered > 0,
-        "No warm-up: the road was empty at the begin",
+        "No warm-up: the road was empty at the beginning",
         "–".into(),
-        "what is to hold for steady traffic needs a warm-up (--warmup) of about the time of a trip",
+        "results for steady traffic need a warm-up (--warmup) of about one trip time",
     );
     found
 }
@@ -137,13 +139,14 @@ pub(super) fn method() -> Section {
     Section::new("method", "How it was measured")
         .text(
             "A lane change counts once, when the centre of the vehicle crosses the line. Density, flow and speed follow Edie's \
-             definitions (1963) in boxes: sections of about 500 m, each with all its parallel lanes, times whole minutes; sections with \
-             less than 200 m of lane are left out, and a minute that the run did not finish. A change counts for the section it leaves.",
+             definitions (1963) in boxes: sections of about 500 m, each with all its parallel lanes, and whole minutes. Sections \
+             with less than 200 m of lane, and an incomplete last minute, are left out. A lane change counts for the section that \
+             it leaves.",
         )
         .text(
             "Intervals are at 95 %: exact Poisson intervals (Garwood, 1936) for counts, Student's for means over boxes or trips. \
-             Samples of one vehicle in successive seconds are not independent, so what is sampled every second has no interval. All \
-             intervals are of this run alone: another seed gives other traffic, and only several runs show how much that matters.",
+             Successive samples of one vehicle are not independent, so sampled values have no interval. All intervals are of this \
+             run only. Another seed gives other traffic; only several runs show the variation between runs.",
         )
         .text(
             "All counts are of the measured time after the warm-up. The same map, scenario, seed and version give the same report, bit \

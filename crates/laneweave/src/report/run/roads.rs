@@ -14,9 +14,5 @@ pub(super) fn section(run: &RunReport) -> Section {
             time_and_space(it, format!("Time and space on the lane from lanelet {} on", it.lanelet))
         })
         .collect();
-    if figures.is_empty() {
-        section.text("Nobody drove on the lanes that would be shown.")
-    } else {
-        section.figures(figures)
-    }
+    if figures.is_empty() { section.text("No vehicle drove on the lane.") } else { section.figures(figures) }
 }

@@ -17,21 +17,21 @@ pub(super) fn section(run: &RunReport) -> Section {
     let trips = &run.record.trips;
     let mut figures = Vec::new();
     if trips.durations.total() == 0 {
-        section = section.text("No trip ended while it was measured.");
+        section = section.text("No trip was completed in the measured time.");
     } else {
         figures.push(figure(
             &trips.durations,
-            "time of a trip [s]",
-            "Times of trips",
-            "Time on the map of the vehicles that left it; those still on the road at the end, and slow trips with them, are missing",
+            "Trip time [s]",
+            "Trip times",
+            "Time on the map of completed trips; vehicles still on the road at the end, many of them slow, are missing",
         ));
         if trips.delays.total() > 0 {
             figures.push(figure(
                 &trips.delays,
-                "delay of a trip [s]",
-                "Delays of trips",
-                "Time of the trip beyond that on a free road at the speeds the driver desires; time in a queue before the entrance is \
-                 not part of it",
+                "Trip delay [s]",
+                "Trip delays",
+                "Trip time minus the time on a free road at the driver's desired speeds; the insertion delay (waiting to enter) is \
+                 not included",
             ));
         }
     }
@@ -42,12 +42,12 @@ pub(super) fn section(run: &RunReport) -> Section {
     section
         .figures(figures)
         .table_unless_empty(times(run), "")
-        .table_unless_empty(queues(run), "At the end nobody waits at an entrance.")
+        .table_unless_empty(queues(run), "At the end no vehicle is waiting to enter.")
 }
 
 fn figure(histogram: &Histogram, label: &str, title: &str, what: &str) -> Figure {
     let histogram = histogram.trimmed(&[]);
-    let share = format!("share of trips [% per {} s]", histogram.width());
+    let share = format!("Share of trips [% per {} s]", histogram.width());
     let all = [Distributed { name: "", histogram: &histogram }];
     Figure {
         svg: distribution(Sheet::Column, [label, &share], Upwards::Linear, &all),
@@ -71,11 +71,11 @@ fn by_style(trips: &TripTimes) -> Option<Figure> {
         rows.iter().map(|(count, row)| format!("{} {}", counted(*count as u64), row.name)).collect();
     let rows: Vec<BarRow> = rows.into_iter().map(|(_, row)| row).collect();
     Some(Figure {
-        svg: bars(Sheet::Column, ["mean delay of a trip [s]", "style [name]"], &["delay"], &rows),
+        svg: bars(Sheet::Column, ["Mean trip delay [s]", "Style"], &["delay"], &rows),
         title: "Delays by style".into(),
         caption: format!(
-            "Mean delays with Student's 95 % intervals over trips, as if they were independent. Delay is measured against the speeds \
-             that the driver desires: who desires more has more to lose. n = {} trips.",
+            "Mean delays with Student's 95 % intervals over trips, which assume that trips are independent. Delay is relative to \
+             the driver's desired speeds: a driver with a higher desired speed has more to lose. n = {} trips.",
             counts.join(", ")
         ),
     })
@@ -87,13 +87,13 @@ fn crowd(run: &RunReport) -> Figure {
         name: name.into(),
         points: counts.iter().map(|it| [it.0, count(it) as f64]).collect(),
     };
-    let lines = [line("on the road", |it| it.1), line("waiting at the entrances", |it| it.2)];
+    let lines = [line("on the road", |it| it.1), line("waiting to enter", |it| it.2)];
     Figure {
-        svg: over_time(Sheet::Column, "vehicles [number]", &lines),
-        title: "Vehicles in the course of time".into(),
+        svg: over_time(Sheet::Column, "Vehicles", &lines),
+        title: "Vehicles over time".into(),
         caption: format!(
-            "Vehicles on the road, and those that have arrived and find no room yet. While the numbers still grow, means over the \
-             run are those of no steady traffic. n = {} times.",
+            "Vehicles on the road, and vehicles waiting to enter (insertion backlog). While these numbers grow, the traffic is not \
+             steady, and means over the run do not describe a steady state. n = {} times.",
             counted(counts.len() as u64)
         ),
     }
@@ -107,10 +107,10 @@ fn times(run: &RunReport) -> Table {
         ("trips", Numbers),
         ("mean [s] (95 % interval)", Numbers),
         ("median [s]", Numbers),
-        ("9 of 10 below [s]", Numbers),
+        ("90th percentile [s]", Numbers),
     ];
-    let caption = "Trips that ended: means with Student's 95 % intervals over trips, as if they were independent; they share the \
-                   same traffic, so the intervals are rather too narrow.";
+    let caption = "Completed trips: means with Student's 95 % intervals over trips, which assume that trips are independent. Trips \
+                   share the same traffic, so the intervals are somewhat too narrow.";
     let mut table = Table::new(caption, &columns);
     let mut row = |name: &str, moments: &Moments, histogram: Option<&Histogram>| {
         let Some(mean) = moments.estimate() else { return };
@@ -130,15 +130,17 @@ fn queues(run: &RunReport) -> Table {
         ("entrance", Words),
         ("onto lanelet", Words),
         ("waiting at the end", Numbers),
-        ("most ever", Numbers),
-        ("held by (share of the time)", Words),
+        ("largest queue", Numbers),
+        ("blocked by (share of the time)", Words),
     ];
     let all = &run.summary.queues;
     let caption = match all.len() {
-        0..=MOST_QUEUES => "Queues that are left at the entrances, and what held the first in them.".into(),
+        0..=MOST_QUEUES => {
+            "Queues of vehicles waiting to enter at the end, and what blocked the first vehicle.".into()
+        }
         more => format!(
-            "The {MOST_QUEUES} longest of {more} queues that are left at the entrances, and what held the first in them; all are in \
-             summary.json."
+            "The {MOST_QUEUES} longest of {more} queues of vehicles waiting to enter at the end, and what blocked the first \
+             vehicle; summary.json has all of them."
         ),
     };
     let mut table = Table::new(caption, &columns);

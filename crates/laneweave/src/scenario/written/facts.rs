@@ -56,7 +56,7 @@ impl Facts {
             (
                 "demand.profile",
                 json!([[0.0, 1.0], [900.0, 1.5]]),
-                Some("For example, half as many again after a quarter of an hour:".into()),
+                Some("For example, 50 % more after a quarter of an hour:".into()),
             ),
             ("model", json!("mcdm"), Some("For example:".into())),
             ("run.threads", json!(prepared.threads), Some("On this machine:".into())),
@@ -83,14 +83,14 @@ fn origin(prepared: &Prepared) -> Value {
 fn origin_note(prepared: &Prepared) -> &'static str {
     match prepared.origin {
         Some(_) => "On this map:",
-        None => "Of no effect on this map, whose coordinates are metres already. For example:",
+        None => "Has no effect on this map: its coordinates are in metres. For example:",
     }
 }
 
 /// How much comes where nothing is said, and the estimated capacity.
 fn demand_note(prepared: &Prepared) -> String {
     match prepared.basis {
-        Basis::Estimated => format!("Where nothing is said, 70 % of the {}:", prepared.capacity),
+        Basis::Estimated => format!("Default: 70 % of the {}:", prepared.capacity),
         _ => "On this map:".into(),
     }
 }
@@ -102,9 +102,9 @@ fn entrances(prepared: &Prepared) -> Rows {
         what: lanes(place),
     };
     let note = if is_closed(prepared) {
-        "This map has no edge: trips start along its lanelets."
+        "This map is closed: trips start on its lanelets."
     } else {
-        "Those of this map, with what comes where nothing is said:"
+        "The entrances of this map, with their default demand:"
     };
     let all = &prepared.origins;
     Rows { note: note.into(), rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
@@ -113,7 +113,7 @@ fn entrances(prepared: &Prepared) -> Rows {
 fn exits(prepared: &Prepared) -> Rows {
     let all = &prepared.world.demand().destinations;
     let row = |place: &Place| Row::Entry { name: place.id().to_string(), value: 1.0, what: lanes(place) };
-    let note = "Those of this map:".into();
+    let note = "The exits of this map:".into();
     Rows { note, rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
 }
 
@@ -139,7 +139,7 @@ fn od(prepared: &Prepared) -> Rows {
 /// The junctions with shares by the number of lanes, as they are where no row says anything.
 fn turns(prepared: &Prepared) -> Rows {
     if is_closed(prepared) {
-        let note = "None on this map, on which every lanelet is a destination. Elsewhere:".into();
+        let note = "Not on this map: every lanelet is a destination. On other maps:".into();
         let keys =
             vec![("from", json!(1)), ("left", json!(1.0)), ("straight", json!(2.0)), ("right", json!(1.0))];
         return Rows { note, rows: vec![Row::Table { header: "[[turns]]", keys }], omitted: 0 };
@@ -157,7 +157,7 @@ fn turns(prepared: &Prepared) -> Rows {
     let note = if all.is_empty() {
         "No road of this map leads to a fork.".into()
     } else {
-        "For example, where the roads of this map fork, by the number of lanes:".into()
+        "For example, at forks of this map, in proportion to the number of lanes:".into()
     };
     let omitted = all.len().saturating_sub(LISTED_FORKS);
     Rows { note, rows: all.iter().take(LISTED_FORKS).map(row).collect(), omitted }
@@ -182,8 +182,8 @@ fn signals(prepared: &Prepared) -> Rows {
     };
     let all = &junctions.made;
     let note = match all.len() {
-        0 => "This map has no lights.",
-        _ => "Those that the lights of this map are given:",
+        0 => "This map has no traffic lights.",
+        _ => "The generated programs of the traffic lights of this map:",
     };
     Rows {
         note: note.into(),
@@ -195,7 +195,7 @@ fn signals(prepared: &Prepared) -> Rows {
 /// The styles beside those that drive already.
 fn styles() -> Rows {
     let names: Vec<&str> = BUILT_IN.iter().map(|it| it.name).collect();
-    let note = format!("There are {}. See them with: laneweave styles list", names.join(", "));
+    let note = format!("The built-in styles are {}. List them with: laneweave styles list", names.join(", "));
     Rows { note, rows: Vec::new(), omitted: 0 }
 }
 
@@ -206,7 +206,7 @@ fn is_closed(prepared: &Prepared) -> bool {
 
 fn lanes(place: &Place) -> String {
     match (place, place.chains().len()) {
-        (Place::Inside(_), _) => "along the lanelet".into(),
+        (Place::Inside(_), _) => "on the lanelet".into(),
         (Place::Gate(_), 1) => "1 lane".into(),
         (Place::Gate(_), count) => format!("{count} lanes"),
     }

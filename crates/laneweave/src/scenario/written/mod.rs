@@ -67,8 +67,8 @@ pub fn write(scenario: &Scenario, prepared: &Prepared) -> Result<String, Fault> 
         facts: Facts::of(prepared),
     };
     let mut text = String::new();
-    let head = "A scenario of laneweave. A key behind a # has its default, or an example where the text says so: take the # away \
-                and change it. Whoever adds a key of a table puts it below the name of the table in [brackets].";
+    let head = "A scenario of laneweave. A key after a # has its default value, or an example where the text says so. To change a \
+                key, remove the # and edit the value. Put a new key of a table below the name of the table in [brackets].";
     text += &comment(head, "");
     draft.table("", &draft.schema, &mut text);
     Ok(text)

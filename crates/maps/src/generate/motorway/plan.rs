@@ -199,11 +199,11 @@ mod tests {
     fn ramps_and_drops_must_fit_on_the_road() {
         assert_eq!(
             refusal(|it| it.on_ramp_at = vec![100.0]),
-            "the on-ramp at 100 m takes the road from -100 m to 350 m, of 5000 m; move it or lengthen the road"
+            "the on-ramp at 100 m needs the road from -100 m to 350 m, but its length is 5000 m; move it or lengthen the road"
         );
-        assert!(refusal(|it| it.off_ramp_at = vec![4900.0]).starts_with("the off-ramp at 4900 m takes"));
-        assert!(refusal(|it| it.on_ramp_at = vec![f64::NAN]).starts_with("the on-ramp at NaN m takes"));
-        assert!(refusal(|it| it.lane_drop_at = Some(5000.0)).starts_with("the lane drop at 5000 m takes"));
+        assert!(refusal(|it| it.off_ramp_at = vec![4900.0]).starts_with("the off-ramp at 4900 m needs"));
+        assert!(refusal(|it| it.on_ramp_at = vec![f64::NAN]).starts_with("the on-ramp at NaN m needs"));
+        assert!(refusal(|it| it.lane_drop_at = Some(5000.0)).starts_with("the lane drop at 5000 m needs"));
         assert!(
             refusal(|it| (it.length_m, it.on_ramp_at) = (499.0, vec![240.0])).starts_with("a length of 499")
         );
@@ -230,10 +230,10 @@ mod tests {
         };
         assert_eq!(
             weaving(1500.0, 400.0),
-            "the weaving section at 1500 m takes the road from 1300 m to 2100 m, of 2000 m; move it or lengthen the road"
+            "the weaving section at 1500 m needs the road from 1300 m to 2100 m, but its length is 2000 m; move it or lengthen the road"
         );
         assert_eq!(weaving(800.0, 50.0), "a weaving section of 50 m; choose 100 to 1000 m");
-        assert!(weaving(f64::NAN, 400.0).contains("takes the road"));
+        assert!(weaving(f64::NAN, 400.0).contains("needs the road"));
     }
 
     #[test]
