@@ -174,8 +174,8 @@ fn times_to_collision(reasons: &Reasons) -> Option<Figure> {
         title: "Time to collision at the start of lane changes".into(),
         caption: format!(
             "Gap divided by closing speed at the start of the lateral motion, for pairs whose gap closes: n = {} ahead, {} behind; \
-             {} and {} of them lie beyond the axis. The time to collision does not describe pairs with equal speeds, however small \
-             the gap is.",
+             {} and {} of them lie beyond the axis. The time to collision gives no information on pairs with equal speeds, however \
+             small the gap is.",
             counted(ahead.total()),
             counted(behind.total()),
             counted(ahead.beyond()),

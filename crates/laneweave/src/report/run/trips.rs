@@ -93,7 +93,7 @@ fn crowd(run: &RunReport) -> Figure {
         title: "Vehicles over time".into(),
         caption: format!(
             "Vehicles on the road, and vehicles waiting to enter (insertion backlog). While these numbers grow, the traffic is not \
-             steady, and means over the run do not describe a steady state. n = {} times.",
+             steady, and means over the run are not those of a steady state. n = {} times.",
             counted(counts.len() as u64)
         ),
     }
