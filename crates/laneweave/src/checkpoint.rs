@@ -5,12 +5,12 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use laneweave_scenario::Fault;
 use laneweave_study::PartialFile;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::fault::Fault;
 use crate::output::{Queues, ShortTrips};
 
 /// A run as it stands.

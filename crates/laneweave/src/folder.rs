@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::fault::Fault;
+use laneweave_scenario::Fault;
 
 /// Every name that a run gives to a file of results, in the order in which they are to go: without its summary no run
 /// has ended.

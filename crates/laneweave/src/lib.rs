@@ -4,25 +4,17 @@
 //! while [`output`]s observe it.
 
 pub mod branch;
-mod capacity;
 pub mod check;
 pub mod checkpoint;
 pub mod compare;
 pub mod explain;
-mod fault;
 pub mod folder;
 pub mod output;
 pub mod record;
 pub mod report;
-pub mod scenario;
 pub mod simulation;
-mod source;
-pub mod style;
-mod units;
 
-pub use capacity::{Bottleneck, Capacity};
-pub use fault::{Cause, Fault, did_you_mean};
-pub use source::Source;
+pub use laneweave_scenario::{Bottleneck, Capacity, Cause, Fault, Source, did_you_mean, scenario, style};
 
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;

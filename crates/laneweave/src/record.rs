@@ -5,16 +5,15 @@ use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use laneweave_scenario::scenario::{Origin, Output, Scenario};
+use laneweave_scenario::style::{built_in, find};
+use laneweave_scenario::{Fault, Source};
 use serde::Deserialize;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 use crate::checkpoint;
-use crate::fault::Fault;
 use crate::folder::{BRANCH, Claim, RESULTS};
 use crate::output::write_whole;
-use crate::scenario::{Origin, Output, Scenario};
-use crate::source::Source;
-use crate::style::{built_in, find};
 
 /// The numbers of a run, among its results.
 pub const SUMMARY: &str = "summary.json";

@@ -1,11 +1,11 @@
 //! A run from its first step to its last, watched by observers.
 
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::Prepared;
 use laneweave_sim::{CheckpointError, World};
 
 use crate::checkpoint::{Checkpoint, FILE, Keeper};
-use crate::fault::Fault;
 use crate::output::{Observer, Queue, Queues, ShortTrips};
-use crate::scenario::Prepared;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,14 +6,13 @@ mod page;
 mod setting;
 
 use laneweave_models::Style;
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Prepared, mixture, prepare};
+use laneweave_scenario::style::Population;
 use laneweave_sim::World;
 
-use crate::fault::Fault;
 use crate::output::Traces;
 use crate::record::{End, Record};
-use crate::scenario::mixture::mixture;
-use crate::scenario::{Prepared, prepare};
-use crate::style::Population;
 
 pub use differences::{Differences, Instant, Vehicle};
 pub use page::page;

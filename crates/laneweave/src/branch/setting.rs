@@ -4,8 +4,8 @@ use std::str::FromStr;
 
 use toml::Value;
 
-use crate::fault::{Fault, did_you_mean};
-use crate::style::StyleTemplate;
+use laneweave_scenario::style::StyleTemplate;
+use laneweave_scenario::{Fault, did_you_mean};
 
 /// A key of one style, or of all, with another value.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,12 +3,10 @@
 mod graph;
 mod picture;
 mod recording;
-mod remarks;
 mod report;
 
 pub use graph::GraphJson;
+pub use laneweave_scenario::Remark;
 pub use picture::picture;
 pub use recording::{ChangeRow, RecordingReport, extension, open_recording, tracks};
-pub use remarks::Remark;
-pub(crate) use remarks::remarks;
 pub use report::{Lit, Opening, Report};

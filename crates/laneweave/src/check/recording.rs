@@ -12,10 +12,10 @@ use laneweave_recordings::{
     CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, interaction,
     lane_changes,
 };
+use laneweave_study::units::METRES_PER_KM;
 use serde::Serialize;
 
-use crate::fault::Fault;
-use crate::units::METRES_PER_KM;
+use laneweave_scenario::Fault;
 
 /// Lane changes that are listed in words.
 const LISTED: usize = 20;

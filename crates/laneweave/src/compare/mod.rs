@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
+use laneweave_scenario::style::Model;
 use laneweave_study::{EdieRow, Estimate, mean};
 
-use crate::fault::Fault;
 use crate::report::About;
-use crate::scenario::{Origin, Scenario, prepare};
-use crate::style::Model;
 
 pub use outcome::{MEASURES, Measure, Outcome};
 pub use page::page;

@@ -6,9 +6,9 @@ use laneweave_models::Concentration;
 use laneweave_models::change::{GapPair, LaneChangeModel, Refusal, Row, time_to_collision};
 use laneweave_network::{Network, Side};
 use laneweave_sim::{Account, Act, Hindrance, Kind, SideAccount};
+use laneweave_study::units::KMH_PER_MPS;
 
 use super::flip::{Flip, Knob};
-use crate::units::KMH_PER_MPS;
 
 /// What a driver does, in one line.
 pub fn act(account: &Account) -> String {

@@ -9,7 +9,7 @@ use laneweave_sim::{Demand, Spot, World};
 use laneweave_study::Histogram;
 use serde::{Deserialize, Serialize};
 
-use crate::units::KMH_PER_MPS;
+use laneweave_study::units::KMH_PER_MPS;
 
 /// Time between two looks at the traffic [s]: sooner, a vehicle is much as it was.
 const SAMPLING: f64 = 5.0;

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
+use laneweave_scenario::Fault;
 use laneweave_sim::{Class, Motion, Phase, Trail, World, bumpers_in_lane, pose_between};
 use serde::{Deserialize, Serialize};
 
 use super::names::Names;
 use super::writer_threads::{Page, Pen};
 use super::{Observer, Summary};
-use crate::fault::Fault;
 
 /// Vehicles in a page, or a few more: those of one instant are not parted. Few, so that little is left to write when
 /// the run ends.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_network::{Network, Point};
+use laneweave_scenario::Fault;
 use laneweave_sim::{Event, Incident, VehicleId, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 use serde::Serialize;
@@ -10,7 +11,6 @@ use serde::Serialize;
 use super::names::Names;
 use super::writer_threads::{Page, Pen, Writer};
 use super::{Folder, Observer, Summary};
-use crate::fault::Fault;
 
 const COLUMNS: [Column; 17] = [
     Column::real("time_s"),

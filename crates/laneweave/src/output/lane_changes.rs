@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use laneweave_models::change::INCENTIVES;
 use laneweave_network::{Point, Side};
+use laneweave_scenario::Fault;
 use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::names::Names;
 use super::writer_threads::{Page, Pen, Writer};
 use super::{Observer, Summary};
-use crate::fault::Fault;
 
 /// Columns before those of the incentives.
 const BEFORE: [Column; 14] = [

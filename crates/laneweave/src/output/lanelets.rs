@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_network::LaneletIndex;
+use laneweave_scenario::Fault;
 use laneweave_sim::{Clock, Stay, World};
 use laneweave_study::{Column, TableWriter, seconds};
 
@@ -11,7 +12,6 @@ use super::traffic::Traffic;
 use super::writer_threads::{Page, Pen, Writer};
 use super::{Folder, Observer, Summary};
 use crate::checkpoint::{pack, unpack};
-use crate::fault::Fault;
 
 /// Measures what happens on the lanelets.
 pub(super) struct Lanelets {

@@ -10,11 +10,11 @@ use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 
+use laneweave_scenario::Fault;
 use laneweave_study::PartialFile;
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::writer_threads::Page;
-use crate::fault::Fault;
 
 /// Text that is collected before it is written [bytes].
 const BUFFER: usize = 1 << 18;

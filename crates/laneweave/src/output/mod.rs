@@ -30,8 +30,10 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Prepared, Scenario, SumoFile};
 use laneweave_sim::World;
-use laneweave_study::{Column, Format, PartialFile, TableError, TableWriter};
+use laneweave_study::{Column, Format, PartialFile, TableWriter};
 
 use self::frame::Samples;
 use self::incidents::{IncidentTable, Incidents};
@@ -44,8 +46,6 @@ use self::trajectories::Trajectories;
 use self::trips::{TripTable, Trips};
 use self::writer_threads::{Writer, WriterThreads};
 use crate::checkpoint;
-use crate::fault::Fault;
-use crate::scenario::{Prepared, Scenario, SumoFile, TableFormat};
 
 pub use boxes::Boxes;
 pub use driving::{Driving, StyleDriving};
@@ -185,16 +185,6 @@ impl Folder<'_> {
     }
 }
 
-impl From<TableFormat> for Format {
-    fn from(format: TableFormat) -> Format {
-        match format {
-            TableFormat::Csv => Format::Csv,
-            #[cfg(feature = "parquet")]
-            TableFormat::Parquet => Format::Parquet,
-        }
-    }
-}
-
 /// Writes a file that is complete or not there at all.
 ///
 /// # Errors
@@ -206,16 +196,4 @@ pub fn write_whole(path: &Path, text: &str) -> Result<(), Fault> {
         partial.complete()
     };
     write().map_err(|error| Fault::refused(path, "written", &error))
-}
-
-impl From<TableError> for Fault {
-    fn from(error: TableError) -> Fault {
-        match &error {
-            TableError::Create { path, source } => Fault::refused(path, "created", source),
-            TableError::Write { path, source } => Fault::refused(path, "written", source),
-            TableError::Width { path, .. } | TableError::Cell { path, .. } => {
-                Fault::new(path.display(), &error, "report this as a bug")
-            }
-        }
-    }
 }

@@ -3,6 +3,8 @@
 
 use std::path::PathBuf;
 
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::{Event, Incident, Kind, World};
 use laneweave_study::{Mark, Sample, Sheet, rate_density, time_space};
 use serde::{Deserialize, Serialize};
@@ -15,9 +17,7 @@ use super::traces::Traces;
 use super::trip_times::{Crowd, TripTimes};
 use super::{Folder, Observer, Provenance, write_whole};
 use crate::checkpoint::{pack, unpack};
-use crate::fault::Fault;
 use crate::report::{About, RunReport};
-use crate::scenario::{Prepared, Scenario};
 
 /// Lanes of which there are time–space diagrams.
 const ROADS: usize = 2;

@@ -3,16 +3,16 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::World;
 use laneweave_study::seconds;
+use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 use serde::Serialize;
 
 use super::incidents::FirstIncident;
 use super::queues::Queue;
 use crate::output::Provenance;
-use crate::scenario::{Prepared, Scenario};
 use crate::simulation::Ending;
-use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
 /// Queues that are named on the screen.
 const LISTED_QUEUES: usize = 3;

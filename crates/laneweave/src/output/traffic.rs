@@ -7,7 +7,7 @@ use laneweave_network::{Network, Side};
 use laneweave_sim::{Event, LaneChange, Stay, World};
 use serde::{Deserialize, Serialize};
 
-use crate::units::{METRES_PER_KM, SECONDS_PER_HOUR};
+use laneweave_study::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 
 /// What happened on all lanelets between two instants.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

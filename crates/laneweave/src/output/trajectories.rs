@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use laneweave_scenario::Fault;
 use laneweave_sim::{Class, Phase};
 use laneweave_study::{Cells, Column, TableWriter, seconds};
 
 use super::Folder;
 use super::names::Names;
 use super::writer_threads::{Page, Writer};
-use crate::fault::Fault;
 
 /// Columns of the table.
 const COLUMNS: [Column; 16] = [

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_network::ChainIndex;
+use laneweave_scenario::Fault;
 use laneweave_sim::{Event, TripRecord, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 use serde::{Deserialize, Serialize};
@@ -10,7 +11,6 @@ use serde::{Deserialize, Serialize};
 use super::names::Names;
 use super::writer_threads::{Page, Pen, Writer};
 use super::{Folder, Observer, Summary};
-use crate::fault::Fault;
 
 /// A trip that ended, or goes on when the run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -9,6 +9,7 @@ use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread::{self, JoinHandle};
 
+use laneweave_scenario::Fault;
 use laneweave_sim::{Incident, LaneChange, World};
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +20,6 @@ use super::traffic::Traffic;
 use super::trips::Trip;
 use super::{Observer, Summary};
 use crate::checkpoint::{pack, unpack};
-use crate::fault::Fault;
 
 /// Pages that wait for a thread: as many as are filled while a row group of a table is encoded.
 const WAITING: usize = 16;

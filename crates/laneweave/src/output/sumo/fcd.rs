@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use laneweave_network::{Network, Point};
+use laneweave_scenario::Fault;
 
 use super::xml::XmlFile;
-use crate::fault::Fault;
 use crate::output::Folder;
 use crate::output::frame::{Body, Seen};
 use crate::output::names::Names;

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use laneweave_network::Side;
+use laneweave_scenario::Fault;
 use laneweave_sim::{Kind, LaneChange};
 
 use super::xml::XmlFile;
-use crate::fault::Fault;
 use crate::output::Folder;
 use crate::output::names::Names;
 use crate::output::writer_threads::{Page, Writer};

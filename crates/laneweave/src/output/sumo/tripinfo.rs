@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use laneweave_scenario::Fault;
+
 use super::xml::XmlFile;
-use crate::fault::Fault;
 use crate::output::Folder;
 use crate::output::names::Names;
 use crate::output::trips::{End, Trip};

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use laneweave_scenario::Fault;
 use laneweave_study::PartialFile;
 
-use crate::fault::Fault;
 use crate::output::Provenance;
 
 /// Text that is collected before it is written [bytes].

@@ -2,12 +2,12 @@
 
 use laneweave_maps::Problem;
 use laneweave_network::Network;
+use laneweave_scenario::Remark;
+use laneweave_scenario::scenario::{Law, Prepared, Scenario};
+use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 
 use super::RunReport;
-use crate::check::Remark;
 use crate::report::{Section, number, percent};
-use crate::scenario::{Law, Prepared, Scenario};
-use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
 /// What ran: plain data, kept from the begin of a run for its report.
 #[derive(Clone, Debug, PartialEq)]

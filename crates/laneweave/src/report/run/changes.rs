@@ -1,6 +1,7 @@
 //! Lane changes: when, by whom, why, and into which gaps.
 
 use laneweave_sim::Kind;
+use laneweave_study::units::METRES_PER_KM;
 use laneweave_study::{
     BarRow, Distributed, Estimated, Interval, Sheet, Upwards, bars, distribution, poisson_interval,
     rate_density,
@@ -10,7 +11,6 @@ use super::RunReport;
 use super::numbers::rate_per;
 use crate::output::Reasons;
 use crate::report::{Align, Figure, Section, Table, counted, number};
-use crate::units::METRES_PER_KM;
 
 const KINDS: [(Kind, &str); 2] = [(Kind::Discretionary, "discretionary"), (Kind::Route, "for the route")];
 /// Incentives are counted per so many vehicle-kilometres.

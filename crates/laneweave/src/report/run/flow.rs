@@ -1,11 +1,11 @@
 //! Density, flow and speed.
 
+use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{EdieRow, Scattered, Sheet, scatter};
 
 use super::{NOBODY, RunReport};
 use crate::report::classes::{CLASS, LEAST_BOXES, means};
 use crate::report::{Figure, Section, counted};
-use crate::units::KMH_PER_MPS;
 
 /// Speed limits up to which roads are alike [km/h]: streets, main roads, motorways; ours.
 const LIMITS: [(f64, &str); 3] =

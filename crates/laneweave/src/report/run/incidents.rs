@@ -2,10 +2,10 @@
 
 use laneweave_sim::Incident;
 use laneweave_study::seconds;
+use laneweave_study::units::KMH_PER_MPS;
 
 use super::RunReport;
 use crate::report::{Align, Table, counted};
-use crate::units::KMH_PER_MPS;
 
 /// Collisions and overlaps among the problems, each with their number and the remedy.
 pub(super) fn problems(run: &RunReport) -> Vec<(&'static str, String, String)> {

@@ -1,11 +1,11 @@
 //! Key numbers.
 
+use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{Interval, poisson_interval};
 
 use super::RunReport;
 use crate::output::Summary;
 use crate::report::{Section, Tile, counted, number, with_interval};
-use crate::units::KMH_PER_MPS;
 
 pub(super) fn section(run: &RunReport) -> Section {
     let summary = run.summary;

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use laneweave_maps::Problem;
+use laneweave_scenario::Remark;
 
 use super::{RunReport, incidents};
-use crate::check::Remark;
 use crate::output::Summary;
 use crate::report::{Align, Section, Table, counted};
 

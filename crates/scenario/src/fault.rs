@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
+use laneweave_study::TableError;
+
 /// Why a command fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
@@ -76,6 +78,18 @@ impl fmt::Display for Fault {
 }
 
 impl std::error::Error for Fault {}
+
+impl From<TableError> for Fault {
+    fn from(error: TableError) -> Fault {
+        match &error {
+            TableError::Create { path, source } => Fault::refused(path, "created", source),
+            TableError::Write { path, source } => Fault::refused(path, "written", source),
+            TableError::Width { path, .. } | TableError::Cell { path, .. } => {
+                Fault::new(path.display(), &error, "report this as a bug")
+            }
+        }
+    }
+}
 
 /// A remedy for an unknown name: the nearest of those that are known, else all of them, if they are not too many.
 pub fn did_you_mean<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> String {

@@ -8,7 +8,7 @@ use crate::style::{StyleTemplate, find};
 ///
 /// # Errors
 /// If a style is not known or wrong, or the weights make no mixture.
-pub(crate) fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplate, f64)>, Fault> {
+pub fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplate, f64)>, Fault> {
     let mut mixture = Vec::new();
     for (name, weight) in &scenario.styles {
         let place = || origin.place(&["styles", name]);

@@ -2,11 +2,11 @@
 
 use laneweave_network::Network;
 use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
+use laneweave_study::units::METRES_PER_KM;
 
 use super::turns::set_turns;
 use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
 use crate::fault::{Fault, did_you_mean};
-use crate::units::METRES_PER_KM;
 
 /// Demand of a lane where nothing is said of it, but of others, or there is no estimate [veh/h].
 const USUAL_DEMAND: f64 = 1000.0;

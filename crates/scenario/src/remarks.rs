@@ -8,7 +8,7 @@ use laneweave_network::{Beside, Chain, ChainIndex, Lanelet, Network, Polyline, S
 use laneweave_sim::{Place, Places};
 use serde::Serialize;
 
-use crate::units::KMH_PER_MPS;
+use laneweave_study::units::KMH_PER_MPS;
 
 /// Something to know before one looks at traffic on a map.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -51,7 +51,7 @@ const SHORTEST_SPAN: f64 = 4.0;
 
 /// All that applies to `map`, on whose network with its junctions trips start and end at `places`: what matters most
 /// comes first.
-pub(crate) fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Remark> {
+pub fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Remark> {
     let all = [
         closed(places),
         room_to_change(network),

@@ -3,7 +3,7 @@
 mod basis;
 mod demand;
 mod headways;
-pub(crate) mod mixture;
+mod mixture;
 mod origin;
 mod prepare;
 mod signals;
@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
 use std::path::PathBuf;
 
+use laneweave_study::Format;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::{Deserialize, Serialize};
 
@@ -21,9 +22,9 @@ use crate::style::{DEFAULT_MIXTURE, Model};
 
 pub use basis::Basis;
 pub use headways::Headways;
+pub use mixture::mixture;
 pub use origin::Origin;
-pub(crate) use prepare::driven;
-pub use prepare::{Prepared, open_map, prepare};
+pub use prepare::{Prepared, driven, open_map, prepare};
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
 pub use written::write;
@@ -257,6 +258,16 @@ pub enum TableFormat {
     /// Comma-separated values.
     #[cfg_attr(not(feature = "parquet"), default)]
     Csv,
+}
+
+impl From<TableFormat> for Format {
+    fn from(format: TableFormat) -> Format {
+        match format {
+            TableFormat::Csv => Format::Csv,
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => Format::Parquet,
+        }
+    }
 }
 
 /// A file as SUMO writes it.

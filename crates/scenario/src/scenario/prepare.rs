@@ -17,8 +17,8 @@ use super::signals::plans;
 use super::turns::check_arrivals;
 use super::{MapOptions, Origin, Scenario, SumoFile};
 use crate::capacity::Capacity;
-use crate::check::{Remark, remarks};
 use crate::fault::Fault;
+use crate::remarks::{Remark, remarks};
 use crate::style::Population;
 
 /// More threads than this are a mistake.
@@ -154,7 +154,7 @@ fn guided(world: World, scenario: &Scenario, origin: &Origin) -> Result<World, F
 }
 
 /// The roads of `map` with their junctions, and where trips on them start and end.
-pub(crate) fn driven(map: &Map) -> (Network, Places) {
+pub fn driven(map: &Map) -> (Network, Places) {
     let network = map.network.clone().regulated(&regulations(map));
     let places = places(&network, &map.graph);
     (network, places)

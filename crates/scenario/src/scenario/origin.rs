@@ -74,12 +74,12 @@ impl Origin {
     }
 
     /// The map's text, if it comes with the program.
-    pub(crate) fn built_in_map(&self) -> Option<&'static str> {
+    pub fn built_in_map(&self) -> Option<&'static str> {
         self.map
     }
 
     /// The folder from which the paths of style files are sought.
-    pub(crate) fn style_folder(&self) -> &Path {
+    pub fn style_folder(&self) -> &Path {
         match &self.source {
             Some(source) if !self.options.contains_key("styles") => source.folder(),
             _ => Path::new(""),

@@ -18,10 +18,9 @@ use std::fmt;
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Assignment, Demand, Fleet};
+use laneweave_study::units::SECONDS_PER_HOUR;
 
 use stream::Mixture;
-
-const SECONDS_PER_HOUR: f64 = 3600.0;
 
 /// The estimated capacity of a map: the demand at which its first part is full.
 #[derive(Clone, Debug, PartialEq)]
