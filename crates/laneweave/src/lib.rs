@@ -7,7 +7,6 @@ pub mod branch;
 pub mod check;
 pub mod checkpoint;
 pub mod compare;
-pub mod explain;
 pub mod folder;
 pub mod output;
 pub mod record;
@@ -16,6 +15,7 @@ pub mod simulation;
 
 pub use laneweave_scenario::{Bottleneck, Capacity, Cause, Fault, Source, did_you_mean, scenario, style};
 
+pub use laneweave_explain as explain;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;
 pub use laneweave_network as network;

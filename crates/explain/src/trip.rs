@@ -6,9 +6,9 @@ use laneweave_network::Network;
 use laneweave_sim::{Account, Act, Event, Spot, VehicleId, World};
 use laneweave_study::units::KMH_PER_MPS;
 
-use super::flip::flips;
-use super::standing::stands_for;
-use super::words::{act, flip_in_words, story};
+use crate::flip::flips;
+use crate::standing::stands_for;
+use crate::words::{act, flip_in_words, story};
 
 /// What a driver made of its lanes at a moment, as far as it was on the road.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
 
 /// What holds a vehicle, as one sentence.
-pub(super) fn stands_for(it: &StandsFor, network: &Network) -> String {
+pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
     match it {
         StandsFor::Leader { vehicle, gap } => format!("it stands behind vehicle {vehicle}, {gap:.1} m ahead"),
         StandsFor::Light(id) => format!("it waits at light {id}"),

@@ -8,7 +8,7 @@ use laneweave_network::{Network, Side};
 use laneweave_sim::{Account, Act, Hindrance, Kind, SideAccount};
 use laneweave_study::units::KMH_PER_MPS;
 
-use super::flip::{Flip, Knob};
+use crate::flip::{Flip, Knob};
 
 /// What a driver does, in one line.
 pub fn act(account: &Account) -> String {
@@ -258,7 +258,7 @@ fn table(account: &Account, side: &SideAccount) -> Vec<String> {
 }
 
 /// What would have turned a decision, and to what.
-pub(super) fn flip_in_words(account: &Account, flip: &Flip) -> String {
+pub(crate) fn flip_in_words(account: &Account, flip: &Flip) -> String {
     let Flip { knob, value, by, to } = flip;
     let what = match knob {
         Knob::Weight(row) => format!("the weight of {}", account.change.row_names()[*row]),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use laneweave_sim::{Act, Event, Phase, Spot, World, explain};
 
-use super::words::reason;
+use crate::words::reason;
 
 /// Counts of reasons.
 #[derive(Clone, Debug, PartialEq)]
