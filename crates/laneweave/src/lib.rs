@@ -5,14 +5,12 @@
 
 pub mod branch;
 pub mod check;
-pub mod checkpoint;
 pub mod compare;
-pub mod folder;
-pub mod output;
-pub mod record;
-pub mod report;
 pub mod simulation;
 
+#[cfg(feature = "reports")]
+pub use laneweave_results::report;
+pub use laneweave_results::{checkpoint, folder, output, record};
 pub use laneweave_scenario::{Bottleneck, Capacity, Cause, Fault, Source, did_you_mean, scenario, style};
 
 pub use laneweave_explain as explain;

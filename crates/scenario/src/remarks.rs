@@ -6,9 +6,8 @@ use std::fmt;
 use laneweave_maps::Map;
 use laneweave_network::{Beside, Chain, ChainIndex, Lanelet, Network, Polyline, Side};
 use laneweave_sim::{Place, Places};
-use serde::Serialize;
-
 use laneweave_study::units::KMH_PER_MPS;
+use serde::Serialize;
 
 /// Something to know before one looks at traffic on a map.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use laneweave_results::output::Boxes;
+use laneweave_results::report::classes::{CLASS, LEAST_BOXES, means};
+use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
 use laneweave_scenario::style::Model;
 use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{
@@ -9,9 +12,6 @@ use laneweave_study::{
 };
 
 use super::{Comparison, MEASURES, Measure, OF_FEW, cell};
-use crate::output::Boxes;
-use crate::report::classes::{CLASS, LEAST_BOXES, means};
-use crate::report::{Align, Figure, Page, Section, Table, counted};
 
 /// The report of all `comparisons`, each of the input of that name, with the `command` that made them.
 pub fn page(comparisons: &[(String, Comparison)], command: &str) -> Page {
