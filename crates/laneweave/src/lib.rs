@@ -4,26 +4,16 @@
 //! while [`output`]s observe it.
 
 pub mod branch;
-mod capacity;
 pub mod check;
-pub mod checkpoint;
 pub mod compare;
-pub mod explain;
-mod fault;
-pub mod folder;
-pub mod output;
-pub mod record;
-pub mod report;
-pub mod scenario;
 pub mod simulation;
-mod source;
-pub mod style;
-mod units;
 
-pub use capacity::{Bottleneck, Capacity};
-pub use fault::{Cause, Fault, did_you_mean};
-pub use source::Source;
+#[cfg(feature = "reports")]
+pub use laneweave_results::report;
+pub use laneweave_results::{checkpoint, folder, output, record};
+pub use laneweave_scenario::{Bottleneck, Capacity, Cause, Fault, Source, did_you_mean, scenario, style};
 
+pub use laneweave_explain as explain;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;
 pub use laneweave_network as network;

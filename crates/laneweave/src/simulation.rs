@@ -1,26 +1,12 @@
 //! A run from its first step to its last, watched by observers.
 
+use laneweave_results::checkpoint::{Checkpoint, FILE, Keeper};
+use laneweave_results::output::{Observer, Queues, ShortTrips};
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::Prepared;
 use laneweave_sim::{CheckpointError, World};
 
-use crate::checkpoint::{Checkpoint, FILE, Keeper};
-use crate::fault::Fault;
-use crate::output::{Observer, Queue, Queues, ShortTrips};
-use crate::scenario::Prepared;
-
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ending {
-    /// Simulated time at which measuring began [s].
-    pub measured_from_s: f64,
-    /// Simulated and measured time [s].
-    pub measured_s: f64,
-    /// It was called off before its time.
-    pub is_interrupted: bool,
-    /// The queues that are left at the entrances, the longest first.
-    pub queues: Vec<Queue>,
-    /// The trips of one lanelet.
-    pub short_trips: ShortTrips,
-}
+pub use laneweave_results::Ending;
 
 /// Runs `prepared` through its warm-up and its measured time, or on from a checkpoint. `observers` see the world after
 /// each measured step; `goes_on` is asked before every step; `when_warm` is called once, when measuring begins or goes

@@ -8,8 +8,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-const METRES_PER_KM: f64 = 1000.0;
-const SECONDS_PER_HOUR: f64 = 3600.0;
+use crate::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 
 /// The observed time: consecutive intervals of equal duration. What happens outside is not counted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

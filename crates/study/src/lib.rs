@@ -3,6 +3,7 @@
 //! Knows no simulator: plain numbers come in; numbers, SVG text and files go out.
 
 mod edie;
+#[cfg(feature = "figures")]
 mod figures;
 mod histogram;
 mod rate;
@@ -10,15 +11,19 @@ mod returning;
 mod signal;
 mod statistics;
 mod table;
+mod trace;
+pub mod units;
 
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
+#[cfg(feature = "figures")]
 pub use figures::{
-    BarRow, Distributed, Estimated, Mark, RateSeries, Sample, Scattered, Sheet, TimeLine, Upwards, bars,
-    distribution, escaped, over_time, rate_density, scatter, text_width, time_space,
+    BarRow, Distributed, Estimated, Scattered, Sheet, TimeLine, Upwards, bars, distribution, escaped,
+    over_time, rate_density, scatter, text_width, time_space,
 };
 pub use histogram::Histogram;
-pub use rate::{RatePoint, rate_by_density};
+pub use rate::{RatePoint, RateSeries, rate_by_density};
 pub use returning::{Attempt, returning_rate};
 pub use signal::{Signal, SignalQueue};
 pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
 pub use table::{Cell, Cells, Column, Format, Kind, PartialFile, TableError, TableWriter, seconds};
+pub use trace::{Mark, Sample};

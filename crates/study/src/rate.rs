@@ -29,6 +29,15 @@ impl RatePoint {
     }
 }
 
+/// One curve: a model, a style, a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RateSeries {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its points in order of density.
+    pub points: Vec<RatePoint>,
+}
+
 /// Pools boxes in bins of density, `bin_veh_per_km` wide; in order of density, bins without a box left out.
 pub fn rate_by_density(rows: impl IntoIterator<Item = EdieRow>, bin_veh_per_km: f64) -> Vec<RatePoint> {
     let mut bins: BTreeMap<u64, RatePoint> = BTreeMap::new();

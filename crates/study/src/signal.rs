@@ -3,6 +3,8 @@
 //! During red, r = C − g, the queue grows to q r; in green it shrinks with s − q and is gone after q r/(s − q). Mean
 //! delay over all who come: r²/(2 C (1 − q/s)), the first term of Webster (1958, from memory).
 
+use crate::units::SECONDS_PER_HOUR;
+
 /// A light, and who comes to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Signal {
@@ -30,7 +32,6 @@ pub struct SignalQueue {
 impl Signal {
     /// The queue of each cycle; `None` if more come in a cycle than can leave in its green: then it grows for ever.
     pub fn queue(&self) -> Option<SignalQueue> {
-        const SECONDS_PER_HOUR: f64 = 3600.0;
         let [arrivals, saturation] =
             [self.arrivals_veh_h, self.saturation_veh_h].map(|it| it / SECONDS_PER_HOUR);
         let red = self.cycle_s - self.green_s;

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use laneweave_results::numbers::signed;
 use laneweave_sim::{Event, Phase, VehicleId, World};
-
-use crate::report::signed;
-use crate::units::KMH_PER_MPS;
+use laneweave_study::units::KMH_PER_MPS;
 
 /// Twins are held against each other after every step, and what comes of it is kept every so many seconds.
 const EVERY: f64 = 1.0;

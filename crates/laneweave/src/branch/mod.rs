@@ -2,20 +2,20 @@
 //! between the two is caused by that change.
 
 mod differences;
+#[cfg(feature = "reports")]
 mod page;
 mod setting;
 
 use laneweave_models::Style;
+use laneweave_results::output::Traces;
+use laneweave_results::record::{End, Record};
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Prepared, mixture, prepare};
+use laneweave_scenario::style::Population;
 use laneweave_sim::World;
 
-use crate::fault::Fault;
-use crate::output::Traces;
-use crate::record::{End, Record};
-use crate::scenario::mixture::mixture;
-use crate::scenario::{Prepared, prepare};
-use crate::style::Population;
-
 pub use differences::{Differences, Instant, Vehicle};
+#[cfg(feature = "reports")]
 pub use page::page;
 pub use setting::Setting;
 

@@ -1,11 +1,10 @@
 //! The report of twins: what one thing changed, drawn.
 
+use laneweave_results::report::{Align, Figure, Page, Section, Table, counted, time_and_space};
+use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{Distributed, Histogram, Sheet, TimeLine, Upwards, distribution, over_time};
 
 use super::{Differences, Instant, Twins, Vehicle};
-use crate::report::roads::time_and_space;
-use crate::report::{Align, Figure, Page, Section, Table, counted};
-use crate::units::KMH_PER_MPS;
 
 /// Vehicles that are named.
 const NAMED: usize = 25;

@@ -2,10 +2,9 @@
 
 use std::str::FromStr;
 
+use laneweave_scenario::style::StyleTemplate;
+use laneweave_scenario::{Fault, did_you_mean};
 use toml::Value;
-
-use crate::fault::{Fault, did_you_mean};
-use crate::style::StyleTemplate;
 
 /// A key of one style, or of all, with another value.
 #[derive(Clone, Debug, PartialEq)]

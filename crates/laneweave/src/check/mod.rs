@@ -1,14 +1,14 @@
 //! What a map or a recording holds, as far as one can tell without driving on it.
 
 mod graph;
+#[cfg(feature = "reports")]
 mod picture;
 mod recording;
-mod remarks;
 mod report;
 
 pub use graph::GraphJson;
+pub use laneweave_scenario::Remark;
+#[cfg(feature = "reports")]
 pub use picture::picture;
 pub use recording::{ChangeRow, RecordingReport, extension, open_recording, tracks};
-pub use remarks::Remark;
-pub(crate) use remarks::remarks;
 pub use report::{Lit, Opening, Report};

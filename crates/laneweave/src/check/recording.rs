@@ -12,10 +12,9 @@ use laneweave_recordings::{
     CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, interaction,
     lane_changes,
 };
+use laneweave_scenario::Fault;
+use laneweave_study::units::METRES_PER_KM;
 use serde::Serialize;
-
-use crate::fault::Fault;
-use crate::units::METRES_PER_KM;
 
 /// Lane changes that are listed in words.
 const LISTED: usize = 20;

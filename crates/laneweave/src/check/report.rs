@@ -5,12 +5,11 @@ use std::fmt::{self, Write};
 
 use laneweave_maps::{BORDERS, Map, Problem, RuleKind, check};
 use laneweave_network::{ChainIndex, DrivingSide, Network, Position, Sign};
+use laneweave_scenario::scenario::driven;
+use laneweave_scenario::{Remark, remarks};
 use laneweave_sim::{Place, Places};
+use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 use serde::Serialize;
-
-use super::remarks::{Remark, remarks};
-use crate::scenario::driven;
-use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
 /// Kinds of problems that are listed in words.
 const LISTED: usize = 20;

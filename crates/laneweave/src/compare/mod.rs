@@ -1,20 +1,21 @@
 //! Lane-change models side by side: the same traffic for each of them, over several seeds.
 
 mod outcome;
+#[cfg(feature = "reports")]
 mod page;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
+use laneweave_results::About;
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
+use laneweave_scenario::style::Model;
 use laneweave_study::{EdieRow, Estimate, mean};
 
-use crate::fault::Fault;
-use crate::report::About;
-use crate::scenario::{Origin, Scenario, prepare};
-use crate::style::Model;
-
 pub use outcome::{MEASURES, Measure, Outcome};
+#[cfg(feature = "reports")]
 pub use page::page;
 
 /// What a number behind a mean says.

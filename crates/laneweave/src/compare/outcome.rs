@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 
 use laneweave_network::Side;
+use laneweave_results::output::{Boxes, ShortTrips};
+use laneweave_scenario::scenario::Prepared;
 use laneweave_sim::{Event, Kind, VehicleId};
 use laneweave_study::EdieRow;
-
-use crate::output::{Boxes, ShortTrips};
-use crate::scenario::Prepared;
-use crate::units::{KMH_PER_MPS, METRES_PER_KM};
+use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 
 /// Who changes to the other side within this time [s] goes back.
 const BACK_WITHIN: f64 = 30.0;

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
+use laneweave_results::output::Boxes;
+use laneweave_results::report::classes::{CLASS, LEAST_BOXES, means};
+use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
+use laneweave_scenario::style::Model;
+use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{
     BarRow, EdieRow, Estimate, Estimated, Interval, RateSeries, Scattered, Sheet, bars, rate_density, scatter,
 };
 
 use super::{Comparison, MEASURES, Measure, OF_FEW, cell};
-use crate::output::Boxes;
-use crate::report::classes::{CLASS, LEAST_BOXES, means};
-use crate::report::{Align, Figure, Page, Section, Table, counted};
-use crate::style::Model;
-use crate::units::KMH_PER_MPS;
 
 /// The report of all `comparisons`, each of the input of that name, with the `command` that made them.
 pub fn page(comparisons: &[(String, Comparison)], command: &str) -> Page {

@@ -4,19 +4,10 @@ use super::axes::Axis;
 use super::drawing::{Around, Drawing};
 use super::series::{Estimated, curve, key};
 use super::sheet::Sheet;
-use crate::rate::RatePoint;
+use crate::rate::{RatePoint, RateSeries};
 
 /// Series stand this far apart at the same density, so that their bars do not hide each other [px].
 const STAGGER: f64 = 3.0;
-
-/// One curve: a model, a style, a recording.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RateSeries {
-    /// Its name in the legend.
-    pub name: String,
-    /// Its points in order of density.
-    pub points: Vec<RatePoint>,
-}
 
 /// Draws the lane-change rate [1/(km h)] against the density [veh/km per lane], each point with the exact Poisson
 /// 95 % interval of its count. Points that are not finite are left out; several series are staggered by a few pixels.

@@ -1,13 +1,11 @@
 //! Time–space diagram: trajectories coloured by speed, lane changes marked.
 
-use serde::{Deserialize, Serialize};
-
 use super::axes::Axis;
 use super::drawing::{Anchor, Around, Drawing, Key, Plot, text_width};
 use super::sheet::Sheet;
+use crate::trace::{Mark, Sample};
+use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
-const METRES_PER_KM: f64 = 1000.0;
-const KMH_PER_MPS: f64 = 3.6;
 /// Coordinates within the plot are whole numbers of this many a pixel: short text, fine enough for print.
 const UNITS_PER_PX: f64 = 10.0;
 /// A drawn line stays this close to the samples, vertically [px].
@@ -38,32 +36,6 @@ struct Bar {
     label: f64,
 }
 
-/// A vehicle at one instant.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sample {
-    /// Time [s].
-    pub time_s: f64,
-    /// Position along the lane or road [m].
-    pub position_m: f64,
-    /// Speed [m/s].
-    pub speed_mps: f64,
-}
-
-impl Sample {
-    fn is_finite(&self) -> bool {
-        self.time_s.is_finite() && self.position_m.is_finite() && self.speed_mps.is_finite()
-    }
-}
-
-/// Where and when a vehicle changed lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Mark {
-    /// Time [s].
-    pub time_s: f64,
-    /// Position along the lane or road [m].
-    pub position_m: f64,
-}
-
 /// Draws `trajectories`, each the samples of one vehicle in order of time, coloured by speed [km/h], and a cross at
 /// each of the `changes` that lies within their time and road. What a vehicle that leaves the lane and comes back
 /// does there are two trajectories. Samples that are not finite are left out.
@@ -73,7 +45,7 @@ pub fn time_space(
     trajectories: &[impl AsRef<[Sample]>],
     changes: &[Mark],
 ) -> String {
-    let samples = || trajectories.iter().flat_map(AsRef::as_ref).filter(|it| it.is_finite());
+    let samples = || trajectories.iter().flat_map(AsRef::as_ref).filter(is_finite);
     let (from_s, to_s) = range(samples().map(|it| it.time_s));
     let (from_km, to_km) = range(samples().map(|it| it.position_m / METRES_PER_KM));
     let [across, upwards] = sheet.layout().steps;
@@ -132,12 +104,16 @@ fn colour(class: usize, classes: usize) -> String {
     format!("#{:02x}{:02x}{:02x}", mixed[0] as u8, mixed[1] as u8, mixed[2] as u8)
 }
 
+fn is_finite(it: &&Sample) -> bool {
+    it.time_s.is_finite() && it.position_m.is_finite() && it.speed_mps.is_finite()
+}
+
 /// One path for each class of speed, of all that was driven in it.
 fn paths(trajectories: &[impl AsRef<[Sample]>], plot: &Plot, [x, y, speeds]: [&Axis; 3]) -> Vec<String> {
     let mut paths = vec![String::new(); classes(speeds)];
     let last = paths.len() - 1;
     for trajectory in trajectories.iter().map(AsRef::as_ref) {
-        let samples: Vec<&Sample> = trajectory.iter().filter(|it| it.is_finite()).collect();
+        let samples: Vec<&Sample> = trajectory.iter().filter(is_finite).collect();
         let class = |pair: &[&Sample]| {
             let speed = 0.5 * (pair[0].speed_mps + pair[1].speed_mps) * KMH_PER_MPS;
             ((speed / speeds.step()) as usize).min(last)

@@ -1,0 +1,47 @@
+//! Why a vehicle stands, in words.
+
+use laneweave_network::Network;
+use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
+
+/// What holds a vehicle, as one sentence.
+pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
+    match it {
+        StandsFor::Leader { vehicle, gap } => format!("it stands behind vehicle {vehicle}, {gap:.1} m ahead"),
+        StandsFor::Light(id) => format!("it waits at traffic light {id}"),
+        StandsFor::StopSign => "it stops at a stop sign".into(),
+        StandsFor::After(others) => format!("it has its reservation, and drives after {}", vehicles(others)),
+        StandsFor::LaneEnd(distance) => format!("its lane ends {distance:.1} m ahead"),
+        StandsFor::LastPlace(distance) => {
+            format!("the last place for a route-driven lane change is {distance:.1} m ahead")
+        }
+        StandsFor::LetsIn(distance) => {
+            format!("it yields to a vehicle that changes lanes {distance:.1} m ahead")
+        }
+        StandsFor::Nothing => "nothing blocks it: it starts to drive".into(),
+        StandsFor::Junction { areas, why, others } => {
+            let lanelet = |it| network.lanelet_at(it).0.id;
+            let areas: Vec<String> = areas
+                .iter()
+                .map(|sides| sides.map(lanelet))
+                .map(|[one, other]| format!("lanelets {one} and {other}"))
+                .collect();
+            let why = match why {
+                JunctionHindrance::Others => {
+                    let go = if others.len() == 1 { "has" } else { "have" };
+                    format!("{} {go} priority", vehicles(others))
+                }
+                JunctionHindrance::Space => "there is no storage space beyond".into(),
+                JunctionHindrance::Roundabout => "the roundabout is full".into(),
+            };
+            format!("it waits for the conflict area of {}: {why}", areas.join(", of "))
+        }
+    }
+}
+
+fn vehicles(ids: &[VehicleId]) -> String {
+    match ids {
+        [] => "others".into(),
+        [one] => format!("vehicle {one}"),
+        all => format!("vehicles {}", all.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}

@@ -1,0 +1,18 @@
+//! What a run leaves: tables, a summary, checkpoints, a record by which it can be run again, and reports. Observers read
+//! the world and never write it; a file that they write is complete or not there.
+
+pub mod checkpoint;
+pub mod folder;
+pub mod numbers;
+mod observer;
+mod outcome;
+pub mod output;
+mod pack;
+pub mod record;
+#[cfg(feature = "reports")]
+pub mod report;
+mod seen;
+mod whole_file;
+
+pub use observer::Observer;
+pub use outcome::{About, Ending};

@@ -1,0 +1,17 @@
+//! What a run was, and what it amounts to.
+
+mod about;
+mod ending;
+mod first_incident;
+mod provenance;
+mod queues;
+mod short_trips;
+mod summary;
+
+pub use about::About;
+pub use ending::Ending;
+pub use first_incident::FirstIncident;
+pub use provenance::{Provenance, command_line};
+pub use queues::{HeldFor, Queue, Queues};
+pub use short_trips::{ShortTrips, TripMeans};
+pub use summary::{Inputs, Summary};

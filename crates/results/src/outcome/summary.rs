@@ -1,0 +1,310 @@
+//! What a run amounts to, in numbers: the file `summary.json`, and the table on screen.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use laneweave_scenario::scenario::{Prepared, Scenario};
+use laneweave_sim::World;
+use laneweave_study::seconds;
+use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
+use serde::Serialize;
+
+use super::ending::Ending;
+use super::first_incident::FirstIncident;
+use super::provenance::Provenance;
+use super::queues::Queue;
+
+/// Queues that are named on the screen.
+const LISTED_QUEUES: usize = 3;
+
+/// The numbers of a run. Fields are added, never renamed; what cannot be known (a mean of nothing) is null.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Vehicles that entered while it was measured; those on the road at its begin count as entered.
+    pub entered: u64,
+    /// Vehicles that completed their trip; old name of `completed`.
+    pub left: u64,
+    /// Vehicles that completed their trip.
+    pub completed: u64,
+    /// Of them, those whose trip began and ended on one lanelet, which are left out of the means over trips.
+    pub trips_of_one_lanelet: u64,
+    /// Vehicles on the road at the end.
+    pub on_road: u64,
+    /// Vehicles that wait to enter at the end; old name of `waiting_to_enter`.
+    pub waiting: u64,
+    /// Vehicles that wait to enter at the end: the insertion backlog.
+    pub waiting_to_enter: u64,
+    /// The estimated capacity of the map [veh/h]; old name of `estimated_capacity_veh_h`.
+    pub entrance_capacity: f64,
+    /// The estimated capacity of the map [veh/h].
+    pub estimated_capacity_veh_h: f64,
+    /// What is full first when the demand grows.
+    pub bottleneck: Option<String>,
+    /// Lane changes.
+    pub lane_changes: u64,
+    /// Of them, between lanes of equal worth for the route.
+    pub lane_changes_discretionary: u64,
+    /// Of them, route-driven (mandatory) ones; old name of `lane_changes_route_driven`.
+    pub lane_changes_route: u64,
+    /// Of them, route-driven (mandatory) ones.
+    pub lane_changes_route_driven: u64,
+    /// Lane changes per vehicle-kilometre.
+    pub lane_changes_per_veh_km: Option<f64>,
+    /// Distance driven [veh km].
+    pub veh_km: f64,
+    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each
+    /// other.
+    pub collisions: u64,
+    /// Other times that two vehicles came to overlap.
+    pub overlaps: u64,
+    /// Collisions and overlaps.
+    pub incidents: u64,
+    /// The first of them, if there was any.
+    pub first_incident: Option<FirstIncident>,
+    /// Braking events that kinematics, not the model, decided.
+    pub emergency_brakings: u64,
+    /// Vehicles that stood for 300 s.
+    pub stuck: u64,
+    /// Drivers who missed a turn.
+    pub missed_turns: u64,
+    /// Drivers who had no way left to any destination.
+    pub lost: u64,
+    /// Drivers who took another route: all who missed a turn do.
+    pub rerouted: u64,
+    /// Times that a driver left its route for a better one.
+    pub route_changes: u64,
+    /// Times that a driver considered lanes.
+    pub considerations: u64,
+    /// Vehicles on the road summed over steps.
+    pub updates: u64,
+    /// Wall time of the process up to this summary [s].
+    pub wall_s: f64,
+    /// Of it, until measuring began: reading the inputs, and the warm-up [s].
+    pub load_s: f64,
+    /// Updates per second of the time since.
+    pub updates_per_s: f64,
+    /// Mean speed over all vehicles and steps [m/s].
+    pub mean_speed_mps: Option<f64>,
+    /// Mean time on the map of those that left [s].
+    pub mean_trip_duration_s: Option<f64>,
+    /// Mean of what the trips of those that left took beyond the time on a free road [s].
+    pub mean_delay_s: Option<f64>,
+    /// Mean number of times that those that left came to a halt.
+    pub mean_stops: Option<f64>,
+    /// The queues that are left at the entrances, the longest first.
+    pub queues: Vec<Queue>,
+    /// Most memory that the process held [MB]; 0 where the system does not tell.
+    pub peak_rss_mb: f64,
+    /// Hash of all vehicles' states at the end, 16 hexadecimal digits.
+    pub state_hash: String,
+    /// Hash of all that the run depended on: version, scenario, styles, map.
+    pub fingerprint: String,
+    /// The command line.
+    pub command: String,
+    /// Demand over all entrances [veh/h].
+    pub demand_veh_h: f64,
+    /// Simulated and measured time [s].
+    pub duration_s: f64,
+    /// Simulated time before [s].
+    pub warmup_s: f64,
+    /// The run was called off before its time.
+    pub interrupted: bool,
+    /// Seed of all random draws.
+    pub seed: u64,
+    /// Number of threads.
+    pub threads: usize,
+    /// Version of the program.
+    pub version: &'static str,
+    /// The map.
+    pub map: String,
+}
+
+/// What a summary is made from, beside the world.
+#[derive(Clone, Copy)]
+pub struct Inputs<'a> {
+    /// The scenario.
+    pub scenario: &'a Scenario,
+    /// How the run ended.
+    pub ending: &'a Ending,
+    /// See [`Summary::wall_s`].
+    pub wall_s: f64,
+    /// See [`Summary::load_s`].
+    pub load_s: f64,
+    /// Where it comes from.
+    pub provenance: &'a Provenance,
+}
+
+impl Summary {
+    /// The summary of `prepared` after it has run.
+    pub fn of(prepared: &Prepared, inputs: Inputs) -> Summary {
+        let Inputs { scenario, ending, wall_s, load_s, provenance } = inputs;
+        let world: &World = &prepared.world;
+        let (tally, counts) = (world.tally(), world.counts());
+        let trips = ending.short_trips.means_without(counts);
+        let veh_km = tally.distance / METRES_PER_KM;
+        let lane_changes = counts.discretionary_changes + counts.route_changes;
+        Summary {
+            entered: counts.entered,
+            left: counts.left,
+            completed: counts.left,
+            trips_of_one_lanelet: ending.short_trips.count,
+            on_road: world.on_road() as u64,
+            waiting: world.waiting() as u64,
+            waiting_to_enter: world.waiting() as u64,
+            entrance_capacity: prepared.capacity.veh_h,
+            estimated_capacity_veh_h: prepared.capacity.veh_h,
+            bottleneck: prepared.capacity.bottleneck.map(|it| it.to_string()),
+            lane_changes,
+            lane_changes_discretionary: counts.discretionary_changes,
+            lane_changes_route: counts.route_changes,
+            lane_changes_route_driven: counts.route_changes,
+            lane_changes_per_veh_km: ratio(lane_changes as f64, veh_km),
+            veh_km,
+            collisions: tally.collisions,
+            overlaps: tally.overlaps,
+            incidents: tally.collisions + tally.overlaps,
+            first_incident: counts.first_incident.map(|it| FirstIncident::of(world.network(), &it)),
+            emergency_brakings: tally.emergency_brakings,
+            stuck: tally.stuck,
+            missed_turns: tally.missed_turns,
+            lost: tally.lost,
+            rerouted: tally.missed_turns,
+            route_changes: tally.route_changes,
+            considerations: tally.considerations,
+            updates: tally.updates,
+            wall_s,
+            load_s,
+            updates_per_s: ratio(tally.updates as f64, wall_s - load_s).unwrap_or(0.0),
+            mean_speed_mps: ratio(tally.distance, tally.updates as f64 * scenario.run.step_s),
+            mean_trip_duration_s: trips.duration,
+            mean_delay_s: trips.delay,
+            mean_stops: trips.stops,
+            queues: ending.queues.clone(),
+            peak_rss_mb: peak_rss_mb(),
+            state_hash: format!("{:016x}", world.state_hash()),
+            fingerprint: provenance.fingerprint.clone(),
+            command: provenance.command.clone(),
+            demand_veh_h: prepared.demand_veh_h,
+            duration_s: seconds(ending.measured_s),
+            warmup_s: seconds(ending.measured_from_s),
+            interrupted: ending.is_interrupted,
+            seed: scenario.run.seed,
+            threads: prepared.threads,
+            version: env!("CARGO_PKG_VERSION"),
+            map: scenario.map.display().to_string(),
+        }
+    }
+
+    /// The same summary after so much wall time of the process [s].
+    #[must_use]
+    pub fn after(mut self, wall_s: f64) -> Summary {
+        self.wall_s = wall_s;
+        self.updates_per_s = ratio(self.updates as f64, wall_s - self.load_s).unwrap_or(0.0);
+        self.peak_rss_mb = peak_rss_mb();
+        self
+    }
+
+    /// The summary for the screen, with the files that the run left.
+    pub fn to_text(&self, styles: &[(String, f64)], files: &[PathBuf]) -> String {
+        let mut text = String::new();
+        let total: f64 = styles.iter().map(|(_, weight)| weight).sum();
+        let mixture: Vec<String> =
+            styles.iter().map(|(name, weight)| format!("{:.1} % {name}", 100.0 * weight / total)).collect();
+        let mut line = |name: &str, value: String| {
+            // Writing to a string never fails.
+            let _ = writeln!(text, "  {name:<17}{value}");
+        };
+        let speed = self.mean_speed_mps.map_or("-".into(), |it| format!("{:.1} km/h", it * KMH_PER_MPS));
+        let mean = |mean: Option<f64>, unit| mean.map_or("-".into(), |it| format!("{it:.0}{unit}"));
+        let stops = self.mean_stops.map_or("-".into(), |it| format!("{it:.1}"));
+        let early = if self.interrupted { ", interrupted" } else { "" };
+        let warm = if self.warmup_s > 0.0 {
+            format!(" after {} s of warm-up", self.warmup_s)
+        } else {
+            String::new()
+        };
+        line("map", self.map.clone());
+        line("drivers", mixture.join(", "));
+        line("simulated", format!("{} s{warm}{early}, seed {}", self.duration_s, self.seed));
+        let first = self.bottleneck.as_ref().map_or(String::new(), |it| format!(" (bottleneck: {it})"));
+        line(
+            "demand",
+            format!(
+                "{:.0} veh/h; estimated capacity {:.0} veh/h{first}",
+                self.demand_veh_h, self.entrance_capacity
+            ),
+        );
+        line(
+            "vehicles",
+            format!(
+                "{} entered = {} completed + {} on the road; {} waiting to enter",
+                self.entered, self.left, self.on_road, self.waiting
+            ),
+        );
+        // The longest queues say enough.
+        for (number, queue) in self.queues.iter().take(LISTED_QUEUES).enumerate() {
+            line(if number == 0 { "waiting" } else { "" }, queue.to_text());
+        }
+        line("mean speed", format!("{speed} over {:.0} veh-km", self.veh_km));
+        line(
+            "mean trip",
+            format!(
+                "{}, including {} of delay; {stops} stops",
+                mean(self.mean_trip_duration_s, " s"),
+                mean(self.mean_delay_s, " s")
+            ),
+        );
+        line("lane changes", self.lane_changes_text());
+        line("route changes", self.route_changes.to_string());
+        line("safety", self.safety());
+        self.first_incident.iter().for_each(|it| line("first incident", it.to_text()));
+        line("speed", self.pace_text());
+        line("state hash", self.state_hash.clone());
+        for (index, file) in files.iter().enumerate() {
+            line(if index == 0 { "files" } else { "" }, file.display().to_string());
+        }
+        text
+    }
+
+    fn lane_changes_text(&self) -> String {
+        let per_km =
+            |count: u64| ratio(count as f64, self.veh_km).map_or("-".into(), |it| format!("{it:.3}"));
+        format!(
+            "{} per veh-km: {} discretionary, {} route-driven",
+            per_km(self.lane_changes),
+            per_km(self.lane_changes_discretionary),
+            per_km(self.lane_changes_route)
+        )
+    }
+
+    fn pace_text(&self) -> String {
+        format!(
+            "{:.2} s, {:.0} times real time, {:.1} million updates/s, {:.0} MB",
+            self.wall_s,
+            (self.duration_s + self.warmup_s) / self.wall_s,
+            self.updates_per_s / 1e6,
+            self.peak_rss_mb
+        )
+    }
+
+    /// What should not happen, in words.
+    fn safety(&self) -> String {
+        let &Summary { collisions, overlaps, stuck, emergency_brakings, missed_turns, lost, .. } = self;
+        format!(
+            "{collisions} collisions, {overlaps} overlaps, {stuck} stuck, {emergency_brakings} emergency brakings, \
+             {missed_turns} missed turns, {lost} lost"
+        )
+    }
+}
+
+fn ratio(part: f64, whole: f64) -> Option<f64> {
+    (whole > 0.0).then(|| part / whole)
+}
+
+fn peak_rss_mb() -> f64 {
+    const KB_PER_MB: f64 = 1024.0;
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kb = line.and_then(|it| it.split_whitespace().next()).and_then(|it| it.parse::<f64>().ok());
+    kb.map_or(0.0, |it| it / KB_PER_MB)
+}

@@ -1,0 +1,194 @@
+//! Every lane change with its reasons: the table `lane_changes`.
+
+use std::path::PathBuf;
+
+use laneweave_models::change::INCENTIVES;
+use laneweave_network::{Point, Position, Side};
+use laneweave_scenario::Fault;
+use laneweave_sim::{Event, Kind, LaneChange, World};
+use laneweave_study::{Cell, Column, TableWriter, seconds};
+
+use super::names::Names;
+use super::page::{Page, Pen, Writer};
+use crate::observer::Observer;
+use crate::outcome::Summary;
+
+/// Columns before those of the incentives.
+const BEFORE: [Column; 14] = [
+    Column::real("time_s"),
+    Column::real("started_s"),
+    Column::real("duration_s"),
+    Column::integer("vehicle"),
+    Column::text("style"),
+    Column::text("class"),
+    Column::integer("from_lanelet"),
+    Column::integer("to_lanelet"),
+    Column::real("x_m"),
+    Column::real("y_m"),
+    Column::text("side"),
+    Column::text("kind"),
+    Column::real("speed_mps"),
+    Column::real("speed_gain_mps"),
+];
+
+/// Columns after those of the incentives.
+const AFTER: [Column; 7] = [
+    Column::real("g"),
+    Column::real("theta"),
+    Column::real("gap_ahead_m"),
+    Column::real("gap_behind_m"),
+    Column::real("ttc_ahead_s"),
+    Column::real("ttc_behind_s"),
+    Column::text("outcome"),
+];
+
+/// The columns of one incentive.
+const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
+    ["speed_yield", "speed_weight"],
+    ["route_yield", "route_weight"],
+    ["comfort_yield", "comfort_weight"],
+    ["courtesy_yield", "courtesy_weight"],
+    ["urgency_yield", "urgency_weight"],
+];
+
+/// Lane changes in a page, at most those of one step more.
+const PAGE: usize = 256;
+
+/// Collects the lane changes that are completed or aborted.
+pub(super) struct LaneChanges {
+    /// Time from which on they count [s].
+    begin: f64,
+    ended: Vec<LaneChange>,
+    pen: Pen,
+}
+
+impl LaneChanges {
+    /// Collects those from the time `begin` [s] on.
+    pub(super) fn new(begin: f64, pen: Pen) -> LaneChanges {
+        LaneChanges { begin, ended: Vec::new(), pen }
+    }
+}
+
+impl Observer for LaneChanges {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))?;
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn observe(&mut self, world: &World) -> Result<(), Fault> {
+        for event in world.events() {
+            if let Event::LaneChange(change) = event
+                && change.time >= self.begin
+            {
+                self.ended.push(*change);
+            }
+        }
+        if self.ended.len() < PAGE {
+            return Ok(());
+        }
+        self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))
+    }
+
+    fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+        self.pen.hand_over(Page::LaneChanges(self.ended))?;
+        Ok(Vec::new())
+    }
+}
+
+/// Writes a row for each lane change.
+pub(super) struct LaneChangeTable {
+    table: TableWriter,
+    path: PathBuf,
+}
+
+impl LaneChangeTable {
+    /// Begins the table in `folder`.
+    pub(super) fn create(folder: &super::folder::Folder) -> Result<LaneChangeTable, Fault> {
+        let incentives = OF_INCENTIVE.as_flattened().iter().map(|name| Column::real(name));
+        let columns: Vec<Column> = BEFORE.into_iter().chain(incentives).chain(AFTER).collect();
+        let (table, path) = folder.table("lane_changes", &columns)?;
+        Ok(LaneChangeTable { table, path })
+    }
+}
+
+impl Writer for LaneChangeTable {
+    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
+        if let Page::LaneChanges(changes) = page {
+            for change in changes {
+                self.table.row(&row(names, change))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<PathBuf, Fault> {
+        self.table.finish()?;
+        Ok(self.path)
+    }
+}
+
+fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
+    let lanelet = |at| names.lanelet(at).1.id;
+    let Point { x, y, .. } = place(names, change);
+    let mut cells: Vec<Cell> = vec![
+        seconds(change.time).into(),
+        seconds(change.started).into(),
+        seconds(change.duration).into(),
+        change.vehicle.into(),
+        names.style(change.character).into(),
+        change.class.body().name.into(),
+        lanelet(change.from).into(),
+        lanelet(change.to).into(),
+        x.into(),
+        y.into(),
+        match change.side {
+            Side::Left => "left",
+            Side::Right => "right",
+        }
+        .into(),
+        match change.kind {
+            Kind::Discretionary => "discretionary",
+            Kind::Route => "route",
+        }
+        .into(),
+        change.speed.into(),
+        change.speed_gain.into(),
+    ];
+    for row in change.appraisal.rows {
+        cells.extend([Cell::from(row.earning), row.weight.into()]);
+    }
+    cells.extend([Cell::from(change.appraisal.gain), change.appraisal.theta.into()]);
+    cells.extend([change.gap_ahead, change.gap_behind, change.ttc_ahead, change.ttc_behind].map(known));
+    cells.push(if change.is_completed { "completed" } else { "aborted" }.into());
+    cells
+}
+
+/// Where the vehicle's centre crossed the line between the lanes.
+fn place(names: &Names, change: &LaneChange) -> Point {
+    let half = 0.5 * change.class.body().length;
+    let on = |it: Position| names.network.chain(it.chain).centre.at(it.x - half);
+    on(change.from).towards(&on(change.to), 0.5)
+}
+
+/// What is infinite, as there is nobody or no closing, is no value.
+fn known(value: f64) -> Cell<'static> {
+    if value.is_finite() { value.into() } else { Cell::Missing }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_models::change::Mcdm;
+
+    use super::*;
+
+    #[test]
+    fn every_incentive_has_its_two_columns() {
+        for (name, columns) in Mcdm::NAMES.iter().zip(OF_INCENTIVE) {
+            assert_eq!(columns, [format!("{name}_yield"), format!("{name}_weight")]);
+        }
+    }
+}

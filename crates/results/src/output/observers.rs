@@ -1,0 +1,91 @@
+//! Who watches a run, and what they write.
+
+use std::num::NonZero;
+use std::thread::available_parallelism;
+
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Prepared, Scenario, SumoFile};
+
+use super::folder::Folder;
+use super::incidents::{IncidentTable, Incidents};
+use super::lane_changes::{LaneChangeTable, LaneChanges};
+use super::lanelets::{FlowTable, LaneletTable, Lanelets};
+use super::names::Names;
+use super::page::Writer;
+#[cfg(feature = "reports")]
+use super::report::Report;
+use super::samples::Samples;
+use super::sumo::{Fcd, LaneChangeOutput, TripInfo};
+use super::trajectories::Trajectories;
+use super::trips::{TripTable, Trips};
+use super::writer_threads::WriterThreads;
+use crate::checkpoint;
+use crate::observer::Observer;
+use crate::outcome::Provenance;
+
+/// The observers of `scenario`; makes the folder of its results. The last of them completes what the others began, and
+/// finishes after them.
+///
+/// # Errors
+/// If the folder or a file in it cannot be made.
+pub fn observers(
+    scenario: &Scenario,
+    prepared: &Prepared,
+    provenance: &Provenance,
+) -> Result<Vec<Box<dyn Observer>>, Fault> {
+    let folder = Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
+    folder.make()?;
+    let world = &prepared.world;
+    let begin = f64::from(prepared.warmup_steps) * scenario.run.step_s;
+    let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
+    let log = prepared.checkpoint_steps.map(|_| folder.file(checkpoint::LOG));
+    let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
+    let cores = available_parallelism().map_or(1, NonZero::get);
+    let free = cores.saturating_sub(prepared.threads);
+    let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world), log, free)?;
+    let pen = writers.pen();
+    let mut observers: Vec<Box<dyn Observer>> = Vec::new();
+    if let Some(steps) = prepared.record_steps {
+        let is_machine_full = writers.threads() > free;
+        observers.push(Box::new(Samples::new(steps, is_machine_full, pen.clone(), written)));
+    }
+    observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
+    observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
+    observers.push(Box::new(Incidents::new(begin, pen.clone())));
+    observers.push(Box::new(Trips::new(pen)));
+    #[cfg(feature = "reports")]
+    observers.push(Box::new(Report::new(&folder, scenario, prepared)));
+    observers.push(Box::new(writers));
+    Ok(observers)
+}
+
+/// What writes the tables.
+fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
+    let mut writers: Vec<Box<dyn Writer>> = Vec::new();
+    if prepared.record_steps.is_some() {
+        writers.push(Box::new(Trajectories::create(folder)?));
+    }
+    if prepared.flows_steps.is_some() {
+        writers.push(Box::new(FlowTable::create(folder)?));
+    }
+    writers.push(Box::new(LaneChangeTable::create(folder)?));
+    writers.push(Box::new(IncidentTable::create(folder)?));
+    writers.push(Box::new(TripTable::create(folder)?));
+    writers.push(Box::new(LaneletTable::create(folder)?));
+    Ok(writers)
+}
+
+/// What writes the files of SUMO that `scenario` asks for.
+fn xml(scenario: &Scenario, prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
+    let network = prepared.world.network();
+    let writer = |file: &SumoFile| -> Result<Box<dyn Writer>, Fault> {
+        Ok(match file {
+            SumoFile::Fcd => Box::new(Fcd::create(folder, network)?),
+            SumoFile::Tripinfo => Box::new(TripInfo::create(folder)?),
+            SumoFile::Lanechange => {
+                Box::new(LaneChangeOutput::create(folder, network.driving_side.overtaking())?)
+            }
+        })
+    };
+    scenario.output.sumo.iter().map(writer).collect()
+}

@@ -1,0 +1,66 @@
+//! The report `report.html`: what a run was and what came of it, on one page; and two of its figures as files of their
+//! own, `lane_change_rate.svg` and `time_space.svg`.
+
+use std::path::PathBuf;
+
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Prepared, Scenario};
+use laneweave_sim::World;
+
+use super::folder::Folder;
+use crate::observer::Observer;
+use crate::outcome::{About, Provenance, Summary};
+use crate::pack::{pack, unpack};
+use crate::report::{Record, RunReport};
+use crate::whole_file::write_whole;
+
+/// Collects what the report of a run shows.
+pub(super) struct Report {
+    path: PathBuf,
+    rate: PathBuf,
+    time_space: PathBuf,
+    about: About,
+    provenance: Provenance,
+    record: Record,
+}
+
+impl Report {
+    /// For the report in `folder`.
+    pub(super) fn new(folder: &Folder, scenario: &Scenario, prepared: &Prepared) -> Report {
+        Report {
+            path: folder.file("report.html"),
+            rate: folder.file("lane_change_rate.svg"),
+            time_space: folder.file("time_space.svg"),
+            about: About::of(scenario, prepared),
+            provenance: folder.provenance.clone(),
+            record: Record::of(scenario, prepared),
+        }
+    }
+}
+
+impl Observer for Report {
+    fn observe(&mut self, world: &World) -> Result<(), Fault> {
+        self.record.observe(world);
+        Ok(())
+    }
+
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        pack(&self.record)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
+        self.record = unpack(saved)?;
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>, world: &World, summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+        let Report { path, rate, time_space, about, provenance, record } = *self;
+        let end = world.clock().time();
+        let (about, provenance, record, network) = (&about, &provenance, &record, world.network());
+        let report = RunReport { about, provenance, summary, record, network, end };
+        write_whole(&path, &report.page().to_html())?;
+        write_whole(&rate, &record.rate_figure(end))?;
+        write_whole(&time_space, &record.time_space_figure())?;
+        Ok(vec![path, rate, time_space])
+    }
+}

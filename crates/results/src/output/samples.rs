@@ -1,0 +1,77 @@
+//! Samples of all vehicles, every few steps.
+
+use std::mem;
+use std::path::PathBuf;
+use std::sync::mpsc::Receiver;
+
+use laneweave_scenario::Fault;
+use laneweave_sim::World;
+
+use super::frame::Frame;
+use super::page::{Page, Pen};
+use crate::observer::Observer;
+use crate::outcome::Summary;
+
+/// Samples all vehicles every few steps.
+pub(super) struct Samples {
+    every: u32,
+    frame: Frame,
+    /// The machine has no core to spare for the writers while the world moves on all its threads.
+    is_machine_full: bool,
+    pen: Pen,
+    written: Receiver<Frame>,
+    /// Frames that are handed over and not yet written, and one to go on with.
+    under_way: usize,
+    spare: Frame,
+}
+
+impl Samples {
+    /// Samples at every `every`-th step. Frames that are `written` come back.
+    pub(super) fn new(every: u32, is_machine_full: bool, pen: Pen, written: Receiver<Frame>) -> Samples {
+        let [frame, spare] = [Frame::default(), Frame::default()];
+        Samples { every, frame, is_machine_full, pen, written, under_way: 0, spare }
+    }
+
+    /// Hands the frame over. Threads that move the world spin while they wait for each other: where the writers would
+    /// take the core of one of them, it is better to wait until they have written.
+    fn hand_over(&mut self, world: &World) -> Result<(), Fault> {
+        let full = mem::replace(&mut self.frame, mem::take(&mut self.spare));
+        self.pen.hand_over(Page::Frame(full))?;
+        self.under_way += 1;
+        let must_wait = self.is_machine_full && world.moves_on_all_threads();
+        while self.under_way > 0 {
+            // If the writers broke off, that is known when the next frame is handed over.
+            let frame = if must_wait { self.written.recv().ok() } else { self.written.try_recv().ok() };
+            let Some(frame) = frame else { break };
+            self.under_way -= 1;
+            self.spare = frame;
+        }
+        Ok(())
+    }
+}
+
+impl Observer for Samples {
+    fn save(&mut self, world: &World) -> Result<Vec<u8>, Fault> {
+        if !self.frame.is_empty() {
+            self.hand_over(world)?;
+        }
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn observe(&mut self, world: &World) -> Result<(), Fault> {
+        if !world.clock().step.is_multiple_of(self.every) {
+            return Ok(());
+        }
+        self.frame.sample(world);
+        if self.frame.is_full() { self.hand_over(world) } else { Ok(()) }
+    }
+
+    fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+        self.hand_over(world)?;
+        Ok(Vec::new())
+    }
+}

@@ -1,0 +1,156 @@
+//! Every trip from its origin to its end: the table `trips`.
+
+use std::path::PathBuf;
+
+use laneweave_network::Position;
+use laneweave_scenario::Fault;
+use laneweave_sim::{Event, World};
+use laneweave_study::{Cell, Column, TableWriter, seconds};
+
+use super::folder::Folder;
+use super::names::Names;
+use super::page::{Page, Pen, Writer};
+use super::trip::{End, Trip};
+use crate::observer::Observer;
+use crate::outcome::Summary;
+
+/// Trips in a page, at most those of one step more.
+const PAGE: usize = 256;
+
+/// Collects trips when they end.
+pub(super) struct Trips {
+    ended: Vec<Trip>,
+    pen: Pen,
+}
+
+impl Trips {
+    pub(super) fn new(pen: Pen) -> Trips {
+        Trips { ended: Vec::new(), pen }
+    }
+}
+
+impl Observer for Trips {
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        self.pen.hand_over(Page::Trips(std::mem::take(&mut self.ended)))?;
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn observe(&mut self, world: &World) -> Result<(), Fault> {
+        for event in world.events() {
+            if let Event::Left { duration, chain, motion, trip: Some(record), .. } = event {
+                // The last step may end beyond the road.
+                let x = motion.x.min(world.network().chain(*chain).length);
+                let (time, at) = (world.clock().time(), Position::new(*chain, x));
+                let end = End { time, duration: *duration, at, speed: motion.speed };
+                self.ended.push(Trip { record: *record, way: record.way(x), end: Some(end) });
+            }
+        }
+        if self.ended.len() < PAGE {
+            return Ok(());
+        }
+        self.pen.hand_over(Page::Trips(std::mem::take(&mut self.ended)))
+    }
+
+    /// Those on the road come last, in the order of their ids.
+    fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+        let on_road = world.vehicles().filter_map(|vehicle| {
+            let mut record = *world.trip(vehicle.id())?;
+            record.stood += f64::from(vehicle.driver.standing);
+            Some(Trip { record, way: record.way(vehicle.x()), end: None })
+        });
+        let mut on_road: Vec<Trip> = on_road.collect();
+        on_road.sort_unstable_by_key(|it| it.record.vehicle);
+        self.ended.append(&mut on_road);
+        self.pen.hand_over(Page::Trips(self.ended))?;
+        Ok(Vec::new())
+    }
+}
+
+const COLUMNS: [Column; 22] = [
+    Column::integer("vehicle"),
+    Column::text("class"),
+    Column::text("style"),
+    Column::integer("origin"),
+    Column::integer("destination"),
+    Column::integer("from_lanelet"),
+    Column::integer("to_lanelet"),
+    Column::real("arrived_s"),
+    Column::real("entered_s"),
+    // Beside its old name each.
+    Column::real("left_s"),
+    Column::real("completed_s"),
+    Column::real("waiting_s"),
+    Column::real("insertion_delay_s"),
+    Column::real("duration_s"),
+    Column::real("free_s"),
+    Column::real("delay_s"),
+    Column::real("length_m"),
+    Column::integer("stops"),
+    Column::real("standing_s"),
+    Column::integer("lane_changes"),
+    Column::integer("route_changes"),
+    Column::integer("missed_turns"),
+];
+
+/// Writes a row for each trip.
+pub(super) struct TripTable {
+    table: TableWriter,
+    path: PathBuf,
+}
+
+impl TripTable {
+    /// Begins the table in `folder`.
+    pub(super) fn create(folder: &Folder) -> Result<TripTable, Fault> {
+        let (table, path) = folder.table("trips", &COLUMNS)?;
+        Ok(TripTable { table, path })
+    }
+}
+
+impl Writer for TripTable {
+    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
+        if let Page::Trips(trips) = page {
+            for trip in trips {
+                self.table.row(&row(trip, names))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<PathBuf, Fault> {
+        self.table.finish()?;
+        Ok(self.path)
+    }
+}
+
+fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
+    let Trip { record, way, end } = trip;
+    let lanelet = |at| names.lanelet(at).1.id;
+    [
+        record.vehicle.into(),
+        record.class.body().name.into(),
+        names.style(record.character).into(),
+        names.origin(record.origin).into(),
+        names.destination(record.destination).into(),
+        lanelet(record.from).into(),
+        end.map(|it| lanelet(it.at)).into(),
+        seconds(record.arrived).into(),
+        seconds(record.entered).into(),
+        end.map(|it| seconds(it.time)).into(),
+        end.map(|it| seconds(it.time)).into(),
+        seconds(trip.waiting()).into(),
+        seconds(trip.waiting()).into(),
+        end.map(|it| seconds(it.duration)).into(),
+        record.free_time.into(),
+        trip.delay().into(),
+        (*way).into(),
+        record.stops.into(),
+        seconds(record.stood).into(),
+        record.lane_changes.into(),
+        record.route_changes.into(),
+        record.missed_turns.into(),
+    ]
+}

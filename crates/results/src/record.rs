@@ -1,0 +1,254 @@
+//! What was run, kept with its results so that it can be run again: to be explained, to go on, or to go otherwise.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use laneweave_scenario::scenario::{Origin, Output, Scenario};
+use laneweave_scenario::style::{built_in, find};
+use laneweave_scenario::{Fault, Source};
+use serde::Deserialize;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64};
+
+use crate::checkpoint;
+use crate::folder::{BRANCH, Claim, RESULTS};
+use crate::whole_file::write_whole;
+
+/// The numbers of a run, among its results.
+pub const SUMMARY: &str = "summary.json";
+/// The scenario among them.
+pub const SCENARIO: &str = "scenario.toml";
+/// The folder of its style files, and the name of the map that came with the program, without its extension.
+const STYLES: &str = "styles";
+const MAP: &str = "map";
+/// The line below the command in it: by it the scenario of a run is told from one that somebody has written.
+const MARK: &str = "# What ran, with all defaults and options: kept with its results, and replaced by the next run into this folder.";
+
+/// A run that has left its results.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// What was run.
+    pub scenario: Scenario,
+    /// Where its values came from.
+    pub origin: Origin,
+    /// What is known of its end.
+    pub end: End,
+}
+
+/// What the summary of a run says of its end.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct End {
+    /// Hash of all vehicles.
+    pub state_hash: String,
+    /// Hash of all that the run depended on.
+    pub fingerprint: String,
+    /// Simulated and measured time [s].
+    pub duration_s: f64,
+    /// Simulated time before [s].
+    pub warmup_s: f64,
+}
+
+/// Makes the claimed folder ready for another run: what a former one left goes. Nothing that no run has left does.
+///
+/// # Errors
+/// If a scenario lies there that no run has left and that this one would replace, or if something cannot be removed.
+pub fn clear(claim: &Claim) -> Result<(), Fault> {
+    let path = claim.dir().join(SCENARIO);
+    let former = match fs::read(&path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            return claim.clear(&[SUMMARY]).and_then(|()| claim.clear(&checkpoint::FILES));
+        }
+        read => read.map_err(|error| Fault::refused(&path, "read", &error))?,
+    };
+    if former.split(|it| *it == b'\n').nth(1) != Some(MARK.as_bytes()) {
+        let what = "this scenario was not written by a run; the results of this run would replace it";
+        return Err(Fault::new(path.display(), what, "choose another results folder with --out"));
+    }
+    let branch = claim.dir().join(BRANCH);
+    if branch.is_dir() {
+        Claim::on(&branch)?.clear_differences()?;
+        // Whatever else lies there stays, and the folder with it.
+        let _ = fs::remove_dir(&branch);
+    }
+    claim.clear(&RESULTS)?;
+    claim.clear(&[SCENARIO])
+}
+
+/// Writes `scenario` into the folder of its results, `dir`, with its style files and the `command` that gave it: run
+/// from there it is the same. Returns the text that was written.
+///
+/// # Errors
+/// If a file cannot be read or written.
+pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> Result<String, Fault> {
+    let styles = keep_styles(scenario, origin, dir)?;
+    let map = match origin.built_in_map() {
+        Some(text) => PathBuf::from(keep_text(dir, [MAP, "osm"], text, |_| false)?),
+        None => relative(&scenario.map, dir)?,
+    };
+    let kept = Scenario { map, styles, ..scenario.clone() };
+    let toml = toml::to_string(&kept).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    let text = format!("# {command}\n{MARK}\n\n{toml}");
+    write_whole(&dir.join(SCENARIO), &text)?;
+    Ok(text)
+}
+
+/// The styles of `scenario`, whose files are copied.
+fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTreeMap<String, f64>, Fault> {
+    let mut kept = BTreeMap::new();
+    for (name, weight) in &scenario.styles {
+        if built_in(name).is_some() {
+            kept.insert(name.clone(), *weight);
+            continue;
+        }
+        let folder = dir.join(STYLES);
+        fs::create_dir_all(&folder).map_err(|error| Fault::refused(&folder, "made", &error))?;
+        let Source { path, text } = find(name, origin.style_folder(), || name.clone())?;
+        let stem = path.file_stem().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
+        let key = |name: &str| format!("{STYLES}/{name}");
+        let name = keep_text(&folder, [&stem, "toml"], &text, |it| kept.contains_key(&key(it)))?;
+        kept.insert(key(&name), *weight);
+    }
+    Ok(kept)
+}
+
+/// Has `text` in a file of `folder`, and names it: `STEM.EXTENSION`, or `STEM-2.EXTENSION` and so on where that is
+/// taken or has another text, which stays.
+fn keep_text(
+    folder: &Path,
+    [stem, extension]: [&str; 2],
+    text: &str,
+    is_taken: impl Fn(&str) -> bool,
+) -> Result<String, Fault> {
+    let mut number = 1;
+    loop {
+        let name = match number {
+            1 => format!("{stem}.{extension}"),
+            _ => format!("{stem}-{number}.{extension}"),
+        };
+        number += 1;
+        if is_taken(&name) {
+            continue;
+        }
+        let path = folder.join(&name);
+        match fs::read(&path) {
+            Ok(there) if there == text.as_bytes() => return Ok(name),
+            Ok(_) => {}
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                write_whole(&path, text)?;
+                return Ok(name);
+            }
+            Err(error) => return Err(Fault::refused(&path, "read", &error)),
+        }
+    }
+}
+
+/// The path to `file` from `dir` on.
+fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
+    let whole = |path: &Path| fs::canonicalize(path).map_err(|error| Fault::refused(path, "found", &error));
+    let [file, dir] = [whole(file)?, whole(dir)?];
+    let shared = file.components().zip(dir.components()).take_while(|(a, b)| a == b).count();
+    // On another drive there is no way from one to the other.
+    if shared == 0 {
+        return Ok(file);
+    }
+    let up = dir.components().skip(shared).map(|_| Component::ParentDir);
+    Ok(up.chain(file.components().skip(shared)).collect())
+}
+
+/// Hash of all that a run depends on: the program's version, the scenario but for its output, its threads and its
+/// largest map, the styles, the map.
+///
+/// # Errors
+/// If the map or a style file cannot be read.
+pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault> {
+    let mut hash = Xxh3::new();
+    hash.update(env!("CARGO_PKG_VERSION").as_bytes());
+    let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
+    bare.output = Output::default();
+    bare.run.threads = None;
+    bare.map_options.max_size_mb = None;
+    let toml = toml::to_string(&bare).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    hash.update(toml.as_bytes());
+    for (text, weight) in style_texts(scenario, origin)? {
+        hash.update(text.as_bytes());
+        hash.update(&weight.to_le_bytes());
+    }
+    match origin.built_in_map() {
+        Some(text) => hash.update(text.as_bytes()),
+        None => {
+            let map = &scenario.map;
+            hash.update(&fs::read(map).map_err(|error| Fault::refused(map, "read", &error))?);
+        }
+    }
+    Ok(format!("{:016x}", hash.digest()))
+}
+
+/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: the names of the
+/// files do not matter.
+///
+/// # Errors
+/// If a style file cannot be read.
+pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, u64)>, Fault> {
+    let text = |name: &String| find(name, origin.style_folder(), || name.clone()).map(|it| it.text);
+    let mut styles = Vec::new();
+    for (name, weight) in &scenario.styles {
+        styles.push((text(name)?, weight.to_bits()));
+    }
+    styles.sort();
+    Ok(styles)
+}
+
+/// Hash of what a run writes, and how: all that its output says but for the folder.
+///
+/// # Errors
+/// None, as long as every output can be written down.
+pub fn outputs(scenario: &Scenario) -> Result<String, Fault> {
+    let output = Output { dir: PathBuf::new(), ..scenario.output.clone() };
+    let toml =
+        toml::to_string(&output).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    Ok(format!("{:016x}", xxh3_64(toml.as_bytes())))
+}
+
+impl Record {
+    /// The run that left its results in `dir`.
+    ///
+    /// # Errors
+    /// If there are none, or what the run depended on has changed since.
+    pub fn open(dir: &Path) -> Result<Record, Fault> {
+        let remedy =
+            "give the results folder of a run (its --out), which contains summary.json and scenario.toml";
+        if !dir.is_dir() {
+            let what = if dir.exists() { "this is a file" } else { "this folder does not exist" };
+            return Err(Fault::new(dir.display(), format!("no results of a run: {what}"), remedy));
+        }
+        let summary = dir.join(SUMMARY);
+        let text = fs::read_to_string(&summary).map_err(|error| {
+            if error.kind() == io::ErrorKind::NotFound && dir.join(SCENARIO).exists() {
+                let remedy = format!("wait, or resume it: laneweave run {} --resume", dir.display());
+                return Fault::new(dir.display(), "this run is not complete", remedy);
+            }
+            match error.kind() {
+                io::ErrorKind::NotFound => Fault::new(
+                    dir.display(),
+                    "no results of a run: there is no summary.json in this folder",
+                    remedy,
+                ),
+                _ => Fault::refused(&summary, "read", &error),
+            }
+        })?;
+        let end: End = serde_json::from_str(&text).map_err(|error| {
+            Fault::new(summary.display(), format!("not a summary of a run of this version: {error}"), remedy)
+        })?;
+        let (scenario, origin) = Origin::open(&dir.join(SCENARIO))?;
+        let record = Record { scenario, origin, end };
+        if fingerprint(&record.scenario, &record.origin)? != record.end.fingerprint {
+            let what = format!(
+                "the map {}, a style, the scenario or the program has changed since this was run",
+                record.scenario.map.display()
+            );
+            return Err(Fault::new(dir.display(), what, "run it again"));
+        }
+        Ok(record)
+    }
+}

@@ -1,0 +1,92 @@
+//! What is kept of a run for its report.
+
+mod driving;
+mod reasons;
+mod trip_times;
+
+use laneweave_scenario::scenario::{Prepared, Scenario};
+use laneweave_sim::{Event, Incident, Kind, World};
+use laneweave_study::{Mark, Sample, Sheet, rate_density, time_space};
+use serde::{Deserialize, Serialize};
+
+use crate::seen::{Boxes, Traces};
+
+pub use driving::{Driving, StyleDriving};
+pub use reasons::Reasons;
+pub use trip_times::{Crowd, TripTimes};
+
+/// Lanes of which there are time–space diagrams.
+const ROADS: usize = 2;
+/// Incidents that are listed.
+const INCIDENTS: usize = 10;
+
+/// What is kept of a run for its report.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Record {
+    /// Density, flow, speed and lane changes in boxes.
+    pub boxes: Boxes,
+    /// The lanes on which most way is driven.
+    pub roads: Vec<Traces>,
+    /// How drivers follow.
+    pub driving: Driving,
+    /// Why they changed lanes.
+    pub reasons: Reasons,
+    /// Times of trips.
+    pub trips: TripTimes,
+    /// Vehicles in the course of time.
+    pub crowd: Crowd,
+    /// The first incidents.
+    pub incidents: Vec<Incident>,
+}
+
+impl Record {
+    /// Nothing yet, of what is about to run.
+    pub(crate) fn of(scenario: &Scenario, prepared: &Prepared) -> Record {
+        let Prepared { world, origins, warmup_steps, steps, .. } = prepared;
+        let [begin, duration] = [*warmup_steps, *steps].map(|it| f64::from(it) * scenario.run.step_s);
+        Record {
+            boxes: Boxes::new(world, begin, duration),
+            roads: Traces::most_driven(ROADS, world, origins, begin, duration),
+            driving: Driving::of(world),
+            reasons: Reasons::new(world, begin),
+            trips: TripTimes::of(world),
+            crowd: Crowd::default(),
+            incidents: Vec::new(),
+        }
+    }
+
+    /// Looks at the world after a step.
+    pub(crate) fn observe(&mut self, world: &World) {
+        let Record { boxes, roads, driving, reasons, trips, crowd, incidents } = self;
+        boxes.observe(world);
+        roads.iter_mut().for_each(|it| it.observe(world));
+        driving.observe(world);
+        reasons.observe(world);
+        trips.observe(world);
+        crowd.observe(world);
+        let seen = world.events().iter().filter_map(|it| match it {
+            Event::Incident(incident) => Some(*incident),
+            _ => None,
+        });
+        incidents.extend(seen.take(INCIDENTS - incidents.len()));
+    }
+
+    /// Lane changes against density, of the boxes that were over by `end` [s].
+    pub(crate) fn rate_figure(&self, end: f64) -> String {
+        let all = self.boxes.series("all", end, |_| true);
+        let discretionary = self.boxes.series("discretionary", end, |kind| kind == Kind::Discretionary);
+        rate_density(Sheet::Page, "Lane changes against density", &[all, discretionary])
+    }
+
+    /// Time and space on the lane on which most way is driven.
+    pub(crate) fn time_space_figure(&self) -> String {
+        let traces = self.roads.first();
+        let all: Vec<&[Sample]> = traces.iter().flat_map(|it| it.trajectories()).collect();
+        let changes: &[Mark] = traces.map_or(&[], |it| &it.changes);
+        let title = match traces {
+            Some(it) => format!("The lane from lanelet {} on", it.lanelet),
+            None => "No vehicle enters".into(),
+        };
+        time_space(Sheet::Page, &title, &all, changes)
+    }
+}

@@ -1,0 +1,19 @@
+//! Reports as single HTML files: parts of a page that any report is made of, and the report of a run.
+//!
+//! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the
+//! page.
+
+pub mod classes;
+mod kept;
+mod page;
+mod roads;
+mod run;
+mod table;
+
+pub use crate::numbers::{counted, number, percent, signed, with_interval};
+pub use crate::outcome::About;
+pub use kept::{Crowd, Driving, Reasons, Record, StyleDriving, TripTimes};
+pub use page::{Figure, Page, Section, Tile};
+pub use roads::time_and_space;
+pub use run::RunReport;
+pub use table::{Align, Table};

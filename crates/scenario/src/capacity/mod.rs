@@ -1,0 +1,144 @@
+//! The estimated capacity of a map: how many vehicles an hour it carries.
+//!
+//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a place
+//! inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to
+//! carry is the demand along the usual ways; how much it can carry follows from the models of its drivers.
+
+mod conflict;
+mod delay;
+mod lanes;
+mod movement;
+mod side_by_side;
+mod stream;
+mod town;
+mod weaving;
+
+use std::fmt;
+
+use laneweave_models::Style;
+use laneweave_network::{ChainIndex, Network, Position};
+use laneweave_sim::{Assignment, Demand, Fleet};
+use laneweave_study::units::SECONDS_PER_HOUR;
+
+use stream::Mixture;
+
+/// The estimated capacity of a map: the demand at which its first part is full.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Capacity {
+    /// Of all origins together [veh/h].
+    pub veh_h: f64,
+    /// What is full first.
+    pub bottleneck: Option<Bottleneck>,
+}
+
+/// What is full first when the demand grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bottleneck {
+    /// The lanes side by side at this lanelet.
+    Lanes(i64),
+    /// The light that drivers on this lanelet obey.
+    Light {
+        /// The light.
+        light: i64,
+        /// A lanelet before it.
+        lanelet: i64,
+    },
+    /// The junction over which this lanelet leads.
+    Junction(i64),
+    /// The place inside the map along this lanelet.
+    TripEnd(i64),
+    /// All roads that lead in rings.
+    Town,
+}
+
+impl fmt::Display for Capacity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "estimated capacity of {:.0} veh/h", self.veh_h)?;
+        self.bottleneck.map_or(Ok(()), |it| write!(f, " (bottleneck: {it})"))
+    }
+}
+
+impl fmt::Display for Bottleneck {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Bottleneck::Lanes(lanelet) => write!(f, "the road at lanelet {lanelet}"),
+            Bottleneck::Light { light, lanelet } => write!(f, "light {light} at lanelet {lanelet}"),
+            Bottleneck::Junction(lanelet) => write!(f, "the junction at lanelet {lanelet}"),
+            Bottleneck::TripEnd(lanelet) => write!(f, "the trip end at lanelet {lanelet}"),
+            Bottleneck::Town => write!(f, "the town as a whole"),
+        }
+    }
+}
+
+/// A part of the map with the share of its capacity that is taken up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Load {
+    share: f64,
+    of: Bottleneck,
+}
+
+/// What is asked about a map: its roads, where the demand leads on them, and who drives.
+#[derive(Clone, Copy)]
+struct Roads<'a> {
+    network: &'a Network,
+    assignment: &'a Assignment,
+    drivers: &'a [(Style, f64)],
+    fleet: &'a Fleet,
+}
+
+impl<'a> Roads<'a> {
+    /// Who drives under a limit [m/s].
+    fn mixture(&self, limit: f64) -> Mixture<'a> {
+        Mixture::new(limit, self.drivers, self.fleet)
+    }
+
+    /// The lanelet's id at a station of a chain [m].
+    fn lanelet(&self, chain: ChainIndex, station: f64) -> i64 {
+        self.network.lanelet_at(Position::new(chain, station)).0.id
+    }
+
+    fn chains(&self) -> impl Iterator<Item = ChainIndex> + use<> {
+        (0..self.network.chains.len() as u32).map(ChainIndex)
+    }
+}
+
+impl Capacity {
+    /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each
+    /// with its weight.
+    ///
+    /// Lanes carry what a long queue sends off, and side by side what is driven on a road like that; lights let pass
+    /// what of a standing queue drives off at green; where ways meet without a light, drivers take turns and gaps; and
+    /// a town carries what it lets in. What is not looked at can only make it less: gaps that nobody finds to change
+    /// lanes, turns across oncoming traffic at green, queues that stand in each other's way.
+    pub fn new(
+        network: &Network,
+        assignment: &Assignment,
+        demand: &Demand,
+        drivers: &[(Style, f64)],
+    ) -> Capacity {
+        let roads = Roads { network, assignment, drivers, fleet: &demand.fleet };
+        let movements = movement::movements(&roads);
+        let parts = lanes::loads(&roads)
+            .into_iter()
+            .chain(conflict::loads(&roads, &movements))
+            .chain(town::inner_place_loads(&roads, demand));
+        // Of parts that are equally full the first counts, however their numbers are rounded.
+        let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
+        let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
+        let Some(part) = fullest.filter(|it| it.share > 0.0) else {
+            return Capacity { veh_h: 0.0, bottleneck: None };
+        };
+        let Load { share, of } = town::load(&roads, &movements, 1.0 / part.share).unwrap_or(part);
+        Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
+    }
+}
+
+/// What was computed for `key`, or is now.
+fn once<K: PartialEq, T: Copy>(known: &mut Vec<(K, T)>, key: K, compute: impl FnOnce() -> T) -> T {
+    if let Some((_, it)) = known.iter().find(|it| it.0 == key) {
+        return *it;
+    }
+    let new = compute();
+    known.push((key, new));
+    new
+}

@@ -1,0 +1,133 @@
+//! What is wrong with what the user gave, where, and what to do about it.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+
+use laneweave_study::TableError;
+
+/// Why a command fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// A mistake in what the user gave, or a file that the system refuses.
+    Input,
+    /// Standard output cannot be written.
+    Output,
+    /// Nobody reads standard output any more.
+    Closed,
+}
+
+/// A mistake in the input, with its place and its remedy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Why the command fails.
+    pub cause: Cause,
+    /// Where: `FILE:LINE:COLUMN`, a file, or an option of the command.
+    pub place: String,
+    /// What is wrong there.
+    pub what: String,
+    /// What mends it.
+    pub remedy: String,
+}
+
+impl Fault {
+    /// `what` is wrong at `place`, and `remedy` mends it.
+    pub fn new(place: impl fmt::Display, what: impl fmt::Display, remedy: impl fmt::Display) -> Fault {
+        Fault {
+            cause: Cause::Input,
+            place: place.to_string(),
+            what: what.to_string(),
+            remedy: remedy.to_string(),
+        }
+    }
+
+    /// Standard output cannot be written.
+    pub fn output(error: &io::Error) -> Fault {
+        let cause = match error.kind() {
+            io::ErrorKind::BrokenPipe => Cause::Closed,
+            _ => Cause::Output,
+        };
+        let what = format!("cannot be written: {}", plain(error));
+        Fault {
+            cause,
+            ..Fault::new("standard output", what, "free some space there, or redirect the output")
+        }
+    }
+
+    /// The system refuses to `deed` the file at `path`.
+    pub fn refused(path: &Path, deed: &str, error: &io::Error) -> Fault {
+        let remedy = match error.kind() {
+            io::ErrorKind::NotFound => "check the path",
+            io::ErrorKind::PermissionDenied => "check the permissions, or choose another place",
+            io::ErrorKind::AlreadyExists => "choose another name, or delete it first",
+            io::ErrorKind::IsADirectory => "give a file, not a folder",
+            io::ErrorKind::InvalidData => "give a text file in UTF-8",
+            _ => "choose another place",
+        };
+        Fault::new(path.display(), format!("cannot be {deed}: {}", plain(error)), remedy)
+    }
+}
+
+/// The system's words without its error number.
+fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or(&text).to_lowercase()
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}; {}", self.place, self.what, self.remedy)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl From<TableError> for Fault {
+    fn from(error: TableError) -> Fault {
+        match &error {
+            TableError::Create { path, source } => Fault::refused(path, "created", source),
+            TableError::Write { path, source } => Fault::refused(path, "written", source),
+            TableError::Width { path, .. } | TableError::Cell { path, .. } => {
+                Fault::new(path.display(), &error, "report this as a bug")
+            }
+        }
+    }
+}
+
+/// A remedy for an unknown name: the nearest of those that are known, else all of them, if they are not too many.
+pub fn did_you_mean<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    /// Names less alike than this are not meant.
+    const ALIKE: f64 = 0.5;
+    /// Of more names only so many are listed.
+    const LISTED: usize = 30;
+    let known: Vec<&str> = known.into_iter().collect();
+    let likeness = |name: &&str| strsim::normalized_damerau_levenshtein(unknown, name);
+    let nearest = known.iter().copied().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    match nearest {
+        Some(name) if likeness(&name) >= ALIKE => format!("did you mean {name:?}?"),
+        Some(_) if known.len() > LISTED => {
+            format!("known are {} and {} more", known[..LISTED].join(", "), known.len() - LISTED)
+        }
+        Some(_) => format!("known are {}", known.join(", ")),
+        None => "leave it out".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_reads_as_place_what_and_remedy() {
+        let fault = Fault::new("a.toml:3:1", "unknown key \"sed\"", "did you mean \"seed\"?");
+        assert_eq!(fault.to_string(), "a.toml:3:1: unknown key \"sed\"; did you mean \"seed\"?");
+    }
+
+    #[test]
+    fn the_nearest_name_is_offered_or_else_all() {
+        let known = ["duration_s", "step_s", "seed"];
+        assert_eq!(did_you_mean("duraton_s", known), "did you mean \"duration_s\"?");
+        assert_eq!(did_you_mean("qqqq", known), "known are duration_s, step_s, seed");
+        assert_eq!(did_you_mean("qqqq", []), "leave it out");
+    }
+}

@@ -1,0 +1,14 @@
+//! From files to a world that can run. A [`scenario`] names a map, [`style`]s and a demand; what is wrong in it becomes
+//! a [`Fault`] with its place and its remedy before anything is driven.
+
+mod capacity;
+mod fault;
+mod remarks;
+pub mod scenario;
+mod source;
+pub mod style;
+
+pub use capacity::{Bottleneck, Capacity};
+pub use fault::{Cause, Fault, did_you_mean};
+pub use remarks::{Remark, remarks};
+pub use source::Source;

@@ -1,0 +1,214 @@
+//! From the demand of a scenario to that of the world.
+
+use laneweave_network::{Network, Position};
+use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
+use laneweave_study::units::METRES_PER_KM;
+
+use super::turns::set_turns;
+use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
+use crate::fault::{Fault, did_you_mean};
+
+/// Demand of a lane where nothing is said of it, but of others, or there is no estimate [veh/h].
+const USUAL_DEMAND: f64 = 1000.0;
+/// The same along a kilometre of lanes on which trips start [veh/h]: some ten vehicles on it, if a trip
+/// takes three minutes. Ours.
+const USUAL_STARTS: f64 = 200.0;
+/// Nobody has seen more vehicles an hour on one lane than a quarter of this.
+const LARGEST_DEMAND: f64 = 10_000.0;
+
+/// The demand at each of `places`, and the weights of the destinations; a `total` of it where none is given [veh/h], or
+/// else the usual one.
+///
+/// # Errors
+/// If an entrance or exit is not there, or a number makes no sense.
+pub(super) fn demand(
+    scenario: &Scenario,
+    origin: &Origin,
+    network: &Network,
+    places: Places,
+    population: Vec<Share>,
+    total: Option<f64>,
+) -> Result<Demand, Fault> {
+    let wanted = &scenario.demand;
+    let lanes: usize = places.origins.iter().map(|place| place.chains().len()).sum();
+    // A table of origins and destinations is all there is, unless a total is given for the other origins.
+    let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
+    let total = wanted.vehicles_per_hour.or(total).unwrap_or_else(usual);
+    check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
+    let fleet = Fleet { trucks: wanted.trucks, buses: wanted.buses, motorcycles: wanted.motorcycles };
+    let mut demand = Demand::over(places, total, fleet, population);
+    let weights = weights(scenario, origin, &demand)?;
+    demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
+    set_turns(scenario, origin, network, &mut demand)?;
+    set_single_rates(scenario, origin, &mut demand)?;
+    set_od_rows(scenario, origin, &mut demand)?;
+    if !wanted.profile.is_empty() {
+        let place = origin.place(&["demand", "profile"]);
+        let factor = by_pieces(&wanted.profile, place, (f64::MAX, "a factor", ""))?;
+        demand.origins.iter_mut().for_each(|it| it.rate = it.rate.times(&factor));
+    }
+    demand.headways = wanted.headways.into();
+    headways::check(&demand, origin)?;
+    Ok(demand)
+}
+
+/// Weight of each of the destinations.
+fn weights(scenario: &Scenario, origin: &Origin, demand: &Demand) -> Result<Vec<f64>, Fault> {
+    let mut weights = vec![1.0; demand.destinations.len()];
+    for (id, weight) in &scenario.demand.exits {
+        let place = origin.place(&["demand", "exits", id]);
+        let index = named(demand.destinations.iter(), id, "exit", &place)?;
+        if !(weight.is_finite() && *weight >= 0.0) {
+            let what = format!("the exit {id} has the weight {weight}");
+            return Err(Fault::new(place, what, "give it a finite weight of 0 or more"));
+        }
+        weights[index] = *weight;
+    }
+    if !weights.is_empty() && weights.iter().all(|it| *it == 0.0) {
+        let place = origin.place(&["demand", "exits"]);
+        return Err(Fault::new(place, "no exit has a weight", "give at least one of them a weight above 0"));
+    }
+    Ok(weights)
+}
+
+/// Single entrances get rates of their own.
+fn set_single_rates(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Result<(), Fault> {
+    for (id, rate) in &scenario.demand.entrances {
+        let place = origin.place(&["demand", "entrances", id]);
+        let index = named(demand.origins.iter().map(|it| &it.place), id, "entrance", &place)?;
+        let lanes = demand.origins[index].place.chains().len();
+        let what = format!("a demand at the entrance {id}");
+        demand.origins[index].rate = match rate {
+            VehiclesPerHour::Constant(rate) => {
+                check_rate(*rate, lanes, place, &what)?;
+                Rate::constant(*rate)
+            }
+            VehiclesPerHour::OverTime(pieces) => {
+                by_pieces(pieces, place, (LARGEST_DEMAND * lanes as f64, &what, " veh/h"))?
+            }
+        };
+    }
+    Ok(())
+}
+
+/// An origin in the table of origins and destinations gets the sum of its rows as its rate, and the rows as the weights
+/// of its destinations.
+fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Result<(), Fault> {
+    let mut sums: Vec<Option<f64>> = vec![None; demand.origins.len()];
+    for (row, number) in scenario.demand.od.iter().zip(0..) {
+        let place = |key| place_in_row(origin, number, key);
+        let (from, to) = ends(row, demand, place)?;
+        if scenario.demand.entrances.contains_key(&row.from) {
+            let what = format!("the entrance {} also has a demand in demand.entrances", row.from);
+            return Err(Fault::new(place("from"), what, "remove it there, or remove this row"));
+        }
+        let it = &mut demand.origins[from];
+        if sums[from].is_none() {
+            it.weights.fill(0.0);
+        }
+        let sum = sums[from].unwrap_or(0.0) + row.vehicles_per_hour;
+        let what = format!("a demand from {} to {}", row.from, row.to);
+        let lanes = it.place.chains().len();
+        check_rate(row.vehicles_per_hour, lanes, place("vehicles_per_hour"), &what)?;
+        check_rate(
+            sum,
+            lanes,
+            place("vehicles_per_hour"),
+            &format!("a demand at the entrance {}", row.from),
+        )?;
+        it.weights[to] += row.vehicles_per_hour;
+        it.rate = Rate::constant(sum);
+        sums[from] = Some(sum);
+    }
+    Ok(())
+}
+
+/// Whether there is a way for every row of the table of origins and destinations.
+///
+/// # Errors
+/// The first row without one.
+pub(super) fn check_ways(scenario: &Scenario, origin: &Origin, world: &World) -> Result<(), Fault> {
+    for (row, number) in scenario.demand.od.iter().zip(0..) {
+        let place = |key| place_in_row(origin, number, key);
+        let (from, to) = ends(row, world.demand(), place)?;
+        if row.vehicles_per_hour > 0.0 && !world.leads(from, to) {
+            let what = format!(
+                "no trip from {} to {} is possible: there is no route, or it is too short",
+                row.from, row.to
+            );
+            return Err(Fault::new(place("to"), what, "remove the row, or choose another exit"));
+        }
+    }
+    Ok(())
+}
+
+fn place_in_row(origin: &Origin, number: usize, key: &str) -> String {
+    origin.place(&["demand", "od", &number.to_string(), key])
+}
+
+/// The places of a row's origin and destination in the lists of `demand`.
+fn ends(
+    row: &OdRow,
+    demand: &Demand,
+    place: impl Fn(&'static str) -> String,
+) -> Result<(usize, usize), Fault> {
+    let origins = demand.origins.iter().map(|it| &it.place);
+    let from = named(origins, &row.from, "entrance", &place("from"))?;
+    let to = named(demand.destinations.iter(), &row.to, "exit", &place("to"))?;
+    Ok((from, to))
+}
+
+/// Values over time, each from 0 to the largest, which is called `what` and has a `unit`.
+fn by_pieces(
+    pieces: &[[f64; 2]],
+    place: String,
+    (largest, what, unit): (f64, &str, &str),
+) -> Result<Rate, Fault> {
+    if let Some([_, value]) = pieces.iter().find(|[_, value]| !(0.0..=largest).contains(value)) {
+        let limit = if largest == f64::MAX { "0 or more".into() } else { format!("0 to {largest}{unit}") };
+        return Err(Fault::new(place, format!("{what} of {value}{unit}"), format!("choose {limit}")));
+    }
+    let pairs: Vec<(f64, f64)> = pieces.iter().map(|[time, value]| (*time, *value)).collect();
+    Rate::by_pieces(&pairs).ok_or_else(|| {
+        Fault::new(
+            place,
+            "the times do not increase",
+            "write [[time_s, value], …] with increasing times, the first 0 or later",
+        )
+    })
+}
+
+/// Demand where nothing is said [veh/h].
+fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
+    let of_place = |place: &Place| match place {
+        Place::Gate(gate) => USUAL_DEMAND * gate.chains.len() as f64,
+        Place::Inside(inner) => {
+            let (lanelet, _) = network.lanelet_at(Position::new(inner.chain, inner.station));
+            USUAL_STARTS * lanelet.length() / METRES_PER_KM
+        }
+    };
+    origins.iter().map(of_place).sum()
+}
+
+/// Which of `places` is called `id`.
+fn named<'a>(
+    places: impl Iterator<Item = &'a Place> + Clone,
+    id: &str,
+    what: &str,
+    at: &str,
+) -> Result<usize, Fault> {
+    places.clone().position(|it| it.id().to_string() == id).ok_or_else(|| {
+        let known: Vec<String> = places.map(|it| it.id().to_string()).collect();
+        let remedy = did_you_mean(id, known.iter().map(String::as_str));
+        Fault::new(at, format!("the map has no {what} {id:?}"), remedy)
+    })
+}
+
+fn check_rate(rate: f64, lanes: usize, place: String, what: &str) -> Result<(), Fault> {
+    let largest = LARGEST_DEMAND * lanes as f64;
+    if (0.0..=largest).contains(&rate) {
+        return Ok(());
+    }
+    let remedy = format!("choose 0 to {largest} veh/h for the {lanes} lanes there");
+    Err(Fault::new(place, format!("{what} of {rate} veh/h"), remedy))
+}

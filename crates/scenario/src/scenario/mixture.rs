@@ -1,0 +1,38 @@
+//! From the styles of a scenario to a mixture of drivers.
+
+use super::{Origin, Scenario};
+use crate::fault::Fault;
+use crate::style::{StyleTemplate, find};
+
+/// The styles of a scenario with their weights.
+///
+/// # Errors
+/// If a style is not known or wrong, or the weights make no mixture.
+pub fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplate, f64)>, Fault> {
+    let mut mixture = Vec::new();
+    for (name, weight) in &scenario.styles {
+        let place = || origin.place(&["styles", name]);
+        let template = StyleTemplate::parse(&find(name, origin.style_folder(), place)?)?;
+        if !(weight.is_finite() && *weight >= 0.0) {
+            let what = format!("the style {name:?} has the weight {weight}");
+            return Err(Fault::new(place(), what, "give it a finite weight of 0 or more"));
+        }
+        let template = match scenario.model {
+            Some(model) => model.drives(template)?,
+            None => template,
+        };
+        mixture.push((template, *weight));
+    }
+    let total: f64 = scenario.styles.values().sum();
+    if !(total.is_finite() && total > 0.0) {
+        let what = format!("the weights of the styles add up to {total}");
+        return Err(Fault::new(
+            origin.place(&["styles"]),
+            what,
+            "give at least one of them a weight above 0",
+        ));
+    }
+    // Neither do the names of style files matter, nor where they are.
+    mixture.sort_by(|(a, _), (b, _)| a.typical().name.cmp(&b.typical().name));
+    Ok(mixture)
+}

@@ -1,0 +1,88 @@
+//! Where each value of a scenario came from: its file, or an option of the command.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::Scenario;
+use crate::fault::Fault;
+use crate::source::Source;
+
+/// The demo scenario and its map, which come with the program.
+const DEMO: &str = include_str!("../../../../scenarios/demo.toml");
+const DEMO_MAP: &str = include_str!("../../../../maps/town.osm");
+
+/// Where the values of a scenario came from.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    source: Option<Source>,
+    /// The map's text, if it comes with the program.
+    pub(super) map: Option<&'static str>,
+    /// Options by the key that they replace.
+    options: BTreeMap<&'static str, &'static str>,
+}
+
+impl Origin {
+    /// The scenario in the file at `path`, or of the map there.
+    ///
+    /// # Errors
+    /// If the scenario file cannot be read or is no scenario. A map is not looked at yet.
+    pub fn open(path: &Path) -> Result<(Scenario, Origin), Fault> {
+        if path.extension().is_none_or(|it| it != "toml") {
+            return Ok((Scenario::of_map(path.to_owned()), Origin::default()));
+        }
+        let source = Source::read(path)?;
+        if source.has_key("follow") && !source.has_key("map") {
+            let what = "this is a driver style, but a scenario or a map is expected";
+            let remedy = format!("run a map with it: laneweave run MAP --style {}=1", path.display());
+            return Err(Fault::new(path.display(), what, remedy));
+        }
+        let mut scenario: Scenario = source.parse()?;
+        scenario.map = source.folder().join(&scenario.map);
+        Ok((scenario, Origin { source: Some(source), ..Origin::default() }))
+    }
+
+    /// The demo scenario.
+    ///
+    /// # Errors
+    /// None, as long as the file in the repository is a scenario.
+    pub fn demo() -> Result<(Scenario, Origin), Fault> {
+        let source = Source { path: "scenarios/demo.toml".into(), text: DEMO.into() };
+        let mut scenario: Scenario = source.parse()?;
+        scenario.map = PathBuf::from("maps/town.osm");
+        Ok((scenario, Origin { source: Some(source), map: Some(DEMO_MAP), ..Origin::default() }))
+    }
+
+    /// Notes that `option` has replaced the value of `key`.
+    pub fn replaced(&mut self, key: &'static str, option: &'static str) {
+        self.options.insert(key, option);
+    }
+
+    /// The keys whose values were replaced, each with its option.
+    pub fn options(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.options.iter().map(|(key, option)| (*key, *option))
+    }
+
+    /// The place of the key at `path`: an option, a place in the scenario file, or else the key itself.
+    pub fn place(&self, path: &[&str]) -> String {
+        let option = (1..=path.len()).find_map(|n| self.options.get(path[..n].join(".").as_str()));
+        option.map(|it| (*it).into()).or_else(|| self.in_file(path)).unwrap_or(path.join("."))
+    }
+
+    /// The place of the key at `path` in the scenario file, if there is one.
+    pub(super) fn in_file(&self, path: &[&str]) -> Option<String> {
+        self.source.as_ref().map(|source| source.place(path))
+    }
+
+    /// The map's text, if it comes with the program.
+    pub fn built_in_map(&self) -> Option<&'static str> {
+        self.map
+    }
+
+    /// The folder from which the paths of style files are sought.
+    pub fn style_folder(&self) -> &Path {
+        match &self.source {
+            Some(source) if !self.options.contains_key("styles") => source.folder(),
+            _ => Path::new(""),
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! From a scenario to a world that can run: everything is checked before anything is written.
+
+use std::num::NonZero;
+use std::path::Path;
+use std::sync::Arc;
+use std::thread::available_parallelism;
+
+use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, Size, lanelet2, load, regulations};
+use laneweave_models::Style;
+use laneweave_network::{DrivingSide, LaneletIndex, Network};
+use laneweave_sim::{Place, Places, Rate, Setup, World};
+
+use super::basis::{Basis, usual};
+use super::demand::{check_ways, demand};
+use super::mixture::mixture;
+use super::signals::plans;
+use super::turns::check_arrivals;
+use super::{MapOptions, Origin, Scenario, SumoFile};
+use crate::capacity::Capacity;
+use crate::fault::Fault;
+use crate::remarks::{Remark, remarks};
+use crate::style::Population;
+
+/// More threads than this are a mistake.
+const MOST_THREADS: usize = 256;
+/// Threads where nothing is said: what a small machine has.
+const USUAL_THREADS: usize = 2;
+/// Shortest and longest step [s].
+const STEPS: (f64, f64) = (0.01, 1.0);
+/// Shortest interval of guidance [s].
+const SHORTEST_GUIDANCE: f64 = 1.0;
+/// Longest time that can be simulated [s].
+const LONGEST: f64 = 1e7;
+/// What the intervals of the output are called.
+const RECORDING: &str = "a recording interval";
+const FLOWS: &str = "an interval of flows";
+const CHECKPOINTS: &str = "an interval of checkpoints";
+
+/// A scenario that is ready to run.
+pub struct Prepared {
+    /// The world at its start.
+    pub world: World,
+    /// Steps before anything is measured.
+    pub warmup_steps: u32,
+    /// Steps that are measured.
+    pub steps: u32,
+    /// Steps between two samples of a trajectory, if there are any.
+    pub record_steps: Option<u32>,
+    /// Steps between two checkpoints, if there are any.
+    pub checkpoint_steps: Option<u32>,
+    /// Steps over which flows are measured, if they are.
+    pub flows_steps: Option<u32>,
+    /// Mean demand over all origins while it is measured [veh/h].
+    pub demand_veh_h: f64,
+    /// Where trips start, each with its demand [veh/h].
+    pub origins: Vec<(Place, f64)>,
+    /// What it rests on.
+    pub basis: Basis,
+    /// The estimated capacity of the map.
+    pub capacity: Capacity,
+    /// Names and weights of the styles.
+    pub styles: Vec<(String, f64)>,
+    /// Number of threads.
+    pub threads: usize,
+    /// What in the map could not be used as it stands.
+    pub problems: Vec<Problem>,
+    /// What to know of the map before one looks at traffic on it.
+    pub remarks: Vec<Remark>,
+    /// Latitude and longitude of the map's (0, 0) [°], if it was projected.
+    pub origin: Option<(f64, f64)>,
+}
+
+/// Reads the map and the styles of `scenario`, and makes its world.
+///
+/// # Errors
+/// If anything is missing, not readable, or makes no sense.
+pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
+    check_numbers(scenario, origin)?;
+    let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
+    let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
+    let threads = threads(scenario, origin, record_steps.is_some())?;
+    let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
+    check_samples(scenario, origin, record_steps)?;
+    let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
+    let mixture = mixture(scenario, origin)?;
+    let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
+    let map = read_map(scenario, origin)?;
+    let (network, places) = driven(&map);
+    // Nobody can mend the map that comes with the program.
+    let remarks = if origin.map.is_some() { Vec::new() } else { remarks(&map, &network, &places) };
+    let plans = plans(scenario, origin, &network)?;
+    let network = network.with_signals(&plans);
+    if places.origins.is_empty() {
+        let what = "no vehicle can drive on the map: no lanelet of 10 m or more begins at its edge, and from no lanelet of 20 m or \
+                    more outside conflict areas can another be reached";
+        return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
+    }
+    let network = Arc::new(network);
+    let build = |total: Option<f64>| {
+        let demand = demand(scenario, origin, &network, places.clone(), shares.clone(), total)?;
+        let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
+        World::new(Arc::clone(&network), characters.clone(), demand, setup)
+            .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
+    };
+    let typical: Vec<(Style, f64)> =
+        mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
+    let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
+    let capacity =
+        |world: &World| Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
+    let (world, basis) = if Basis::is_open(&scenario.demand) {
+        // The estimate depends on where a demand leads, not on how much it is: the least does.
+        let total = usual(&capacity(&build(Some(1.0))?));
+        (build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual })
+    } else {
+        (build(None)?, Basis::Given)
+    };
+    let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
+    let origins: Vec<(Place, f64)> =
+        world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
+    let world = guided(world.with_journal(), scenario, origin)?;
+    let world = if scenario.run.audit { world.audited() } else { world };
+    let capacity = capacity(&world);
+    check_ways(scenario, origin, &world)?;
+    check_arrivals(scenario, origin, &world)?;
+    let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
+    Ok(Prepared {
+        warmup_steps: steps(scenario.run.warmup_s),
+        steps: steps(scenario.run.duration_s).max(1),
+        record_steps,
+        checkpoint_steps,
+        flows_steps,
+        demand_veh_h: origins.iter().map(|(_, rate)| rate).sum(),
+        basis,
+        origins,
+        capacity,
+        styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
+        threads,
+        problems: map.problems,
+        remarks,
+        origin: map.origin,
+        world,
+    })
+}
+
+/// The world with the guidance of `scenario`.
+fn guided(world: World, scenario: &Scenario, origin: &Origin) -> Result<World, Fault> {
+    match scenario.guidance.interval_s {
+        0.0 => Ok(world),
+        interval => world.guided(interval).map_err(|error| {
+            let place = origin.place(&["guidance", "interval_s"]);
+            Fault::new(place, error, "set guidance.interval_s = 0, or choose fewer destinations")
+        }),
+    }
+}
+
+/// The roads of `map` with their junctions, and where trips on them start and end.
+pub fn driven(map: &Map) -> (Network, Places) {
+    let network = map.network.clone().regulated(&regulations(map));
+    let places = places(&network, &map.graph);
+    (network, places)
+}
+
+/// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.
+fn places(network: &Network, graph: &Graph) -> Places {
+    if !network.entrances.is_empty() && !network.exits.is_empty() {
+        return Places::at_gates(network).reachable(network);
+    }
+    let all = graph.conflicting.iter().zip(0..);
+    Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))
+}
+
+/// Whether there are samples where a file needs them.
+fn check_samples(scenario: &Scenario, origin: &Origin, record_steps: Option<u32>) -> Result<(), Fault> {
+    if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
+        let what = "fcd.xml is sampled at output.record_s, which is 0";
+        return Err(Fault::new(origin.place(&["output", "sumo"]), what, "remove fcd, or set record_s = 1"));
+    }
+    Ok(())
+}
+
+fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
+    let Scenario { demand, run, output, .. } = scenario;
+    let check = |path: &[&str], what: &str, value: f64, (from, to): (f64, f64), unit: &str| {
+        if (from..=to).contains(&value) {
+            return Ok(());
+        }
+        let what = format!("{what} of {value}{unit}");
+        Err(Fault::new(origin.place(path), what, format!("choose {from} to {to}{unit}")))
+    };
+    check(&["run", "step_s"], "a step", run.step_s, STEPS, " s")?;
+    check(&["run", "duration_s"], "a duration", run.duration_s, (run.step_s, LONGEST), " s")?;
+    check(&["run", "warmup_s"], "a warm-up", run.warmup_s, (0.0, LONGEST), " s")?;
+    check(&["demand", "trucks"], "a share of trucks", demand.trucks, (0.0, 1.0), "")?;
+    let room = 1.0 - demand.trucks;
+    check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
+    let room = room - demand.buses;
+    check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
+    if let Some(size) = scenario.map_options.max_size_mb {
+        let largest = Size::MAXIMUM.mb();
+        check(&["map_options", "max_size_mb"], "a largest map", size, (f64::MIN_POSITIVE, largest), " MB")?;
+    }
+    let guidance = scenario.guidance.interval_s;
+    if guidance != 0.0 {
+        let path = ["guidance", "interval_s"];
+        check(&path, "an interval of guidance", guidance, (SHORTEST_GUIDANCE, LONGEST), " s")?;
+    }
+    check(&["output", "record_s"], RECORDING, output.record_s, (0.0, LONGEST), " s")?;
+    check(&["output", "checkpoint_s"], CHECKPOINTS, output.checkpoint_s, (0.0, LONGEST), " s")?;
+    check(&["output", "flows_s"], FLOWS, output.flows_s, (0.0, LONGEST), " s")
+}
+
+/// The interval [s] that the `key` of the output gives, and that is called `what`, in steps; none for an interval of 0.
+fn whole_steps(
+    step: f64,
+    origin: &Origin,
+    key: &str,
+    what: &str,
+    interval: f64,
+) -> Result<Option<u32>, Fault> {
+    /// How far an interval may be off a whole number of steps, in steps.
+    const TOLERANCE: f64 = 1e-6;
+    let steps = interval / step;
+    if interval > 0.0 && steps < 1.0 - TOLERANCE {
+        let what = format!("{what} of {interval} s is shorter than a step of {step} s");
+        let remedy = format!("choose {step} s or a multiple of it, 0 to switch it off, or a shorter step");
+        return Err(Fault::new(origin.place(&["output", key]), what, remedy));
+    }
+    if (steps - steps.round()).abs() <= TOLERANCE {
+        return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
+    }
+    // Rounded, as 3 × 0.1 would be shown with all its digits.
+    let above = (steps.ceil() * step * 1e6).round() / 1e6;
+    let what = format!("{what} of {interval} s is not a multiple of the step of {step} s");
+    let remedy = format!("choose a multiple of it, such as {above} s");
+    Err(Fault::new(origin.place(&["output", key]), what, remedy))
+}
+
+fn threads(scenario: &Scenario, origin: &Origin, records: bool) -> Result<usize, Fault> {
+    let usual = || {
+        let cores = available_parallelism().map_or(1, NonZero::get);
+        // What writes trajectories needs a core of its own: a thread that moves vehicles would wait for it.
+        let free = cores - usize::from(records);
+        free.clamp(1, USUAL_THREADS)
+    };
+    let threads = scenario.run.threads.map_or_else(usual, |it| it.get());
+    if threads > MOST_THREADS {
+        let place = origin.place(&["run", "threads"]);
+        return Err(Fault::new(place, format!("{threads} threads"), format!("choose 1 to {MOST_THREADS}")));
+    }
+    Ok(threads)
+}
+
+fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
+    let options = ReadOptions::from(&scenario.map_options);
+    let read = match origin.map {
+        Some(text) => lanelet2::read(text.as_bytes(), &options),
+        None => load(&scenario.map, &options),
+    };
+    read.map_err(|error| {
+        let fault = map_fault(&error, &scenario.map, origin);
+        match error {
+            // What is run may be either.
+            MapError::UnknownFormat { .. } if origin.in_file(&["map"]).is_none() => {
+                Fault { remedy: fault.remedy + ", scenario (.toml)", ..fault }
+            }
+            _ => fault,
+        }
+    })
+}
+
+/// Reads the map at `path`, with options of the command.
+///
+/// # Errors
+/// If it cannot be read, or has no lanelet for vehicles.
+pub fn open_map(path: &Path, options: &MapOptions) -> Result<Map, Fault> {
+    let mut origin = Origin::default();
+    origin.replaced("map_options.origin", "--origin");
+    load(path, &ReadOptions::from(options)).map_err(|error| match error {
+        MapError::UnknownFormat { found, .. } if found == "toml" => {
+            let what = "by its name this is a scenario or a style, not a map";
+            Fault::new(path.display(), what, "give the map itself; a scenario names it in its key map")
+        }
+        _ => map_fault(&error, path, &origin),
+    })
+}
+
+impl From<&MapOptions> for ReadOptions {
+    fn from(options: &MapOptions) -> ReadOptions {
+        ReadOptions {
+            origin: options.origin.map(|[latitude, longitude]| (latitude, longitude)),
+            law: options.law.into(),
+            driving_side: options.driving_side.map(DrivingSide::from),
+            largest: options.max_size_mb.map_or_else(Size::default, Size::of_mb),
+        }
+    }
+}
+
+/// What is wrong with the map at `path`: a wrong path has its place in the scenario file, a wrong content in the map.
+fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
+    let line = match error {
+        MapError::Xml(error) => Some(error.line()),
+        _ => None,
+    };
+    let message = error.to_string();
+    let message = line.and_then(|it| message.strip_prefix(&format!("line {it}: "))).unwrap_or(&message);
+    let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "correct the map"));
+    let file = path.display();
+    let named_at = origin.in_file(&["map"]);
+    match (error, line, named_at) {
+        (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
+        (MapError::TooLarge { .. }, ..) => {
+            let remedy = "split the map into smaller ones, or increase --max-map-size, at most 2GiB";
+            Fault::new(file, what, remedy)
+        }
+        (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),
+        (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
+            Fault::new(place, format!("map {file}: {what}"), remedy)
+        }
+        _ => Fault::new(file, what, remedy),
+    }
+}
+
+impl From<super::DrivingSide> for DrivingSide {
+    fn from(side: super::DrivingSide) -> DrivingSide {
+        match side {
+            super::DrivingSide::Left => DrivingSide::Left,
+            super::DrivingSide::Right => DrivingSide::Right,
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! What was seen of a vehicle on its way: samples, and where it changed lanes.
+
+use serde::{Deserialize, Serialize};
+
+/// A vehicle at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Time [s].
+    pub time_s: f64,
+    /// Position along the lane or road [m].
+    pub position_m: f64,
+    /// Speed [m/s].
+    pub speed_mps: f64,
+}
+
+/// Where and when a vehicle changed lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// Time [s].
+    pub time_s: f64,
+    /// Position along the lane or road [m].
+    pub position_m: f64,
+}
