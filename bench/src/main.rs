@@ -126,15 +126,15 @@ impl Measured {
             let (now, [shortest, longest]) = (round_trip(), self.round_trips);
             self.round_trips = [shortest.min(now), longest.max(now)];
         }
-        let (before, updates, start) = (in_use(), self.world.tally().updates, Instant::now());
+        let (before, updates, start) = (in_use(), self.world.counters().updates, Instant::now());
         (0..self.steps).for_each(|_| self.world.step());
-        self.rates.push(self.world.tally().updates - updates, start.elapsed().as_secs_f64());
+        self.rates.push(self.world.counters().updates - updates, start.elapsed().as_secs_f64());
         self.bytes += in_use() - before;
     }
 
     fn print(&self) {
-        let (tally, vehicles) = (self.world.tally(), self.world.on_road());
-        let considered_every = tally.updates as f64 * STEP_S / tally.considerations as f64;
+        let (counters, vehicles) = (self.world.counters(), self.world.on_road());
+        let considered_every = counters.updates as f64 * STEP_S / counters.considerations as f64;
         let (best, median) = (self.rates.best(), self.rates.median());
         say(&format!(
             "{:6.0} km: {vehicles:7} vehicles, {} thread(s): {:5.1} million updates/s at best, {:5.1} in the median; {:5.1} ns each, {:5.1} times real time at best; considered every {considered_every:.2} s, {:4.0} B/vehicle, hash {:016x}",
@@ -169,21 +169,21 @@ fn limit_of_two_threads(rounds: usize) -> Result<f64, Box<dyn Error>> {
 
 /// Updates per second in a round of one that waits after every step until as many as `threads` have `arrived`.
 fn in_step(it: &mut Measured, arrived: &AtomicU32, threads: u32) -> f64 {
-    let (before, start) = (it.world.tally().updates, Instant::now());
+    let (before, start) = (it.world.counters().updates, Instant::now());
     for step in 1..=it.steps {
         it.world.step();
         arrived.fetch_add(1, Ordering::AcqRel);
         spin_until(|| arrived.load(Ordering::Acquire) >= threads * step);
     }
-    (it.world.tally().updates - before) as f64 / start.elapsed().as_secs_f64()
+    (it.world.counters().updates - before) as f64 / start.elapsed().as_secs_f64()
 }
 
 fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {
     let road = Motorway { lanes: LANES, length_m, lanelet_length_m: 500.0, ..Motorway::default() };
     let network = motorway(&road)?.build()?.network;
-    let Population { characters, shares } = Population::usual(1)?;
+    let Population { driver_parameters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, DENSITY * SPEED * 3.6 * LANES as f64, TRUCKS, shares);
-    Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)
+    Ok(World::new(network, driver_parameters, demand, Setup { step: STEP_S, seed: 1, threads })?)
 }
 
 /// Puts vehicles on the road, some closer together than others.
@@ -192,7 +192,7 @@ fn fill(world: &mut World) {
     let places: Vec<Position> = free_places(world.network(), &random);
     for (Position { chain, x }, number) in places.into_iter().zip(0..) {
         let draw = |purpose| random.uniform(number, purpose, 0);
-        let character = (draw(Purpose::Character) * 512.0) as u32;
+        let parameters = (draw(Purpose::Character) * 512.0) as u32;
         let is_aggressive = draw(Purpose::Style) < 1.0 / 8.4;
         world
             .place(NewVehicle {
@@ -200,7 +200,7 @@ fn fill(world: &mut World) {
                 x,
                 speed: SPEED,
                 class: if draw(Purpose::Class) < TRUCKS { Class::Truck } else { Class::Car },
-                character: if is_aggressive { character } else { 512 + character },
+                parameters: if is_aggressive { parameters } else { 512 + parameters },
                 destination: Some(0),
             })
             .expect("it fits on the road");

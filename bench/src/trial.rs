@@ -43,8 +43,8 @@ impl Trial {
         let draw = |of: u32| random.uniform(of, Purpose::Arrival, number);
         let (map, network) = map(number, &draw)?;
         let network = store(network);
-        let Population { characters, shares } = Population::usual(u64::from(number))?;
-        let of_a_style = |it: &Share| (characters[it.first as usize].clone(), it.weight);
+        let Population { driver_parameters, shares } = Population::usual(u64::from(number))?;
+        let of_a_style = |it: &Share| (driver_parameters[it.first as usize].clone(), it.weight);
         let typical: Vec<_> = shares.iter().map(of_a_style).collect();
         let mut demand = Demand::even(&network, 1000.0, TRUCKS, shares);
         let load = 0.5 + 1.5 * draw(10);
@@ -57,7 +57,7 @@ impl Trial {
             origin.rate = origin.rate.times(&Rate::constant(load * capacity / all));
         }
         let setup = Setup { step: STEP_S, seed: u64::from(number), threads };
-        let world = World::new(network, characters, demand, setup)?.guided(GUIDED_EVERY_S)?;
+        let world = World::new(network, driver_parameters, demand, setup)?.guided(GUIDED_EVERY_S)?;
         Ok(Trial { map, load, world })
     }
 }

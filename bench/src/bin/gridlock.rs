@@ -75,7 +75,7 @@ fn drive(number: u32) -> Result<Outcome, Box<dyn Error>> {
             before = left;
         }
     }
-    let (counts, tally) = (*world.counts(), world.tally());
+    let (counts, counters) = (*world.counts(), world.counters());
     Ok(Outcome {
         map,
         load,
@@ -83,9 +83,9 @@ fn drive(number: u32) -> Result<Outcome, Box<dyn Error>> {
         left: counts.left,
         on_road: world.on_road(),
         waiting: world.waiting(),
-        stuck: tally.stuck,
+        stuck: counters.stuck,
         fewest,
-        collisions: tally.collisions,
-        overlaps: tally.overlaps,
+        collisions: counters.collisions,
+        overlaps: counters.overlaps,
     })
 }

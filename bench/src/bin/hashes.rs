@@ -74,10 +74,10 @@ fn regulated(map: Map) -> Network {
 
 fn world(network: &Network, demand: f64, way: Way) -> Result<World, Box<dyn Error>> {
     let network = way.store(network.clone());
-    let Population { characters, shares } = Population::usual(1)?;
+    let Population { driver_parameters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, demand, TRUCKS, shares);
     let setup = Setup { step: STEP_S, seed: 1, threads: way.threads };
-    Ok(World::new(network, characters, demand, setup)?)
+    Ok(World::new(network, driver_parameters, demand, setup)?)
 }
 
 /// Carries out a run in all ways, and prints its hash. Returns whether all gave the same.

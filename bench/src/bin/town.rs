@@ -75,9 +75,9 @@ impl Measured {
 
     /// One more round.
     fn go_on(&mut self, steps: u32) {
-        let updates = self.world.tally().updates;
+        let updates = self.world.counters().updates;
         let wall_s = measured(&mut self.world, steps);
-        self.rates.push(self.world.tally().updates - updates, wall_s);
+        self.rates.push(self.world.counters().updates - updates, wall_s);
     }
 
     fn print(&self) {
@@ -88,7 +88,7 @@ impl Measured {
             self.filled_s,
             self.world.on_road(),
             self.threads,
-            self.world.tally().updates,
+            self.world.counters().updates,
             best / 1e6,
             median / 1e6,
             1e9 / best,
@@ -109,7 +109,7 @@ fn empty_town(town: Town, threads: usize) -> Result<World, Box<dyn Error>> {
     let Town { streets, demand, .. } = town;
     let map = grid(&Grid { rows: streets, columns: streets, ..Grid::default() })?.build()?;
     let network = map.network.clone().regulated(&regulations(&map));
-    let Population { characters, shares } = Population::usual(1)?;
+    let Population { driver_parameters, shares } = Population::usual(1)?;
     let demand = Demand::even(&network, demand, TRUCKS, shares);
-    Ok(World::new(network, characters, demand, Setup { step: STEP_S, seed: 1, threads })?)
+    Ok(World::new(network, driver_parameters, demand, Setup { step: STEP_S, seed: 1, threads })?)
 }

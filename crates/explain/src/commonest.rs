@@ -50,7 +50,7 @@ impl Commonest {
                 && change.is_completed
                 && change.time >= self.since_s
             {
-                let style = &world.characters()[change.character as usize];
+                let style = &world.driver_parameters()[change.parameters as usize];
                 let names = style.change.row_names();
                 let row = change.appraisal.leading().map(|row| names[row]).filter(|it| !it.is_empty());
                 let key = (style.name.clone(), row.unwrap_or("nothing").to_string());

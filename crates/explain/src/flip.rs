@@ -93,16 +93,17 @@ fn of_desire(account: &Account) -> Vec<Flip> {
     }
     let desired_speed = any.situation.me.pace.desired;
     let bounds = |speed: f64| [-speed, desired_speed - speed];
-    let here = any.situation.here.prospect;
-    let outcome =
-        |by| desired(account, |it| reappraised(account, it, |situation| situation.here.prospect += by));
+    let here = any.situation.here.anticipated_speed;
+    let outcome = |by| {
+        desired(account, |it| reappraised(account, it, |situation| situation.here.anticipated_speed += by))
+    };
     flips.extend(flip(Knob::SpeedHere, here, bounds(here), outcome));
     for side in sides.into_iter().flatten() {
-        let there = side.situation.there.prospect;
+        let there = side.situation.there.anticipated_speed;
         let outcome = |by| {
             desired(account, |it| {
                 reappraised(account, it, |situation| {
-                    situation.there.prospect += if it.side == side.side { by } else { 0.0 };
+                    situation.there.anticipated_speed += if it.side == side.side { by } else { 0.0 };
                 })
             })
         };

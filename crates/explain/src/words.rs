@@ -139,7 +139,7 @@ fn leading(account: &Account, side: Side) -> String {
     let names = account.change.row_names();
     match wanted.appraisal.leading() {
         Some(index) if !names[index].is_empty() => {
-            let speeds = [wanted.situation.here.prospect, wanted.situation.there.prospect];
+            let speeds = [wanted.situation.here.anticipated_speed, wanted.situation.there.anticipated_speed];
             let [here, there] = speeds.map(|it| it * KMH_PER_MPS);
             let seen = if names[index] == "speed" {
                 format!(", {here:.0} km/h here and {there:.0} km/h there")

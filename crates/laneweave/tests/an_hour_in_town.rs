@@ -17,7 +17,7 @@ fn an_hour(map: &str, seed: u64) -> Option<World> {
     scenario.demand.vehicles_per_hour = Some(1500.0);
     let mut world = prepare(&scenario, &Origin::default()).expect("the map is sound").world;
     (0..36_000).for_each(|_| world.step());
-    assert_eq!((world.tally().stuck, world.tally().collisions, world.tally().overlaps), (0, 0, 0));
+    assert_eq!((world.counters().stuck, world.counters().collisions, world.counters().overlaps), (0, 0, 0));
     Some(world)
 }
 
@@ -38,7 +38,7 @@ fn who_changes_lanes_before_one_who_has_its_passage_locks_nothing() {
 #[test]
 fn few_trust_in_a_lane_change_on_the_first_metres_after_a_turn() {
     if let Some(world) = an_hour("town10.osm", 1) {
-        let share = world.tally().missed_turns as f64 / world.counts().entered as f64;
+        let share = world.counters().missed_turns as f64 / world.counts().entered as f64;
         assert!(share < 0.015, "{share}");
     }
 }
@@ -47,7 +47,7 @@ fn few_trust_in_a_lane_change_on_the_first_metres_after_a_turn() {
 fn nobody_who_has_just_driven_off_brakes_hard_before_a_zone_at_yellow() {
     for (map, seed) in [("crossroads_with_stoplines.osm", 2), ("tianjin.osm", 3)] {
         if let Some(world) = an_hour(map, seed) {
-            assert_eq!(world.tally().emergency_brakings, 0, "{map}");
+            assert_eq!(world.counters().emergency_brakings, 0, "{map}");
         }
     }
 }

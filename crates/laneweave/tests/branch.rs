@@ -86,7 +86,7 @@ fn only_the_drivers_of_a_style_change_where_one_is_named() {
     let record = record("ramps.osm", 4000.0);
     let twins =
         Twins::part(&record, 60.0, &[setting("aggressive.follow.jam_gap=4")]).expect("it can be repeated");
-    let pairs = twins.base.characters().iter().zip(twins.branch.characters());
+    let pairs = twins.base.driver_parameters().iter().zip(twins.branch.driver_parameters());
     for (base, branch) in pairs {
         assert_eq!(base.speed_factor, branch.speed_factor, "what is drawn stays");
         assert_eq!(base == branch, base.name == "conservative", "{}", base.name);

@@ -26,9 +26,9 @@ fn cross(control: Control) -> Network {
 
 /// Typical drivers of each usual style, with their weights, and the usual population.
 fn usual() -> (Vec<(Style, f64)>, Vec<Style>, Vec<Share>) {
-    let Population { characters, shares } = Population::usual(1).expect("built-in styles");
-    let typical = shares.iter().map(|it| (characters[it.first as usize].clone(), it.weight)).collect();
-    (typical, characters, shares)
+    let Population { driver_parameters, shares } = Population::usual(1).expect("built-in styles");
+    let typical = shares.iter().map(|it| (driver_parameters[it.first as usize].clone(), it.weight)).collect();
+    (typical, driver_parameters, shares)
 }
 
 /// The estimated capacity of `network` for a demand that `skew` changes.
@@ -134,10 +134,11 @@ fn driven(network: &Network, load: f64) -> (f64, usize) {
     const STEP_S: f64 = 0.1;
     const DURATION_S: f64 = 900.0;
     let demanded = load * capacity(network, |_| ()).veh_h;
-    let (_, characters, shares) = usual();
+    let (_, driver_parameters, shares) = usual();
     let demand = Demand::even(network, demanded, TRUCKS, shares);
     let setup = Setup { step: STEP_S, seed: 5, threads: 1 };
-    let mut world = World::new(network.clone(), characters, demand, setup).expect("the set-up makes sense");
+    let mut world =
+        World::new(network.clone(), driver_parameters, demand, setup).expect("the set-up makes sense");
     (0..(DURATION_S / STEP_S) as u32).for_each(|_| world.step());
     (world.counts().entered as f64 * 3600.0 / DURATION_S, world.waiting())
 }

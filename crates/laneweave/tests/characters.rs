@@ -1,5 +1,6 @@
-//! What the characters of drivers do: tired ones change lanes less, keep to the lane of their route, and notice later;
-//! near altruists others lose less speed than near egoists. Over ten seeds or more, the 95 % intervals lie apart.
+//! What characters of drivers do: tired ones change lanes less, keep to the lane of their route, and notice
+//! later; near altruists others lose less speed than near egoists. Over ten seeds or more, the 95 % intervals lie
+//! apart.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -34,7 +35,7 @@ fn world(network: Network, population: &Population, driven: &[Share], per_hour: 
     let mut demand = Demand::even(&network, 0.0, 0.1, driven.to_vec());
     demand.origins[0].rate = Rate::constant(per_hour);
     let setup = Setup { step: STEP_S, seed, threads: 1 };
-    World::new(network, population.characters.clone(), demand, setup).expect("a world")
+    World::new(network, population.driver_parameters.clone(), demand, setup).expect("a world")
 }
 
 fn drive(world: &mut World, seconds: u32, mut watch: impl FnMut(&World, u32)) {
@@ -80,7 +81,7 @@ fn assert_below(what: [&str; 2], found: [Vec<f64>; 2]) {
 fn tired_drivers_change_lanes_less_than_others_in_the_same_traffic() {
     const SEEDS: u64 = 20;
     let both = population(&["inattentive", "conservative"]);
-    let is_other = |character: u32| usize::from(character >= both.shares[1].first);
+    let is_other = |parameters: u32| usize::from(parameters >= both.shares[1].first);
     let mut rates = [Vec::new(), Vec::new()];
     for seed in 1..=SEEDS {
         let mut world = world(own_map("motorway_2_lanes.osm"), &both, &both.shares, 2200.0, seed);
@@ -92,13 +93,13 @@ fn tired_drivers_change_lanes_less_than_others_in_the_same_traffic() {
                     && it.is_completed
                     && it.kind == Kind::Discretionary
                 {
-                    changes[is_other(it.character)] += 1.0;
+                    changes[is_other(it.parameters)] += 1.0;
                 }
             }
             if step % STEPS_PER_SECOND == 0 {
                 world
                     .vehicles()
-                    .for_each(|it| kilometres[is_other(it.driver.character)] += it.speed() / 1000.0);
+                    .for_each(|it| kilometres[is_other(it.driver.parameters)] += it.speed() / 1000.0);
             }
         });
         (0..2).for_each(|it| rates[it].push(changes[it] / kilometres[it]));
@@ -114,10 +115,10 @@ fn gap_when_noticed(style: &str, seed: u64) -> f64 {
     let drivers = population(&[style, "egoistic"]);
     let [those, truckers] = [0, 1].map(|it| drivers.shares[it]);
     let mut world = world(own_map("motorway_2_lanes.osm"), &drivers, &drivers.shares, 0.0, seed);
-    let mut put = |x, speed, class, character| {
+    let mut put = |x, speed, class, parameters| {
         let (chain, destination) = (ChainIndex(0), Some(0));
         world
-            .place(NewVehicle { chain, x, speed, class, character, destination })
+            .place(NewVehicle { chain, x, speed, class, parameters, destination })
             .expect("it fits on the road")
     };
     let mut coming = Vec::new();
@@ -197,7 +198,8 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
                 };
                 let from = scene.viewpoint_at(scene.viewpoint(it.spot), twin.chain, twin.x);
                 let Some(found) = scene.follower(from).filter(|it| it.distance < NEAR) else { continue };
-                let (other, egoist) = (scene.motion(found.spot), it.driver.character >= both.shares[1].first);
+                let (other, egoist) =
+                    (scene.motion(found.spot), it.driver.parameters >= both.shares[1].first);
                 let at = step + AFTER * STEPS_PER_SECOND;
                 concerned.push((at, other.id, other.speed, usize::from(egoist)));
             }
@@ -237,12 +239,12 @@ fn vehicles_that_merge_lose_less_speed_beside_altruists_than_beside_egoists() {
                         x: 5.0,
                         speed: 15.0,
                         class: Class::Car,
-                        character: on_the_ramp.first + number % on_the_ramp.count,
+                        parameters: on_the_ramp.first + number % on_the_ramp.count,
                         destination: Some(0),
                     })
                     .expect("it fits on the road");
                 drive(&mut world, HEADWAY, |world, _| {
-                    let come = world.vehicles().filter(|it| it.driver.character >= on_the_ramp.first);
+                    let come = world.vehicles().filter(|it| it.driver.parameters >= on_the_ramp.first);
                     let merge =
                         come.filter(|it| it.spot.chain == ramp || it.lane_change.last_place.is_finite());
                     merge.for_each(|it| lost.add(shortfall(&it)));

@@ -50,7 +50,10 @@ fn a_restored_world_goes_on_bit_for_bit() {
                 assert_eq!(restored.events(), undisturbed.events(), "{map} at {:?}", restored.clock());
             }
             assert_eq!(restored.state_hash(), undisturbed.state_hash());
-            assert_eq!((restored.tally(), restored.counts()), (undisturbed.tally(), undisturbed.counts()));
+            assert_eq!(
+                (restored.counters(), restored.counts()),
+                (undisturbed.counters(), undisturbed.counts())
+            );
             assert!(steps == 0 || undisturbed.on_road() > 20, "{map}");
         }
     }
@@ -86,7 +89,7 @@ fn the_state_of_a_world_with_other_drivers_is_refused() {
 
 /// A saved world in which much is under way, and one to give it to.
 fn busy() -> (Vec<u8>, World) {
-    let mut busy = world("town.osm", 6000.0, 1).with_journal();
+    let mut busy = world("town.osm", 6000.0, 1).with_trip_log();
     (0..1800).for_each(|_| busy.step());
     assert!(busy.on_road() > 50 && busy.waiting() > 0, "{} {}", busy.on_road(), busy.waiting());
     (busy.save().expect("it can be saved"), world("town.osm", 6000.0, 1))

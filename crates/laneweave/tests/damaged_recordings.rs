@@ -24,7 +24,7 @@ fn small_file() -> String {
 }
 
 static CHARACTERS: LazyLock<Vec<Style>> =
-    LazyLock::new(|| Population::usual(1).expect("built-in styles").characters);
+    LazyLock::new(|| Population::usual(1).expect("built-in styles").driver_parameters);
 
 fn use_it(recording: Recording) {
     let road = Motorway { lanes: 2, length_m: 100.0, ..Motorway::default() };

@@ -52,8 +52,8 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     }
     assert_eq!(until, 260.0);
     assert_eq!(rows, lengths.len() * 2000_usize.div_ceil(every as usize));
-    let tally = world.tally();
-    (sums, [tally.updates as f64 * 0.1, tally.distance], world.counts().left as f64)
+    let counters = world.counters();
+    (sums, [counters.updates as f64 * 0.1, counters.distance], world.counts().left as f64)
 }
 
 #[test]

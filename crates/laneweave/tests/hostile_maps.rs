@@ -22,9 +22,13 @@ fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
 /// Drives for so many seconds. Nobody may be hit, stuck or lost, and hardly anybody misses a turn.
 fn drive(world: &mut World, seconds: u32, name: &str) {
     (0..10 * seconds).for_each(|_| world.step());
-    let tally = world.tally();
-    assert_eq!((tally.collisions, tally.overlaps, tally.stuck, tally.lost), (0, 0, 0, 0), "{name}");
-    let missed = tally.missed_turns as f64 / world.counts().entered.max(1) as f64;
+    let counters = world.counters();
+    assert_eq!(
+        (counters.collisions, counters.overlaps, counters.stuck, counters.lost),
+        (0, 0, 0, 0),
+        "{name}"
+    );
+    let missed = counters.missed_turns as f64 / world.counts().entered.max(1) as f64;
     assert!(missed <= 0.02, "{name}: {missed}");
 }
 
@@ -123,8 +127,12 @@ fn random_world(number: u64) -> World {
 fn drive_randomly(number: u64, seconds: u32) {
     let mut world = random_world(number);
     (0..10 * seconds).for_each(|_| world.step());
-    let tally = world.tally();
-    assert_eq!((tally.collisions, tally.overlaps, tally.stuck, tally.lost), (0, 0, 0, 0), "map {number}");
+    let counters = world.counters();
+    assert_eq!(
+        (counters.collisions, counters.overlaps, counters.stuck, counters.lost),
+        (0, 0, 0, 0),
+        "map {number}"
+    );
 }
 
 #[test]

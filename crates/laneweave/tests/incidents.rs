@@ -47,7 +47,7 @@ impl Run {
                     x,
                     speed: 20.0,
                     class: Class::Car,
-                    character: 0,
+                    parameters: 0,
                     destination: None,
                 })
                 .expect("it fits on the road");

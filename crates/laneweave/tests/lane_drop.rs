@@ -20,10 +20,10 @@ fn road(lanes: usize, lane_drop_at: Option<f64>) -> Network {
 
 /// The usual drivers, in cars, who come at `rate`.
 fn world(network: Network, rate: Rate, seed: u64) -> World {
-    let Population { characters, shares } = Population::usual(seed).expect("built-in styles");
+    let Population { driver_parameters, shares } = Population::usual(seed).expect("built-in styles");
     let mut demand = Demand::even(&network, 0.0, 0.0, shares);
     demand.origins[0].rate = rate;
-    World::new(network, characters, demand, Setup { step: STEP_S, seed, threads: 1 }).expect("a world")
+    World::new(network, driver_parameters, demand, Setup { step: STEP_S, seed, threads: 1 }).expect("a world")
 }
 
 fn drive(world: &mut World, seconds: f64, mut watch: impl FnMut(&World)) {
@@ -45,7 +45,7 @@ fn over_seeds<T>(what: &str, found: &[T], of: impl Fn(&T) -> f64) -> Estimate {
 /// Largest flow of two lanes full of the usual drivers in equilibrium, all at one speed [veh/h].
 fn equilibrium_of_two_lanes() -> f64 {
     const CAR: Class = Class::Car;
-    let Population { characters, shares } = Population::usual(1).expect("built-in styles");
+    let Population { driver_parameters, shares } = Population::usual(1).expect("built-in styles");
     let limit = road(2, None).chains[0].limit(0.0);
     let spacing = |speed: f64| {
         let of = |it: &Style| {
@@ -54,7 +54,7 @@ fn equilibrium_of_two_lanes() -> f64 {
         };
         let total: f64 = shares.iter().map(|it| it.weight).sum();
         let mean = |it: &Share| {
-            let drivers = &characters[it.first as usize..(it.first + it.count) as usize];
+            let drivers = &driver_parameters[it.first as usize..(it.first + it.count) as usize];
             it.weight / total * drivers.iter().map(of).sum::<f64>() / f64::from(it.count)
         };
         shares.iter().map(mean).sum::<f64>()
@@ -77,8 +77,8 @@ fn passed_a_drop(demand: f64, seed: u64) -> Vec<f64> {
     let mut passed = Vec::new();
     drive(&mut world, MEASURED, |world| passed.push(world.counts().left as f64));
     drive(&mut world, DISSOLVES, |_| ());
-    let tally = world.tally();
-    assert_eq!((world.on_road(), world.waiting(), tally.stuck, tally.collisions), (0, 0, 0, 0));
+    let counters = world.counters();
+    assert_eq!((world.on_road(), world.waiting(), counters.stuck, counters.collisions), (0, 0, 0, 0));
     passed
 }
 

@@ -25,9 +25,10 @@ fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
     let matched = Matched::new(&network, &recording);
     let changes = lane_changes(&matched);
     let navigator = Navigator::new(&network);
-    let characters = Population::usual(1).expect("built-in styles").characters;
+    let driver_parameters = Population::usual(1).expect("built-in styles").driver_parameters;
     let assume = |track| Assumed::by_its_speeds(&matched, track, 0);
-    let replay = Replay::new(&matched, &changes, &navigator, &characters, assume).expect("they are drivers");
+    let replay =
+        Replay::new(&matched, &changes, &navigator, &driver_parameters, assume).expect("they are drivers");
     let (mut recorded, mut there, mut between_lanes) = (0, 0, 0);
     let (mut situations, mut led, mut followed, mut close) = (0, 0, 0, 0);
     let mut drivers = BTreeSet::new();

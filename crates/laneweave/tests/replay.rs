@@ -31,21 +31,23 @@ fn car(id: i64, x: f64, speed: f64, seconds: f64, aside: impl Fn(f64) -> f64) ->
     Track { id, class: RoadUser::Car, length: 4.5, width: 1.8, states: states.collect() }
 }
 
-fn characters() -> Vec<Style> {
-    Population::usual(1).expect("built-in styles").characters
+fn driver_parameters() -> Vec<Style> {
+    Population::usual(1).expect("built-in styles").driver_parameters
 }
 
 fn assumed(_: usize) -> Assumed {
-    Assumed { character: 0, speed_factor: 0.9 }
+    Assumed { parameters: 0, speed_factor: 0.9 }
 }
 
 /// Looks at a recording as its drivers see it.
 fn replay(network: &Network, tracks: Vec<Track>, look: impl FnOnce(&Replay)) {
     let recording = Recording { step: STEP, tracks };
     let matched = Matched::new(network, &recording);
-    let (navigator, characters) = (Navigator::new(network), characters());
+    let (navigator, driver_parameters) = (Navigator::new(network), driver_parameters());
     let changes = lane_changes(&matched);
-    look(&Replay::new(&matched, &changes, &navigator, &characters, assumed).expect("they are drivers"));
+    look(
+        &Replay::new(&matched, &changes, &navigator, &driver_parameters, assumed).expect("they are drivers"),
+    );
 }
 
 #[track_caller]
@@ -243,13 +245,13 @@ fn impossible_drivers_are_refused() {
     let network = road(1000.0, Vec::new());
     let recording = Recording { step: STEP, tracks: vec![car(7, 100.0, 20.0, 3.0, |_| SLOW)] };
     let matched = Matched::new(&network, &recording);
-    let (navigator, characters) = (Navigator::new(&network), characters());
-    let refusal = |character, speed_factor| {
-        let assume = |_| Assumed { character, speed_factor };
-        Replay::new(&matched, &[], &navigator, &characters, assume).err()
+    let (navigator, driver_parameters) = (Navigator::new(&network), driver_parameters());
+    let refusal = |parameters, speed_factor| {
+        let assume = |_| Assumed { parameters, speed_factor };
+        Replay::new(&matched, &[], &navigator, &driver_parameters, assume).err()
     };
-    let (vehicle, count) = (7, characters.len());
-    let unknown = ReplayError::Character { vehicle, character: count as u32, count };
+    let (vehicle, count) = (7, driver_parameters.len());
+    let unknown = ReplayError::Character { vehicle, parameters: count as u32, count };
     assert_eq!(refusal(count as u32, 1.0), Some(unknown));
     assert_eq!(refusal(0, 0.0), Some(ReplayError::SpeedFactor { vehicle, factor: 0.0 }));
     assert_eq!(refusal(0, 1.0), None);

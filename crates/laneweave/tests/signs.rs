@@ -51,7 +51,7 @@ fn population(is_control: bool) -> Population {
     let mut population = Population::usual(1).expect("built-in styles");
     if is_control {
         let hazard = LaneChangeModel::ConstantHazard(ConstantHazard::default());
-        population.characters.iter_mut().for_each(|it| it.change = hazard.clone());
+        population.driver_parameters.iter_mut().for_each(|it| it.change = hazard.clone());
     }
     population
 }
@@ -59,18 +59,18 @@ fn population(is_control: bool) -> Population {
 fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Signs {
     let road = Motorway { lanes: LANES, length_m: LENGTH_M, ..Motorway::default() };
     let network = motorway(&road).expect("a road").build().expect("a network").network;
-    let Population { characters, shares } = population.clone();
+    let Population { driver_parameters, shares } = population.clone();
     let conservative_from = shares[1].first;
     let demand = Demand::even(&network, vehicles_per_hour, 0.1, shares);
     let setup = Setup { step: STEP_S, seed, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).expect("a world");
+    let mut world = World::new(network, driver_parameters, demand, setup).expect("a world");
     for _ in 0..(WARM_UP_S / STEP_S) as u32 {
         world.step();
     }
     world.reset_counts();
     let mut signs = Signs::default();
     let mut last: HashMap<VehicleId, (f64, _)> = HashMap::new();
-    let style_of = |character: u32| usize::from(character >= conservative_from);
+    let style_of = |parameters: u32| usize::from(parameters >= conservative_from);
     for step in 0..(MEASURED_S / STEP_S) as u32 {
         world.step();
         for event in world.events() {
@@ -80,7 +80,7 @@ fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Sign
             }
             signs.changes += 1.0;
             signs.gaining += f64::from(u8::from(change.speed_gain > 0.0));
-            signs.styles[style_of(change.character)].0 += 1.0;
+            signs.styles[style_of(change.parameters)].0 += 1.0;
             if let Some((time, side)) = last.insert(change.vehicle, (change.time, change.side)) {
                 let is_back = side != change.side && change.time - time <= BACK_WITHIN_S;
                 signs.back += f64::from(u8::from(is_back));
@@ -88,15 +88,15 @@ fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Sign
         }
         if step % 10 == 0 {
             for vehicle in world.vehicles() {
-                signs.styles[style_of(vehicle.driver.character)].1 += vehicle.speed() / 1000.0;
+                signs.styles[style_of(vehicle.driver.parameters)].1 += vehicle.speed() / 1000.0;
             }
         }
     }
-    let tally = world.tally();
-    assert_eq!((tally.collisions, world.tally().overlaps, tally.stuck), (0, 0, 0));
-    signs.vehicle_km = tally.distance / 1000.0;
-    signs.hazard_held_up = tally.held_up_desires as f64 / tally.held_up_considerations as f64;
-    signs.hazard_free = tally.free_desires as f64 / tally.free_considerations as f64;
+    let counters = world.counters();
+    assert_eq!((counters.collisions, world.counters().overlaps, counters.stuck), (0, 0, 0));
+    signs.vehicle_km = counters.distance / 1000.0;
+    signs.hazard_held_up = counters.held_up_desires as f64 / counters.held_up_considerations as f64;
+    signs.hazard_free = counters.free_desires as f64 / counters.free_considerations as f64;
     signs
 }
 

@@ -95,13 +95,13 @@ impl Manner {
     }
 
     /// Share of the usual time gap that a driver with `desire` 0…1 accepts: d·T_min + (1 − d)·T_max.
-    pub fn tightness(&self, desire: f64) -> f64 {
+    pub fn headway_relaxation(&self, desire: f64) -> f64 {
         1.0 - desire.clamp(0.0, 1.0) * (1.0 - self.tightest)
     }
 
     /// The share after `dt` [s] of relaxing: T += (T_max − T) dt/τ.
     #[inline]
-    pub fn relaxed(&self, tightness: f64, dt: f64) -> f64 {
-        tightness + (1.0 - tightness) * (dt / self.relaxation).min(1.0)
+    pub fn relaxed(&self, headway_relaxation: f64, dt: f64) -> f64 {
+        headway_relaxation + (1.0 - headway_relaxation) * (dt / self.relaxation).min(1.0)
     }
 }

@@ -178,7 +178,7 @@ fn equal_lanes(
         ahead: Some(Ahead::steady(gap_ahead, speed)),
         behind: behind(gap_behind, vehicle),
         flow: Flow { spacing, speed, length: LENGTH },
-        prospect: speed,
+        anticipated_speed: speed,
         route: RouteView { alternative, ..ON_ROUTE },
     };
     let there = lane(offset - LENGTH, spacing - offset - LENGTH);
@@ -255,7 +255,7 @@ fn a_constant_hazard_knows_the_route_and_nothing_else() {
     };
     let equal = empty_road(driver(&LITERAL_FVDM, 8.0, 14.0));
     let mut slow = equal;
-    slow.there.prospect = 1.0;
+    slow.there.anticipated_speed = 1.0;
     let away = worked_case();
     let mut back = away;
     std::mem::swap(&mut back.here, &mut back.there);

@@ -70,8 +70,15 @@ fn any_route() -> impl Strategy<Value = RouteView> {
 fn any_lane() -> impl Strategy<Value = LaneView<'static>> {
     let flow =
         (6.0..300.0_f64, 0.0..40.0_f64).prop_map(|(spacing, speed)| Flow { spacing, speed, length: LENGTH });
-    (option::of(any_ahead()), option::of(any_behind()), flow, 0.0..40.0_f64, any_route())
-        .prop_map(|(ahead, behind, flow, prospect, route)| LaneView { ahead, behind, flow, prospect, route })
+    (option::of(any_ahead()), option::of(any_behind()), flow, 0.0..40.0_f64, any_route()).prop_map(
+        |(ahead, behind, flow, anticipated_speed, route)| LaneView {
+            ahead,
+            behind,
+            flow,
+            anticipated_speed,
+            route,
+        },
+    )
 }
 
 fn any_merging() -> impl Strategy<Value = Merging<'static>> {
@@ -127,7 +134,7 @@ proptest! {
         // A new follower would lose the faster leader, which is a harm to it and another matter.
         situation.there.behind = None;
         let before = model.appraise(&situation).gain;
-        situation.there.prospect += faster;
+        situation.there.anticipated_speed += faster;
         if let Some(ahead) = &mut situation.there.ahead {
             ahead.speed += faster;
             ahead.gap += faster;
@@ -174,7 +181,7 @@ proptest! {
         let harm = there.behind.map_or(0.0, |it| model.courtesy.harm(&me, there.ahead, &it));
         let bound = |hidden: f64| GainBound {
             desired: me.pace.desired,
-            prospects: [here.prospect, there.prospect + hidden],
+            anticipated_speeds: [here.anticipated_speed, there.anticipated_speed + hidden],
             routes: [here.route, there.route],
             section,
             band,
@@ -215,8 +222,15 @@ fn any_extreme_lane() -> impl Strategy<Value = LaneView<'static>> {
             onward,
             alternative,
         });
-    (any_extreme_ahead(), option::of(follower), flow, any_extreme_speed(), route)
-        .prop_map(|(ahead, behind, flow, prospect, route)| LaneView { ahead, behind, flow, prospect, route })
+    (any_extreme_ahead(), option::of(follower), flow, any_extreme_speed(), route).prop_map(
+        |(ahead, behind, flow, anticipated_speed, route)| LaneView {
+            ahead,
+            behind,
+            flow,
+            anticipated_speed,
+            route,
+        },
+    )
 }
 
 proptest! {
@@ -227,9 +241,9 @@ proptest! {
         model in any_model(), follow in any_follow(), speed in any_extreme_speed(), here in any_extreme_lane(),
         there in any_extreme_lane(), section in any_extreme_length(),
         sigma in prop_oneof![Just(0.0), Just(1e-3), Just(1.0)],
-        rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], tightness in 0.4..1.0_f64,
+        rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], headway_relaxation in 0.4..1.0_f64,
     ) {
-        let me = Driver { pace: Pace { speed, desired: 14.0, tightness }, acceleration: 0.0, follow, length: LENGTH };
+        let me = Driver { pace: Pace { speed, desired: 14.0, headway_relaxation }, acceleration: 0.0, follow, length: LENGTH };
         let model = Mcdm { rule, sigma, ..model };
         let situation = Situation { here, there, section, ..empty_road(me) };
         let appraisal = model.appraise(&situation);

@@ -81,11 +81,11 @@ const RELAXED: f64 = 1.2;
 #[test]
 fn a_desire_of_three_fifths_accepts_a_time_gap_of_0_816_s() {
     let manner = Manner::default();
-    assert_near(RELAXED * manner.tightness(0.6), 0.816, 1e-12);
-    assert_near(RELAXED * manner.tightness(1.0), 0.56, 1e-12);
-    assert_eq!(manner.tightness(0.0), 1.0);
-    assert_eq!(manner.tightness(-2.0), 1.0);
-    assert_eq!(manner.tightness(7.0), manner.tightness(1.0));
+    assert_near(RELAXED * manner.headway_relaxation(0.6), 0.816, 1e-12);
+    assert_near(RELAXED * manner.headway_relaxation(1.0), 0.56, 1e-12);
+    assert_eq!(manner.headway_relaxation(0.0), 1.0);
+    assert_eq!(manner.headway_relaxation(-2.0), 1.0);
+    assert_eq!(manner.headway_relaxation(7.0), manner.headway_relaxation(1.0));
 }
 
 #[test]
@@ -93,8 +93,9 @@ fn an_accepted_short_gap_relaxes_exponentially() {
     let after_25_seconds = |steps: u32| {
         let manner = Manner::default();
         RELAXED
-            * (0..steps)
-                .fold(manner.tightness(1.0), |share, _| manner.relaxed(share, 25.0 / f64::from(steps)))
+            * (0..steps).fold(manner.headway_relaxation(1.0), |share, _| {
+                manner.relaxed(share, 25.0 / f64::from(steps))
+            })
     };
     assert_near(after_25_seconds(2_500_000), 0.964557, 1e-6);
     let errors = [125, 250, 500].map(|steps| after_25_seconds(steps) - 0.964557);

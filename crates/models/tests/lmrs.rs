@@ -32,7 +32,7 @@ fn between(toward: Toward, here: f64, there: f64) -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 25.0, 30.0));
     situation.toward = toward;
     situation.here.ahead = Some(Ahead::steady(10.0, 25.0));
-    (situation.here.prospect, situation.there.prospect) = (here, there);
+    (situation.here.anticipated_speed, situation.there.anticipated_speed) = (here, there);
     situation
 }
 
@@ -79,13 +79,13 @@ fn v45_the_voluntary_desire_counts_less_against_a_strong_route_desire() {
 fn v45_the_accepted_time_gap_shrinks_with_desire_and_relaxes() {
     const LONGEST: f64 = 1.2;
     let manner = Manner::default();
-    assert_near(LONGEST * manner.tightness(0.6), 0.816, 1e-9);
-    let (dt, mut tightness) = (1e-4, manner.tightness(1.0));
-    assert_near(LONGEST * tightness, 0.56, 1e-9);
+    assert_near(LONGEST * manner.headway_relaxation(0.6), 0.816, 1e-9);
+    let (dt, mut headway_relaxation) = (1e-4, manner.headway_relaxation(1.0));
+    assert_near(LONGEST * headway_relaxation, 0.56, 1e-9);
     for _ in 0..250_000 {
-        tightness = manner.relaxed(tightness, dt);
+        headway_relaxation = manner.relaxed(headway_relaxation, dt);
     }
-    assert_near(LONGEST * tightness, 0.964557, 1e-6);
+    assert_near(LONGEST * headway_relaxation, 0.964557, 1e-6);
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn the_stronger_the_desire_the_more_a_driver_does_for_it() {
     let mut situation = between(Toward::Offside, 20.0, 20.0);
     let pressure = |situation: &Situation| model.pressure(situation, &model.appraise(situation));
     assert_eq!(pressure(&situation), 0.0);
-    situation.here.prospect = 10.0;
+    situation.here.anticipated_speed = 10.0;
     assert_near(pressure(&situation), 10.0 * 3.6 / 69.6, 1e-12);
     situation.here.route = in_a_wrong_lane(10.0);
     assert_eq!(pressure(&situation), 1.0, "never more");

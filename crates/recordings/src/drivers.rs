@@ -13,8 +13,8 @@ use crate::sideways::{Extent, extents, last_before};
 /// What is assumed of a recorded driver, because no recording shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assumed {
-    /// Its place in the table of characters.
-    pub character: u32,
+    /// Its place in the table of driver parameters.
+    pub parameters: u32,
     /// Its desired speed as a share of the one that the limit and its class allow, which for a simulated driver is that
     /// of its style.
     pub speed_factor: f64,
@@ -24,10 +24,10 @@ pub struct Assumed {
 const LEAST_FACTOR: f64 = 0.1;
 
 impl Assumed {
-    /// A driver of `character` who wants to drive as it did for most of the time that it was seen: its speed factor is
-    /// that which it stayed below for 85 % of that time, at least 0.1 and at most 1. Who was held up all the time wants
-    /// too little.
-    pub fn by_its_speeds(matched: &Matched<'_>, track: usize, character: u32) -> Assumed {
+    /// A driver with these parameters who wants to drive as it did for most of the time that it was seen: its speed
+    /// factor is that which it stayed below for 85 % of that time, at least 0.1 and at most 1. Who was held up all the
+    /// time wants too little.
+    pub fn by_its_speeds(matched: &Matched<'_>, track: usize, parameters: u32) -> Assumed {
         let (track, places) = (&matched.recording.tracks[track], &matched.places[track]);
         let class = class_of(track.class);
         let mut factors: Vec<f64> = track
@@ -41,7 +41,7 @@ impl Assumed {
             .collect();
         factors.sort_by(f64::total_cmp);
         let usual = factors.get(factors.len() * 85 / 100).copied().unwrap_or(1.0);
-        Assumed { character, speed_factor: usual.clamp(LEAST_FACTOR, 1.0) }
+        Assumed { parameters, speed_factor: usual.clamp(LEAST_FACTOR, 1.0) }
     }
 }
 

@@ -2,9 +2,9 @@
 //! driver as it does in a simulated one.
 //!
 //! Observed: place, speed, acceleration, length; from what came later, where a vehicle goes, and from when to when it
-//! changes lanes, during which it stands in both. Assumed by the caller: the driver's character and desired speed. Not
-//! to be seen in a recording: who waits for a gap, so that [`Situation::merging`] stays empty, and who accepts a
-//! shorter gap for now.
+//! changes lanes, during which it stands in both. Assumed by the caller: the driver parameters and the desired
+//! speed. Not to be seen in a recording: who waits for a gap, so that [`Situation::merging`] stays empty, and who
+//! accepts a shorter gap for now.
 
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
@@ -29,7 +29,7 @@ const FARTHEST: f64 = 50.0;
 pub struct Replay<'a> {
     matched: &'a Matched<'a>,
     navigator: &'a Navigator,
-    characters: &'a [Style],
+    driver_parameters: &'a [Style],
     /// For each track its driver.
     drivers: Vec<Driver>,
 }
@@ -37,13 +37,15 @@ pub struct Replay<'a> {
 /// What was assumed of a driver cannot be.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum ReplayError {
-    /// A character is not in the table.
-    #[error("vehicle {vehicle} is given the character {character}, but there are {count}, from 0 on")]
+    /// Driver parameters are not in the table.
+    #[error(
+        "vehicle {vehicle} is given the driver parameters {parameters}, but there are {count} sets, from 0 on"
+    )]
     Character {
         /// Id of the track.
         vehicle: i64,
-        /// Its character.
-        character: u32,
+        /// Its driver parameters.
+        parameters: u32,
         /// How many there are.
         count: usize,
     },
@@ -58,7 +60,8 @@ pub enum ReplayError {
 }
 
 impl<'a> Replay<'a> {
-    /// A recording with all its lane `changes`, seen by drivers of `characters` who find their ways by `navigator`.
+    /// A recording with all its lane `changes`, seen by drivers with `driver_parameters` who find their ways by
+    /// `navigator`.
     /// `assume` says for each track, by its place in the recording, what its driver is like.
     ///
     /// Each vehicle goes where it went. Where the recording ends before it left the map, it is taken to go to the exit
@@ -66,25 +69,25 @@ impl<'a> Replay<'a> {
     /// changes do not lead where it went.
     ///
     /// # Errors
-    /// If somebody is given a character that there is not, or a desired speed not above 0.
+    /// If somebody is given driver parameters that there are not, or a desired speed not above 0.
     pub fn new(
         matched: &'a Matched<'a>,
         changes: &[LaneChange],
         navigator: &'a Navigator,
-        characters: &'a [Style],
+        driver_parameters: &'a [Style],
         assume: impl Fn(usize) -> Assumed,
     ) -> Result<Replay<'a>, ReplayError> {
         let drivers = drivers(matched, changes, navigator, assume);
         for (track, driver) in matched.recording.tracks.iter().zip(&drivers) {
-            let (vehicle, Assumed { character, speed_factor: factor }) = (track.id, driver.assumed);
-            if character as usize >= characters.len() {
-                return Err(ReplayError::Character { vehicle, character, count: characters.len() });
+            let (vehicle, Assumed { parameters, speed_factor: factor }) = (track.id, driver.assumed);
+            if parameters as usize >= driver_parameters.len() {
+                return Err(ReplayError::Character { vehicle, parameters, count: driver_parameters.len() });
             }
             if !(factor > 0.0 && factor.is_finite()) {
                 return Err(ReplayError::SpeedFactor { vehicle, factor });
             }
         }
-        Ok(Replay { matched, navigator, characters, drivers })
+        Ok(Replay { matched, navigator, driver_parameters, drivers })
     }
 
     /// The instant of `frame`. A vehicle is there from its first state with a place until its front bumper passes an
@@ -127,7 +130,7 @@ impl<'a> Replay<'a> {
             acceleration: smooth::acceleration(&track.states, at, ACCELERATION_REACH, step),
             length: track.length,
             class: driver.class,
-            character: driver.assumed.character,
+            parameters: driver.assumed.parameters,
             desired: driver.desired(self.matched.network.chain(chain).limit(x)),
             destination: if leads_on { driver.destination } else { easiest(self.navigator, chain, x) },
             change,
@@ -182,8 +185,8 @@ pub struct Frame<'r> {
 impl Frame<'_> {
     /// The instant as a scene, in which a vehicle is named by its track's place in the recording.
     pub fn scene(&self) -> Scene<'_> {
-        let Replay { matched, navigator, characters, .. } = self.replay;
-        self.snapshot.scene(matched.network, navigator, characters)
+        let Replay { matched, navigator, driver_parameters, .. } = self.replay;
+        self.snapshot.scene(matched.network, navigator, driver_parameters)
     }
 
     /// Ids of the vehicles that are there, in order.

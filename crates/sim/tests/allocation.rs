@@ -57,8 +57,8 @@ fn allocations_of_a_step(world: &mut World) -> u64 {
 fn world(network: Network, total: f64) -> World {
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
     let attention = Attention { concentrated_for: 20.0, inattentive_for: 20.0, ..Attention::default() };
-    let characters = vec![drivers::aggressive(), Style { attention, ..drivers::conservative() }];
-    World::new(network, characters, demand, Setup { step: 0.1, seed: 1, threads: 1 })
+    let driver_parameters = vec![drivers::aggressive(), Style { attention, ..drivers::conservative() }];
+    World::new(network, driver_parameters, demand, Setup { step: 0.1, seed: 1, threads: 1 })
         .expect("the set-up makes sense")
 }
 
@@ -67,10 +67,10 @@ fn steps_of_traffic_that_stays_in_its_lanes_allocate_nothing() {
     let mut world = world(Road { length: 3000.0, is_ring: true, ..Road::default() }.network(), 0.0);
     for number in 0..100 {
         let x = 30.0 * f64::from(number) + 10.0;
-        let (chain, character) = (ChainIndex(0), number % 2);
+        let (chain, parameters) = (ChainIndex(0), number % 2);
         let class = if number % 10 == 0 { Class::Truck } else { Class::Car };
         world
-            .place(NewVehicle { chain, x, speed: 15.0, class, character, destination: None })
+            .place(NewVehicle { chain, x, speed: 15.0, class, parameters, destination: None })
             .expect("it fits on the road");
     }
     (0..600).for_each(|_| world.step());

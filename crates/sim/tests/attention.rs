@@ -23,9 +23,9 @@ fn world(network: Network, styles: Vec<Style>, demand: Demand) -> World {
     World::new(network, styles, demand, Setup { step: 0.1, seed: 1, threads: 1 }).expect("a world")
 }
 
-fn put(world: &mut World, chain: u32, x: f64, speed: f64, character: u32) -> VehicleId {
+fn put(world: &mut World, chain: u32, x: f64, speed: f64, parameters: u32) -> VehicleId {
     let (chain, class, destination) = (ChainIndex(chain), Class::Car, Some(0));
-    world.place(NewVehicle { chain, x, speed, class, character, destination }).expect("it fits on the road")
+    world.place(NewVehicle { chain, x, speed, class, parameters, destination }).expect("it fits on the road")
 }
 
 /// What a test follows of a driver.
@@ -44,7 +44,7 @@ fn the_inattentive_consider_lanes_every_two_seconds() {
         (0..100).for_each(|_| world.step());
         world.reset_counts();
         (0..1000).for_each(|_| world.step());
-        world.tally().considerations
+        world.counters().considerations
     };
     for style in [drivers::conservative(), drivers::aggressive()] {
         assert_eq!(alone(style.clone()), 100);

@@ -83,7 +83,7 @@ fn v36_without_weights_the_stochastic_rule_is_a_coin_that_hardly_ever_falls() {
     let (indifferent, changes) = motorway(both().map(indifferent).to_vec(), 1);
     let (coins, _) = motorway(both().map(|it| coin(it, hazard)).to_vec(), 1);
     assert_eq!(indifferent.state_hash(), coins.state_hash());
-    let per_vehicle_km = changes.len() as f64 / (indifferent.tally().distance / 1000.0);
+    let per_vehicle_km = changes.len() as f64 / (indifferent.counters().distance / 1000.0);
     assert!(per_vehicle_km < 0.02 && !changes.is_empty(), "{per_vehicle_km}");
 }
 
@@ -120,7 +120,7 @@ fn v37_identical_drivers_in_equilibrium_on_equal_lanes_feel_no_desire() {
                         x: ((number / 2) as f64 + if number % 2 == 1 { ahead } else { 0.0 }) * spacing + 1.0,
                         speed: SPEED,
                         class: Class::Car,
-                        character: 0,
+                        parameters: 0,
                         destination: None,
                     })
                     .expect("it fits on the road");
@@ -129,7 +129,7 @@ fn v37_identical_drivers_in_equilibrium_on_equal_lanes_feel_no_desire() {
                 world.step();
                 assert!(world.vehicles().all(|it| it.driver.phase == Phase::Cruises));
             }
-            assert!(world.tally().considerations >= 100 * 2 * CARS as u64);
+            assert!(world.counters().considerations >= 100 * 2 * CARS as u64);
         }
     }
 }
@@ -155,7 +155,7 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
             let destination = Some(0);
             let class = Class::Car;
             world
-                .place(NewVehicle { chain, x: x - start, speed: 20.0, class, character: 0, destination })
+                .place(NewVehicle { chain, x: x - start, speed: 20.0, class, parameters: 0, destination })
                 .expect("it fits on the road");
         }
         let steps_per_epoch = world.clock().steps(1.0);
@@ -235,9 +235,9 @@ fn held_up(style: Style, lanes: usize, seed: u64) -> World {
     world
 }
 
-fn put(world: &mut World, lane: u32, x: f64, speed: f64, character: u32) {
+fn put(world: &mut World, lane: u32, x: f64, speed: f64, parameters: u32) {
     let (chain, class, destination) = (ChainIndex(lane), Class::Car, Some(0));
-    world.place(NewVehicle { chain, x, speed, class, character, destination }).expect("it fits on the road");
+    world.place(NewVehicle { chain, x, speed, class, parameters, destination }).expect("it fits on the road");
 }
 
 fn phase_of_the_first(world: &World) -> Phase {
@@ -266,7 +266,7 @@ fn v49_without_a_lane_beside_nobody_wants_to_change() {
             world.step();
             assert_eq!(phase_of_the_first(&world), Phase::Cruises);
         }
-        assert!(world.tally().considerations > 200);
+        assert!(world.counters().considerations > 200);
     }
 }
 
@@ -329,9 +329,9 @@ fn truck_beside(passing: Style) -> World {
     let setup = Setup { step: 0.1, seed: 1, threads: 1 };
     let mut world = World::new(network, vec![drivers::conservative(), passing], nobody, setup)
         .expect("the set-up makes sense");
-    let mut put = |chain, x, speed, class, character| {
+    let mut put = |chain, x, speed, class, parameters| {
         world
-            .place(NewVehicle { chain, x, speed, class, character, destination: Some(0) })
+            .place(NewVehicle { chain, x, speed, class, parameters, destination: Some(0) })
             .expect("it fits on the road")
     };
     put(ChainIndex(0), END - 18.0, 0.0, Class::Truck, 0);

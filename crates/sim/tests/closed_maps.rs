@@ -98,9 +98,9 @@ fn trips_on_a_ring_start_and_end_at_places_inside_and_nobody_collides() {
     let mut world = world(network, places.clone(), 900.0, 5);
     let left = drive(&mut world, &places, 18_000);
     assert!(left > 350, "{left}");
-    let tally = world.tally();
+    let counters = world.counters();
     assert_eq!(
-        (tally.collisions, world.tally().overlaps, tally.stuck, tally.emergency_brakings),
+        (counters.collisions, world.counters().overlaps, counters.stuck, counters.emergency_brakings),
         (0, 0, 0, 0)
     );
     // Half of the destinations are in the other lane.
@@ -117,15 +117,15 @@ fn a_driver_beyond_its_place_takes_another_route() {
         x: 300.0,
         speed: 14.0,
         class: Class::Car,
-        character: 1,
+        parameters: 1,
         destination: Some(0),
     };
     world.place(new).expect("it fits on the road");
     (0..620).for_each(|_| world.step());
     assert_eq!((world.on_road(), world.counts().left), (1, 0));
     (0..60).for_each(|_| world.step());
-    assert_eq!((world.on_road(), world.counts().left, world.tally().missed_turns), (0, 1, 0));
-    let distance = world.tally().distance;
+    assert_eq!((world.on_road(), world.counts().left, world.counters().missed_turns), (0, 1, 0));
+    let distance = world.counters().distance;
     assert!((900.0..901.5).contains(&distance), "{distance} m");
 }
 
@@ -139,7 +139,7 @@ fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
         x: 145.0,
         speed: 14.0,
         class: Class::Car,
-        character: 1,
+        parameters: 1,
         destination: Some(0),
     };
     world.place(car).expect("it fits on the road");
@@ -149,9 +149,9 @@ fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
             .expect("it fits on the road");
     }
     (0..600).for_each(|_| world.step());
-    assert_eq!((world.tally().missed_turns, world.counts().left), (1, 0));
+    assert_eq!((world.counters().missed_turns, world.counts().left), (1, 0));
     (0..600).for_each(|_| world.step());
-    assert_eq!((world.tally().missed_turns, world.counts().left), (1, 1));
+    assert_eq!((world.counters().missed_turns, world.counts().left), (1, 1));
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn nobody_starts_before_a_driver_who_would_have_to_brake_harder_than_2_mps2() {
     }
     assert!(started > 100 && was_refused);
     assert!((1.0..2.0 + 1e-3).contains(&hardest), "{hardest} m/s²");
-    assert_eq!((world.tally().collisions, world.tally().emergency_brakings), (0, 0));
+    assert_eq!((world.counters().collisions, world.counters().emergency_brakings), (0, 0));
 }
 
 #[test]

@@ -9,8 +9,9 @@ use roads::{Road, drivers};
 
 fn world(network: Network, total: f64, step: f64, seed: u64) -> World {
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
-    World::new(network, characters, demand, Setup { step, seed, threads: 1 }).expect("the set-up makes sense")
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, driver_parameters, demand, Setup { step, seed, threads: 1 })
+        .expect("the set-up makes sense")
 }
 
 #[test]
@@ -69,10 +70,10 @@ fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
             .map(|it| if let Event::Left { duration, .. } = it { *duration } else { 0.0 })
             .sum::<f64>();
     }
-    let tally = world.tally();
-    assert_eq!(tally.updates, updates);
+    let counters = world.counters();
+    assert_eq!(counters.updates, updates);
     // The last step of those who left ended beyond the road.
-    let last_steps = tally.distance - distance;
+    let last_steps = counters.distance - distance;
     assert!(last_steps > 0.0 && last_steps < 5.0 * world.counts().left as f64, "{last_steps} m");
     assert_eq!(world.counts().trip_time, durations);
 }
@@ -93,7 +94,7 @@ fn saturated(step: f64) -> (f64, Vec<f64>) {
         world.reset_counts();
         (0..(3600.0 * HOURS / step) as u32).for_each(|_| world.step());
         left += world.counts().left;
-        rates.push(1000.0 * world.counts().discretionary_changes as f64 / world.tally().distance);
+        rates.push(1000.0 * world.counts().discretionary_changes as f64 / world.counters().distance);
         assert!(world.waiting() > 0);
     }
     (left as f64 / (HOURS * SEEDS as f64), rates)

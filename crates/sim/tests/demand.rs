@@ -215,9 +215,9 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
         message(&|it| it.origins[0].weights[0] = f64::NAN),
         "the weight of an exit is NaN: it must be a number not below 0"
     );
-    assert_eq!(refusal(&|it| it.population.clear(), 0.1), Some(WorldError::NoCharacters));
+    assert_eq!(refusal(&|it| it.population.clear(), 0.1), Some(WorldError::NoDriverParameters));
     assert_eq!(
         refusal(&|it| it.population.iter_mut().for_each(|share| share.weight = 0.0), 0.1),
-        Some(WorldError::NoCharacters)
+        Some(WorldError::NoDriverParameters)
     );
 }

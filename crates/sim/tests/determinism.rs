@@ -84,7 +84,7 @@ fn hash_of_a_ring(is_reversed: bool, threads: usize) -> u64 {
                 x: 15.0 + 16.0 * f64::from(number),
                 speed: 12.0,
                 class: if number % 10 == 0 { Class::Truck } else { Class::Car },
-                character: number % 2,
+                parameters: number % 2,
                 destination: None,
             })
             .expect("it fits on the road");
@@ -94,7 +94,7 @@ fn hash_of_a_ring(is_reversed: bool, threads: usize) -> u64 {
         assert_eq!(world.on_road(), CARS as usize);
     }
     assert!(world.counts().discretionary_changes > 30);
-    assert_eq!((world.tally().collisions, world.tally().overlaps, world.tally().stuck), (0, 0, 0));
+    assert_eq!((world.counters().collisions, world.counters().overlaps, world.counters().stuck), (0, 0, 0));
     world.state_hash()
 }
 
@@ -129,8 +129,8 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
     let run = |order: &mut dyn Iterator<Item = u32>| {
         let network = Road { lanes: 2, length: 4000.0, ..Road::default() }.network();
         let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
-        let characters = styles().into_iter().map(resolute).collect();
-        let mut world = World::new(network, characters, nobody, setup).unwrap();
+        let driver_parameters = styles().into_iter().map(resolute).collect();
+        let mut world = World::new(network, driver_parameters, nobody, setup).unwrap();
         let mut number_of = Vec::new();
         for number in order {
             number_of.push(number);
@@ -140,7 +140,7 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
                     x: 20.0 + 40.0 * f64::from(number),
                     speed: 18.0 + f64::from(number * 7 % 9),
                     class: if number % 10 == 0 { Class::Truck } else { Class::Car },
-                    character: u32::from(number % 4 != 0),
+                    parameters: u32::from(number % 4 != 0),
                     destination: Some(0),
                 })
                 .expect("it fits on the road");

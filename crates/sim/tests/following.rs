@@ -83,14 +83,14 @@ fn one_lane(sets: &[Published], length: f64, is_ring: bool, step: f64) -> World 
 }
 
 /// Puts a car that drives on as the road leads at `x` [m] of the whole road.
-fn place(world: &mut World, x: f64, speed: f64, character: u32) {
+fn place(world: &mut World, x: f64, speed: f64, parameters: u32) {
     let (mut chain, mut x) = (ChainIndex(0), x);
     while x > world.network().chain(chain).length {
         x -= world.network().chain(chain).length;
         chain = world.network().chain(chain).following[0];
     }
     world
-        .place(NewVehicle { chain, x, speed, class: Class::Car, character, destination: None })
+        .place(NewVehicle { chain, x, speed, class: Class::Car, parameters, destination: None })
         .expect("it fits on the road");
 }
 
@@ -285,8 +285,8 @@ fn approach(set: Published, leader: Published, speed: f64, gap: f64, leader_spee
         stop.shortest_gap = stop.shortest_gap.min(stop.final_gap);
         stop.hardest_braking = stop.hardest_braking.max(f64::from(-follower.acceleration));
     }
-    stop.emergencies = world.tally().emergency_brakings;
-    assert_eq!(world.tally().collisions, u64::from(stop.shortest_gap < 0.0));
+    stop.emergencies = world.counters().emergency_brakings;
+    assert_eq!(world.counters().collisions, u64::from(stop.shortest_gap < 0.0));
     stop
 }
 

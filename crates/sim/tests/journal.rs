@@ -10,9 +10,9 @@ use roads::{Road, drivers};
 fn world(map: &Map, total: f64) -> World {
     let network = map.network.clone().regulated(&regulations(map));
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: 0.1, seed: 5, threads: 1 };
-    World::new(network, characters, demand, setup).expect("the set-up makes sense").with_journal()
+    World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense").with_trip_log()
 }
 
 /// The records of all trips, with the ways that were driven [m]; each that ended is checked.
@@ -41,18 +41,18 @@ fn records(world: &mut World, steps: u32) -> Vec<(TripRecord, f64)> {
 /// Sums over all records are what the world counted.
 fn add_up(mut world: World, steps: u32) {
     let records = records(&mut world, steps);
-    let (counts, tally) = (*world.counts(), world.tally());
+    let (counts, counters) = (*world.counts(), world.counters());
     let sum = |of: fn(&TripRecord) -> u32| records.iter().map(|(it, _)| u64::from(of(it))).sum::<u64>();
     assert_eq!(records.len() as u64, counts.entered);
     assert_eq!(sum(|it| it.lane_changes), counts.discretionary_changes + counts.route_changes);
-    assert_eq!(sum(|it| it.route_changes), tally.route_changes);
-    assert_eq!(sum(|it| it.missed_turns), tally.missed_turns);
+    assert_eq!(sum(|it| it.route_changes), counters.route_changes);
+    assert_eq!(sum(|it| it.missed_turns), counters.missed_turns);
     assert!(sum(|it| it.stops) >= counts.stops && counts.left > 100, "{counts:?}");
     assert!(sum(|it| it.lane_changes) > 50);
     // In a bend the lanes beside each other differ in length; who came to a halt within a step is a few centimetres
     // off.
     let way: f64 = records.iter().map(|(_, way)| way).sum();
-    assert!((way / tally.distance - 1.0).abs() < 1e-3, "{way} of {} m", tally.distance);
+    assert!((way / counters.distance - 1.0).abs() < 1e-3, "{way} of {} m", counters.distance);
 }
 
 #[test]
@@ -92,11 +92,11 @@ fn without_a_journal_nothing_is_recorded_and_traffic_is_the_same() {
     let plain = || {
         let network = Road { lanes: 2, length: 2000.0, ..Road::default() }.network();
         let demand = drivers::demand(&network, 3000.0, 0.1, &[0.3, 0.7]);
-        let characters = vec![drivers::aggressive(), drivers::conservative()];
+        let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
         let setup = Setup { step: 0.1, seed: 5, threads: 1 };
-        World::new(network, characters, demand, setup).expect("the set-up makes sense")
+        World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense")
     };
-    let (mut plain, mut recorded) = (plain(), plain().with_journal());
+    let (mut plain, mut recorded) = (plain(), plain().with_trip_log());
     for _ in 0..2000 {
         plain.step();
         recorded.step();
@@ -129,9 +129,9 @@ fn what_happens_on_the_way_is_told_with_who_where_and_when_as_often_as_it_is_cou
         }
     }
     let count = |kind| told.iter().filter(|it| it.kind == kind).count() as u64;
-    let tally = world.tally();
-    assert_eq!(count(DrivingEventKind::EmergencyBraking), tally.emergency_brakings);
-    assert_eq!(count(DrivingEventKind::MissedTurn), tally.missed_turns);
-    assert_eq!(count(DrivingEventKind::RouteChange), tally.route_changes);
+    let counters = world.counters();
+    assert_eq!(count(DrivingEventKind::EmergencyBraking), counters.emergency_brakings);
+    assert_eq!(count(DrivingEventKind::MissedTurn), counters.missed_turns);
+    assert_eq!(count(DrivingEventKind::RouteChange), counters.route_changes);
     assert!(count(DrivingEventKind::Halt) >= world.counts().stops && world.counts().stops > 500);
 }

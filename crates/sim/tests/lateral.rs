@@ -36,10 +36,10 @@ fn world(network: Network, styles: Vec<Style>, threads: usize) -> World {
         .expect("the set-up makes sense")
 }
 
-fn put(world: &mut World, lane: u32, x: f64, speed: f64, class: Class, character: u32) {
+fn put(world: &mut World, lane: u32, x: f64, speed: f64, class: Class, parameters: u32) {
     let destination: Destination = Some(0);
     world
-        .place(NewVehicle { chain: ChainIndex(lane), x, speed, class, character, destination })
+        .place(NewVehicle { chain: ChainIndex(lane), x, speed, class, parameters, destination })
         .expect("it fits on the road");
 }
 
@@ -205,7 +205,7 @@ fn v47_of_two_who_aim_at_one_gap_exactly_one_enters() {
                 entered += changes(&world).filter(|it| it.vehicle == 0 && it.is_completed).count();
             }
             assert!(both_wanted && entered == 1);
-            assert_eq!((world.tally().overlaps, world.tally().collisions), (0, 0));
+            assert_eq!((world.counters().overlaps, world.counters().collisions), (0, 0));
             hashes.push(world.state_hash());
         }
         assert!(hashes.iter().all(|it| *it == hashes[0]));
@@ -238,5 +238,5 @@ fn v47_a_change_is_called_off_when_the_new_leader_brakes_hard_and_the_driver_ret
     let vehicle = world.vehicles().find(|it| it.id() == 0).unwrap();
     assert_eq!((vehicle.spot.chain, vehicle.lateral_offset()), (ChainIndex(0), 0.0));
     assert_eq!(world.on_road(), 3);
-    assert_eq!((world.tally().overlaps, world.tally().collisions), (0, 0));
+    assert_eq!((world.counters().overlaps, world.counters().collisions), (0, 0));
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::{Map, regulations};
-use laneweave_sim::{Event, Setup, Stay, VehicleId, World};
+use laneweave_sim::{Event, LaneletAggregate, Setup, VehicleId, World};
 
 #[path = "roads/drivers.rs"]
 mod drivers;
@@ -14,9 +14,9 @@ const STEP: f64 = 0.1;
 fn world(map: &Map, total: f64) -> World {
     let network = map.network.clone().regulated(&regulations(map));
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: STEP, seed: 5, threads: 1 };
-    World::new(network, characters, demand, setup).expect("the set-up makes sense").with_journal()
+    World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense").with_trip_log()
 }
 
 /// The lanelet of each vehicle, with its speed.
@@ -33,8 +33,8 @@ fn places(world: &World) -> HashMap<VehicleId, (usize, f64)> {
 fn compare(mut world: World, [before, steps]: [u32; 2]) {
     (0..before).for_each(|_| world.step());
     world.reset_counts();
-    let nothing = vec![Stay::default(); world.network().lanelets.len()];
-    assert_eq!(world.stays(), nothing);
+    let nothing = vec![LaneletAggregate::default(); world.network().lanelets.len()];
+    assert_eq!(world.lanelet_aggregates(), nothing);
     let mut seen = nothing;
     // Those who come onto a lanelet or leave it within a step are there for a part of it.
     let mut passing = vec![0; seen.len()];
@@ -61,11 +61,11 @@ fn compare(mut world: World, [before, steps]: [u32; 2]) {
         }
         last = now;
     }
-    let stays = world.stays();
-    assert_eq!(stays, world.stays(), "asking changes nothing");
-    let total = |of: fn(&Stay) -> f64, all: &[Stay]| all.iter().map(of).sum::<f64>();
+    let stays = world.lanelet_aggregates();
+    assert_eq!(stays, world.lanelet_aggregates(), "asking changes nothing");
+    let total = |of: fn(&LaneletAggregate) -> f64, all: &[LaneletAggregate]| all.iter().map(of).sum::<f64>();
     assert!(total(|it| f64::from(it.passed), &stays) > 500.0);
-    for (of, tolerance) in [((|it| it.time) as fn(&Stay) -> f64, 2e-3), (|it| it.way, 2e-3)] {
+    for (of, tolerance) in [((|it| it.time) as fn(&LaneletAggregate) -> f64, 2e-3), (|it| it.way, 2e-3)] {
         let [noted, expected] = [total(of, &stays), total(of, &seen)];
         assert!((noted / expected - 1.0).abs() < tolerance, "{noted} of {expected}");
     }

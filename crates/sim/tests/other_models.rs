@@ -33,7 +33,7 @@ fn among_unyielding(network: Network, style: Style, places: &[(u32, f64, f64)]) 
                 x: *x,
                 speed: *speed,
                 class: Class::Car,
-                character: u32::from(number > 0),
+                parameters: u32::from(number > 0),
                 destination: Some(0),
             })
             .expect("it fits on the road");
@@ -55,7 +55,7 @@ fn passes(style: Style, speed: f64, is_mirrored: bool) -> bool {
     let network = Road { lanes: 2, length: 4000.0, is_mirrored, ..Road::default() }.network();
     let mut world = among_unyielding(network, style, &[(0, 300.0, speed), (1, 360.0, speed)]);
     (0..600).for_each(|_| world.step());
-    assert_eq!(world.tally().collisions, 0);
+    assert_eq!(world.counters().collisions, 0);
     vehicle(&world, 0).x() > vehicle(&world, 1).x()
 }
 

@@ -43,7 +43,7 @@ fn straight(length: f64) -> World {
 fn put(world: &mut World, chain: u32, x: f64, speed: f64, class: Class) -> u32 {
     let (chain, destination) = (ChainIndex(chain), Some(0));
     world
-        .place(NewVehicle { chain, x, speed, class, character: 0, destination })
+        .place(NewVehicle { chain, x, speed, class, parameters: 0, destination })
         .expect("it fits on the road")
 }
 
@@ -86,7 +86,10 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     assert_eq!(toward, Toward::Offside);
     // Who is recommended no other way keeps its own.
     assert_eq!(band, f64::INFINITY);
-    assert_eq!((me.pace.speed, me.pace.desired, me.pace.tightness, me.length), (20.0, 30.0, 1.0, CAR));
+    assert_eq!(
+        (me.pace.speed, me.pace.desired, me.pace.headway_relaxation, me.length),
+        (20.0, 30.0, 1.0, CAR)
+    );
     assert_eq!(here.ahead, Some(Ahead::steady(60.0 - CAR, 18.0)));
     assert_eq!(there.ahead, Some(Ahead::steady(200.0 - TRUCK, 22.0)));
     let behind = here.behind.unwrap();
@@ -97,8 +100,8 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     assert_near(here.flow.speed, 50.0 / 3.0);
     assert_eq!((there.flow.spacing, there.flow.speed, there.flow.length), (150.0, 23.5, (CAR + TRUCK) / 2.0));
     // The second leader holds up more than the first.
-    assert_near(here.prospect, anticipated(150.0 - CAR, 10.0));
-    assert_near(there.prospect, anticipated(200.0 - TRUCK, 22.0));
+    assert_near(here.anticipated_speed, anticipated(150.0 - CAR, 10.0));
+    assert_near(there.anticipated_speed, anticipated(200.0 - TRUCK, 22.0));
     assert_eq!((here.route.changes, there.route.changes), (0, 0));
     assert_eq!((here.route.remaining, section), (f64::INFINITY, SIGHT));
     assert_near(here.route.onward, (500.0 - SIGHT) / 30.0);
@@ -114,7 +117,7 @@ fn an_empty_window_looks_like_a_free_road_and_is_clipped_where_the_lane_begins_a
         let Situation { here, there, .. } = look(&scene, &world, me, Side::Left);
         for lane in [here, there] {
             assert_eq!((lane.flow.spacing, lane.flow.speed, lane.flow.length), (extent, 30.0, CAR));
-            assert_eq!((lane.ahead, lane.behind, lane.prospect), (None, None, 30.0));
+            assert_eq!((lane.ahead, lane.behind, lane.anticipated_speed), (None, None, 30.0));
         }
     }
     let mut world = straight(1000.0);
@@ -138,7 +141,7 @@ fn leaders_and_followers_are_seen_across_the_ends_of_chains() {
     let back = look(&scene, &world, before, Side::Left);
     assert_eq!(back.here.ahead, Some(Ahead::steady(80.0 - CAR, 16.0)));
     assert_eq!(back.there.ahead, Some(Ahead::steady(110.0 - CAR, 25.0)));
-    assert_near(back.here.prospect, anticipated(80.0 - CAR, 16.0));
+    assert_near(back.here.anticipated_speed, anticipated(80.0 - CAR, 16.0));
     assert_eq!((back.here.flow.spacing, back.here.flow.speed), (300.0, 16.0));
     let front = look(&scene, &world, beyond, Side::Left);
     let behind = front.here.behind.unwrap();
@@ -161,7 +164,7 @@ fn the_end_of_a_lane_stands_in_the_way_like_a_vehicle() {
     let Situation { here, there, section, .. } = look(&scene, &world, me, Side::Left);
     assert_eq!(here.ahead.map(|it| it.speed), Some(0.0));
     assert_near(here.ahead.unwrap().gap, 100.0);
-    assert_near(here.prospect, anticipated(100.0, 0.0));
+    assert_near(here.anticipated_speed, anticipated(100.0, 0.0));
     assert_near(here.flow.spacing, 200.0);
     assert_eq!((here.route.changes, there.route.changes), (1, 0));
     assert_near(here.route.remaining, 100.0);
@@ -169,7 +172,7 @@ fn the_end_of_a_lane_stands_in_the_way_like_a_vehicle() {
     // The neighbour sees the end, too, behind the one who is nearer.
     let view = look(&scene, &world, beside, Side::Right).there;
     assert_eq!(view.ahead, Some(Ahead::steady(100.0 - CAR, 20.0)));
-    assert_near(view.prospect, anticipated(200.0, 0.0));
+    assert_near(view.anticipated_speed, anticipated(200.0, 0.0));
     assert_near(view.route.remaining, 200.0);
 }
 
@@ -183,7 +186,7 @@ fn a_route_counts_the_changes_and_the_road_that_remains_for_them() {
             x,
             speed: 20.0,
             class: Class::Car,
-            character: 0,
+            parameters: 0,
             destination: Some(ramp),
         };
         let id = world.place(new).expect("it fits on the road");
@@ -207,7 +210,7 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
     let (slow, fast) = (car(&mut world, 0, 240.0, 20.0), car(&mut world, 1, 210.0, 20.0));
     let chain = ChainIndex(0);
     let destination = Some(0);
-    let changer = NewVehicle { chain, x: 300.0, speed: 20.0, class: Class::Car, character: 1, destination };
+    let changer = NewVehicle { chain, x: 300.0, speed: 20.0, class: Class::Car, parameters: 1, destination };
     let changer = world.place(changer).expect("it fits on the road");
     let mut seen_from = std::collections::BTreeSet::new();
     for _ in 0..60 {
@@ -251,7 +254,7 @@ impl Waiting {
         let (chain, destination) = (ChainIndex(lane), Some(0));
         let (x, class) = (500.0 + forward, Class::Car);
         let waiting = world
-            .place(NewVehicle { chain, x, speed: 20.0, class, character: 1, destination })
+            .place(NewVehicle { chain, x, speed: 20.0, class, parameters: 1, destination })
             .expect("it fits on the road");
         for (lane, ahead) in others {
             car(&mut world, *lane, 500.0 + ahead, 20.0);

@@ -29,8 +29,8 @@ fn town(file: &str) -> Option<Network> {
 
 fn world(network: Network, total: f64, trucks: f64) -> World {
     let demand = drivers::demand(&network, total, trucks, &[0.5, 0.5]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
-    World::new(network, characters, demand, Setup { step: STEP, seed: 2, threads: 1 })
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, driver_parameters, demand, Setup { step: STEP, seed: 2, threads: 1 })
         .expect("it makes sense")
 }
 
@@ -40,7 +40,7 @@ fn few_drivers_miss_their_turns_where_lanes_begin_and_end_at_junctions() {
         let Some(network) = town(file) else { continue };
         let mut world = world(network, 1500.0, 0.1);
         (0..4800).for_each(|_| world.step());
-        let (missed, counts) = (world.tally().missed_turns, world.counts());
+        let (missed, counts) = (world.counters().missed_turns, world.counts());
         assert!(counts.discretionary_changes + counts.route_changes > 0, "{file}");
         assert!(missed as f64 <= 0.02 * counts.entered as f64, "{file}: {missed} of {}", counts.entered);
     }

@@ -80,7 +80,7 @@ proptest! {
             }
             places = now;
         }
-        prop_assert_eq!((world.tally().collisions, world.tally().overlaps, world.tally().stuck), (0, 0, 0));
+        prop_assert_eq!((world.counters().collisions, world.counters().overlaps, world.counters().stuck), (0, 0, 0));
         prop_assert!(world.counts().left > 0);
     }
 }
@@ -92,12 +92,20 @@ fn ten_minutes(plan: &Motorway, total: f64) {
             motorway(plan).expect("the motorway is possible").build().expect("the drawing is sound").network;
         let mut world = world(network, total, 0.1, aggressive, Setup { step: 0.1, seed: 1, threads: 1 });
         (0..6000).for_each(|_| world.step());
-        let (tally, counts) = (world.tally(), world.counts());
-        let hundreds_of_km = tally.distance / 1e5;
+        let (counters, counts) = (world.counters(), world.counts());
+        let hundreds_of_km = counters.distance / 1e5;
         assert!(counts.left > 100 && counts.route_changes > 20);
-        assert_eq!((tally.collisions, tally.overlaps, tally.stuck), (0, 0, 0), "share of FVDM {aggressive}");
-        assert!(tally.missed_turns as f64 <= 0.02 * counts.entered as f64, "{} missed", tally.missed_turns);
-        let emergencies = tally.emergency_brakings as f64 / hundreds_of_km;
+        assert_eq!(
+            (counters.collisions, counters.overlaps, counters.stuck),
+            (0, 0, 0),
+            "share of FVDM {aggressive}"
+        );
+        assert!(
+            counters.missed_turns as f64 <= 0.02 * counts.entered as f64,
+            "{} missed",
+            counters.missed_turns
+        );
+        let emergencies = counters.emergency_brakings as f64 / hundreds_of_km;
         assert!(emergencies <= 1.0, "{emergencies} emergencies on 100 veh-km");
     }
 }
@@ -138,8 +146,8 @@ fn whatever_model_they_follow_by_nobody_is_harmed_where_lanes_merge() {
         let setup = Setup { step: 0.1, seed: 1, threads: 1 };
         let mut world = World::new(network, styles, demand, setup).expect("the set-up makes sense");
         (0..4000).for_each(|_| world.step());
-        let tally = world.tally();
-        assert_eq!((tally.collisions, tally.overlaps, tally.stuck), (0, 0, 0), "{follow:?}");
+        let counters = world.counters();
+        assert_eq!((counters.collisions, counters.overlaps, counters.stuck), (0, 0, 0), "{follow:?}");
         assert!(world.counts().left > 50 && world.counts().route_changes > 10, "{follow:?}");
     }
 }
@@ -173,13 +181,13 @@ fn a_driver_who_would_still_accelerate_when_kinematics_sets_in_is_counted_once()
     let setup = Setup { step: 0.01, seed: 1, threads: 1 };
     let mut world =
         World::new(network, vec![follower, leader], demand, setup).expect("the set-up makes sense");
-    for (character, x) in [(0, 20.0), (1, 120.0)] {
+    for (parameters, x) in [(0, 20.0), (1, 120.0)] {
         let (chain, class, destination) = (ChainIndex(0), Class::Car, Some(0));
         world
-            .place(NewVehicle { chain, x, speed: 5.0, class, character, destination })
+            .place(NewVehicle { chain, x, speed: 5.0, class, parameters, destination })
             .expect("it fits on the road");
     }
     (0..1500).for_each(|_| world.step());
-    assert_eq!(world.tally().collisions, 0);
-    assert_eq!(world.tally().emergency_brakings, 1);
+    assert_eq!(world.counters().collisions, 0);
+    assert_eq!(world.counters().emergency_brakings, 1);
 }

@@ -14,9 +14,9 @@ fn world() -> World {
     let road = Motorway { length_m: 2000.0, on_ramp_at, off_ramp_at, ..Motorway::default() };
     let network = motorway(&road).expect("it fits").build().expect("it has lanes").network;
     let demand = drivers::demand(&network, 4000.0, 0.1, &[1.0, 1.0]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: 0.1, seed: 3, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+    let mut world = World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense");
     (0..1200).for_each(|_| world.step());
     world
 }
@@ -32,7 +32,7 @@ fn seen(vehicle: &Vehicle) -> Seen {
         acceleration: f64::from(motion.acceleration),
         length: f64::from(motion.length),
         class: driver.class,
-        character: driver.character,
+        parameters: driver.parameters,
         desired: f64::from(driver.desired),
         destination: driver.goal.destination(),
         change: other.map(|counterpart| Across {
@@ -48,7 +48,7 @@ fn visible(situation: &Situation) -> String {
     let Situation { me, here, there, section, .. } = situation;
     let lane = |it: &LaneView| {
         let behind = it.behind.map(|it| (it.gap, it.driver.pace.speed, it.driver.length));
-        format!("{:?} {behind:?} {:?} {:?} {:?}", it.ahead, it.flow, it.prospect, it.route)
+        format!("{:?} {behind:?} {:?} {:?} {:?}", it.ahead, it.flow, it.anticipated_speed, it.route)
     };
     format!("{section:?} {:?} {:?} {} {}", me.pace.speed, me.pace.desired, lane(here), lane(there))
 }
@@ -61,7 +61,7 @@ fn drivers_see_the_same_in_a_world_and_in_a_snapshot_of_it() {
     let navigator = Navigator::new(world.network());
     // The order of the vehicles does not matter.
     let snapshot = Snapshot::new(world.network(), vehicles.iter().rev().map(seen));
-    let again = snapshot.scene(world.network(), &navigator, scene.characters);
+    let again = snapshot.scene(world.network(), &navigator, scene.driver_parameters);
     assert_eq!(snapshot.spots().len(), vehicles.len());
     let (mut situations, mut between_lanes) = (0, 0);
     for vehicle in &vehicles {

@@ -44,7 +44,7 @@ fn place(world: &mut World, class: Class, chain: ChainIndex, destination: u16) {
     let speed = class.desired_speed(&style, world.network().chain(chain).limit(0.0));
     let x = class.body().length;
     world
-        .place(NewVehicle { chain, x, speed, class, character: 0, destination: Some(destination) })
+        .place(NewVehicle { chain, x, speed, class, parameters: 0, destination: Some(destination) })
         .expect("it fits on the road");
 }
 

@@ -46,14 +46,14 @@ impl Twins {
                 format!("the run lasted from 0 to {} s: choose a time before its end", duration_s + warmup_s);
             return Err(Fault::new("--at", what, remedy));
         }
-        let characters = changed(record, settings)?;
+        let driver_parameters = changed(record, settings)?;
         let Prepared { world: mut base, origins, .. } = prepare(scenario, origin)?;
         let mut branch = prepare(scenario, origin)?.world;
         (0..before).for_each(|_| base.step());
         let bug = |error: &dyn std::fmt::Display| Fault::new("branch", error, "report this as a bug");
         let saved = base.save().map_err(|error| bug(&error))?;
         branch.restore(&saved).map_err(|error| bug(&error))?;
-        branch.change_characters(characters).map_err(|error| bug(&error))?;
+        branch.change_driver_parameters(driver_parameters).map_err(|error| bug(&error))?;
         let duration = f64::from(all - before) * scenario.run.step_s;
         let lane = || Traces::most_driven(1, &base, &origins, base.clock().time(), duration).pop();
         let lanes = [lane(), lane()];

@@ -110,24 +110,24 @@ impl Outcome {
                 }
             }
         }
-        let (tally, counts) = (world.tally(), world.counts());
-        let veh_km = tally.distance / METRES_PER_KM;
+        let (counters, counts) = (world.counters(), world.counts());
+        let veh_km = counters.distance / METRES_PER_KM;
         let share = |part: u32| (changes > 0).then(|| f64::from(part) / f64::from(changes));
         let per = |count: u64, of: f64| if of > 0.0 { count as f64 / of } else { 0.0 };
         let chance = |desires: u64, all: u64| (all > 0).then(|| desires as f64 / all as f64);
-        let free = chance(tally.free_desires, tally.free_considerations).filter(|it| *it > 0.0);
-        let held_up = chance(tally.held_up_desires, tally.held_up_considerations);
+        let free = chance(counters.free_desires, counters.free_considerations).filter(|it| *it > 0.0);
+        let held_up = chance(counters.held_up_desires, counters.held_up_considerations);
         let dt = world.clock().dt;
         let outcome = Outcome {
             per_veh_km: [counts.discretionary_changes, counts.route_changes].map(|it| per(it, veh_km)),
             gaining: share(gaining),
             going_back: share(going_back),
             held_up_ratio: held_up.zip(free).map(|(held_up, free)| held_up / free),
-            speed_mps: (tally.updates > 0).then(|| tally.distance / (tally.updates as f64 * dt)),
+            speed_mps: (counters.updates > 0).then(|| counters.distance / (counters.updates as f64 * dt)),
             delay_s: short_trips.means_without(counts).delay,
-            missed_turns: per(tally.missed_turns, counts.entered as f64),
-            emergencies: per(tally.emergency_brakings, veh_km),
-            stuck: tally.stuck as f64,
+            missed_turns: per(counters.missed_turns, counts.entered as f64),
+            emergencies: per(counters.emergency_brakings, veh_km),
+            stuck: counters.stuck as f64,
             left: counts.left as f64,
             waiting: world.waiting() as f64,
         };

@@ -21,12 +21,12 @@ const BESIDE: f64 = 600.0;
 /// map, and how many of them elsewhere.
 fn missed(seed: u64) -> (u64, u64) {
     let Approach { network, lanes: [a, _, c], exits: [north, south, _] } = Approach::drawn();
-    let Population { characters, shares } = Population::usual(seed).expect("built-in styles");
-    let drivers = characters.len() as u32;
+    let Population { driver_parameters, shares } = Population::usual(seed).expect("built-in styles");
+    let drivers = driver_parameters.len() as u32;
     let demand = Demand::even(&network, BESIDE, 0.1, shares);
     let gates: Vec<Vec<ChainIndex>> = network.exits.iter().map(|it| it.chains.clone()).collect();
     let setup = Setup { step: STEP_S, seed, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).expect("a world");
+    let mut world = World::new(network, driver_parameters, demand, setup).expect("a world");
     let mut come = HashMap::new();
     let (mut left, mut elsewhere) = (0, 0);
     for step in 0..SECONDS * 10 {
@@ -35,10 +35,10 @@ fn missed(seed: u64) -> (u64, u64) {
             let (chain, exit) = if number.is_multiple_of(2) { (a, south) } else { (c, north) };
             let is_free = world.scene().motions(chain).first().is_none_or(|it| it.rear() > 40.0);
             if is_free {
-                let character = (number * 7919 + seed as u32) % drivers;
+                let parameters = (number * 7919 + seed as u32) % drivers;
                 let (class, destination) = (Class::Car, Some(exit));
                 let id = world
-                    .place(NewVehicle { chain, x: 5.0, speed: 12.0, class, character, destination })
+                    .place(NewVehicle { chain, x: 5.0, speed: 12.0, class, parameters, destination })
                     .expect("it fits on the road");
                 come.insert(id, (exit, chain));
             }
@@ -54,8 +54,8 @@ fn missed(seed: u64) -> (u64, u64) {
             elsewhere += u64::from(!gates[usize::from(exit)].contains(&at));
         }
     }
-    let tally = world.tally();
-    assert_eq!((tally.collisions, world.tally().overlaps, tally.stuck), (0, 0, 0));
+    let counters = world.counters();
+    assert_eq!((counters.collisions, world.counters().overlaps, counters.stuck), (0, 0, 0));
     (left, elsewhere)
 }
 

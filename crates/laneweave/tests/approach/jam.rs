@@ -41,12 +41,12 @@ struct Found {
 
 /// The usual drivers, each with another table of incentives.
 fn drivers(seed: u64, table: impl Fn(Mcdm) -> Mcdm) -> Vec<Style> {
-    let mut characters = Population::usual(seed).expect("built-in styles").characters;
-    for it in &mut characters {
+    let mut driver_parameters = Population::usual(seed).expect("built-in styles").driver_parameters;
+    for it in &mut driver_parameters {
         let LaneChangeModel::Mcdm(usual) = &it.change else { panic!("the usual drivers weigh") };
         it.change = LaneChangeModel::Mcdm(table(usual.clone()));
     }
-    characters
+    driver_parameters
 }
 
 /// The usual weights, but for that of the route.
@@ -65,10 +65,10 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
     let approach = Approach::drawn();
     let [_, b, c] = approach.lanes;
     let [_, _, common] = approach.exits;
-    let mut characters = drivers(seed, table);
-    let count = characters.len() as u32;
+    let mut driver_parameters = drivers(seed, table);
+    let count = driver_parameters.len() as u32;
     let crawler = Style { speed_factor: CRAWL, ..drivers(seed, without_weights).swap_remove(0) };
-    characters.push(crawler);
+    driver_parameters.push(crawler);
     let network = approach.network.clone();
     let places =
         Places { origins: inner_places(&approach), destinations: Places::at_gates(&network).destinations };
@@ -80,7 +80,7 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
         origin.weights[usize::from(common)] = 1.0;
     }
     let setup = Setup { step: STEP_S, seed, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).expect("a world");
+    let mut world = World::new(network, driver_parameters, demand, setup).expect("a world");
     world = world.guided(INTERVAL_S).expect("few destinations");
     let mut come: HashSet<VehicleId> = HashSet::new();
     let mut roads: HashMap<VehicleId, Road> = HashMap::new();
@@ -91,12 +91,12 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
             let number = step / (10 * HEADWAY);
             let chain = if number.is_multiple_of(2) { b } else { c };
             if world.scene().motions(chain).first().is_none_or(|it| it.rear() > 40.0) {
-                let character = (number * 7919 + seed as u32) % count;
+                let parameters = (number * 7919 + seed as u32) % count;
                 let (class, destination) = (Class::Car, Some(common));
                 let speed = 10.0;
                 come.insert(
                     world
-                        .place(NewVehicle { chain, x: 5.0, speed, class, character, destination })
+                        .place(NewVehicle { chain, x: 5.0, speed, class, parameters, destination })
                         .expect("it fits on the road"),
                 );
             }
@@ -113,12 +113,12 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
             lane_changes += u32::from(it.is_completed && is_before && come.contains(&it.vehicle));
         }
     }
-    let tally = world.tally();
-    assert_eq!((tally.collisions, world.tally().overlaps), (0, 0));
+    let counters = world.counters();
+    assert_eq!((counters.collisions, world.counters().overlaps), (0, 0));
     let all = come.len() as f64;
     Found {
         lane_changes: f64::from(lane_changes) / all,
-        route_changes: tally.route_changes as f64 / all,
+        route_changes: counters.route_changes as f64 / all,
         left: roads.values().filter(|it| **it == Road::Left).count() as f64 / all,
     }
 }

@@ -168,10 +168,11 @@ fn driven(
     weight: f64,
 ) -> Option<Side> {
     stage.restore(saved).expect("the same world");
-    let character = stage.vehicles().find(|it| it.id() == id).expect("it is there").driver.character as usize;
-    let mut characters = original.to_vec();
-    characters[character] = with_weight(&characters[character], row, weight);
-    stage.change_characters(characters).expect("as many");
+    let parameters =
+        stage.vehicles().find(|it| it.id() == id).expect("it is there").driver.parameters as usize;
+    let mut driver_parameters = original.to_vec();
+    driver_parameters[parameters] = with_weight(&driver_parameters[parameters], row, weight);
+    stage.change_driver_parameters(driver_parameters).expect("as many");
     stage.step();
     let vehicle = stage.vehicles().find(|it| it.id() == id).expect("it is there");
     (vehicle.driver.phase == Phase::Wants).then_some(vehicle.lane_change.side)
@@ -226,7 +227,7 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
     /// A flip is found to the last bit of the program's own sums; by hand they may differ in it.
     const BEYOND: f64 = 1.0 + 1e-6;
     let (mut world, mut stage) = (motorway(), motorway());
-    let original = world.characters().to_vec();
+    let original = world.driver_parameters().to_vec();
     let random = Random::new(11);
     let (mut weights, mut speeds, mut gaps, mut windows) = (0, 0, 0, 0);
     for step in 0..4000_u32 {

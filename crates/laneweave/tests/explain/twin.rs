@@ -15,8 +15,8 @@ pub(crate) struct Body {
     speed: f64,
     length: f64,
     desired: f64,
-    tightness: f64,
-    character: usize,
+    headway_relaxation: f64,
+    parameters: usize,
     wants: Option<Side>,
     urgency: f64,
 }
@@ -54,7 +54,7 @@ pub(crate) struct Twin<'a> {
 struct Around {
     ahead: Option<(Body, f64)>,
     behind: Option<(Body, f64)>,
-    prospect: f64,
+    anticipated_speed: f64,
     /// Mean spacing, speed and length.
     flow: [f64; 3],
 }
@@ -70,8 +70,8 @@ impl<'a> Twin<'a> {
                 speed: it.speed(),
                 length: f64::from(it.motion.length),
                 desired: f64::from(it.driver.desired),
-                tightness: f64::from(it.motion.tightness),
-                character: it.driver.character as usize,
+                headway_relaxation: f64::from(it.motion.headway_relaxation),
+                parameters: it.driver.parameters as usize,
                 wants: (it.driver.phase == Phase::Wants).then_some(it.lane_change.side),
                 urgency: f64::from(it.lane_change.urgency),
             };
@@ -117,7 +117,7 @@ impl<'a> Twin<'a> {
             let share = (gap(it) / 295.0).clamp(0.0, 1.0);
             if it.speed >= me.desired { me.desired } else { (1.0 - share) * it.speed + share * me.desired }
         };
-        let prospect = seen.iter().map(anticipated).fold(me.desired, f64::min);
+        let anticipated_speed = seen.iter().map(anticipated).fold(me.desired, f64::min);
         let behind = self.others(me, lane).filter(|it| it.x <= me.x && me.x - it.x < 250.0);
         let behind = behind.max_by(|a, b| a.x.total_cmp(&b.x));
         let in_window = |it: &&Body| {
@@ -138,7 +138,7 @@ impl<'a> Twin<'a> {
         Around {
             ahead: seen.first().map(|it| (**it, gap(it))),
             behind: behind.map(|it| (*it, me.x - it.x - me.length)),
-            prospect,
+            anticipated_speed,
             flow,
         }
     }
@@ -146,10 +146,10 @@ impl<'a> Twin<'a> {
     /// Acceleration of `body` behind a leader with this gap and speed.
     fn acceleration(&self, body: &Body, ahead: Option<(f64, f64)>) -> f64 {
         let (v, v0) = (body.speed, body.desired);
-        match &self.world.characters()[body.character].follow {
+        match &self.world.driver_parameters()[body.parameters].follow {
             FollowingModel::Idm(idm) => {
                 let interaction = ahead.map_or(0.0, |(gap, leader)| {
-                    let time_gap = (idm.time_gap * body.tightness).max(idm.time_gap.min(0.5));
+                    let time_gap = (idm.time_gap * body.headway_relaxation).max(idm.time_gap.min(0.5));
                     let braking = v * (v - leader) / (2.0 * (idm.acceleration * idm.deceleration).sqrt());
                     let desired = idm.jam_gap + (v * time_gap + braking).max(0.0);
                     (desired / gap.max(0.1)).powi(2)
@@ -158,14 +158,15 @@ impl<'a> Twin<'a> {
             }
             FollowingModel::Fvdm(fvdm) => {
                 let closing = ahead.map_or(0.0, |(_, leader)| (v - leader).max(0.0));
-                let tightness = if body.tightness < 1.0 {
-                    body.tightness + (1.0 - body.tightness) * (closing / 5.0).min(1.0)
+                let headway_relaxation = if body.headway_relaxation < 1.0 {
+                    body.headway_relaxation + (1.0 - body.headway_relaxation) * (closing / 5.0).min(1.0)
                 } else {
-                    body.tightness
+                    body.headway_relaxation
                 };
                 let (c1, c2) = (0.13, 1.57_f64);
-                let gap = ahead
-                    .map_or(f64::INFINITY, |(gap, _)| (gap / tightness - fvdm.jam_gap / tightness).max(0.0));
+                let gap = ahead.map_or(f64::INFINITY, |(gap, _)| {
+                    (gap / headway_relaxation - fvdm.jam_gap / headway_relaxation).max(0.0)
+                });
                 let rise = (c1 * gap * 14.66 / v0 - c2).tanh() + c2.tanh();
                 let optimal = (v0 * rise / (1.0 + c2.tanh())).max(0.0);
                 let relative = match ahead {
@@ -228,13 +229,13 @@ impl<'a> Twin<'a> {
     /// Both sides as they come out for the driver of `id`, the left one first.
     pub(crate) fn weigh(&self, id: u32, otherwise: Otherwise) -> Vec<Weighed> {
         let me = self.me(id);
-        let model = mcdm(&self.world.characters()[me.character].change);
+        let model = mcdm(&self.world.driver_parameters()[me.parameters].change);
         let here = self.around(&me, me.lane);
-        let speed_here = here.prospect + otherwise.here;
+        let speed_here = here.anticipated_speed + otherwise.here;
         let both = [Side::Left, Side::Right].into_iter().zip(otherwise.there);
         both.filter_map(|(side, more)| {
             let there = self.around(&me, self.beside(me.lane, side)?);
-            let speed_there = there.prospect + more;
+            let speed_there = there.anticipated_speed + more;
             let time = |speed: f64| 295.0 / speed.max(1.0);
             let [spacing, speed, length] = there.flow;
             let headway = (spacing - length - 2.0).max(0.0) / speed.max(2.0);
@@ -253,7 +254,7 @@ impl<'a> Twin<'a> {
 
     /// The side that is desired where `draw` was drawn.
     pub(crate) fn desired(&self, id: u32, otherwise: Otherwise, draw: f64) -> Option<Side> {
-        let model = mcdm(&self.world.characters()[self.me(id).character].change);
+        let model = mcdm(&self.world.driver_parameters()[self.me(id).parameters].change);
         let sides = self.weigh(id, otherwise);
         let size = |it: &Weighed| ((it.gain - model.theta) / model.sigma).exp();
         let all = 1.0 + sides.iter().map(size).sum::<f64>();
@@ -278,11 +279,11 @@ impl<'a> Twin<'a> {
     ) -> Option<(usize, Refusal)> {
         let mut me = self.me(id);
         let there = self.around_far(&me, self.beside(me.lane, side)?);
-        let style = &self.world.characters()[me.character];
+        let style = &self.world.driver_parameters()[me.parameters];
         let [own, leader, follower] = otherwise.speeds;
         me.speed += own;
-        let tightness = 1.0 - 0.3 * (1.0 - style.manner.tightest);
-        let pressed = Body { tightness: tightness.min(me.tightness), ..me };
+        let headway_relaxation = 1.0 - 0.3 * (1.0 - style.manner.tightest);
+        let pressed = Body { headway_relaxation: headway_relaxation.min(me.headway_relaxation), ..me };
         let check = |follower: &Body, gap: f64, leader: f64| {
             let closing = (follower.speed - leader).max(0.0);
             let stopping = |v: f64| v * v / 16.0;

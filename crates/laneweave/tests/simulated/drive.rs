@@ -38,8 +38,8 @@ const EVERY: f64 = 5.0;
 /// What the simulator knew.
 pub(crate) struct Truth {
     pub(crate) network: Network,
-    pub(crate) characters: Vec<Style>,
-    /// For each vehicle its character.
+    pub(crate) driver_parameters: Vec<Style>,
+    /// For each vehicle its driver parameters.
     pub(crate) character_of: HashMap<i64, u32>,
     /// The lane changes that were made, by the time of the recording.
     pub(crate) changes: Vec<Made>,
@@ -106,16 +106,16 @@ pub(crate) fn drive(seed: u64) -> (Truth, Recording) {
     }
     let Camera { tracks, character_of, .. } = camera;
     let recording = Recording { step: STEP, tracks: tracks.into_values().collect() };
-    let characters = Population::usual(seed).expect("built-in styles").characters;
+    let driver_parameters = Population::usual(seed).expect("built-in styles").driver_parameters;
     let network = world.network().clone();
-    (Truth { network, characters, character_of, changes, instants }, recording)
+    (Truth { network, driver_parameters, character_of, changes, instants }, recording)
 }
 
 fn world(seed: u64) -> World {
     let (on_ramp_at, off_ramp_at) = (vec![700.0], vec![2200.0]);
     let road = Motorway { length_m: 3000.0, on_ramp_at, off_ramp_at, ..Motorway::default() };
     let network = motorway(&road).expect("it fits").build().expect("it has lanes").network;
-    let Population { characters, shares } = Population::usual(seed).expect("built-in styles");
+    let Population { driver_parameters, shares } = Population::usual(seed).expect("built-in styles");
     let by_lanes = |place: &Place, road, ramp| if place.chains().len() > 1 { road } else { ramp };
     let mut demand = Demand::even(&network, 0.0, TRUCKS, shares);
     let weights: Vec<f64> = demand.destinations.iter().map(|it| by_lanes(it, STAYING, 1.0)).collect();
@@ -123,7 +123,8 @@ fn world(seed: u64) -> World {
         origin.rate = Rate::constant(by_lanes(&origin.place, ON_ROAD, ON_RAMP));
         origin.weights.clone_from(&weights);
     }
-    World::new(network, characters, demand, Setup { step: STEP, seed, threads: 1 }).expect("it makes sense")
+    World::new(network, driver_parameters, demand, Setup { step: STEP, seed, threads: 1 })
+        .expect("it makes sense")
 }
 
 /// What sees the road from above, not quite exactly.
@@ -141,7 +142,7 @@ impl Camera {
         vehicles.sort_by_key(Vehicle::id);
         for vehicle in vehicles {
             let (id, pose) = (vehicle.id(), vehicle.pose());
-            self.character_of.insert(i64::from(id), vehicle.driver.character);
+            self.character_of.insert(i64::from(id), vehicle.driver.parameters);
             let track = self.tracks.entry(id).or_insert_with(|| track(&vehicle));
             let [dx, dy] = error(&self.noise, id, frame as u32);
             let (x, y) = (pose.at.x + dx, pose.at.y + dy);

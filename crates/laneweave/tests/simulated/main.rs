@@ -77,11 +77,12 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
     let matched = Matched::new(&truth.network, recording);
     let navigator = Navigator::new(&truth.network);
     let assume = |track: usize| {
-        let character = truth.character_of[&recording.tracks[track].id];
-        Assumed { character, speed_factor: truth.characters[character as usize].speed_factor }
+        let parameters = truth.character_of[&recording.tracks[track].id];
+        Assumed { parameters, speed_factor: truth.driver_parameters[parameters as usize].speed_factor }
     };
     let changes = lane_changes(&matched);
-    let replay = Replay::new(&matched, &changes, &navigator, &truth.characters, assume).expect("drivers");
+    let replay =
+        Replay::new(&matched, &changes, &navigator, &truth.driver_parameters, assume).expect("drivers");
     let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();
     for instant in &truth.instants {
         let frame = replay.frame(instant.frame);

@@ -24,7 +24,7 @@ pub(crate) struct View {
 pub(crate) struct Lane {
     ahead: Option<Neighbour>,
     behind: Option<Neighbour>,
-    prospect: f64,
+    anticipated_speed: f64,
     mean_spacing: f64,
     mean_speed: f64,
     changes: u32,
@@ -63,7 +63,7 @@ impl Lane {
         Lane {
             ahead: lane.ahead.map(|it| Neighbour { gap: it.gap, speed: it.speed }),
             behind: lane.behind.map(|it| Neighbour { gap: it.gap, speed: it.driver.pace.speed }),
-            prospect: lane.prospect,
+            anticipated_speed: lane.anticipated_speed,
             mean_spacing: lane.flow.spacing,
             mean_speed: lane.flow.speed,
             changes: lane.route.changes,
@@ -75,7 +75,7 @@ impl Lane {
     fn agrees(&self, known: &Lane) -> bool {
         Neighbour::agree(self.ahead, known.ahead)
             && Neighbour::agree(self.behind, known.behind)
-            && near(self.prospect, known.prospect, SPEED)
+            && near(self.anticipated_speed, known.anticipated_speed, SPEED)
             && near(self.mean_spacing, known.mean_spacing, SPACING * known.mean_spacing)
             && near(self.mean_speed, known.mean_speed, SPEED)
             && self.changes == known.changes

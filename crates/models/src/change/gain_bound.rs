@@ -13,7 +13,7 @@ pub struct GainBound {
     pub desired: f64,
     /// Anticipated speeds of the own lane and of the other one, the latter at least as high as a longer look would find
     /// it [m/s].
-    pub prospects: [f64; 2],
+    pub anticipated_speeds: [f64; 2],
     /// What the two lanes mean for the route.
     pub routes: [RouteView; 2],
     /// Length over which the lanes' speeds differ [m].

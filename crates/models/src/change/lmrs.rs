@@ -113,7 +113,8 @@ impl Lmrs {
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let Situation { me, here, there, toward, .. } = situation;
         let acceleration = me.follow.acceleration(me.pace, here.ahead);
-        let speed = self.speed_desire(*toward, [here.prospect, there.prospect], acceleration);
+        let speed =
+            self.speed_desire(*toward, [here.anticipated_speed, there.anticipated_speed], acceleration);
         let bias = self.bias_desire(*toward, speed);
         let route = self.route_desire(situation);
         let weight = self.voluntary_weight(route, speed + bias);

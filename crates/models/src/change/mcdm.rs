@@ -159,12 +159,15 @@ impl Mcdm {
         if !is_repaired || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
             return f64::INFINITY;
         }
-        let GainBound { desired, prospects, routes, section, band, courtesy: for_others } = bound;
-        let [here, there] = *prospects;
+        let GainBound { desired, anticipated_speeds, routes, section, band, courtesy: for_others } = bound;
+        let [here, there] = *anticipated_speeds;
         // A longer look would add the discomfort.
         self.combine(&[
             Row { earning: Speed::between(here, there, *desired), weight: speed.weight },
-            Row { earning: route.between(routes, *prospects, *section, *band), weight: route.weight },
+            Row {
+                earning: route.between(routes, *anticipated_speeds, *section, *band),
+                weight: route.weight,
+            },
             Row { earning: *for_others, weight: courtesy.weight },
         ])
     }

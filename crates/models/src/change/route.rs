@@ -73,12 +73,12 @@ impl Route {
     pub(crate) fn between(
         &self,
         routes: &[RouteView; 2],
-        prospects: [f64; 2],
+        anticipated_speeds: [f64; 2],
         section: f64,
         band: f64,
     ) -> f64 {
         let [here, there] = [0, 1].map(|lane| {
-            let (on_route, alternative) = self.times(&routes[lane], section, prospects[lane]);
+            let (on_route, alternative) = self.times(&routes[lane], section, anticipated_speeds[lane]);
             better(on_route, alternative, band)
         });
         ((here - there) / self.reference).clamp(-LARGEST_YIELD, LARGEST_YIELD)
@@ -105,8 +105,8 @@ impl Incentive for Route {
     fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes {
         let Situation { me, here, there, section, band, .. } = situation;
         let speed = |lane: &LaneView| match self.reading {
-            Reading::Literal => me.follow.prospect(me.pace, lane.ahead),
-            Reading::Repaired => lane.prospect,
+            Reading::Literal => me.follow.anticipated_speed(me.pace, lane.ahead),
+            Reading::Repaired => lane.anticipated_speed,
         };
         let (route_here, alternative_here) = self.times(&here.route, *section, speed(here));
         let (route_there, alternative_there) = self.times(&there.route, *section, speed(there));

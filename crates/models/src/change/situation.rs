@@ -70,7 +70,7 @@ pub struct LaneView<'a> {
     /// Mean spacing and speed around the driver.
     pub flow: Flow,
     /// Anticipated lane speed over all leaders in sight [m/s], see [`super::anticipated_speed`].
-    pub prospect: f64,
+    pub anticipated_speed: f64,
     /// What the lane means for the driver's route.
     pub route: RouteView,
 }

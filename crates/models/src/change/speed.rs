@@ -62,8 +62,8 @@ impl Incentive for Speed {
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
         let me = &situation.me;
         let speed = |lane: &LaneView| match self.reading {
-            Reading::Literal => me.follow.prospect(me.pace, lane.ahead),
-            Reading::Repaired => lane.prospect,
+            Reading::Literal => me.follow.anticipated_speed(me.pace, lane.ahead),
+            Reading::Repaired => lane.anticipated_speed,
         };
         let there = speed(&situation.there);
         Outcomes { keep: speed(&situation.here), back: there, away: there }

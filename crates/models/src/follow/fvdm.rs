@@ -59,7 +59,7 @@ impl CarFollowing for Fvdm {
     }
 
     /// The paper takes the optimal velocity itself for the speed a driver expects.
-    fn prospect(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
+    fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         self.optimal_velocity().expected(pace, gap_of(ahead))
     }
 }

@@ -121,7 +121,7 @@ impl CarFollowing for Gfm {
     }
 
     /// The speed that is steered towards, as the paper has it for FVDM.
-    fn prospect(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
+    fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         match self.form {
             GfmForm::Original => self.wanted(pace, ahead).max(0.0),
             GfmForm::Jiang => self.optimal_velocity().expected(pace, gap_of(ahead)),

@@ -33,13 +33,13 @@ pub struct Pace {
     /// v₀: desired speed [m/s].
     pub desired: f64,
     /// Share of the usual time gap that the driver accepts for now: 1 when relaxed, less around a lane change.
-    pub tightness: f64,
+    pub headway_relaxation: f64,
 }
 
 impl Pace {
     /// A relaxed driver at `speed` who would like to drive `desired` [m/s].
     pub fn new(speed: f64, desired: f64) -> Pace {
-        Pace { speed, desired, tightness: 1.0 }
+        Pace { speed, desired, headway_relaxation: 1.0 }
     }
 
     /// What the driver accepts for now of its `usual` time gap [s]: no less than half a second, unless that is its
@@ -48,7 +48,8 @@ impl Pace {
     pub(crate) fn time_gap(&self, usual: f64) -> f64 {
         /// No driver accepts a shorter time gap around a lane change [s].
         const SHORTEST: f64 = 0.5;
-        let (tight, shortest) = (usual * self.tightness, if usual < SHORTEST { usual } else { SHORTEST });
+        let (tight, shortest) =
+            (usual * self.headway_relaxation, if usual < SHORTEST { usual } else { SHORTEST });
         if tight > shortest { tight } else { shortest }
     }
 }
@@ -90,7 +91,7 @@ pub trait CarFollowing {
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64;
 
     /// V: the speed [m/s] that the paper's speed incentive expects (its section "Speed incentive").
-    fn prospect(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
+    fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         speed_after(self.acceleration(pace, ahead), pace)
     }
 }
@@ -150,13 +151,13 @@ impl CarFollowing for FollowingModel {
         if let FollowingModel::Idm(model) = self {
             return model.acceleration(pace, ahead);
         }
-        let Pace { speed, desired, tightness } = pace;
+        let Pace { speed, desired, headway_relaxation } = pace;
         let ahead = ahead.unwrap_or(Ahead::steady(f64::INFINITY, 0.0));
-        self.any_acceleration(speed, desired, tightness, ahead.gap, ahead.speed, ahead.acceleration)
+        self.any_acceleration(speed, desired, headway_relaxation, ahead.gap, ahead.speed, ahead.acceleration)
     }
 
-    fn prospect(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        ask!(self, model => model.prospect(pace, ahead))
+    fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
+        ask!(self, model => model.anticipated_speed(pace, ahead))
     }
 }
 
@@ -171,12 +172,12 @@ impl FollowingModel {
         &self,
         speed: f64,
         desired: f64,
-        tightness: f64,
+        headway_relaxation: f64,
         gap: f64,
         leader_speed: f64,
         leader_acceleration: f64,
     ) -> f64 {
-        let pace = Pace { speed, desired, tightness };
+        let pace = Pace { speed, desired, headway_relaxation };
         let ahead = Ahead { gap, speed: leader_speed, acceleration: leader_acceleration };
         let ahead = (gap < f64::INFINITY).then_some(ahead);
         ask!(self, model => model.acceleration(pace, ahead))

@@ -44,12 +44,12 @@ impl OptimalVelocity {
     /// V(s) [m/s], at most v₀, negative where the literal function is.
     #[inline]
     pub(super) fn signed(&self, pace: Pace, gap: f64) -> f64 {
-        let gap = gap / pace.tightness;
+        let gap = gap / pace.headway_relaxation;
         match self.reading {
             Reading::Literal => (V1 + V2 * tanh(C1 * gap - C2)).min(pace.desired),
             Reading::Repaired => {
                 let length_scale = FITTED_SPEED / pace.desired;
-                let beyond_jam = (gap - self.jam_gap / pace.tightness).max(0.0);
+                let beyond_jam = (gap - self.jam_gap / pace.headway_relaxation).max(0.0);
                 let rise = tanh(C1 * beyond_jam * length_scale - C2) + TANH_C2;
                 // The share is rounded to at most 1, so that nobody expects more than it desires.
                 pace.desired * (rise / (1.0 + TANH_C2)).max(0.0)
@@ -87,9 +87,12 @@ pub(super) fn wary(pace: Pace, ahead: Option<Ahead>) -> Pace {
     /// Closing speed from which the usual gap counts in full [m/s].
     const CLOSING: f64 = 5.0;
     match ahead {
-        Some(ahead) if pace.tightness < 1.0 && pace.speed > ahead.speed => {
+        Some(ahead) if pace.headway_relaxation < 1.0 && pace.speed > ahead.speed => {
             let share = ((pace.speed - ahead.speed) / CLOSING).min(1.0);
-            Pace { tightness: pace.tightness + (1.0 - pace.tightness) * share, ..pace }
+            Pace {
+                headway_relaxation: pace.headway_relaxation + (1.0 - pace.headway_relaxation) * share,
+                ..pace
+            }
         }
         _ => pace,
     }

@@ -46,7 +46,7 @@ impl CarFollowing for Ovm {
     }
 
     /// The optimal velocity itself, as the paper has it for FVDM.
-    fn prospect(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
+    fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         self.optimal_velocity().expected(pace, gap_of(ahead))
     }
 }

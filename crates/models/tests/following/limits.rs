@@ -68,9 +68,9 @@ proptest! {
     fn v18_accelerations_are_finite_and_no_harder_than_from_rest_on_a_free_road(
         model in any_model(), exponent in -3.0..6.0_f64, speed in prop_oneof![Just(0.0), 0.0..60.0_f64],
         leader_speed in prop_oneof![Just(0.0), 0.0..60.0_f64], desired in 1.0..60.0_f64,
-        tightness in 0.4..1.0_f64, leader_acceleration in prop_oneof![Just(0.0), -HARDEST_BRAKING..5.0_f64],
+        headway_relaxation in 0.4..1.0_f64, leader_acceleration in prop_oneof![Just(0.0), -HARDEST_BRAKING..5.0_f64],
     ) {
-        let pace = Pace { speed, desired, tightness };
+        let pace = Pace { speed, desired, headway_relaxation };
         let ahead = Ahead { gap: 10.0_f64.powf(exponent), speed: leader_speed, acceleration: leader_acceleration };
         let acceleration = model.acceleration(pace, Some(ahead));
         prop_assert!(acceleration.is_finite());
@@ -86,10 +86,10 @@ proptest! {
             FollowingModel::Gfm(gfm) => (desired - speed) / gfm.adjustment_time,
             FollowingModel::Krauss(krauss) => krauss.acceleration,
             FollowingModel::Gipps(gipps) => gipps.acceleration,
-            FollowingModel::Newell(newell) => (desired - speed) / (newell.time_gap * tightness).max(0.5),
+            FollowingModel::Newell(newell) => (desired - speed) / (newell.time_gap * headway_relaxation).max(0.5),
         };
         prop_assert!(acceleration <= limit + 1e-9, "{acceleration} above {limit}");
-        let prospect = model.prospect(pace, Some(ahead));
-        prop_assert!((0.0..=desired).contains(&prospect));
+        let anticipated_speed = model.anticipated_speed(pace, Some(ahead));
+        prop_assert!((0.0..=desired).contains(&anticipated_speed));
     }
 }

@@ -87,7 +87,7 @@ fn a_jam_gap_shifts_the_repaired_optimal_velocity() {
 
 #[test]
 fn fvdm_ovm_and_gfm_expect_the_speed_that_they_steer_towards() {
-    let pace = Pace { tightness: 0.8, ..Pace::new(10.0, 30.0) };
+    let pace = Pace { headway_relaxation: 0.8, ..Pace::new(10.0, 30.0) };
     let shifted = OptimalVelocity { jam_gap: 1.5, ..REPAIRED };
     let gfm = Gfm { form: GfmForm::Jiang, jam_gap: 1.5, ..Gfm::default() };
     for model in [
@@ -95,8 +95,8 @@ fn fvdm_ovm_and_gfm_expect_the_speed_that_they_steer_towards() {
         FollowingModel::Ovm(Ovm { jam_gap: 1.5, ..Ovm::default() }),
         FollowingModel::Gfm(gfm),
     ] {
-        assert_eq!(model.prospect(pace, behind(22.0, 9.0)), shifted.expected(pace, 22.0));
-        assert_eq!(model.prospect(pace, None), shifted.expected(pace, f64::INFINITY));
+        assert_eq!(model.anticipated_speed(pace, behind(22.0, 9.0)), shifted.expected(pace, 22.0));
+        assert_eq!(model.anticipated_speed(pace, None), shifted.expected(pace, f64::INFINITY));
     }
 }
 
@@ -124,7 +124,7 @@ fn v3_gfm_brakes_while_closing_in_and_then_only() {
     assert_eq!(of_gap(100.001), 0.0);
     // Helbing, Tilch.
     let (gfm, at_ten) = (Gfm::default(), Pace::new(10.0, 16.98));
-    assert_near(gfm.prospect(at_ten, behind(20.0, 10.0)), 14.698392, 1e-6);
+    assert_near(gfm.anticipated_speed(at_ten, behind(20.0, 10.0)), 14.698392, 1e-6);
     assert_near(gfm.acceleration(at_ten, behind(20.0, 10.0)), 1.917711, 1e-6);
     assert_near(gfm.acceleration(at_ten, behind(20.0, 8.0)), -0.400802, 1e-6);
     assert_eq!(gfm.acceleration(at_ten, behind(20.0, 15.0)), gfm.acceleration(at_ten, behind(20.0, 10.0)));
@@ -135,7 +135,7 @@ fn v3_gfm_brakes_while_closing_in_and_then_only() {
 #[test]
 fn a_tight_driver_sees_a_larger_gap() {
     let relaxed = Pace::new(10.0, 13.0);
-    let tight = Pace { tightness: 0.6, ..relaxed };
+    let tight = Pace { headway_relaxation: 0.6, ..relaxed };
     for optimal in [LITERAL, REPAIRED] {
         assert_near(optimal.expected(tight, 12.0), optimal.expected(relaxed, 20.0), 1e-12);
     }
@@ -148,7 +148,7 @@ fn a_tight_driver_sees_a_larger_gap() {
 #[test]
 fn who_closes_in_by_five_metres_per_second_takes_no_liberties_with_the_gap() {
     let relaxed = Pace::new(10.0, 13.0);
-    let tight = Pace { tightness: 0.6, ..relaxed };
+    let tight = Pace { headway_relaxation: 0.6, ..relaxed };
     for model in [literal_fvdm(), literal_ovm(), literal_gfm()] {
         let gain = |leader| {
             model.acceleration(tight, behind(12.0, leader))

@@ -142,9 +142,9 @@ fn idm_takes_no_gap_below_a_tenth_of_a_metre() {
 fn v1_idm_prospects_of_a_town_street() {
     let set = urban();
     let pace = Pace::new(10.0, set.desired);
-    assert_near(set.idm.prospect(pace, behind(20.0, 8.0)), 9.714697, 1e-6);
-    assert_near(set.idm.prospect(pace, behind(35.0, 10.0)), 10.613710, 1e-6);
-    assert_eq!(set.idm.prospect(pace, behind(6.0, 2.0)), 0.0);
+    assert_near(set.idm.anticipated_speed(pace, behind(20.0, 8.0)), 9.714697, 1e-6);
+    assert_near(set.idm.anticipated_speed(pace, behind(35.0, 10.0)), 10.613710, 1e-6);
+    assert_eq!(set.idm.anticipated_speed(pace, behind(6.0, 2.0)), 0.0);
     assert_near(10.0 + set.idm.acceleration(pace, behind(6.0, 2.0)), -44.67, 5e-3);
 }
 
@@ -174,6 +174,6 @@ fn a_prospect_lies_between_standstill_and_the_desired_speed() {
     assert_eq!(speed_after(2.5, pace), 12.0);
     assert_eq!(speed_after(-9.0, pace), 1.0);
     assert_eq!(speed_after(-11.0, pace), 0.0);
-    assert_eq!(literal_fvdm().prospect(pace, None), 12.0);
-    assert_eq!(literal_fvdm().prospect(pace, Some(Ahead::standing(0.0))), 0.0);
+    assert_eq!(literal_fvdm().anticipated_speed(pace, None), 12.0);
+    assert_eq!(literal_fvdm().anticipated_speed(pace, Some(Ahead::standing(0.0))), 0.0);
 }

@@ -177,7 +177,7 @@ fn acc_keeps_the_gaps_of_idm() {
 fn a_tight_driver_keeps_its_share_of_the_time_gap() {
     // IDM, ACC, GFM, Krauss and Gipps, each with 0.8 of its time gap and above half a second.
     let (relaxed, ahead) = (Pace::new(10.0, 13.0), behind(15.0, 9.0));
-    let tight = Pace { tightness: 0.8, ..relaxed };
+    let tight = Pace { headway_relaxation: 0.8, ..relaxed };
     let idm = urban().idm;
     let short = Idm { time_gap: 0.8 * idm.time_gap, ..idm };
     assert_near(idm.acceleration(tight, ahead), short.acceleration(relaxed, ahead), 1e-12);
@@ -206,7 +206,8 @@ fn a_tight_driver_keeps_its_share_of_the_time_gap() {
 fn every_model_lets_a_tight_driver_come_closer() {
     for model in all_with_a_jam_gap(2.0) {
         let relaxed = Pace::new(10.0, 14.0);
-        let gaps = [1.0, 0.8].map(|tightness| model.equilibrium_gap(Pace { tightness, ..relaxed }));
+        let gaps = [1.0, 0.8]
+            .map(|headway_relaxation| model.equilibrium_gap(Pace { headway_relaxation, ..relaxed }));
         assert!(gaps[1] < gaps[0] - 0.5, "{model:?}: {gaps:?}");
     }
 }

@@ -33,7 +33,11 @@ fn a_literal_speed_yield_is_divided_by_the_own_speed() {
     // 5.0 if the floor of 1 m/s were forgotten.
     for (here, there, earning) in [(8.0, 11.0, 0.375), (0.2, 1.2, 1.0)] {
         (situation.here.ahead, situation.there.ahead) = (leader_allowing(here), leader_allowing(there));
-        assert_near(situation.me.follow.prospect(situation.me.pace, situation.here.ahead), here, 1e-9);
+        assert_near(
+            situation.me.follow.anticipated_speed(situation.me.pace, situation.here.ahead),
+            here,
+            1e-9,
+        );
         assert_near(speed.earning(&situation, chances(0.3)), earning, 1e-9);
     }
 }
@@ -42,7 +46,7 @@ fn a_literal_speed_yield_is_divided_by_the_own_speed() {
 fn a_repaired_speed_yield_is_divided_by_the_desired_speed() {
     let speed = Speed { weight: 1.0, reading: Repaired };
     let mut situation = empty_road(driver(&LITERAL_FVDM, 8.0, 50.0 / 3.6));
-    (situation.here.prospect, situation.there.prospect) = (0.2, 1.2);
+    (situation.here.anticipated_speed, situation.there.anticipated_speed) = (0.2, 1.2);
     assert_near(speed.earning(&situation, chances(0.3)), 0.072, 1e-12);
 }
 

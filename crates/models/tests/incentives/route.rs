@@ -162,7 +162,7 @@ fn a_symmetric_change_earns_of_the_route_only_its_speed_part() {
         situation.there.route.alternative = alternative;
         assert_eq!(route.earning(&situation, chances(1.0)), 0.0);
         // 400 m at 8 and at 10 m/s: ten seconds.
-        situation.here.prospect = 8.0;
+        situation.here.anticipated_speed = 8.0;
         assert_near(route.earning(&situation, chances(1.0)), 10.0 / 60.0, 1e-12);
         let literal = Route { reading: Literal, ..route };
         situation.here.ahead = Some(Ahead::steady(20.0, 8.0));
@@ -173,7 +173,7 @@ fn a_symmetric_change_earns_of_the_route_only_its_speed_part() {
 #[test]
 fn a_travel_time_is_counted_at_a_metre_a_second_at_least() {
     let (route, mut situation) = minute_to_go(Repaired);
-    situation.here.prospect = 0.0;
+    situation.here.anticipated_speed = 0.0;
     // 400 s against 40 s.
     assert_near(route.earning(&situation, chances(1.0)), 6.0, 1e-12);
 }

@@ -23,7 +23,8 @@ pub(crate) const ON_ROUTE: RouteView =
 /// Two empty lanes of equal worth.
 pub(crate) fn empty_road(me: Driver<'_>) -> Situation<'_> {
     let flow = Flow { spacing: 300.0, speed: me.pace.desired, length: LENGTH };
-    let lane = LaneView { ahead: None, behind: None, flow, prospect: me.pace.desired, route: ON_ROUTE };
+    let lane =
+        LaneView { ahead: None, behind: None, flow, anticipated_speed: me.pace.desired, route: ON_ROUTE };
     Situation {
         toward: Toward::Offside,
         me,

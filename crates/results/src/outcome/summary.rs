@@ -139,9 +139,9 @@ impl Summary {
     pub fn of(prepared: &Prepared, inputs: Inputs) -> Summary {
         let Inputs { scenario, ending, wall_s, load_s, provenance } = inputs;
         let world: &World = &prepared.world;
-        let (tally, counts) = (world.tally(), world.counts());
+        let (counters, counts) = (world.counters(), world.counts());
         let trips = ending.short_trips.means_without(counts);
-        let veh_km = tally.distance / METRES_PER_KM;
+        let veh_km = counters.distance / METRES_PER_KM;
         let lane_changes = counts.discretionary_changes + counts.route_changes;
         Summary {
             entered: counts.entered,
@@ -160,22 +160,22 @@ impl Summary {
             lane_changes_route_driven: counts.route_changes,
             lane_changes_per_veh_km: ratio(lane_changes as f64, veh_km),
             veh_km,
-            collisions: tally.collisions,
-            overlaps: tally.overlaps,
-            incidents: tally.collisions + tally.overlaps,
+            collisions: counters.collisions,
+            overlaps: counters.overlaps,
+            incidents: counters.collisions + counters.overlaps,
             first_incident: counts.first_incident.map(|it| FirstIncident::of(world.network(), &it)),
-            emergency_brakings: tally.emergency_brakings,
-            stuck: tally.stuck,
-            missed_turns: tally.missed_turns,
-            lost: tally.lost,
-            rerouted: tally.missed_turns,
-            route_changes: tally.route_changes,
-            considerations: tally.considerations,
-            updates: tally.updates,
+            emergency_brakings: counters.emergency_brakings,
+            stuck: counters.stuck,
+            missed_turns: counters.missed_turns,
+            lost: counters.lost,
+            rerouted: counters.missed_turns,
+            route_changes: counters.route_changes,
+            considerations: counters.considerations,
+            updates: counters.updates,
             wall_s,
             load_s,
-            updates_per_s: ratio(tally.updates as f64, wall_s - load_s).unwrap_or(0.0),
-            mean_speed_mps: ratio(tally.distance, tally.updates as f64 * scenario.run.step_s),
+            updates_per_s: ratio(counters.updates as f64, wall_s - load_s).unwrap_or(0.0),
+            mean_speed_mps: ratio(counters.distance, counters.updates as f64 * scenario.run.step_s),
             mean_trip_duration_s: trips.duration,
             mean_delay_s: trips.delay,
             mean_stops: trips.stops,

@@ -29,7 +29,7 @@ pub(super) struct Frame {
 pub(super) struct Seen {
     pub(super) motion: Kinematics,
     pub(super) chain: ChainIndex,
-    pub(super) character: u32,
+    pub(super) parameters: u32,
     previous_lanes: PreviousLanes,
     pub(super) class: Class,
     pub(super) phase: Phase,
@@ -76,8 +76,8 @@ impl Frame {
             // Whose rear is on its chain has nothing behind it.
             let previous_lanes =
                 if motion.rear() < 0.0 { vehicle.lane_change.previous_lanes } else { PreviousLanes::NONE };
-            let (chain, character) = (vehicle.spot.chain, car.character);
-            seen.push(Seen { motion, chain, character, previous_lanes, class: car.class, phase: car.phase });
+            let (chain, parameters) = (vehicle.spot.chain, car.parameters);
+            seen.push(Seen { motion, chain, parameters, previous_lanes, class: car.class, phase: car.phase });
         });
         instants.push((world.clock().step, seen.len()));
     }

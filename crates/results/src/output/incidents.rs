@@ -9,7 +9,7 @@ use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{Page, Pen, Writer};
+use super::page::{BatchSender, Page, Writer};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
@@ -41,19 +41,19 @@ pub(super) struct Incidents {
     /// Time from which on they count [s].
     begin: f64,
     seen: Vec<Incident>,
-    pen: Pen,
+    sender: BatchSender,
 }
 
 impl Incidents {
     /// Collects those from the time `begin` [s] on.
-    pub(super) fn new(begin: f64, pen: Pen) -> Incidents {
-        Incidents { begin, seen: Vec::new(), pen }
+    pub(super) fn new(begin: f64, sender: BatchSender) -> Incidents {
+        Incidents { begin, seen: Vec::new(), sender }
     }
 }
 
 impl Observer for Incidents {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        self.pen.hand_over(Page::Incidents(std::mem::take(&mut self.seen)))?;
+        self.sender.hand_over(Page::Incidents(std::mem::take(&mut self.seen)))?;
         Ok(Vec::new())
     }
 
@@ -72,11 +72,11 @@ impl Observer for Incidents {
         if self.seen.len() < PAGE {
             return Ok(());
         }
-        self.pen.hand_over(Page::Incidents(std::mem::take(&mut self.seen)))
+        self.sender.hand_over(Page::Incidents(std::mem::take(&mut self.seen)))
     }
 
     fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        self.pen.hand_over(Page::Incidents(self.seen))?;
+        self.sender.hand_over(Page::Incidents(self.seen))?;
         Ok(Vec::new())
     }
 }
@@ -112,13 +112,13 @@ impl Writer for IncidentTable {
 }
 
 fn row<'a>(names: &'a Names, incident: &Incident) -> [Cell<'a>; COLUMNS.len()] {
-    let &Incident { kind, time, vehicles, characters, classes, places, at, speeds, depth } = incident;
+    let &Incident { kind, time, vehicles, driver_parameters, classes, places, at, speeds, depth } = incident;
     let [[lanelet, position], [other_lanelet, other_position]] = places.map(|it| {
         let (_, lanelet, along) = names.lanelet(it);
         [lanelet.id.into(), along.into()]
     });
     let [class, other_class] = classes.map(|it| it.body().name.into());
-    let [style, other_style] = characters.map(|it| names.style(it).into());
+    let [style, other_style] = driver_parameters.map(|it| names.style(it).into());
     let Point { x, y, .. } = at;
     [
         seconds(time).into(),

@@ -9,7 +9,7 @@ use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::names::Names;
-use super::page::{Page, Pen, Writer};
+use super::page::{BatchSender, Page, Writer};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
@@ -59,19 +59,19 @@ pub(super) struct LaneChanges {
     /// Time from which on they count [s].
     begin: f64,
     ended: Vec<LaneChange>,
-    pen: Pen,
+    sender: BatchSender,
 }
 
 impl LaneChanges {
     /// Collects those from the time `begin` [s] on.
-    pub(super) fn new(begin: f64, pen: Pen) -> LaneChanges {
-        LaneChanges { begin, ended: Vec::new(), pen }
+    pub(super) fn new(begin: f64, sender: BatchSender) -> LaneChanges {
+        LaneChanges { begin, ended: Vec::new(), sender }
     }
 }
 
 impl Observer for LaneChanges {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))?;
+        self.sender.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))?;
         Ok(Vec::new())
     }
 
@@ -90,11 +90,11 @@ impl Observer for LaneChanges {
         if self.ended.len() < PAGE {
             return Ok(());
         }
-        self.pen.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))
+        self.sender.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))
     }
 
     fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        self.pen.hand_over(Page::LaneChanges(self.ended))?;
+        self.sender.hand_over(Page::LaneChanges(self.ended))?;
         Ok(Vec::new())
     }
 }
@@ -139,7 +139,7 @@ fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
         seconds(change.started).into(),
         seconds(change.duration).into(),
         change.vehicle.into(),
-        names.style(change.character).into(),
+        names.style(change.parameters).into(),
         change.class.body().name.into(),
         lanelet(change.from).into(),
         lanelet(change.to).into(),

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use laneweave_network::LaneletIndex;
 use laneweave_scenario::Fault;
-use laneweave_sim::{Clock, Stay, World};
+use laneweave_sim::{Clock, LaneletAggregate, World};
 use laneweave_study::{Column, TableWriter, seconds};
 
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{Page, Pen, Writer};
+use super::page::{BatchSender, Page, Writer};
 use super::traffic::Traffic;
 use crate::observer::Observer;
 use crate::outcome::Summary;
@@ -27,18 +27,23 @@ pub(super) struct Lanelets {
     past: Traffic,
     interval: Traffic,
     /// What vehicles did on the lanelets before the present interval.
-    before: Vec<Stay>,
-    pen: Pen,
+    before: Vec<LaneletAggregate>,
+    sender: BatchSender,
 }
 
 impl Lanelets {
     /// Measures from the step `first` to the step `last`, and intervals of `every` steps, if they are wanted.
-    pub(super) fn new(world: &World, every: Option<u32>, [first, last]: [u32; 2], pen: Pen) -> Lanelets {
+    pub(super) fn new(
+        world: &World,
+        every: Option<u32>,
+        [first, last]: [u32; 2],
+        sender: BatchSender,
+    ) -> Lanelets {
         let begin = f64::from(first) * world.clock().dt;
         let interval = Traffic::of(world.network(), begin);
-        let before = vec![Stay::default(); world.network().lanelets.len()];
+        let before = vec![LaneletAggregate::default(); world.network().lanelets.len()];
         let end = every.map_or(last, |it| (first + it).min(last));
-        Lanelets { begin, every, until: [end, last], past: interval.clone(), interval, before, pen }
+        Lanelets { begin, every, until: [end, last], past: interval.clone(), interval, before, sender }
     }
 }
 
@@ -53,7 +58,7 @@ impl Observer for Lanelets {
     }
 
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
-        let Lanelets { begin, every, until: [end, last], past, interval, before, pen } = self;
+        let Lanelets { begin, every, until: [end, last], past, interval, before, sender } = self;
         interval.observe(world, |change| change.time >= *begin);
         let Clock { step, .. } = world.clock();
         if let Some(every) = *every
@@ -62,7 +67,7 @@ impl Observer for Lanelets {
             interval.close(world, before);
             past.add(interval);
             let next = Traffic::of(world.network(), world.clock().time());
-            pen.hand_over(Page::Flows(std::mem::replace(interval, next)))?;
+            sender.hand_over(Page::Flows(std::mem::replace(interval, next)))?;
             *end = (step + every).min(*last);
         }
         Ok(())
@@ -71,7 +76,7 @@ impl Observer for Lanelets {
     fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         self.interval.close(world, &mut self.before);
         self.past.add(&self.interval);
-        self.pen.hand_over(Page::Lanelets(self.past))?;
+        self.sender.hand_over(Page::Lanelets(self.past))?;
         Ok(Vec::new())
     }
 }

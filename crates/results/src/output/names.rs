@@ -11,8 +11,8 @@ use super::sumo::Lanes;
 pub(super) struct Names {
     /// The roads.
     pub(super) network: Arc<Network>,
-    /// For each character the name of its style, and its factor on the speed limit.
-    characters: Vec<(String, f64)>,
+    /// For each set of driver parameters the name of its style, and its factor on the speed limit.
+    driver_parameters: Vec<(String, f64)>,
     /// The ids of the origins and of the destinations, in the order of the demand.
     origins: Vec<i64>,
     destinations: Vec<i64>,
@@ -25,10 +25,11 @@ pub(super) struct Names {
 impl Names {
     pub(super) fn of(world: &World) -> Names {
         let network = world.shared_network();
-        let characters = world.scene().characters.iter().map(|it| (it.name.clone(), it.speed_factor));
+        let driver_parameters =
+            world.scene().driver_parameters.iter().map(|it| (it.name.clone(), it.speed_factor));
         let demand = world.demand();
         Names {
-            characters: characters.collect(),
+            driver_parameters: driver_parameters.collect(),
             origins: demand.origins.iter().map(|it| it.place.id()).collect(),
             destinations: demand.destinations.iter().map(Place::id).collect(),
             lanes: Lanes::of(&network),
@@ -43,19 +44,19 @@ impl Names {
         (index, &self.network.lanelets[index.at()], along)
     }
 
-    /// The style of a character.
-    pub(super) fn style(&self, character: u32) -> &str {
-        &self.characters[character as usize].0
+    /// The style of a set of driver parameters.
+    pub(super) fn style(&self, parameters: u32) -> &str {
+        &self.driver_parameters[parameters as usize].0
     }
 
-    /// The styles of all characters.
+    /// The styles of all sets of driver parameters.
     pub(super) fn styles(&self) -> impl Iterator<Item = &str> {
-        self.characters.iter().map(|(style, _)| style.as_str())
+        self.driver_parameters.iter().map(|(style, _)| style.as_str())
     }
 
-    /// Factor of a character on the speed limit.
-    pub(super) fn speed_factor(&self, character: u32) -> f64 {
-        self.characters[character as usize].1
+    /// Factor of a set of driver parameters on the speed limit.
+    pub(super) fn speed_factor(&self, parameters: u32) -> f64 {
+        self.driver_parameters[parameters as usize].1
     }
 
     /// The id of an origin of the demand.

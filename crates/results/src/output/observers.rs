@@ -43,16 +43,16 @@ pub fn observers(
     let cores = available_parallelism().map_or(1, NonZero::get);
     let free = cores.saturating_sub(prepared.threads);
     let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world), log, free)?;
-    let pen = writers.pen();
+    let sender = writers.sender();
     let mut observers: Vec<Box<dyn Observer>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
         let is_machine_full = writers.threads() > free;
-        observers.push(Box::new(Samples::new(steps, is_machine_full, pen.clone(), written)));
+        observers.push(Box::new(Samples::new(steps, is_machine_full, sender.clone(), written)));
     }
-    observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, pen.clone())));
-    observers.push(Box::new(LaneChanges::new(begin, pen.clone())));
-    observers.push(Box::new(Incidents::new(begin, pen.clone())));
-    observers.push(Box::new(Trips::new(pen)));
+    observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, sender.clone())));
+    observers.push(Box::new(LaneChanges::new(begin, sender.clone())));
+    observers.push(Box::new(Incidents::new(begin, sender.clone())));
+    observers.push(Box::new(Trips::new(sender)));
     #[cfg(feature = "reports")]
     observers.push(Box::new(Report::new(&folder, scenario, prepared)));
     observers.push(Box::new(writers));

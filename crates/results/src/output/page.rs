@@ -48,15 +48,15 @@ pub(super) trait Writer: Send {
 
 /// Hands pages to a thread that writes.
 #[derive(Clone)]
-pub(super) struct Pen {
+pub(super) struct BatchSender {
     pages: SyncSender<Arc<Page>>,
     fault: Arc<OnceLock<Fault>>,
 }
 
-impl Pen {
+impl BatchSender {
     /// Hands them over by `pages`; when that is closed, `fault` says why.
-    pub(super) fn new(pages: SyncSender<Arc<Page>>, fault: Arc<OnceLock<Fault>>) -> Pen {
-        Pen { pages, fault }
+    pub(super) fn new(pages: SyncSender<Arc<Page>>, fault: Arc<OnceLock<Fault>>) -> BatchSender {
+        BatchSender { pages, fault }
     }
 
     /// Hands `page` over, as soon as there is room for it.

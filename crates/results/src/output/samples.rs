@@ -8,7 +8,7 @@ use laneweave_scenario::Fault;
 use laneweave_sim::World;
 
 use super::frame::Frame;
-use super::page::{Page, Pen};
+use super::page::{BatchSender, Page};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
@@ -18,7 +18,7 @@ pub(super) struct Samples {
     frame: Frame,
     /// The machine has no core to spare for the writers while the world moves on all its threads.
     is_machine_full: bool,
-    pen: Pen,
+    sender: BatchSender,
     written: Receiver<Frame>,
     /// Frames that are handed over and not yet written, and one to go on with.
     under_way: usize,
@@ -27,16 +27,21 @@ pub(super) struct Samples {
 
 impl Samples {
     /// Samples at every `every`-th step. Frames that are `written` come back.
-    pub(super) fn new(every: u32, is_machine_full: bool, pen: Pen, written: Receiver<Frame>) -> Samples {
+    pub(super) fn new(
+        every: u32,
+        is_machine_full: bool,
+        sender: BatchSender,
+        written: Receiver<Frame>,
+    ) -> Samples {
         let [frame, spare] = [Frame::default(), Frame::default()];
-        Samples { every, frame, is_machine_full, pen, written, under_way: 0, spare }
+        Samples { every, frame, is_machine_full, sender, written, under_way: 0, spare }
     }
 
     /// Hands the frame over. Threads that move the world spin while they wait for each other: where the writers would
     /// take the core of one of them, it is better to wait until they have written.
     fn hand_over(&mut self, world: &World) -> Result<(), Fault> {
         let full = mem::replace(&mut self.frame, mem::take(&mut self.spare));
-        self.pen.hand_over(Page::Frame(full))?;
+        self.sender.hand_over(Page::Frame(full))?;
         self.under_way += 1;
         let must_wait = self.is_machine_full && world.moves_on_all_threads();
         while self.under_way > 0 {

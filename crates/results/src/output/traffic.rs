@@ -4,7 +4,7 @@
 //! of every vehicle as the simulator puts them down.
 
 use laneweave_network::{Network, Side};
-use laneweave_sim::{Event, LaneChange, Stay, World};
+use laneweave_sim::{Event, LaneChange, LaneletAggregate, World};
 use laneweave_study::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub(super) struct Traffic {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Counts {
     /// What vehicles did on it.
-    pub(super) stay: Stay,
+    pub(super) stay: LaneletAggregate,
     /// Trips that began and ended on it.
     pub(super) begun: u32,
     pub(super) ended: u32,
@@ -71,9 +71,9 @@ impl Traffic {
     }
 
     /// Ends now; what vehicles did is what was added `before`, which becomes what there is now.
-    pub(super) fn close(&mut self, world: &World, before: &mut Vec<Stay>) {
+    pub(super) fn close(&mut self, world: &World, before: &mut Vec<LaneletAggregate>) {
         self.during[1] = world.clock().time();
-        let now = world.stays();
+        let now = world.lanelet_aggregates();
         for ((counts, now), before) in self.counts.iter_mut().zip(&now).zip(&*before) {
             counts.stay = now.since(*before);
         }
@@ -97,7 +97,7 @@ impl Traffic {
         let all = self.counts.iter().zip(&network.lanelets).enumerate();
         all.map(move |(place, (it, lanelet))| {
             let size = lanelet.length() * duration;
-            let Stay { time, way, .. } = it.stay;
+            let LaneletAggregate { time, way, .. } = it.stay;
             let density = time / size * METRES_PER_KM;
             let flow = way / size * SECONDS_PER_HOUR;
             (place, [density, flow], (time > 0.0).then(|| way / time))

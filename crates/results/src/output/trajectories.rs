@@ -82,7 +82,7 @@ impl Writer for Trajectories {
         places.iter_mut().for_each(|it| empty(it, seen.len()));
         let [class, style, state] = places;
         class.extend(seen.iter().map(|it| it.class as u32));
-        style.extend(seen.iter().map(|it| it.character));
+        style.extend(seen.iter().map(|it| it.parameters));
         state.extend(seen.iter().map(|it| it.phase as u32));
         let styles: Vec<&str> = names.styles().collect();
         let classes = Class::ALL.map(|it| it.body().name);

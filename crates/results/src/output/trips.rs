@@ -9,7 +9,7 @@ use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{Page, Pen, Writer};
+use super::page::{BatchSender, Page, Writer};
 use super::trip::{End, Trip};
 use crate::observer::Observer;
 use crate::outcome::Summary;
@@ -20,18 +20,18 @@ const PAGE: usize = 256;
 /// Collects trips when they end.
 pub(super) struct Trips {
     ended: Vec<Trip>,
-    pen: Pen,
+    sender: BatchSender,
 }
 
 impl Trips {
-    pub(super) fn new(pen: Pen) -> Trips {
-        Trips { ended: Vec::new(), pen }
+    pub(super) fn new(sender: BatchSender) -> Trips {
+        Trips { ended: Vec::new(), sender }
     }
 }
 
 impl Observer for Trips {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        self.pen.hand_over(Page::Trips(std::mem::take(&mut self.ended)))?;
+        self.sender.hand_over(Page::Trips(std::mem::take(&mut self.ended)))?;
         Ok(Vec::new())
     }
 
@@ -52,7 +52,7 @@ impl Observer for Trips {
         if self.ended.len() < PAGE {
             return Ok(());
         }
-        self.pen.hand_over(Page::Trips(std::mem::take(&mut self.ended)))
+        self.sender.hand_over(Page::Trips(std::mem::take(&mut self.ended)))
     }
 
     /// Those on the road come last, in the order of their ids.
@@ -65,7 +65,7 @@ impl Observer for Trips {
         let mut on_road: Vec<Trip> = on_road.collect();
         on_road.sort_unstable_by_key(|it| it.record.vehicle);
         self.ended.append(&mut on_road);
-        self.pen.hand_over(Page::Trips(self.ended))?;
+        self.sender.hand_over(Page::Trips(self.ended))?;
         Ok(Vec::new())
     }
 }
@@ -132,7 +132,7 @@ fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
     [
         record.vehicle.into(),
         record.class.body().name.into(),
-        names.style(record.character).into(),
+        names.style(record.parameters).into(),
         names.origin(record.origin).into(),
         names.destination(record.destination).into(),
         lanelet(record.from).into(),

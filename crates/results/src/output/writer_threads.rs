@@ -15,7 +15,7 @@ use laneweave_sim::World;
 use super::frame::Frame;
 use super::log::{PageLog, pages};
 use super::names::Names;
-use super::page::{Page, Pen, Writer, broke_off};
+use super::page::{BatchSender, Page, Writer, broke_off};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
@@ -31,7 +31,7 @@ const XML: &str = "xml";
 /// The threads that write, as the last of the observers: it sees nothing of the world, and has all files completed when
 /// the others have finished.
 pub(super) struct WriterThreads {
-    pen: Pen,
+    sender: BatchSender,
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
     /// The log of pages, if there is one.
     log: Option<PathBuf>,
@@ -58,9 +58,9 @@ impl WriterThreads {
         let stages = [(XML, xml), (TABLES, tables)];
         for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
             let (pages, received) = sync_channel(WAITING);
-            let pen = Pen::new(pages, Arc::clone(&fault));
+            let sender = BatchSender::new(pages, Arc::clone(&fault));
             let stage =
-                Stage { next: next.replace(pen), names: Arc::clone(&names), written: written.clone() };
+                Stage { next: next.replace(sender), names: Arc::clone(&names), written: written.clone() };
             let fault = Arc::clone(&fault);
             // The first to get the pages logs them.
             let log = if name == TABLES { log.take() } else { None };
@@ -77,8 +77,8 @@ impl WriterThreads {
                 Fault::new("a writer thread", error, "close other programs, and try again")
             })?);
         }
-        let pen = next.ok_or_else(broke_off)?;
-        Ok((WriterThreads { pen, threads, log: log_path }, spares))
+        let sender = next.ok_or_else(broke_off)?;
+        Ok((WriterThreads { sender, threads, log: log_path }, spares))
     }
 
     /// Number of threads that write.
@@ -87,8 +87,8 @@ impl WriterThreads {
     }
 
     /// What hands pages over to it.
-    pub(super) fn pen(&self) -> Pen {
-        self.pen.clone()
+    pub(super) fn sender(&self) -> BatchSender {
+        self.sender.clone()
     }
 
     /// Waits until all threads have ended.
@@ -105,8 +105,8 @@ impl Observer for WriterThreads {
     /// All pages up to now are in the log, whose length is kept.
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         let (told, length) = channel();
-        self.pen.hand_over(Page::Mark(told))?;
-        let length = length.recv().map_err(|_| self.pen.fault())?;
+        self.sender.hand_over(Page::Mark(told))?;
+        let length = length.recv().map_err(|_| self.sender.fault())?;
         pack(&length?)
     }
 
@@ -114,7 +114,7 @@ impl Observer for WriterThreads {
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
         let Some(log) = &self.log else { return Ok(()) };
         for page in pages(log, unpack(saved)?)? {
-            self.pen.hand_over(page?)?;
+            self.sender.hand_over(page?)?;
         }
         Ok(())
     }
@@ -124,7 +124,7 @@ impl Observer for WriterThreads {
     }
 
     fn finish(mut self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        let ended = self.pen.hand_over(Page::End);
+        let ended = self.sender.hand_over(Page::End);
         let files = WriterThreads::join(std::mem::take(&mut self.threads));
         ended.and(files)
     }
@@ -133,7 +133,7 @@ impl Observer for WriterThreads {
 impl Drop for WriterThreads {
     /// Without an end, files that are not complete are gone when this returns.
     fn drop(&mut self) {
-        self.pen.close();
+        self.sender.close();
         let _ = WriterThreads::join(std::mem::take(&mut self.threads));
     }
 }
@@ -141,7 +141,7 @@ impl Drop for WriterThreads {
 /// What a thread works with, beside its writers.
 struct Stage {
     /// To whom it passes pages on.
-    next: Option<Pen>,
+    next: Option<BatchSender>,
     names: Arc<Names>,
     /// Where frames go back that all have written.
     written: SyncSender<Frame>,

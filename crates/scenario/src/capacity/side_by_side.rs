@@ -29,13 +29,13 @@ pub(super) fn flow(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &F
         ..Motorway::default()
     };
     let network = motorway(&road).ok()?.build().ok()?.network;
-    let characters = drivers.iter().map(|(style, _)| style.clone()).collect();
+    let driver_parameters = drivers.iter().map(|(style, _)| style.clone()).collect();
     let shares =
         drivers.iter().zip(0..).map(|((_, weight), first)| Share { weight: *weight, first, count: 1 });
     let total = TOO_MANY * lanes as f64;
     let demand = Demand::over(Places::at_gates(&network), total, *fleet, shares.collect());
     let setup = Setup { step: STEP_S, seed: 1, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).ok()?;
+    let mut world = World::new(network, driver_parameters, demand, setup).ok()?;
     let drive = |world: &mut World, time: f64| (0..(time / STEP_S) as u32).for_each(|_| world.step());
     drive(&mut world, UNTIL_FULL);
     world.reset_counts();

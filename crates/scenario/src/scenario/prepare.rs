@@ -83,7 +83,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     check_samples(scenario, origin, record_steps)?;
     let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
-    let Population { characters, shares } = Population::draw(&mixture, scenario.run.seed)?;
+    let Population { driver_parameters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
     let (network, places) = driven(&map);
     // Nobody can mend the map that comes with the program.
@@ -99,7 +99,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let build = |total: Option<f64>| {
         let demand = demand(scenario, origin, &network, places.clone(), shares.clone(), total)?;
         let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
-        World::new(Arc::clone(&network), characters.clone(), demand, setup)
+        World::new(Arc::clone(&network), driver_parameters.clone(), demand, setup)
             .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
     };
     let typical: Vec<(Style, f64)> =
@@ -117,7 +117,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
         world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
-    let world = guided(world.with_journal(), scenario, origin)?;
+    let world = guided(world.with_trip_log(), scenario, origin)?;
     let world = if scenario.run.audit { world.audited() } else { world };
     let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;

@@ -12,8 +12,8 @@ use crate::fault::Fault;
 #[derive(Clone, Debug)]
 pub struct Population {
     /// The drivers, style by style.
-    pub characters: Vec<Style>,
-    /// The weight of each style and its range in `characters`.
+    pub driver_parameters: Vec<Style>,
+    /// The weight of each style and its range in `driver_parameters`.
     pub shares: Vec<Share>,
 }
 
@@ -24,11 +24,11 @@ impl Population {
     /// If a distribution gives a value that a parameter cannot have.
     pub fn draw(mixture: &[(StyleTemplate, f64)], seed: u64) -> Result<Population, Fault> {
         let random = Random::new(seed);
-        let mut population = Population { characters: Vec::new(), shares: Vec::new() };
+        let mut population = Population { driver_parameters: Vec::new(), shares: Vec::new() };
         for ((template, weight), number) in mixture.iter().zip(0..) {
-            let (first, count) = (population.characters.len() as u32, template.characters());
+            let (first, count) = (population.driver_parameters.len() as u32, template.driver_parameters());
             for variant in 0..count {
-                population.characters.push(template.draw(&random, number, variant)?);
+                population.driver_parameters.push(template.draw(&random, number, variant)?);
             }
             population.shares.push(Share { weight: *weight, first, count });
         }
@@ -42,13 +42,13 @@ impl Population {
     /// If a distribution gives a value that a parameter cannot have.
     pub fn redrawn(&self, mixture: &[(StyleTemplate, f64)], seed: u64) -> Result<Vec<Style>, Fault> {
         let random = Random::new(seed);
-        let mut characters = Vec::new();
+        let mut driver_parameters = Vec::new();
         for (((template, _), share), number) in mixture.iter().zip(&self.shares).zip(0..) {
             for variant in 0..share.count {
-                characters.push(template.draw(&random, number, variant)?);
+                driver_parameters.push(template.draw(&random, number, variant)?);
             }
         }
-        Ok(characters)
+        Ok(driver_parameters)
     }
 
     /// The drivers that come where nothing is said.

@@ -77,7 +77,7 @@ impl StyleTemplate {
     }
 
     /// Number of different drivers that stand for the style: one, or 512 where anything is distributed.
-    pub fn characters(&self) -> u32 {
+    pub fn driver_parameters(&self) -> u32 {
         if self.parameters.is_empty() { 1 } else { CHARACTERS }
     }
 

@@ -28,7 +28,7 @@ pub struct Account<'a> {
     pub time: f64,
     /// Where its main entry stands.
     pub spot: Spot,
-    /// Its character.
+    /// Its driver parameters.
     pub style: &'a Style,
     /// Whether it attends.
     pub state: Concentration,

@@ -102,7 +102,7 @@ impl Backlog {
         &self,
         other: &Backlog,
         clock: Clock,
-        characters: usize,
+        driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
         let Backlog { sources, perimeter, next_id: _ } = self;
@@ -110,7 +110,8 @@ impl Backlog {
             (Some(one), Some(other)) => one.fits(other),
             (one, other) => one.is_none() && other.is_none(),
         };
-        let source_fits = |(one, other): (&Source, &Source)| one.fits(other, clock, characters, &is_known);
+        let source_fits =
+            |(one, other): (&Source, &Source)| one.fits(other, clock, driver_parameters, &is_known);
         sources.len() == other.sources.len()
             && sources.iter().zip(&other.sources).all(source_fits)
             && perimeter_fits

@@ -10,17 +10,17 @@ pub enum WorldError {
     /// The step is not a sensible length of time.
     #[error("a step of {0} s: it must lie between 0.01 and 1 s")]
     Step(f64),
-    /// Other characters are not as many as those in whose places they are to be.
-    #[error("{found} characters in place of {expected}")]
+    /// There are not as many driver parameters as before.
+    #[error("{found} sets of driver parameters in place of {expected}")]
     Characters {
         /// The new ones.
         found: usize,
         /// The present ones.
         expected: usize,
     },
-    /// There are no characters.
+    /// There are no driver parameters.
     #[error("there is no style to drive with")]
-    NoCharacters,
+    NoDriverParameters,
     /// A vehicle cannot be put there, or is not known.
     #[error("a vehicle cannot be put on the road: {0}")]
     Vehicle(&'static str),

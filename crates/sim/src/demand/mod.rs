@@ -49,9 +49,9 @@ pub struct Origin {
 pub struct Share {
     /// Its weight.
     pub weight: f64,
-    /// Place of its first character in the table of characters.
+    /// Place of its first set in the table of driver parameters.
     pub first: u32,
-    /// Number of its characters.
+    /// Number of its sets.
     pub count: u32,
 }
 
@@ -107,7 +107,7 @@ impl Demand {
             }
         }
         if self.population.iter().map(|it| it.weight).sum::<f64>() <= 0.0 {
-            return Err(WorldError::NoCharacters);
+            return Err(WorldError::NoDriverParameters);
         }
         for origin in &self.origins {
             self.headways.check(origin.rate_of_a_lane())?;

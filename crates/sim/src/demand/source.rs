@@ -33,7 +33,7 @@ pub(crate) struct Arrival {
     /// When it came [s].
     pub(crate) time: f64,
     pub(crate) class: Class,
-    pub(crate) character: u32,
+    pub(crate) parameters: u32,
     pub(crate) destination: Destination,
     /// Its way leads through a town, which may be full.
     pub(crate) is_through_town: bool,
@@ -136,11 +136,12 @@ impl Source {
         &self,
         other: &Source,
         clock: Clock,
-        characters: usize,
+        driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
         let Source { headways, rate, streams, lanes, destinations } = self;
-        let arrival_fits = |it: &Arrival| (it.character as usize) < characters && is_known(it.destination);
+        let arrival_fits =
+            |it: &Arrival| (it.parameters as usize) < driver_parameters && is_known(it.destination);
         let queue_fits = |(one, other): (&Queue, &Queue)| {
             one.chain == other.chain
                 && one.start == other.start
@@ -215,14 +216,14 @@ impl Source {
                 at < 0.0
             })
             .or(demand.population.last());
-        let character = share.map_or(0, |it| {
+        let parameters = share.map_or(0, |it| {
             it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
         });
         let last = self.destinations.last().map_or(0.0, |it| it.1);
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
         let destination = self.reachable_for(navigator, class, destination);
-        Arrival { id, time, class, character, destination, is_through_town: false }
+        Arrival { id, time, class, parameters, destination, is_through_town: false }
     }
 
     /// A destination as a class sees the way to it; where there is none for it, the destination of least time to which

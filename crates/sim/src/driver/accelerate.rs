@@ -186,7 +186,11 @@ pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
 }
 
 fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
-    Pace { speed: motion.speed, desired: f64::from(driver.desired), tightness: f64::from(motion.tightness) }
+    Pace {
+        speed: motion.speed,
+        desired: f64::from(driver.desired),
+        headway_relaxation: f64::from(motion.headway_relaxation),
+    }
 }
 
 /// `clamp` for bounds in order.

@@ -5,8 +5,8 @@ use laneweave_network::Side;
 
 use crate::driver::perceive::{Dismissed, Perception};
 use crate::driver::plan::Want;
+use crate::record::counters::Counters;
 use crate::record::desire_situations::DesireSituation;
-use crate::record::tally::Tally;
 use crate::state::lane::{DriverState, Kind};
 use crate::state::moment::Moment;
 
@@ -20,7 +20,7 @@ pub(crate) struct Choice {
     /// How much the driver is pressed to this side, 0…1.
     pub(crate) pressure: f64,
     /// Anticipated speed there [m/s].
-    pub(crate) prospect: f64,
+    pub(crate) anticipated_speed: f64,
 }
 
 impl Choice {
@@ -50,7 +50,7 @@ impl Choice {
                 is_symmetric: situation.is_symmetric(),
                 helps_the_route,
                 pressure: change.pressure(&situation, &appraisal),
-                prospect: situation.there.prospect,
+                anticipated_speed: situation.there.anticipated_speed,
             }
         })
     }
@@ -60,7 +60,7 @@ impl Choice {
             side: self.side,
             kind: if self.is_symmetric { Kind::Discretionary } else { Kind::Route },
             appraisal: self.appraisal,
-            speed_gain: (self.prospect - prospect_here) as f32,
+            speed_gain: (self.anticipated_speed - prospect_here) as f32,
         }
     }
 }
@@ -84,9 +84,9 @@ pub(crate) fn desire(
     change: &LaneChangeModel,
     epochs: f64,
     draw: f64,
-    tally: &mut Tally,
+    counters: &mut Counters,
 ) -> Option<Choice> {
-    let (desired, here) = (f64::from(perception.driver().desired), perception.here().prospect);
+    let (desired, here) = (f64::from(perception.driver().desired), perception.here().anticipated_speed);
     if let LaneChangeModel::Mcdm(model) = change
         && moment.clock.step >= perception.driver().cooldown_until
         && let Some(Dismissed { best_prospect }) = perception.dismisses(model, change.reach(epochs, draw))
@@ -94,15 +94,16 @@ pub(crate) fn desire(
         // Whether the lane beside is free, and not only its next leader far ahead, takes a longer look.
         let situation = DesireSituation::of(desired, here, best_prospect);
         if situation != Some(DesireSituation::HeldUp) {
-            tally.count_desire(situation, false);
+            counters.count_desire(situation, false);
             return None;
         }
     }
     let options = Choice::both(perception, moment, change);
     let symmetric = options.iter().flatten().filter(|it| it.is_symmetric);
-    let situation = DesireSituation::of(desired, here, symmetric.map(|it| it.prospect).reduce(f64::max));
+    let situation =
+        DesireSituation::of(desired, here, symmetric.map(|it| it.anticipated_speed).reduce(f64::max));
     let drawn =
         change.drawn([&options[0], &options[1]].map(|it| it.as_ref().map(|it| &it.appraisal)), epochs, draw);
-    tally.count_desire(situation, drawn.is_some());
+    counters.count_desire(situation, drawn.is_some());
     drawn.and_then(|it| options.into_iter().nth(it)).flatten()
 }

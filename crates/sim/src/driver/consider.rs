@@ -44,7 +44,7 @@ pub(crate) fn consider(
 ) {
     let me = Me::at(scene, spot);
     let attending = Attending::of(&me, moment);
-    outbox.tally.considerations += 1;
+    outbox.counters.considerations += 1;
     let standing = note_turn(scene, moment, &me, attending.period, plan, outbox);
     let waypoint = waypoint(scene, &me);
     let is_detour = matches!(waypoint, Cow::Owned(_));
@@ -94,7 +94,7 @@ fn note_turn(
     let mut note = note(scene, moment, me, period);
     if driver.standing < STUCK_AFTER && note.standing >= STUCK_AFTER {
         if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
-            outbox.tally.stuck += 1;
+            outbox.counters.stuck += 1;
         } else {
             note.standing = driver.standing;
         }
@@ -136,7 +136,7 @@ fn follow_route(
     };
     if let Some(other) = other_goal(scene, me, waypoint, standing) {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
-        outbox.tally.lost += u64::from(other.is_none());
+        outbox.counters.lost += u64::from(other.is_none());
         return Concern { rerouted: Some(other), gives_up: true, ..concern };
     }
     if !waypoint.leads_on(motion.x) {
@@ -204,10 +204,10 @@ fn choose(
     let needed =
         || Choice::both(perception, moment, change).into_iter().flatten().find(|it| it.helps_the_route);
     let choice = is_last_chance.then(needed).flatten();
-    let choice = choice.or_else(|| desire(perception, moment, change, epochs, draw, &mut outbox.tally));
+    let choice = choice.or_else(|| desire(perception, moment, change, epochs, draw, &mut outbox.counters));
     if let Some(choice) = choice {
         let (id, chain, x, urgency) = (motion.id, spot.chain, motion.x, choice.pressure as f32);
-        let ask = Ask::Want(choice.want(perception.here().prospect));
+        let ask = Ask::Want(choice.want(perception.here().anticipated_speed));
         outbox.requests.push(Request { urgency, id, chain, x, ask });
     }
 }

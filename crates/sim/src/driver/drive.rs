@@ -36,9 +36,9 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             None => drive_with_care(scene, clock, Spot { chain, index }, end, plan, outbox),
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
-        if next.tightness < 1.0 {
+        if next.headway_relaxation < 1.0 {
             let manner = &scene.style_of(driver).manner;
-            next.tightness = manner.relaxed(f64::from(next.tightness), clock.dt) as f32;
+            next.headway_relaxation = manner.relaxed(f64::from(next.headway_relaxation), clock.dt) as f32;
         }
         plan.next.push(next);
         if !driver.is_shadow {
@@ -46,7 +46,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             updates += 1;
         }
     }
-    outbox.tally.updates += updates;
+    outbox.counters.updates += updates;
 }
 
 /// The lane that those beside it will look into next, if it is worth asking for: few lanes stay in the cache anyway.

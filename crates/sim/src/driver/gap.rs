@@ -268,13 +268,14 @@ impl Gap {
         let (motion, driver) = (scene.motion(spot), scene.driver(spot));
         let style = scene.style_of(driver);
         let desire = f64::from(scene.lane_change(spot).urgency).max(VOLUNTARY_DESIRE);
-        let tightness = style.manner.tightness(desire).min(f64::from(motion.tightness));
-        Pace { speed: motion.speed, desired: f64::from(driver.desired), tightness }
+        let headway_relaxation =
+            style.manner.headway_relaxation(desire).min(f64::from(motion.headway_relaxation));
+        Pace { speed: motion.speed, desired: f64::from(driver.desired), headway_relaxation }
     }
 
     /// Share of the usual time gap that the driver accepts for this change.
-    pub(crate) fn tightness(&self, scene: &Scene, spot: Spot) -> f64 {
-        self.pace(spot, scene).tightness
+    pub(crate) fn headway_relaxation(&self, scene: &Scene, spot: Spot) -> f64 {
+        self.pace(spot, scene).headway_relaxation
     }
 
     /// Gaps [m] and times to collision [s] ahead and behind; infinite where there is nobody.

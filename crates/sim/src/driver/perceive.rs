@@ -41,7 +41,7 @@ pub fn driver_of<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
         pace: Pace {
             speed: motion.speed,
             desired: f64::from(driver.desired),
-            tightness: f64::from(motion.tightness),
+            headway_relaxation: f64::from(motion.headway_relaxation),
         },
         acceleration: f64::from(motion.acceleration),
         follow: &scene.style_of(driver).follow,
@@ -246,7 +246,13 @@ impl<'s, 'a> Perception<'s, 'a> {
 fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: RouteView) -> LaneView<'a> {
     let behind =
         sight.follower.map(|it| Behind { gap: it.distance - me.length, driver: driver_of(scene, it.spot) });
-    LaneView { ahead: sight.ahead, behind, flow: sight.flow, prospect: sight.prospect, route }
+    LaneView {
+        ahead: sight.ahead,
+        behind,
+        flow: sight.flow,
+        anticipated_speed: sight.anticipated_speed,
+        route,
+    }
 }
 
 /// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place

@@ -8,9 +8,9 @@ use crate::junction::need::Survey;
 use crate::junction::storage_section::StorageSection;
 use crate::junction::waiting::Turn;
 use crate::junction::waiting::WaitingPriority;
+use crate::record::counters::Counters;
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::incidents::Incident;
-use crate::record::tally::Tally;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::lane::{Entry, Kind, Kinematics, Milestone, VehicleId};
@@ -80,7 +80,7 @@ pub(crate) struct Outbox {
     pub(crate) returns: Vec<(u32, f64)>,
     pub(crate) ended: Vec<u32>,
     /// What was counted since the counts were forgotten, but for distances.
-    pub(crate) tally: Tally,
+    pub(crate) counters: Counters,
     /// What happened to vehicles on their way.
     pub(crate) driving: Vec<DrivingEvent>,
     /// Main entries whose trips ended on their chains.
@@ -95,9 +95,9 @@ impl Outbox {
     /// Notes what happens to the vehicle at `spot` on its way.
     pub(crate) fn note(&mut self, scene: &Scene, clock: Clock, spot: Spot, kind: DrivingEventKind) {
         match kind {
-            DrivingEventKind::EmergencyBraking => self.tally.emergency_brakings += 1,
-            DrivingEventKind::MissedTurn => self.tally.missed_turns += 1,
-            DrivingEventKind::RouteChange => self.tally.route_changes += 1,
+            DrivingEventKind::EmergencyBraking => self.counters.emergency_brakings += 1,
+            DrivingEventKind::MissedTurn => self.counters.missed_turns += 1,
+            DrivingEventKind::RouteChange => self.counters.route_changes += 1,
             DrivingEventKind::Halt | DrivingEventKind::SetOff { .. } => {}
         }
         let (motion, time) = (scene.motion(spot), clock.time());

@@ -83,8 +83,8 @@ impl DrivingEventKind {
 pub struct LaneChange {
     /// Who.
     pub vehicle: VehicleId,
-    /// Its character's place in the table.
-    pub character: u32,
+    /// Its driver parameters' place in the table.
+    pub parameters: u32,
     /// Its class.
     pub class: crate::state::vehicle::Class,
     /// Time when the lateral motion began [s].

@@ -15,8 +15,8 @@ pub struct Incident {
     pub time: f64,
     /// Who, the smaller id first.
     pub vehicles: [VehicleId; 2],
-    /// Their characters' places in the table.
-    pub characters: [u32; 2],
+    /// Their driver parameters' places in the table.
+    pub driver_parameters: [u32; 2],
     /// Their classes.
     pub classes: [Class; 2],
     /// The front bumper of each.

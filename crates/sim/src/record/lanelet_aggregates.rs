@@ -14,7 +14,7 @@ use crate::state::standstill::STANDSTILL;
 
 /// What vehicles did on a lanelet, by their front bumpers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Stay {
+pub struct LaneletAggregate {
     /// Σt: time that they spent on it [s].
     pub time: f64,
     /// Σd: way that they drove on it [m].
@@ -25,10 +25,10 @@ pub struct Stay {
     pub passed: u32,
 }
 
-impl Stay {
+impl LaneletAggregate {
     /// The sum of both.
-    pub fn plus(self, other: Stay) -> Stay {
-        Stay {
+    pub fn plus(self, other: LaneletAggregate) -> LaneletAggregate {
+        LaneletAggregate {
             time: self.time + other.time,
             way: self.way + other.way,
             standing: self.standing + other.standing,
@@ -37,8 +37,8 @@ impl Stay {
     }
 
     /// What was added since it was as `before`.
-    pub fn since(self, before: Stay) -> Stay {
-        Stay {
+    pub fn since(self, before: LaneletAggregate) -> LaneletAggregate {
+        LaneletAggregate {
             time: self.time - before.time,
             way: self.way - before.way,
             standing: self.standing - before.standing,
@@ -69,13 +69,13 @@ impl Mark {
 /// Sums by lanelet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LaneletAggregates {
-    pub(crate) stays: Vec<Stay>,
+    pub(crate) stays: Vec<LaneletAggregate>,
 }
 
 impl LaneletAggregates {
     /// Nothing yet.
     pub(crate) fn new(network: &Network) -> LaneletAggregates {
-        LaneletAggregates { stays: vec![Stay::default(); network.lanelets.len()] }
+        LaneletAggregates { stays: vec![LaneletAggregate::default(); network.lanelets.len()] }
     }
 
     /// Puts down where all vehicles are.
@@ -166,7 +166,7 @@ mod tests {
         let place = chain.starts.partition_point(|it| *it <= marks[1].x) - 1;
         aggregates.put_down(chain, place, marks, false);
         let rounded = |it: f64| (it * 1e6).round() / 1e6;
-        let of = |it: &Stay| (rounded(it.time), rounded(it.way), it.passed);
+        let of = |it: &LaneletAggregate| (rounded(it.time), rounded(it.way), it.passed);
         chain.lanelets.iter().map(|it| of(&aggregates.stays[it.at()])).collect()
     }
 

@@ -3,12 +3,12 @@
 use laneweave_network::{ChainIndex, Network, Position};
 use serde::{Deserialize, Serialize};
 
+use crate::record::counters::Counters;
 use crate::record::counts::Counts;
 use crate::record::events::{DrivingEvent, DrivingEventKind, Event, LaneChange};
 use crate::record::incidents::{Incident, IncidentKind, Touching};
 use crate::record::lane_changes::Records;
-use crate::record::lanelet_aggregates::{LaneletAggregates, Mark, Stay};
-use crate::record::tally::Tally;
+use crate::record::lanelet_aggregates::{LaneletAggregate, LaneletAggregates, Mark};
 use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
@@ -73,7 +73,7 @@ impl Log {
     }
 
     /// Forgets what vehicles did on the lanelets.
-    pub(crate) fn reset_stays(&mut self, network: &Network) {
+    pub(crate) fn reset_lanelet_aggregates(&mut self, network: &Network) {
         self.aggregates = self.aggregates.as_ref().map(|_| LaneletAggregates::new(network));
     }
 
@@ -174,7 +174,12 @@ impl Log {
 
     /// What vehicles did on each lanelet up to now, where trips are recorded. Nothing is put down: what is put down
     /// later does not depend on who asked.
-    pub(crate) fn stays(&self, network: &Network, lanes: &[Lane], clock: Clock) -> Vec<Stay> {
+    pub(crate) fn lanelet_aggregates(
+        &self,
+        network: &Network,
+        lanes: &[Lane],
+        clock: Clock,
+    ) -> Vec<LaneletAggregate> {
         let mut copy =
             Log { aggregates: self.aggregates.clone(), trip_log: self.trip_log.clone(), ..Log::default() };
         copy.put_down(network, lanes, clock);
@@ -232,7 +237,12 @@ impl Log {
 
     /// Counts and tells who came to touch each other, of all that are seen to; if all were `watched`, who was not seen
     /// to no longer does.
-    pub(crate) fn note_incidents(&mut self, seen: &mut Vec<Incident>, tally: &mut Tally, watched: bool) {
+    pub(crate) fn note_incidents(
+        &mut self,
+        seen: &mut Vec<Incident>,
+        counters: &mut Counters,
+        watched: bool,
+    ) {
         let Log { touching: Touching(touching), events, counts, .. } = self;
         // Of what is seen from both sides the graver counts.
         let gravity = |it: &Incident| it.kind == IncidentKind::Overlap;
@@ -244,8 +254,8 @@ impl Log {
             let Err(place) = touching.binary_search(&incident.vehicles) else { continue };
             touching.insert(place, incident.vehicles);
             match incident.kind {
-                IncidentKind::Collision => tally.collisions += 1,
-                IncidentKind::Overlap => tally.overlaps += 1,
+                IncidentKind::Collision => counters.collisions += 1,
+                IncidentKind::Overlap => counters.overlaps += 1,
             }
             counts.first_incident.get_or_insert(*incident);
             events.push(Event::Incident(*incident));

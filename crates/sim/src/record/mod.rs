@@ -1,5 +1,6 @@
 //! What is remembered: events, trips, counts and incidents.
 
+pub(crate) mod counters;
 pub(crate) mod counts;
 pub(crate) mod desire_situations;
 pub(crate) mod events;
@@ -8,6 +9,5 @@ pub(crate) mod lane_changes;
 pub(crate) mod lanelet_aggregates;
 pub(crate) mod log;
 pub(crate) mod overlap;
-pub(crate) mod tally;
 pub(crate) mod trip_log;
 pub(crate) mod trips;

@@ -139,7 +139,7 @@ fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident
         kind: if a.closes(&b) { IncidentKind::Collision } else { IncidentKind::Overlap },
         time,
         vehicles: spots.map(|it| scene.motion(it).id),
-        characters: spots.map(|it| scene.driver(it).character),
+        driver_parameters: spots.map(|it| scene.driver(it).parameters),
         classes: spots.map(|it| scene.driver(it).class),
         places: spots.map(|it| Position::new(it.chain, scene.motion(it).x)),
         at: a.pose.at.midpoint(&b.pose.at),

@@ -21,8 +21,8 @@ pub struct TripRecord {
     pub vehicle: VehicleId,
     /// Its class.
     pub class: Class,
-    /// Its driver's place in the table of characters.
-    pub character: u32,
+    /// Its driver's place in the table of driver parameters.
+    pub parameters: u32,
     /// Where it comes from: place in the list of origins of the demand; none outside of it.
     pub origin: Option<usize>,
     /// Where it goes: place in the list of destinations; none for who drives on as the road leads.
@@ -55,11 +55,11 @@ pub struct TripRecord {
 
 impl TripRecord {
     /// An empty record.
-    pub(crate) fn of(vehicle: VehicleId, class: Class, character: u32) -> TripRecord {
+    pub(crate) fn of(vehicle: VehicleId, class: Class, parameters: u32) -> TripRecord {
         TripRecord {
             vehicle,
             class,
-            character,
+            parameters,
             origin: None,
             destination: None,
             arrived: 0.0,

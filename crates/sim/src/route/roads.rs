@@ -20,7 +20,7 @@ pub(crate) struct Roads {
     network: Arc<Network>,
     navigator: Navigator,
     /// All different drivers.
-    characters: Vec<Style>,
+    driver_parameters: Vec<Style>,
     random: Random,
     /// Where drivers are guided.
     guidance: Option<Guidance>,
@@ -30,14 +30,14 @@ impl Roads {
     /// The roads of `network`, with ways to `destinations` for the classes of `fleet`; nobody is guided.
     pub(crate) fn new(
         network: Arc<Network>,
-        characters: Vec<Style>,
+        driver_parameters: Vec<Style>,
         destinations: &[Place],
         fleet: &Fleet,
         random: Random,
     ) -> Roads {
         let restrictions = ClassRestrictions::of(&network, fleet);
         let navigator = Navigator::with_restrictions(&network, destinations, restrictions);
-        Roads { network, navigator, characters, random, guidance: None }
+        Roads { network, navigator, driver_parameters, random, guidance: None }
     }
 
     /// The network.
@@ -59,19 +59,19 @@ impl Roads {
 
     /// All different drivers.
     #[inline]
-    pub(crate) fn characters(&self) -> &[Style] {
-        &self.characters
+    pub(crate) fn driver_parameters(&self) -> &[Style] {
+        &self.driver_parameters
     }
 
     /// The driver at this place in the table of all different ones.
     #[inline]
-    pub(crate) fn style(&self, character: u32) -> &Style {
-        &self.characters[character as usize]
+    pub(crate) fn style(&self, parameters: u32) -> &Style {
+        &self.driver_parameters[parameters as usize]
     }
 
-    /// Each driver becomes the one in its place among `characters`, of which there are as many.
-    pub(crate) fn change_characters(&mut self, characters: Vec<Style>) {
-        self.characters = characters;
+    /// Each driver becomes the one in its place among `driver_parameters`, of which there are as many.
+    pub(crate) fn change_driver_parameters(&mut self, driver_parameters: Vec<Style>) {
+        self.driver_parameters = driver_parameters;
     }
 
     /// The random numbers.

@@ -1,9 +1,9 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
-//! An entry has three parts, kept in arrays of the same order: its [`Kinematics`], written anew at every step, is all that
-//! others need to see; [`DriverState`] is what its driver needs to drive on and to consider lanes; [`LaneChangeState`] what only changes
-//! of lane need. A vehicle that changes lanes stands in both lanes: with its main entry where its centre is, with a
-//! shadow in the other.
+//! An entry has three parts, kept in arrays of the same order: its [`Kinematics`], written anew at every step, is all
+//! that others need to see; [`DriverState`] is what its driver needs to drive on and to consider lanes;
+//! [`LaneChangeState`] what only changes of lane need. A vehicle that changes lanes stands in both lanes: with its main
+//! entry where its centre is, with a shadow in the other.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Position, Side};
@@ -28,7 +28,7 @@ pub struct Kinematics {
     /// Acceleration of the last step [m/s²].
     pub acceleration: f32,
     /// Share of its usual time gap that the driver accepts for now.
-    pub tightness: f32,
+    pub headway_relaxation: f32,
     /// Vehicle length [m].
     pub length: f32,
     /// Who it is.
@@ -59,8 +59,8 @@ pub struct DriverState {
     pub limit_desired: f32,
     /// Time at standstill [s].
     pub standing: f32,
-    /// Its driver's place in the table of characters.
-    pub character: u32,
+    /// Its driver's place in the table of driver parameters.
+    pub parameters: u32,
     /// Step at which its driver considers lanes next.
     pub due: u32,
     /// Step before which there is no new voluntary change.

@@ -18,7 +18,7 @@ pub enum Purpose {
     Character,
     /// Where a driver goes.
     Destination,
-    /// A parameter of a character.
+    /// A parameter of a driver.
     Parameter,
     /// Whether a driver is concentrated.
     Attention,

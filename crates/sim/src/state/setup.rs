@@ -27,8 +27,8 @@ pub struct NewVehicle {
     pub speed: f64,
     /// Class.
     pub class: Class,
-    /// Its driver's place in the table of characters.
-    pub character: u32,
+    /// Its driver's place in the table of driver parameters.
+    pub parameters: u32,
     /// Where it goes.
     pub destination: Destination,
 }

@@ -104,13 +104,14 @@ impl Traffic {
     pub(crate) fn fits(
         &self,
         chains: usize,
-        characters: usize,
+        driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
         let Traffic { clock, lanes, busy, crowd } = self;
         let is_chain = |it: ChainIndex| it.at() < chains;
-        let car_fits =
-            |it: &DriverState| (it.character as usize) < characters && is_known(it.goal.destination());
+        let car_fits = |it: &DriverState| {
+            (it.parameters as usize) < driver_parameters && is_known(it.goal.destination())
+        };
         let mind_fits = |it: &LaneChangeState| {
             it.counterpart.is_none_or(|it| is_chain(it.chain) && it.x.is_finite())
                 && it.previous_lanes.known().all(is_chain)

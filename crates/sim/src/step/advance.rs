@@ -30,7 +30,7 @@ pub(crate) fn advance(
     chain: ChainIndex,
     ends: Ends,
     clock: Clock,
-    characters: &[Style],
+    driver_parameters: &[Style],
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) {
@@ -60,7 +60,7 @@ pub(crate) fn advance(
             if let Some(counterpart) = &mut lane_change.counterpart {
                 counterpart.x += upkeep.distance * f64::from(counterpart.stretch);
             }
-            let manner = &characters[driver.character as usize].manner;
+            let manner = &driver_parameters[driver.parameters as usize].manner;
             let step = crossing(manner, motion, lane_change).progress_in(clock.dt) as f32;
             has_ended |= go_across(motion, driver, lane_change, chain, clock, step, outbox);
         }
@@ -69,7 +69,7 @@ pub(crate) fn advance(
             if upkeep.reservation_is_over {
                 lane_change.reservation = NO_RESERVATION;
             }
-            let minds_offside = characters[driver.character as usize].change.minds_offside();
+            let minds_offside = driver_parameters[driver.parameters as usize].change.minds_offside();
             driver.needs_full_update = lane_change.last_place.is_finite()
                 || lane_change.reservation != NO_RESERVATION
                 || minds_offside;

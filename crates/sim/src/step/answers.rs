@@ -11,10 +11,10 @@ use crate::demand::arrivals::Arrivals;
 use crate::demand::assignment::Assignment;
 use crate::demand::error::WorldError;
 use crate::driver::plan::Waiting;
+use crate::record::counters::Counters;
 use crate::record::counts::Counts;
 use crate::record::events::Event;
-use crate::record::lanelet_aggregates::Stay;
-use crate::record::tally::Tally;
+use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
 use crate::state::clock::Clock;
 use crate::state::lane::VehicleId;
@@ -26,20 +26,20 @@ use crate::view::scene::Spot;
 
 impl World {
     /// All different drivers.
-    pub fn characters(&self) -> &[Style] {
-        self.roads.characters()
+    pub fn driver_parameters(&self) -> &[Style] {
+        self.roads.driver_parameters()
     }
 
-    /// Gives the drivers other characters, each in the place of its own. What they are about they go on with.
+    /// Gives the drivers other driver parameters, each in the place of its own. What they are about they go on with.
     ///
     /// # Errors
     /// If there are not as many of them.
-    pub fn change_characters(&mut self, characters: Vec<Style>) -> Result<(), WorldError> {
-        let [found, expected] = [characters.len(), self.roads.characters().len()];
+    pub fn change_driver_parameters(&mut self, driver_parameters: Vec<Style>) -> Result<(), WorldError> {
+        let [found, expected] = [driver_parameters.len(), self.roads.driver_parameters().len()];
         if found != expected {
             return Err(WorldError::Characters { found, expected });
         }
-        self.roads.change_characters(characters);
+        self.roads.change_driver_parameters(driver_parameters);
         Ok(())
     }
 
@@ -101,8 +101,8 @@ impl World {
     }
 
     /// What the drivers did so far, added up over threads, and distances over the lanes.
-    pub fn tally(&self) -> Tally {
-        Tally { distance: self.work.plans.iter().map(|it| it.distance).sum(), ..self.work.counted() }
+    pub fn counters(&self) -> Counters {
+        Counters { distance: self.work.plans.iter().map(|it| it.distance).sum(), ..self.work.counted() }
     }
 
     /// What the world did so far.
@@ -115,15 +115,15 @@ impl World {
         let on_road = self.on_road();
         let World { roads, traffic, log, work, .. } = self;
         work.plans.iter_mut().for_each(|it| it.distance = 0.0);
-        work.reset_tally(Tally::default());
+        work.reset_counters(Counters::default());
         log.reset_counts(on_road);
         log.put_down(roads.network(), traffic.lanes(), traffic.clock());
-        log.reset_stays(roads.network());
+        log.reset_lanelet_aggregates(roads.network());
     }
 
     /// What vehicles did on each lanelet since the counts were last forgotten, where trips are recorded.
-    pub fn stays(&self) -> Vec<Stay> {
-        self.log.stays(self.roads.network(), self.traffic.lanes(), self.traffic.clock())
+    pub fn lanelet_aggregates(&self) -> Vec<LaneletAggregate> {
+        self.log.lanelet_aggregates(self.roads.network(), self.traffic.lanes(), self.traffic.clock())
     }
 
     /// Vehicles on the road.

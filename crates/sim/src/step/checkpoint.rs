@@ -9,8 +9,8 @@ use crate::demand::Demand;
 use crate::demand::arrivals::Backlog;
 use crate::driver::plan::Waiting;
 use crate::junction::state::JunctionState;
+use crate::record::counters::Counters;
 use crate::record::log::Log;
-use crate::record::tally::Tally;
 use crate::route::guidance::Guidance;
 use crate::route::renew::Guided;
 use crate::route::roads::Roads;
@@ -35,7 +35,7 @@ pub enum CheckpointError {
 struct Identity {
     /// Hash of its chains.
     network: u64,
-    characters: usize,
+    driver_parameters: usize,
     origins: usize,
     destinations: usize,
 }
@@ -49,7 +49,7 @@ type Saved = (
     Log,
     // By lane those who wait for a reservation, and the distance driven [m].
     Vec<(Vec<Waiting>, f64)>,
-    Tally,
+    Counters,
     Option<(Guidance, Guided)>,
 );
 
@@ -64,8 +64,8 @@ impl World {
     pub fn save(&self) -> Result<Vec<u8>, CheckpointError> {
         let World { roads, traffic, junctions, arrivals, log, work } = self;
         let kept: Vec<_> = work.plans.iter().map(|it| (&it.waiting, it.distance)).collect();
-        let (identity, tally) = (Identity::of(roads, arrivals.demand()), work.counted());
-        let saved = (identity, traffic, junctions, arrivals.backlog(), log, kept, tally, roads.guided());
+        let (identity, counters) = (Identity::of(roads, arrivals.demand()), work.counted());
+        let saved = (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided());
         let mut bytes = postcard::to_allocvec(&saved).map_err(unreadable)?;
         bytes.extend(xxh3_64(&bytes).to_le_bytes());
         Ok(bytes)
@@ -85,7 +85,7 @@ impl World {
         let saved: Saved = postcard::from_bytes(body).map_err(unreadable)?;
         self.check(&saved)?;
         let World { roads, traffic, junctions, arrivals, log, work } = self;
-        let (_, moving, passing, backlog, remembered, kept, tally, guided) = saved;
+        let (_, moving, passing, backlog, remembered, kept, counters, guided) = saved;
         (*traffic, *junctions) = (moving, passing);
         arrivals.restore(backlog);
         log.restore(remembered);
@@ -93,7 +93,7 @@ impl World {
             plan.clear();
             (plan.waiting, plan.distance) = (waiting, distance);
         }
-        work.reset_tally(tally);
+        work.reset_counters(counters);
         roads.restore(guided);
         Ok(())
     }
@@ -102,7 +102,7 @@ impl World {
     fn check(&self, saved: &Saved) -> Result<(), CheckpointError> {
         let World { roads, traffic: own, junctions: own_junctions, arrivals, log: _, work: _ } = self;
         let (_, traffic, junctions, backlog, log, kept, _, guided) = saved;
-        let (chains, characters) = (roads.network().chains.len(), roads.characters().len());
+        let (chains, driver_parameters) = (roads.network().chains.len(), roads.driver_parameters().len());
         let (clock, lanes) = (traffic.clock(), traffic.lanes());
         let is_known = |it: Destination| match guided {
             Some((_, guided)) => guided.has(it),
@@ -113,10 +113,10 @@ impl World {
         };
         let wrong = [
             (clock.dt != own.clock().dt, "steps"),
-            (!traffic.fits(chains, characters, is_known), "lanes"),
+            (!traffic.fits(chains, driver_parameters, is_known), "lanes"),
             (kept.len() != chains || !kept.iter().zip(lanes).all(waits), "waiting drivers"),
             (!junctions.fits(own_junctions, clock), "junctions"),
-            (!backlog.fits(arrivals.backlog(), clock, characters, is_known), "arrivals"),
+            (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),
             (!roads.accepts(guided.as_ref()), "guidance"),
             (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_id()), "records"),
         ];
@@ -136,7 +136,7 @@ impl Identity {
         }
         Identity {
             network: hash.digest(),
-            characters: roads.characters().len(),
+            driver_parameters: roads.driver_parameters().len(),
             origins: demand.origins.len(),
             destinations: demand.destinations.len(),
         }
@@ -145,10 +145,10 @@ impl Identity {
     /// # Errors
     /// What differs.
     fn check(&self, saved: &Identity) -> Result<(), CheckpointError> {
-        let Identity { network, characters, origins, destinations } = *saved;
+        let Identity { network, driver_parameters, origins, destinations } = *saved;
         let differs = [
             (network != self.network, "lanes"),
-            (characters != self.characters, "drivers"),
+            (driver_parameters != self.driver_parameters, "drivers"),
             (origins != self.origins, "origins"),
             (destinations != self.destinations, "destinations"),
         ];

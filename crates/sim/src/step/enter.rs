@@ -91,12 +91,12 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
         Entry::Free => (0.0, None),
         Entry::Reserved { until, ahead } => (until, ahead),
     };
-    let Arrival { class, character, destination, .. } = *arrival;
+    let Arrival { class, parameters, destination, .. } = *arrival;
     let chain = queue.chain;
     let rear = queue.start.station();
     let length = class.body().length;
     let x = rear + length;
-    let style = &scene.characters[character as usize];
+    let style = &scene.driver_parameters[parameters as usize];
     let from = scene.viewpoint_at(applicant(scene, queue, arrival).from, chain, rear);
     let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
     let ahead = nearer(ahead, before);
@@ -116,7 +116,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
             (leaves_room && is_let_in && is_free).then_some(0.0)?
         }
     };
-    Some(NewVehicle { chain, x, speed, class, character, destination })
+    Some(NewVehicle { chain, x, speed, class, parameters, destination })
 }
 
 /// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.

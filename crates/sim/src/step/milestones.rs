@@ -25,6 +25,6 @@ fn begin_cooldown(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
     let lane = traffic.lane_mut(chain);
     if let Some(index) = lane.find(milestone.id, x) {
         let driver = lane.entry_mut(index).1;
-        driver.cooldown_until = clock.step + clock.steps(roads.style(driver.character).manner.calm);
+        driver.cooldown_until = clock.step + clock.steps(roads.style(driver.parameters).manner.calm);
     }
 }

@@ -25,7 +25,8 @@ pub(crate) fn move_all(
     let Work { plans, outboxes, pools } = work;
     let pool = &pools[pool_for(traffic.crowd())];
     let Moving { clock, lanes, chosen } = traffic.moving();
-    let (network, navigator, characters) = (roads.network(), roads.navigator(), roads.characters());
+    let (network, navigator, driver_parameters) =
+        (roads.network(), roads.navigator(), roads.driver_parameters());
     let (reservations, signals) = (junctions.reservations(), junctions.signals());
     let moment = Moment { clock, random: roads.random(), overtaking: network.driving_side.overtaking() };
     pool.look_then_act(
@@ -34,7 +35,7 @@ pub(crate) fn move_all(
         plans,
         chosen,
         |lanes, outbox, index, plan| {
-            let scene = Scene { network, navigator, lanes, characters, reservations, signals };
+            let scene = Scene { network, navigator, lanes, driver_parameters, reservations, signals };
             let chain = ChainIndex(index as u32);
             plan.clear();
             decide(&scene, moment, chain, plan, outbox);
@@ -47,7 +48,7 @@ pub(crate) fn move_all(
         |lane, outbox, index, plan| {
             let chain = ChainIndex(index as u32);
             let ends = Ends { length: network.chain(chain).length, trips: navigator.trip_ends(chain) };
-            advance(lane, chain, ends, clock, characters, plan, outbox);
+            advance(lane, chain, ends, clock, driver_parameters, plan, outbox);
         },
     );
 }

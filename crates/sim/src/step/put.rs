@@ -19,8 +19,8 @@ impl World {
     /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
     ///
     /// # Errors
-    /// If it is not on a chain of the network, its speed is no number from 0 on, or there is no such character or
-    /// destination.
+    /// If it is not on a chain of the network, its speed is no number from 0 on, or there are no such driver parameters
+    /// or destination.
     pub fn place(&mut self, vehicle: NewVehicle) -> Result<VehicleId, WorldError> {
         let World { roads, traffic, arrivals, log, .. } = self;
         check_new(roads, arrivals.demand().destinations.len(), &vehicle)?;
@@ -32,13 +32,13 @@ impl World {
 }
 
 fn check_new(roads: &Roads, destinations: usize, vehicle: &NewVehicle) -> Result<(), WorldError> {
-    let NewVehicle { chain, x, speed, class: _, character, destination } = *vehicle;
+    let NewVehicle { chain, x, speed, class: _, parameters, destination } = *vehicle;
     let length = roads.network().chains.get(chain.at()).map(|it| it.length);
     let refused = [
         (length.is_none(), "there is no such chain"),
         (!length.is_some_and(|it| (0.0..=it).contains(&x)), "it would not be on its chain"),
         (!(speed.is_finite() && speed >= 0.0), "its speed is no number from 0 on"),
-        (roads.characters().len() <= character as usize, "there is no such character"),
+        (roads.driver_parameters().len() <= parameters as usize, "there are no such driver parameters"),
         (destination.is_some_and(|it| usize::from(it) >= destinations), "there is no such destination"),
     ];
     refused.into_iter().find(|it| it.0).map_or(Ok(()), |it| Err(WorldError::Vehicle(it.1)))
@@ -60,10 +60,10 @@ pub(crate) fn put(
     vehicle: NewVehicle,
     Named { id, arrived }: Named,
 ) {
-    let NewVehicle { chain, x, speed, class, character, destination } = vehicle;
+    let NewVehicle { chain, x, speed, class, parameters, destination } = vehicle;
     let (network, navigator, clock) = (roads.network(), roads.navigator(), traffic.clock());
     let destination = navigator.seen_by(class, destination);
-    let style = roads.style(character);
+    let style = roads.style(parameters);
     let desires = |limit| class.desired_speed(style, limit);
     let free_time = free_time(network, navigator, destination, Position::new(chain, x), desires);
     log.begin_trip(id, free_time, || TripRecord {
@@ -74,16 +74,16 @@ pub(crate) fn put(
         destination: navigator.number(destination),
         free_time,
         mark: Mark { x, time: clock.time() },
-        ..TripRecord::of(id, class, character)
+        ..TripRecord::of(id, class, parameters)
     });
     let length = class.body().length as f32;
-    let motion = Kinematics { x, speed, acceleration: 0.0, tightness: 1.0, length, id };
+    let motion = Kinematics { x, speed, acceleration: 0.0, headway_relaxation: 1.0, length, id };
     let desired = desires(network.chain(chain).limit(x)) as f32;
     let driver = DriverState {
         desired,
         limit_desired: desired,
         standing: 0.0,
-        character,
+        parameters,
         due: next_turn(id, clock.step, clock.steps(style.attention.epoch)),
         cooldown_until: 0,
         goal: destination.into(),

@@ -42,8 +42,8 @@ pub(crate) enum Entry {
 
 /// The vehicle `arrival` as it waits before the lane of `queue`.
 pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival) -> Applicant<'a> {
-    let Arrival { id, class, character, destination, .. } = *arrival;
-    let style = &scene.characters[character as usize];
+    let Arrival { id, class, parameters, destination, .. } = *arrival;
+    let style = &scene.driver_parameters[parameters as usize];
     let desired = class.desired_speed(style, scene.network.chain(queue.chain).limit(0.0));
     let x = queue.start.station() - WAITS_BEFORE;
     let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, is_long: class.is_long() };

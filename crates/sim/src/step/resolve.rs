@@ -85,7 +85,7 @@ impl Granting<'_> {
     fn has_seen(&self, spot: Spot, since: u32) -> bool {
         let lane = self.traffic.lane(spot.chain);
         let (id, driver) = (lane.motions()[spot.index].id, &lane.drivers()[spot.index]);
-        let attention = &self.roads.style(driver.character).attention;
+        let attention = &self.roads.style(driver.parameters).attention;
         match concentration(attention, self.roads.random(), id, self.traffic.clock().time()) {
             Concentration::Concentrated => true,
             // No longer than an epoch lies between its last consideration and the next, which is due.
@@ -106,7 +106,7 @@ impl Granting<'_> {
         let here = Position::new(spot.chain, motion.x);
         lane_change.record = self.log.keep_change(LaneChange {
             vehicle: motion.id,
-            character: driver.character,
+            parameters: driver.parameters,
             class: driver.class,
             started: 0.0,
             time: 0.0,
@@ -139,14 +139,14 @@ impl Granting<'_> {
             return;
         }
         let [gap_ahead, gap_behind, ttc_ahead, ttc_behind] = gap.measures(&scene, spot);
-        let tightness = gap.tightness(&scene, spot) as f32;
+        let headway_relaxation = gap.headway_relaxation(&scene, spot) as f32;
         let clock = self.traffic.clock();
         let record = self.log.change_mut(lane_change.record);
         *record =
             LaneChange { started: clock.time(), gap_ahead, gap_behind, ttc_ahead, ttc_behind, ..*record };
         let lane = self.traffic.lane_mut(spot.chain);
         let (motion, driver, lane_change) = lane.entry_mut(spot.index);
-        motion.tightness = tightness;
+        motion.headway_relaxation = headway_relaxation;
         driver.phase = Phase::Changes;
         lane_change.progress = 0.0;
         lane_change.since = clock.step;

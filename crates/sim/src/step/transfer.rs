@@ -84,7 +84,7 @@ impl Transfer<'_> {
         entry.lane_change.last_place -= network.chain(from).length;
         entry.lane_change.previous_lanes = entry.lane_change.previous_lanes.left(from);
         let limit = network.chain(onto.chain).limit(onto.x);
-        let style = self.roads.style(entry.driver.character);
+        let style = self.roads.style(entry.driver.parameters);
         entry.driver.limit_desired = entry.driver.class.desired_speed(style, limit) as f32;
         self.tell_counterpart(&entry, Some(onto));
         self.traffic.insert(onto.chain, entry);

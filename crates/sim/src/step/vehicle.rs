@@ -55,6 +55,6 @@ impl Vehicle<'_> {
 
     /// Its driver's style.
     pub fn style(&self) -> &Style {
-        self.world.roads.style(self.driver.character)
+        self.world.roads.style(self.driver.parameters)
     }
 }

@@ -1,7 +1,7 @@
 //! What a step is worked out with.
 
 use crate::driver::plan::{Outbox, Plan};
-use crate::record::tally::Tally;
+use crate::record::counters::Counters;
 use crate::step::pool::Pool;
 
 /// Room for the work of a step, kept from one to the next.
@@ -30,16 +30,16 @@ impl Work {
     }
 
     /// What the drivers did so far, added up over threads, without distances.
-    pub(super) fn counted(&self) -> Tally {
-        let mut sum = Tally::default();
-        self.outboxes.iter().for_each(|it| sum.add(&it.tally));
+    pub(super) fn counted(&self) -> Counters {
+        let mut sum = Counters::default();
+        self.outboxes.iter().for_each(|it| sum.add(&it.counters));
         sum
     }
 
     /// Forgets what the drivers did so far, but for this, and for distances.
-    pub(super) fn reset_tally(&mut self, tally: Tally) {
-        self.outboxes.iter_mut().for_each(|it| it.tally = Tally::default());
-        self.outbox().tally = tally;
+    pub(super) fn reset_counters(&mut self, counters: Counters) {
+        self.outboxes.iter_mut().for_each(|it| it.counters = Counters::default());
+        self.outbox().counters = counters;
     }
 }
 

@@ -39,14 +39,14 @@ pub struct World {
 }
 
 impl World {
-    /// An empty world on `network`, whose drivers come from `demand` with the given `characters`.
+    /// An empty world on `network`, whose drivers come from `demand` with the given `driver_parameters`.
     ///
     /// # Errors
-    /// If the step is not between 0.01 and 1 s, there are no characters, the demand is no demand, or has too many
-    /// destinations.
+    /// If the step is not between 0.01 and 1 s, there are no driver parameters, the demand is no demand, or has too
+    /// many destinations.
     pub fn new(
         network: impl Into<Arc<Network>>,
-        characters: Vec<Style>,
+        driver_parameters: Vec<Style>,
         demand: Demand,
         setup: Setup,
     ) -> Result<World, WorldError> {
@@ -54,8 +54,8 @@ impl World {
         if !(0.01..=1.0).contains(&setup.step) {
             return Err(WorldError::Step(setup.step));
         }
-        if characters.is_empty() {
-            return Err(WorldError::NoCharacters);
+        if driver_parameters.is_empty() {
+            return Err(WorldError::NoDriverParameters);
         }
         demand.check()?;
         let (destinations, chains) = (demand.destinations.len(), network.chains.len());
@@ -63,8 +63,13 @@ impl World {
             return Err(WorldError::Ways { destinations, chains });
         }
         let traffic = Traffic::new(network.chains.len(), setup.step);
-        let roads =
-            Roads::new(network, characters, &demand.destinations, &demand.fleet, Random::new(setup.seed));
+        let roads = Roads::new(
+            network,
+            driver_parameters,
+            &demand.destinations,
+            &demand.fleet,
+            Random::new(setup.seed),
+        );
         Ok(World {
             junctions: JunctionState::new(roads.network(), traffic.clock()),
             arrivals: Arrivals::new(&roads, demand),
@@ -95,7 +100,7 @@ impl World {
     }
 
     /// The same world, which records every trip until it ends, and what vehicles do on every lanelet.
-    pub fn with_journal(mut self) -> World {
+    pub fn with_trip_log(mut self) -> World {
         self.log.record_trips(self.roads.network());
         self
     }

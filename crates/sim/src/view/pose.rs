@@ -141,8 +141,14 @@ mod tests {
 
     #[test]
     fn a_vehicle_has_the_same_length_in_both_lanes_just_before_and_after_it_crosses() {
-        let motion =
-            Kinematics { x: 0.0, speed: 10.0, acceleration: 0.0, tightness: 1.0, length: 12.0, id: 1 };
+        let motion = Kinematics {
+            x: 0.0,
+            speed: 10.0,
+            acceleration: 0.0,
+            headway_relaxation: 1.0,
+            length: 12.0,
+            id: 1,
+        };
         for stretch in [0.7, 1.0, 1.3] {
             assert_eq!(lengths(&motion, 0.0, stretch)[0], 12.0, "true in the old lane when it begins");
             assert_eq!(lengths(&motion, 1.0, 1.0 / stretch)[0], 12.0, "true in the new one when it ends");

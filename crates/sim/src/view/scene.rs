@@ -24,8 +24,8 @@ pub struct Scene<'a> {
     pub navigator: &'a Navigator,
     /// The vehicles, by chain.
     pub lanes: &'a [Lane],
-    /// The characters of the drivers.
-    pub characters: &'a [Style],
+    /// The driver parameters.
+    pub driver_parameters: &'a [Style],
     /// Who may pass the junctions.
     pub reservations: &'a Reservations,
     /// What the lights show.
@@ -78,7 +78,7 @@ impl<'a> Scene<'a> {
             network: roads.network(),
             navigator: roads.navigator(),
             lanes: traffic.lanes(),
-            characters: roads.characters(),
+            driver_parameters: roads.driver_parameters(),
             reservations: junctions.reservations(),
             signals: junctions.signals(),
         }
@@ -93,7 +93,7 @@ impl<'a> Scene<'a> {
     /// The style of a driver.
     #[inline]
     pub(crate) fn style_of(&self, driver: &DriverState) -> &'a Style {
-        &self.characters[driver.character as usize]
+        &self.driver_parameters[driver.parameters as usize]
     }
 
     /// The vehicles on `chain`, as others see them.

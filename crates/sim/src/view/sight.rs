@@ -23,7 +23,7 @@ pub struct LaneSight {
     /// The follower.
     pub follower: Option<Found>,
     /// Least anticipated speed over the leaders [m/s].
-    pub prospect: f64,
+    pub anticipated_speed: f64,
     /// Means over the window.
     pub flow: Flow,
 }
@@ -66,13 +66,13 @@ impl Scene<'_> {
             window: Window::default(),
             ahead: None,
             leader: None,
-            prospect: desired,
+            anticipated_speed: desired,
         };
         let ahead = self.look_ahead(from, desired, &mut view);
         let (follower, back) = self.look_back(from, &mut view.window);
-        let View { window, ahead: leader_ahead, leader, prospect, .. } = view;
+        let View { window, ahead: leader_ahead, leader, anticipated_speed, .. } = view;
         let flow = window.flow(ahead + back, desired, own_length);
-        LaneSight { ahead: leader_ahead, leader, follower, prospect, flow }
+        LaneSight { ahead: leader_ahead, leader, follower, anticipated_speed, flow }
     }
 
     /// Looks at what is ahead; returns the window's extent [m].
@@ -98,7 +98,7 @@ impl Scene<'_> {
         if self.network.chain(walk.at()).is_lane_drop {
             let end = Ahead::standing(end);
             view.ahead = view.ahead.or(Some(end));
-            view.prospect = view.prospect.min(anticipated_speed(end, desired));
+            view.anticipated_speed = view.anticipated_speed.min(anticipated_speed(end, desired));
         }
         end.clamp(1.0, window_ahead)
     }
@@ -110,7 +110,8 @@ impl Scene<'_> {
         let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
         let red = stops.iter().find(|it| base + it.station > 0.0 && is_red(it.sign));
         if let Some(line) = red.map(|it| base + it.station).filter(|it| *it <= view.sight) {
-            view.prospect = view.prospect.min(anticipated_speed(Ahead::standing(line), desired));
+            view.anticipated_speed =
+                view.anticipated_speed.min(anticipated_speed(Ahead::standing(line), desired));
         }
     }
 
@@ -163,7 +164,7 @@ struct View {
     window: Window,
     ahead: Option<Ahead>,
     leader: Option<Spot>,
-    prospect: f64,
+    anticipated_speed: f64,
 }
 
 impl View {
@@ -193,7 +194,8 @@ impl View {
                 self.leader = Some(Spot { chain, index });
             }
             let anticipated = anticipated_speed(ahead, desired);
-            self.prospect = if anticipated < self.prospect { anticipated } else { self.prospect };
+            self.anticipated_speed =
+                if anticipated < self.anticipated_speed { anticipated } else { self.anticipated_speed };
             if front <= self.window_ahead {
                 self.window.add(it);
             }

@@ -32,8 +32,8 @@ pub struct Seen {
     pub length: f64,
     /// Class.
     pub class: Class,
-    /// Its driver's place in the table of characters.
-    pub character: u32,
+    /// Its driver's place in the table of driver parameters.
+    pub parameters: u32,
     /// Speed that its driver desires [m/s].
     pub desired: f64,
     /// Where it goes.
@@ -89,15 +89,15 @@ impl Snapshot {
         Snapshot { lanes, reservations, signals, spots }
     }
 
-    /// The instant as drivers with `characters`, who find their ways by `navigator`, see it.
+    /// The instant as drivers with `driver_parameters`, who find their ways by `navigator`, see it.
     pub fn scene<'a>(
         &'a self,
         network: &'a Network,
         navigator: &'a Navigator,
-        characters: &'a [Style],
+        driver_parameters: &'a [Style],
     ) -> Scene<'a> {
         let Snapshot { lanes, reservations, signals, .. } = self;
-        Scene { network, navigator, lanes, characters, reservations, signals }
+        Scene { network, navigator, lanes, driver_parameters, reservations, signals }
     }
 
     /// The main entry of a vehicle.
@@ -116,7 +116,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         x: seen.x,
         speed: seen.speed,
         acceleration: seen.acceleration as f32,
-        tightness: 1.0,
+        headway_relaxation: 1.0,
         length: seen.length as f32,
         id: seen.id,
     };
@@ -124,7 +124,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         desired: seen.desired as f32,
         limit_desired: seen.desired as f32,
         standing: 0.0,
-        character: seen.character,
+        parameters: seen.parameters,
         due: 0,
         cooldown_until: 0,
         goal: seen.destination.into(),

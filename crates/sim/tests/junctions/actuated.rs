@@ -55,9 +55,10 @@ fn world(network: Network, plan: &SignalPlan, rates: [f64; 2]) -> World {
         let is_first = is_east_or_west(&network, origin.place.chains()[0]);
         origin.rate = Rate::constant(rates[usize::from(!is_first)]);
     }
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: STEP, seed: 1, threads: 1 };
-    World::new(network.with_signals(std::slice::from_ref(plan)), characters, demand, setup).expect("a world")
+    World::new(network.with_signals(std::slice::from_ref(plan)), driver_parameters, demand, setup)
+        .expect("a world")
 }
 
 fn driven(mut world: World, seconds: f64, mut look: impl FnMut(&World)) -> World {
@@ -142,9 +143,9 @@ fn actuated_lights_are_the_same_on_any_number_of_threads_and_in_any_order_of_sto
         let network = network.with_signals(&plans);
         let network = if is_reversed { network.with_chains_reversed() } else { network };
         let demand = drivers::demand(&network, 20_000.0, 0.1, &[0.3, 0.7]);
-        let characters = vec![drivers::aggressive(), drivers::conservative()];
+        let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
         let setup = Setup { step: STEP, seed: 1, threads };
-        let world = World::new(network, characters, demand, setup).expect("a world");
+        let world = World::new(network, driver_parameters, demand, setup).expect("a world");
         let world = driven(world, 180.0, |_| {});
         let (on_road, left) = (world.on_road(), world.counts().left);
         assert!(on_road > 300 && left > 100, "{on_road} on the road, {left} left");

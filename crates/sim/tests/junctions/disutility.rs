@@ -95,9 +95,9 @@ fn chosen(guidance: Guidance) -> i64 {
     let me = Style { guidance, ..drivers::conservative() };
     let crawler = Style { speed_factor: 0.1, ..drivers::conservative() };
     let mut world = empty(network, vec![me, crawler]).guided(10.0).expect("one destination");
-    let place = |chain, x, character| {
-        let speed = if character == 0 { 10.0 } else { 1.0 };
-        NewVehicle { chain, x, speed, class: Class::Car, character, destination: Some(0) }
+    let place = |chain, x, parameters| {
+        let speed = if parameters == 0 { 10.0 } else { 1.0 };
+        NewVehicle { chain, x, speed, class: Class::Car, parameters, destination: Some(0) }
     };
     for x in [30.0, 80.0, 130.0] {
         world.place(place(straight, x, 1)).expect("it fits on the road");

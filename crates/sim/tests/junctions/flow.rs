@@ -17,9 +17,10 @@ fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {
     for ((name, total), seed) in demands.into_iter().zip(1..) {
         let network = network(name);
         let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-        let characters = vec![drivers::aggressive(), drivers::conservative()];
+        let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
         let setup = Setup { step: STEP, seed, threads: 1 };
-        let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+        let mut world =
+            World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense");
         (0..MINUTES * 600).for_each(|_| world.step());
         assert_sound(&world);
         assert!(world.on_road() < 30 && world.waiting() == 0, "{name}: {} on the road", world.on_road());
@@ -31,9 +32,9 @@ fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {
 fn crowded(name: &str) -> World {
     let network = network(name);
     let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: STEP, seed: 1, threads: 1 };
-    World::new(network, characters, demand, setup).expect("the set-up makes sense")
+    World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense")
 }
 
 #[test]

@@ -21,8 +21,8 @@ fn goes_before(lag: f64, critical_gap: f64) -> bool {
     let ways = [Arm::South, Arm::East].map(|it| way_across(world.network(), it));
     let [of_minor, of_major] = place_of_crossing(world.network(), ways);
     let distance = CRUISE * lag - of_major;
-    let near = Comer { from: Arm::South, to: Arm::North, distance: 2.0, speed: 0.0, character: 0 };
-    let far = Comer { from: Arm::East, to: Arm::West, distance, speed: CRUISE, character: 1 };
+    let near = Comer { from: Arm::South, to: Arm::North, distance: 2.0, speed: 0.0, parameters: 0 };
+    let far = Comer { from: Arm::East, to: Arm::West, distance, speed: CRUISE, parameters: 1 };
     let (near, far) = (put(&mut world, near), put(&mut world, far));
     let is_there = |world: &World, id: VehicleId, way: ChainIndex, from: f64| {
         world.vehicles().any(|it| it.id() == id && it.spot.chain == way && it.x() > from)
@@ -74,8 +74,8 @@ fn who_is_on_the_minor_road_waits_for_who_comes_within_its_critical_gap_and_goes
 fn who_is_on_the_major_road_does_not_slow_down_for_who_waits() {
     let major = Style { speed_factor: 0.5, ..drivers::conservative() };
     let mut world = empty(network("priority.osm"), vec![drivers::conservative(), major]);
-    let near = Comer { from: Arm::South, to: Arm::North, distance: 2.0, speed: 0.0, character: 0 };
-    let far = Comer { from: Arm::East, to: Arm::West, distance: 20.0, speed: CRUISE, character: 1 };
+    let near = Comer { from: Arm::South, to: Arm::North, distance: 2.0, speed: 0.0, parameters: 0 };
+    let far = Comer { from: Arm::East, to: Arm::West, distance: 20.0, speed: CRUISE, parameters: 1 };
     put(&mut world, near);
     let far = put(&mut world, far);
     let mut slowest = CRUISE;
@@ -97,7 +97,7 @@ fn at_an_all_way_stop_everybody_stops_and_they_go_in_the_order_of_arrival() {
                 let from = Arm::ALL[(first + [0, 2, 1, 3][place]) % 4];
                 let distance = 25.0 + 15.0 * place as f64;
                 let to = from.turned(2);
-                let id = put(&mut world, Comer { from, to, distance, speed: 8.0, character: 0 });
+                let id = put(&mut world, Comer { from, to, distance, speed: 8.0, parameters: 0 });
                 (id, lane_from(world.network(), from))
             })
             .collect();
@@ -132,7 +132,7 @@ fn order_at_an_all_way_stop(patience: f64) -> Vec<Arm> {
     let arms = [Arm::North, Arm::West, Arm::South].into_iter().zip([25.0, 26.0, 27.0]);
     let comers: Vec<(Arm, VehicleId, ChainIndex)> = arms
         .map(|(from, distance)| {
-            let comer = Comer { from, to: from.turned(2), distance, speed: 8.0, character: 0 };
+            let comer = Comer { from, to: from.turned(2), distance, speed: 8.0, parameters: 0 };
             (from, put(&mut world, comer), lane_from(world.network(), from))
         })
         .collect();
@@ -163,7 +163,7 @@ fn four_who_come_from_four_sides_at_once_all_get_through_within_30_s() {
             let mut world = empty(network(name), vec![drivers::conservative()]);
             for from in Arm::ALL {
                 let to = from.turned(quarters);
-                put(&mut world, Comer { from, to, distance: 20.0, speed: 6.0, character: 0 });
+                put(&mut world, Comer { from, to, distance: 20.0, speed: 6.0, parameters: 0 });
             }
             let lanes = Arm::ALL.map(|it| lane_to(world.network(), it));
             let time = run_until(&mut world, 30.0, |world| {
@@ -178,7 +178,7 @@ fn four_who_come_from_four_sides_at_once_all_get_through_within_30_s() {
 #[test]
 fn who_comes_from_the_right_goes_first() {
     let mut world = empty(network("right_before_left.osm"), vec![drivers::conservative()]);
-    let comer = |from: Arm| Comer { from, to: from.turned(2), distance: 30.0, speed: 8.0, character: 0 };
+    let comer = |from: Arm| Comer { from, to: from.turned(2), distance: 30.0, speed: 8.0, parameters: 0 };
     // Who comes from the south has the east on its right.
     let [south, east] = [Arm::South, Arm::East].map(|it| (put(&mut world, comer(it)), it));
     let [from_south, from_east] = [south, east].map(|(id, arm)| (id, lane_from(world.network(), arm)));

@@ -12,9 +12,9 @@ const INTERVAL: f64 = 30.0;
 /// Dense traffic, guided or not.
 fn world(network: Network, threads: usize, is_guided: bool) -> World {
     let demand = drivers::demand(&network, 16_000.0, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: STEP, seed: 1, threads };
-    let world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+    let world = World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense");
     if is_guided { world.guided(INTERVAL).expect("few destinations") } else { world }
 }
 
@@ -26,7 +26,7 @@ fn driven(mut world: World, seconds: f64) -> World {
 #[test]
 fn v29_guided_drivers_are_the_same_on_any_number_of_threads_and_in_any_order_of_storage() {
     let first = driven(world(network("grid.osm"), 1, true), 180.0);
-    assert!(first.tally().route_changes > 20, "{} route changes", first.tally().route_changes);
+    assert!(first.counters().route_changes > 20, "{} route changes", first.counters().route_changes);
     let hash = first.state_hash();
     assert_eq!(driven(world(network("grid.osm"), 2, true), 180.0).state_hash(), hash);
     assert_eq!(driven(world(network("grid.osm").with_chains_reversed(), 1, true), 180.0).state_hash(), hash);
@@ -37,8 +37,8 @@ fn v29_guided_drivers_are_the_same_on_any_number_of_threads_and_in_any_order_of_
 fn who_leaves_its_route_touches_nobody_and_arrives_where_it_wanted() {
     for name in ["grid.osm", "town.osm", "approach.osm"] {
         let world = driven(world(network(name), 1, true), 600.0);
-        let (tally, counts) = (world.tally(), world.counts());
-        assert_eq!((tally.collisions, tally.overlaps), (0, 0), "{name}");
+        let (counters, counts) = (world.counters(), world.counts());
+        assert_eq!((counters.collisions, counters.overlaps), (0, 0), "{name}");
         assert!(counts.left > 100, "{name}: {} left", counts.left);
     }
 }
@@ -54,5 +54,5 @@ fn guidance_changes_nothing_where_there_is_one_way() {
     let network = || motorway(&road).expect("a road").build().expect("a network").network;
     let [guided, free] = [true, false].map(|it| driven(world(network(), 1, it), 200.0));
     assert!(guided.counts().route_changes > 0 && guided.state_hash() == free.state_hash());
-    assert_eq!(guided.tally().route_changes, 0);
+    assert_eq!(guided.counters().route_changes, 0);
 }

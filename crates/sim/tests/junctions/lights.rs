@@ -13,9 +13,9 @@ fn nobody_drives_over_the_line_of_a_red_light() {
     const STEPS: u32 = 3000;
     let network = network("grid.osm");
     let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: STEP, seed: 3, threads: 1 };
-    let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+    let mut world = World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense");
     let (mut passed, mut stood) = (0, 0);
     let mut before = HashMap::new();
     for _ in 0..STEPS {
@@ -61,7 +61,7 @@ fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     let destination =
         (0..world.demand().destinations.len()).find(|it| world.leads(0, *it)).map(|it| it as u16);
     world
-        .place(NewVehicle { chain, x, speed, class: Class::Car, character: 0, destination })
+        .place(NewVehicle { chain, x, speed, class: Class::Car, parameters: 0, destination })
         .expect("it fits on the road");
     world
 }
@@ -70,7 +70,7 @@ fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
 fn stuck_before_a_red_of(red: f64) -> u64 {
     let mut world = comer_to_a_light(&grid_of_lights(5.0, red), [10.0, 10.0]);
     (0..6000).for_each(|_| world.step());
-    world.tally().stuck
+    world.counters().stuck
 }
 
 #[test]
@@ -84,14 +84,14 @@ fn nobody_who_is_3_m_from_the_line_or_more_brakes_hard_for_a_light_that_turns_ye
         let mut world = comer_to_a_light(&network, start);
         // It appears without a reservation, and gets one.
         (0..3).for_each(|_| world.step());
-        let at_first = world.tally().emergency_brakings;
+        let at_first = world.counters().emergency_brakings;
         let hardest = (0..150).fold(0.0, |hardest: f64, _| {
             let before: f64 = world.vehicles().map(|it| it.speed()).sum();
             world.step();
             let after: f64 = world.vehicles().map(|it| it.speed()).sum();
             hardest.max((before - after) / STEP)
         });
-        let emergencies = world.tally().emergency_brakings - at_first;
+        let emergencies = world.counters().emergency_brakings - at_first;
         assert!(hardest < HARDEST + 1e-6 && emergencies == 0, "{start:?}: {hardest} m/s², {emergencies}");
     }
 }

@@ -45,13 +45,14 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
         let chain = lane_to(world.network(), Arm::North);
         let destination = Some(exit_to(world.network(), Arm::North));
         // It leaves room for one.
-        let blocker = NewVehicle { chain, x: 14.0, speed: 0.0, class: Class::Car, character: 1, destination };
+        let blocker =
+            NewVehicle { chain, x: 14.0, speed: 0.0, class: Class::Car, parameters: 1, destination };
         world.place(blocker).expect("it fits on the road");
         for from in [Arm::East, Arm::West, Arm::South] {
             for place in 0..4 {
                 let to = if place % 2 == 0 { Arm::North } else { from.turned(2) };
                 let distance = 15.0 + 15.0 * f64::from(place);
-                put(&mut world, Comer { from, to, distance, speed: 5.0, character: 0 });
+                put(&mut world, Comer { from, to, distance, speed: 5.0, parameters: 0 });
             }
         }
         let mut ways: HashMap<VehicleId, [Option<ChainIndex>; 2]> = HashMap::new();
@@ -74,7 +75,7 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
             false
         });
         // Those behind the first who wants to the north wait with it.
-        let waiting = world.vehicles().filter(|it| it.speed() < 0.05 && it.driver.character == 0).count();
+        let waiting = world.vehicles().filter(|it| it.speed() < 0.05 && it.driver.parameters == 0).count();
         assert!(waiting >= 3, "{name}: {waiting} wait");
         assert_sound(&world);
     }
@@ -140,7 +141,7 @@ fn a_full_ring_turns() {
         let quarter = at.y.atan2(at.x).div_euclid(FRAC_PI_2).rem_euclid(4.0) as usize;
         let destination = Some(exit_to(world.network(), Arm::ALL[quarter]));
         world
-            .place(NewVehicle { chain, x, speed: 0.0, class: Class::Car, character: 0, destination })
+            .place(NewVehicle { chain, x, speed: 0.0, class: Class::Car, parameters: 0, destination })
             .expect("it fits on the road");
     }
     let time = run_until(&mut world, 90.0, |world| world.on_road() == 0);
@@ -153,11 +154,11 @@ fn who_stands_behind_another_who_came_before_it_does_not_keep_a_junction_from_ot
     let mut world = empty(network("priority.osm"), vec![drivers::conservative(), immobile()]);
     // Far from the junction it has its reservation already, when another stops before it.
     let comer =
-        |from: Arm, distance, speed| Comer { from, to: from.turned(2), distance, speed, character: 0 };
+        |from: Arm, distance, speed| Comer { from, to: from.turned(2), distance, speed, parameters: 0 };
     put(&mut world, comer(Arm::East, 60.0, 12.0));
     let has_passed_on = |world: &World, id, from| has_gone(world, id, lane_from(world.network(), from));
     run_until(&mut world, 0.5, |_| false);
-    put(&mut world, Comer { character: 1, ..comer(Arm::East, 20.0, 0.0) });
+    put(&mut world, Comer { parameters: 1, ..comer(Arm::East, 20.0, 0.0) });
     run_until(&mut world, 15.0, |_| false);
     let crossing = put(&mut world, comer(Arm::North, 60.0, 10.0));
     assert!(run_until(&mut world, 60.0, |world| has_passed_on(world, crossing, Arm::North)).is_some());

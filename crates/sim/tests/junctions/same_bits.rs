@@ -9,9 +9,9 @@ use crate::town::{STEP, network};
 /// State after two minutes of dense traffic, enough of it to be shared among threads.
 fn hash(network: Network, threads: usize) -> u64 {
     let demand = drivers::demand(&network, 16_000.0, 0.1, &[0.3, 0.7]);
-    let characters = vec![drivers::aggressive(), drivers::conservative()];
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: STEP, seed: 1, threads };
-    let mut world = World::new(network, characters, demand, setup).expect("the set-up makes sense");
+    let mut world = World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense");
     (0..1200).for_each(|_| world.step());
     assert!(world.on_road() > 310, "{} on the road", world.on_road());
     assert!(world.counts().left > 0);

@@ -51,10 +51,10 @@ pub(crate) fn network(name: &str) -> Network {
 }
 
 /// An empty world into which nobody comes.
-pub(crate) fn empty(network: Network, characters: Vec<Style>) -> World {
+pub(crate) fn empty(network: Network, driver_parameters: Vec<Style>) -> World {
     let demand = drivers::demand(&network, 0.0, 0.0, &[1.0]);
     let setup = Setup { step: STEP, seed: 1, threads: 1 };
-    World::new(network, characters, demand, setup).expect("the set-up makes sense")
+    World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense")
 }
 
 /// The lane that comes from an arm to the only junction.
@@ -90,7 +90,7 @@ pub(crate) struct Comer {
     /// Way of the front to the end of the lane [m].
     pub(crate) distance: f64,
     pub(crate) speed: f64,
-    pub(crate) character: u32,
+    pub(crate) parameters: u32,
 }
 
 /// Puts somebody on the road.
@@ -99,9 +99,9 @@ pub(crate) fn put(world: &mut World, comer: Comer) -> VehicleId {
     let chain = lane_from(network, comer.from);
     let x = network.chain(chain).length - comer.distance;
     let destination = Some(exit_to(network, comer.to));
-    let Comer { speed, character, .. } = comer;
+    let Comer { speed, parameters, .. } = comer;
     world
-        .place(NewVehicle { chain, x, speed, class: Class::Car, character, destination })
+        .place(NewVehicle { chain, x, speed, class: Class::Car, parameters, destination })
         .expect("it fits on the road")
 }
 
@@ -127,6 +127,6 @@ pub(crate) fn has_gone(world: &World, id: VehicleId, lane: ChainIndex) -> bool {
 
 /// Nothing bad has happened.
 pub(crate) fn assert_sound(world: &World) {
-    let tally = world.tally();
-    assert_eq!((tally.collisions, tally.overlaps, tally.stuck), (0, 0, 0));
+    let counters = world.counters();
+    assert_eq!((counters.collisions, counters.overlaps, counters.stuck), (0, 0, 0));
 }

@@ -50,7 +50,7 @@ impl TripInfo {
         }
         file.raw("\" rerouteNo=\"").integer(record.route_changes + record.missed_turns);
         file.raw("\" devices=\"\" vType=\"").raw(record.class.body().name);
-        file.raw("\" speedFactor=\"").number(names.speed_factor(record.character));
+        file.raw("\" speedFactor=\"").number(names.speed_factor(record.parameters));
         file.end("\" vaporized=\"\"/>\n")
     }
 }

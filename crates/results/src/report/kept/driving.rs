@@ -25,7 +25,7 @@ const MOVES: f64 = 2.0;
 /// Watches the drivers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Driving {
-    /// Style of each character.
+    /// Style of each set of driver parameters.
     style_of: Vec<u16>,
     /// What was seen, by style.
     pub styles: Vec<StyleDriving>,
@@ -73,7 +73,7 @@ impl Driving {
                 if car.is_shadow {
                     continue;
                 }
-                let style = &mut self.styles[usize::from(self.style_of[car.character as usize])];
+                let style = &mut self.styles[usize::from(self.style_of[car.parameters as usize])];
                 style.samples += 1;
                 style.distance += it.speed * duration;
                 style.speeds.add(it.speed * KMH_PER_MPS);
@@ -122,13 +122,13 @@ pub(super) fn names(world: &World) -> Vec<String> {
     typical(world).map(|it| it.name.clone()).collect()
 }
 
-/// A character of each style, in the order of the demand.
+/// One set of driver parameters of each style, in the order of the demand.
 pub(super) fn typical(world: &World) -> impl Iterator<Item = &Style> {
-    let characters = world.scene().characters;
-    world.demand().population.iter().map(|it| &characters[it.first as usize])
+    let driver_parameters = world.scene().driver_parameters;
+    world.demand().population.iter().map(|it| &driver_parameters[it.first as usize])
 }
 
-/// For each character the place of its style in the demand.
+/// For each set of driver parameters the place of its style in the demand.
 pub(super) fn styles_of(demand: &Demand) -> Vec<u16> {
     let styles = demand.population.iter().zip(0..);
     styles.flat_map(|(share, style)| std::iter::repeat_n(style, share.count as usize)).collect()

@@ -72,7 +72,7 @@ impl Reasons {
             self.aborted += 1;
             return;
         }
-        let style = usize::from(self.style_of[change.character as usize]);
+        let style = usize::from(self.style_of[change.parameters as usize]);
         self.completed[style][place(change.kind)][change.appraisal.leading().unwrap_or(INCENTIVES)] += 1;
         self.gains[place(change.kind)].add(change.speed_gain);
         let add = |histogram: &mut Histogram, value: f64| {

@@ -55,7 +55,7 @@ impl TripTimes {
                 // Who drives faster than planned, as over a gentle limit, has no delay.
                 self.delays.add(delay.max(0.0));
                 self.delay.add(delay);
-                self.of_styles[usize::from(self.style_of[trip.character as usize])].1.add(delay);
+                self.of_styles[usize::from(self.style_of[trip.parameters as usize])].1.add(delay);
             }
         }
     }

@@ -13,7 +13,7 @@ fn template(name: &str) -> StyleTemplate {
 #[test]
 fn a_style_with_a_distribution_is_512_drivers_with_its_mean_and_deviation() {
     let template = template("aggressive");
-    assert_eq!(template.characters(), 512);
+    assert_eq!(template.driver_parameters(), 512);
     let draw = |number| template.draw(&Random::new(1), 0, number).unwrap().speed_factor;
     let factors: Vec<f64> = (0..512).map(draw).collect();
     let mean = factors.iter().sum::<f64>() / 512.0;
@@ -27,7 +27,7 @@ fn a_style_with_a_distribution_is_512_drivers_with_its_mean_and_deviation() {
 #[test]
 fn a_style_without_distributions_is_one_driver() {
     let template = template("paper-conservative");
-    assert_eq!(template.characters(), 1);
+    assert_eq!(template.driver_parameters(), 1);
     assert_eq!(template.draw(&Random::new(1), 0, 0).unwrap(), *template.typical());
 }
 

@@ -37,7 +37,7 @@ impl Perception<'_, '_> {
             }
             let (ahead, follower) = self.next_to(from)?;
             let desired = self.me.pace.desired;
-            let prospect = ahead.map_or(desired, |it| anticipated_speed(it, desired));
+            let anticipated_speed = ahead.map_or(desired, |it| anticipated_speed(it, desired));
             let harm = follower.filter(|_| is_courteous).map_or(0.0, |it| {
                 let behind =
                     Behind { gap: it.distance - self.me.length, driver: driver_of(self.scene, it.spot) };
@@ -45,7 +45,7 @@ impl Perception<'_, '_> {
             });
             let bound = GainBound {
                 desired,
-                prospects: [self.here.prospect, prospect],
+                anticipated_speeds: [self.here.anticipated_speed, anticipated_speed],
                 routes,
                 section,
                 band: self.beliefs.band,
@@ -54,7 +54,8 @@ impl Perception<'_, '_> {
             if model.gain_at_most(&bound) >= reach {
                 return None;
             }
-            best_prospect = Some(best_prospect.map_or(prospect, |it: f64| it.max(prospect)));
+            best_prospect =
+                Some(best_prospect.map_or(anticipated_speed, |it: f64| it.max(anticipated_speed)));
         }
         Some(Dismissed { best_prospect })
     }

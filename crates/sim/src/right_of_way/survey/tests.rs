@@ -22,7 +22,7 @@ fn standing() -> Seen {
         acceleration: 0.0,
         length: 12.0,
         class: Class::Truck,
-        character: 0,
+        parameters: 0,
         desired: 8.0,
         destination: None,
         change: None,

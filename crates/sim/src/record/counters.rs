@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on
 /// who did what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Tally {
+pub struct Counters {
     /// Times that a driver considered lanes.
     pub considerations: u64,
     /// Of them, by drivers on a free road.
@@ -38,7 +38,7 @@ pub struct Tally {
     pub route_changes: u64,
 }
 
-impl Tally {
+impl Counters {
     /// Counts a consideration of a driver with `sign`, and whether the desire came.
     #[inline]
     pub(crate) fn count_desire(&mut self, situation: Option<DesireSituation>, has_come: bool) {
@@ -52,8 +52,8 @@ impl Tally {
     }
 
     /// Adds `other`.
-    pub fn add(&mut self, other: &Tally) {
-        let Tally {
+    pub fn add(&mut self, other: &Counters) {
+        let Counters {
             considerations,
             free_considerations,
             free_desires,
