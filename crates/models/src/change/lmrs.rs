@@ -17,7 +17,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::keeping::RouteKeeping;
-use super::mcdm::{Appraisal, INCENTIVES, Row, by_threshold};
+use super::mcdm::{Appraisal, Row, by_threshold, padded};
 use super::situation::{RouteView, Situation, Toward};
 use super::urgency::urgency;
 use crate::follow::CarFollowing;
@@ -118,13 +118,13 @@ impl Lmrs {
         let bias = self.bias_desire(*toward, speed);
         let route = self.route_desire(situation);
         let weight = self.voluntary_weight(route, speed + bias);
-        let rows: [Row; INCENTIVES] = [
+        let rows = padded([
             Row { earning: speed, weight },
             Row::default(),
             Row { earning: bias, weight },
             Row::default(),
             Row { earning: route, weight: 1.0 },
-        ];
+        ]);
         let gain = rows.iter().map(|it| it.weight * it.earning).sum();
         Appraisal { rows, gain, theta: self.free }
     }

@@ -63,6 +63,13 @@ pub enum Combination {
 /// How many incentives there are.
 pub const INCENTIVES: usize = 5;
 
+/// The rows of a model that has fewer of them than there are incentives: the last ones are empty.
+pub(super) fn padded<T: Copy + Default, const N: usize>(rows: [T; N]) -> [T; INCENTIVES] {
+    let mut all = [T::default(); INCENTIVES];
+    all[..N].copy_from_slice(&rows);
+    all
+}
+
 /// One row of the table as it came out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {

@@ -15,7 +15,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::keeping::RouteKeeping;
-use super::mcdm::{Appraisal, INCENTIVES, Row, by_threshold};
+use super::mcdm::{Appraisal, Row, by_threshold, padded};
 use super::situation::{LaneView, Situation, Toward};
 use crate::follow::{Ahead, CarFollowing};
 
@@ -164,13 +164,13 @@ impl Mobil {
         let accelerations = self.without_passing(situation, Accelerations::of(situation));
         let [own, others] = self.gains(situation.toward, &accelerations);
         let [route, urgency] = self.route.rows(situation, DECISIVE, self.urgency);
-        let rows: [Row; INCENTIVES] = [
+        let rows = padded([
             Row { earning: own, weight: 1.0 },
             route,
             Row::default(),
             Row { earning: others, weight: self.politeness },
             urgency,
-        ];
+        ]);
         let helps_the_route = RouteKeeping::changes_saved(situation) > 0.0;
         let [_, new_follower] = accelerations.new_follower;
         let is_safe = new_follower >= -self.safe_deceleration;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, at_least_once_in};
+use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, at_least_once_in, padded};
 use super::situation::Situation;
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
@@ -30,8 +30,8 @@ impl LaneChangeModel {
     pub fn row_names(&self) -> [&'static str; INCENTIVES] {
         match self {
             LaneChangeModel::Mcdm(_) => Mcdm::NAMES,
-            LaneChangeModel::Mobil(_) => ["own gain", "route", "", "others' gain", "urgency"],
-            LaneChangeModel::Lmrs(_) => ["speed", "", "bias", "", "route"],
+            LaneChangeModel::Mobil(_) => padded(["own gain", "route", "", "others' gain", "urgency"]),
+            LaneChangeModel::Lmrs(_) => padded(["speed", "", "bias", "", "route"]),
             LaneChangeModel::ConstantHazard(_) => [""; INCENTIVES],
         }
     }
