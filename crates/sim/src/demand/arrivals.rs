@@ -1,4 +1,4 @@
-//! Who comes, and who waits to enter.
+//! The vehicles that arrive, and those that wait to enter.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,31 +12,31 @@ use crate::state::lane::{Lane, VehicleId};
 use crate::state::random::Random;
 use crate::view::scene::Scene;
 
-/// Demand, and the queues of those who have come by it.
+/// The demand, and the queues of the vehicles that have arrived.
 pub(crate) struct Arrivals {
     demand: Demand,
     backlog: Backlog,
 }
 
-/// Those who have come by a demand and wait, and what lets them wait: all of it that moves.
+/// The insertion backlog, and what decides whether it may enter: all of [`Arrivals`] that changes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Backlog {
     /// By origin of the demand.
     sources: Vec<Source>,
-    /// Where roads lead in rings.
+    /// `None` where the map has no town core.
     perimeter: Option<PerimeterControl>,
     next_id: VehicleId,
 }
 
 impl Arrivals {
-    /// Nobody has come yet.
+    /// No vehicle has arrived yet.
     pub(crate) fn new(roads: &Roads, demand: Demand) -> Arrivals {
         let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
         let backlog = Backlog { sources, perimeter: PerimeterControl::new(roads.network()), next_id: 0 };
         Arrivals { demand, backlog }
     }
 
-    /// Who comes, from where and to where.
+    /// The demand: which vehicles arrive, from where and to where.
     pub(crate) fn demand(&self) -> &Demand {
         &self.demand
     }
@@ -46,29 +46,29 @@ impl Arrivals {
         &self.backlog.sources
     }
 
-    /// The queues of an origin, to change.
+    /// The queues of an origin, mutable.
     pub(crate) fn queues_mut(&mut self, origin: usize) -> &mut [Queue] {
         self.backlog.sources[origin].queues()
     }
 
-    /// The name of a vehicle that is new.
+    /// The id of a new vehicle.
     pub(crate) fn new_id(&mut self) -> VehicleId {
         let id = self.backlog.next_id;
         self.backlog.next_id += 1;
         id
     }
 
-    /// Whether the town is full: nobody begins a trip through it.
+    /// Whether the town core is full. Then no trip through it may begin.
     pub(crate) fn is_full(&self) -> bool {
         self.backlog.perimeter.as_ref().is_some_and(PerimeterControl::is_full)
     }
 
-    /// Measures how full the town is.
+    /// Measures how full the town core is.
     pub(crate) fn measure(&mut self, lanes: &[Lane]) {
         self.backlog.perimeter.iter_mut().for_each(|it| it.measure(lanes));
     }
 
-    /// Those who come to an origin by `time` [s] queue up.
+    /// The vehicles that arrive at an origin by `time` [s] join its queues.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
         let Arrivals { demand, backlog: Backlog { sources, perimeter, next_id } } = self;
         sources[origin].arrive(scene, demand, perimeter.as_ref(), random, time, next_id);
@@ -84,20 +84,20 @@ impl Arrivals {
         self.backlog.sources.iter().map(Source::arrived).sum()
     }
 
-    /// All of it that moves.
+    /// All of it that changes.
     pub(crate) fn backlog(&self) -> &Backlog {
         &self.backlog
     }
 
-    /// Goes on from what was saved, which fits.
+    /// Continues from a saved backlog. The caller has checked that it fits.
     pub(crate) fn restore(&mut self, backlog: Backlog) {
         self.backlog = backlog;
     }
 }
 
 impl Backlog {
-    /// Whether it is that of the same demand and roads as `other` at `clock`, for so many drivers, and for ways that
-    /// are known.
+    /// Whether it belongs to the same demand and roads as `other` at `clock`, with this many sets of driver parameters,
+    /// and names known destinations only.
     pub(crate) fn fits(
         &self,
         other: &Backlog,
@@ -117,12 +117,12 @@ impl Backlog {
             && perimeter_fits
     }
 
-    /// The ids of those who wait to enter.
+    /// The ids of the vehicles that wait to enter.
     pub(crate) fn ids(&self) -> Vec<VehicleId> {
         self.sources.iter().flat_map(Source::lanes).flat_map(|it| &it.waiting).map(|it| it.id).collect()
     }
 
-    /// The name that the next vehicle is given.
+    /// The id that the next vehicle gets.
     pub(crate) fn next_id(&self) -> VehicleId {
         self.next_id
     }

@@ -1,4 +1,4 @@
-//! Where a demand leads: flows along the usual ways, as if no road were ever full.
+//! Assignment of a demand to the roads: flows along the usual routes, as if no road were ever full.
 
 use std::collections::BinaryHeap;
 
@@ -15,20 +15,20 @@ use crate::route::ways::stretch_to;
 pub struct Assignment {
     /// By chain.
     parts: Vec<Vec<Part>>,
-    /// Those who have to change lanes for their ways.
+    /// The lane changes that vehicles have to make for their routes.
     pub changes: Vec<Change>,
-    /// Of all origins together [veh/s].
+    /// Flow from all origins together [veh/s].
     pub total: f64,
 }
 
-/// A flow that has to leave a lane for the one beside it.
+/// A flow that has to change from one lane to the lane beside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// The lane, and from where to where on it this is possible and soon enough [m].
+    /// The lane, and the part of it on which this is possible and early enough [m].
     pub from: (ChainIndex, [f64; 2]),
-    /// The other one, and the same places on it [m].
+    /// The other lane, and the same part along it [m].
     pub to: (ChainIndex, [f64; 2]),
-    /// Vehicles [veh/s].
+    /// Flow [veh/s].
     pub flow: f64,
 }
 
@@ -37,17 +37,17 @@ pub struct Change {
 pub struct Part {
     /// First station [m].
     pub from: f64,
-    /// Last station; infinite where it goes on over the end of the chain [m].
+    /// Last station; infinite where the flow goes on over the end of the chain [m].
     pub to: f64,
-    /// Vehicles that drive over it [veh/s].
+    /// Flow over this part [veh/s].
     pub flow: f64,
-    /// Their way leads over this lane alone, and over none beside it.
+    /// The route uses this lane only, and none beside it.
     pub is_bound: bool,
 }
 
 impl Assignment {
-    /// Of `demand` on average between two times [s]. Where lanes side by side lead to a destination, they share its
-    /// drivers evenly. If nobody comes in that time, as many come to each lane of the origins.
+    /// The mean assignment of `demand` between two times [s]. Parallel lanes that lead to a destination share its
+    /// drivers evenly. If no vehicle arrives in that time, every lane of the origins gets the same flow.
     pub fn new(network: &Network, navigator: &Navigator, demand: &Demand, during: [f64; 2]) -> Assignment {
         let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
         let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
@@ -73,7 +73,7 @@ impl Assignment {
         &self.parts[chain.at()]
     }
 
-    /// Flow over a station of a chain [m]: of those who could not use another lane, and of all [veh/s].
+    /// Flow over a station of a chain [m]: of the vehicles that can use no other lane, and of all [veh/s].
     pub fn flow(&self, chain: ChainIndex, station: f64) -> [f64; 2] {
         let here = self.on(chain).iter().filter(|it| it.from <= station && station < it.to);
         here.fold([0.0, 0.0], |[bound, all], it| {
@@ -82,7 +82,7 @@ impl Assignment {
     }
 }
 
-/// The share of the drivers of an origin that each destination has.
+/// The share of the drivers of an origin that goes to each destination.
 fn shares(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<f64> {
     let weight = |(weight, destination): (&f64, u16)| {
         if *weight > 0.0 && navigator.leads(network, &origin.place, destination) { *weight } else { 0.0 }
@@ -92,12 +92,12 @@ fn shares(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<f64>
     weights.into_iter().map(|it| if sum > 0.0 { it / sum } else { 0.0 }).collect()
 }
 
-/// A lane that drivers may use instead of another.
+/// A lane that drivers may use instead of another one.
 struct Shared {
     lane: ChainIndex,
-    /// From here on [m].
+    /// Where a driver enters it [m].
     station: f64,
-    /// So far from the start of the other one [m].
+    /// Distance driven before that from the start of the other lane [m].
     after: f64,
 }
 
@@ -107,9 +107,9 @@ struct Spread<'a> {
     navigator: &'a Navigator,
     destination: u16,
     assignment: &'a mut Assignment,
-    /// What comes to the start of each chain [veh/s].
+    /// Flow that comes to the start of each chain [veh/s].
     coming: Vec<f64>,
-    /// Chains to which somebody comes, by the way that is left from there [mm].
+    /// Chains that have a flow at their start, by the remaining distance to the destination [mm].
     open: BinaryHeap<(u64, ChainIndex)>,
 }
 
@@ -128,7 +128,7 @@ impl<'a> Spread<'a> {
         self.navigator.waypoint(Some(self.destination), chain)
     }
 
-    /// Lets `flow` begin its trips at `place`: at the lanes of a gate from which the fewest changes are left.
+    /// Lets `flow` begin its trips at `place`. At a gate it uses the lanes with the fewest lane changes left.
     fn begin(&mut self, place: &Place, flow: f64) {
         match place {
             Place::Gate(gate) => {
@@ -150,7 +150,7 @@ impl<'a> Spread<'a> {
         self.coming[chain.at()] += flow;
     }
 
-    /// Lets all drive to the destination, those who come from furthest first.
+    /// Moves all flows to the destination, beginning with the flow that has the longest distance left.
     fn drive(mut self) {
         while let Some((_, chain)) = self.open.pop() {
             let flow = std::mem::take(&mut self.coming[chain.at()]);
@@ -165,9 +165,9 @@ impl<'a> Spread<'a> {
         }
     }
 
-    /// The lanes that those at the start of `chain` may use to go on without another change for the route.
+    /// The lanes that a driver at the start of `chain` may use without another lane change for the route.
     fn lanes_to_share(&self, chain: ChainIndex) -> Vec<Shared> {
-        /// Ways whose times differ by less are equally good [s].
+        /// Routes whose times differ by less than this are equally good [s].
         const EQUAL: f64 = 2.0;
         let mut lanes = vec![Shared { lane: chain, station: 0.0, after: 0.0 }];
         if self.waypoint(chain).changes > 0 {
@@ -194,7 +194,7 @@ impl<'a> Spread<'a> {
         lanes
     }
 
-    /// Lets `flow` go on from a station of a chain [m] to the start of the next one, over changes of lane.
+    /// Moves `flow` from a station of a chain [m] to the start of the next chain, with the lane changes between.
     fn go_on(&mut self, mut chain: ChainIndex, mut station: f64, flow: f64, is_bound: bool) {
         let to = Some(self.destination);
         loop {
@@ -212,7 +212,7 @@ impl<'a> Spread<'a> {
                 }
                 None => {
                     self.note(chain, [station, way.end], flow, is_bound);
-                    // A lane may lead round to its own start.
+                    // A chain may lead back to its own start.
                     let arrives = via == chain && (way.next.is_none() || way.end.is_finite());
                     if !arrives {
                         self.come(via, flow);

@@ -10,37 +10,37 @@ pub enum WorldError {
     /// The step is not a sensible length of time.
     #[error("a step of {0} s: it must lie between 0.01 and 1 s")]
     Step(f64),
-    /// There are not as many driver parameters as before.
+    /// The number of sets of driver parameters differs from the present one.
     #[error("{found} sets of driver parameters in place of {expected}")]
     Characters {
-        /// The new ones.
+        /// The new number.
         found: usize,
-        /// The present ones.
+        /// The present number.
         expected: usize,
     },
     /// There are no driver parameters.
     #[error("there is no style to drive with")]
     NoDriverParameters,
-    /// A vehicle cannot be put there, or is not known.
+    /// A vehicle cannot be put at this place, or is unknown.
     #[error("a vehicle cannot be put on the road: {0}")]
     Vehicle(&'static str),
     /// A rate, weight or share is not a sensible number.
     #[error("{what} is {value}: it must be a number not below 0{limit}")]
     Demand {
-        /// Which.
+        /// Which number it is.
         what: &'static str,
         /// Its value.
         value: f64,
         /// Its upper limit, in words.
         limit: String,
     },
-    /// Headways cannot be as they should.
+    /// The headways are impossible.
     #[error(transparent)]
     Headways(#[from] HeadwayError),
-    /// More destinations than a vehicle can tell apart.
+    /// More destinations than a vehicle can distinguish.
     #[error("{0} destinations: there can be {1} at most")]
     Destinations(usize, usize),
-    /// The ways to all destinations would not fit into memory.
+    /// The routes to all destinations would not fit into memory.
     #[error("the ways to {destinations} destinations over {chains} lanes would not fit into memory")]
     Ways {
         /// Number of destinations.

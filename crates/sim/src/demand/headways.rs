@@ -1,8 +1,8 @@
-//! Laws of headways, the times between successive arrivals in a lane (May 1990, Traffic Flow Fundamentals, chapter 2;
-//! Cowan 1975).
+//! Headway distributions: the times between successive arrivals in a lane (May 1990, Traffic Flow Fundamentals, chapter
+//! 2; Cowan 1975).
 //!
-//! Every law keeps the mean headway t̄, one over the rate. What shapes it beside that is a shortest headway in seconds,
-//! which drivers keep whatever the rate, and a spread relative to the mean.
+//! Every distribution keeps the mean headway t̄, which is one over the rate. Two more parameters shape it: a minimum
+//! headway in seconds, which does not depend on the rate, and a spread relative to the mean.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -10,15 +10,15 @@ use thiserror::Error;
 use crate::state::gamma;
 use crate::state::normal;
 
-/// A law of headways.
+/// A headway distribution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Headways {
-    /// Negative exponential, of vehicles that know nothing of each other: S = e^(−t/t̄).
+    /// Negative exponential, for vehicles that arrive independently: S = e^(−t/t̄).
     #[default]
     Exponential,
     /// Shifted exponential: S = e^(−(t − a)/(t̄ − a)) from a on.
     Shifted {
-        /// a: shortest headway [s].
+        /// a: minimum headway [s].
         minimum: f64,
     },
     /// Erlang: the sum of k exponential stages, S = e^(−kt/t̄) Σ_{j<k} (kt/t̄)ʲ/j!.
@@ -28,7 +28,7 @@ pub enum Headways {
     },
     /// Pearson III: a + a gamma variable of shape K = ((t̄ − a)/sd)² and mean t̄ − a.
     PearsonIii {
-        /// a: shortest headway [s].
+        /// a: minimum headway [s].
         minimum: f64,
         /// sd/t̄: standard deviation relative to the mean.
         variation: f64,
@@ -38,19 +38,19 @@ pub enum Headways {
         /// sd/t̄: standard deviation relative to the mean.
         variation: f64,
     },
-    /// Cowan's M3: who follows does so at Δ, who drives freely at more, S = φ e^(−λ(t − Δ)), λ = φq/(1 − Δq).
+    /// Cowan's M3: followers have the headway Δ, free drivers a longer one, S = φ e^(−λ(t − Δ)), λ = φq/(1 − Δq).
     CowanM3 {
-        /// Δ: headway of who follows [s].
+        /// Δ: headway of followers [s].
         minimum: f64,
-        /// φ: share of those who drive freely.
+        /// φ: share of free drivers.
         free: f64,
     },
 }
 
-/// Why a law cannot hold.
+/// Why a headway distribution is impossible.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum HeadwayError {
-    /// The shortest headway leaves no room for any spread.
+    /// The minimum headway leaves no spread.
     #[error("the shortest headway is {minimum} s, where the mean is {mean:.2} s: it must be shorter")]
     Minimum {
         /// a or Δ [s].
@@ -61,7 +61,7 @@ pub enum HeadwayError {
     /// A parameter is out of its range.
     #[error("the {key} of the headways is {value}: it must lie between {least} and {most}")]
     Parameter {
-        /// Its name here.
+        /// Its name in this type.
         key: &'static str,
         /// Its value.
         value: f64,
@@ -73,16 +73,16 @@ pub enum HeadwayError {
 }
 
 impl Headways {
-    /// Least and largest shortest headway [s].
+    /// Least and largest minimum headway [s].
     const MINIMA: [f64; 2] = [0.0, 3600.0];
     /// Least and largest standard deviation relative to the mean.
     const VARIATIONS: [f64; 2] = [0.05, 5.0];
     /// Fewest and most stages.
     const STAGES: [f64; 2] = [1.0, 400.0];
-    /// Least and largest share of those who drive freely.
+    /// Least and largest share of free drivers.
     const FREE: [f64; 2] = [0.01, 1.0];
 
-    /// Shortest headway [s].
+    /// Minimum headway [s].
     pub fn minimum(&self) -> f64 {
         match *self {
             Headways::Exponential | Headways::Erlang { .. } | Headways::Lognormal { .. } => 0.0,
@@ -92,10 +92,10 @@ impl Headways {
         }
     }
 
-    /// Whether the law can hold at up to `rate` [1/s].
+    /// Checks that the distribution is possible at rates up to `rate` [1/s].
     ///
     /// # Errors
-    /// What makes it impossible.
+    /// The reason why it is impossible.
     pub fn check(&self, rate: f64) -> Result<(), HeadwayError> {
         let parameters = match *self {
             Headways::Exponential | Headways::Shifted { .. } => None,
@@ -118,7 +118,7 @@ impl Headways {
         Ok(())
     }
 
-    /// The headway [s] that is exceeded with chance `u`, 0 < u < 1, where vehicles come at `rate` [1/s].
+    /// The headway [s] that is exceeded with probability `u`, 0 < u < 1, at the arrival rate `rate` [1/s].
     pub fn exceeded(&self, u: f64, rate: f64) -> f64 {
         let mean = 1.0 / rate;
         match *self {
@@ -143,7 +143,7 @@ impl Headways {
         }
     }
 
-    /// S(t): chance that a headway is longer than `t` [s], where vehicles come at `rate` [1/s].
+    /// S(t): probability that a headway is longer than `t` [s] at the arrival rate `rate` [1/s].
     pub fn survival(&self, t: f64, rate: f64) -> f64 {
         let mean = 1.0 / rate;
         if t < self.minimum() || t <= 0.0 {
@@ -169,7 +169,7 @@ impl Headways {
     }
 }
 
-/// K = ((t̄ − a)/sd)²; without the square, a common misprint, the spread would be another.
+/// K = ((t̄ − a)/sd)². Without the square, a common misprint, the spread would be different.
 fn shape(mean: f64, minimum: f64, variation: f64) -> f64 {
     let ratio = (mean - minimum) / (variation * mean);
     ratio * ratio

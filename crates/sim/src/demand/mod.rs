@@ -1,4 +1,4 @@
-//! Demand: who drives, where from and where to, how many come, and at which headways.
+//! Demand: how many vehicles arrive, of which kind, from where and to where, and at which headways.
 
 pub(crate) mod arrivals;
 pub(crate) mod assignment;
@@ -18,14 +18,14 @@ use crate::demand::rate::Rate;
 use crate::route::place::Place;
 use crate::state::vehicle::Fleet;
 
-/// Who drives, where from and where to, and how many come.
+/// Which vehicles drive, from where and to where, and how many.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Demand {
     /// Where trips start.
     pub origins: Vec<Origin>,
     /// Where they end.
     pub destinations: Vec<Place>,
-    /// Law of the headways in each lane.
+    /// Headway distribution in each lane.
     pub headways: Headways,
     /// Shares of the classes of vehicles.
     pub fleet: Fleet,
@@ -38,9 +38,9 @@ pub struct Demand {
 pub struct Origin {
     /// Where it is.
     pub place: Place,
-    /// How many vehicles come per hour.
+    /// Number of vehicles that arrive per hour.
     pub rate: Rate,
-    /// Weight of each of the destinations; those that cannot be reached from here do not count.
+    /// Weight of each destination. A destination that cannot be reached from here does not count.
     pub weights: Vec<f64>,
 }
 
@@ -49,19 +49,21 @@ pub struct Origin {
 pub struct Share {
     /// Its weight.
     pub weight: f64,
-    /// Place of its first set in the table of driver parameters.
+    /// Index of its first set in the table of driver parameters.
     pub first: u32,
     /// Number of its sets.
     pub count: u32,
 }
 
 impl Demand {
-    /// `total` vehicles per hour over all entrances, by their number of lanes; destinations with equal weights.
+    /// A demand of `total` vehicles per hour over all entrances, by their numbers of lanes; all destinations have equal
+    /// weights.
     pub fn even(network: &Network, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
         Demand::over(Places::at_gates(network), total, Fleet::with_trucks(trucks), population)
     }
 
-    /// `total` vehicles per hour over all origins, by their number of lanes; destinations with equal weights.
+    /// A demand of `total` vehicles per hour over all origins, by their numbers of lanes; all destinations have equal
+    /// weights.
     pub fn over(places: Places, total: f64, fleet: Fleet, population: Vec<Share>) -> Demand {
         let Places { origins, destinations } = places;
         let lanes: usize = origins.iter().map(|place| place.chains().len()).sum();
@@ -81,10 +83,10 @@ impl Demand {
 }
 
 impl Demand {
-    /// Whether all its numbers make sense.
+    /// Checks that all its numbers are sensible.
     ///
     /// # Errors
-    /// The first that does not.
+    /// The first number that is not.
     pub(crate) fn check(&self) -> Result<(), WorldError> {
         let rates = self.origins.iter().flat_map(|it| it.rate.values());
         let rates = rates.map(|it| ("a demand in veh/h", it, Demand::LARGEST_RATE));
@@ -118,9 +120,9 @@ impl Demand {
         Ok(())
     }
 
-    /// More vehicles per hour than this at one origin are a mistake.
+    /// A rate above this at one origin is an error [veh/h].
     const LARGEST_RATE: f64 = 100_000.0;
-    /// A vehicle keeps in two bytes where it goes and how its class sees the roads.
+    /// A vehicle stores its destination, route and class restriction in two bytes.
     pub(crate) const MOST_DESTINATIONS: usize = 32_000;
 }
 

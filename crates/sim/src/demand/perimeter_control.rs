@@ -1,9 +1,9 @@
-//! Trips begin only as long as the roads of a town can bear it.
+//! Perimeter control: trips begin only while the roads of a town core can serve them.
 //!
-//! The throughput of a town has its maximum where a small part of its roads is taken up, and falls to nothing where all
-//! is (Geroliminis, Daganzo, 2008): full wait cycles of queues lock, and no driver can open them. So those whose way
-//! leads over roads that lead in rings wait at the edge of the map, or at their places inside the map, while more of
-//! these is taken up than the town can bear (a switch at its edge, as of Keyvan-Ekbatani and others, 2012).
+//! The throughput of a town has its maximum where vehicles occupy a small part of its roads. It falls to zero where
+//! they occupy all of it (Geroliminis, Daganzo, 2008): queues form full wait cycles, and no driver can resolve them. A
+//! vehicle whose route leads through the town core therefore waits at the edge of the map, or at its trip end inside
+//! the map, while too much of the core is occupied (a switch at its edge, as of Keyvan-Ekbatani and others, 2012).
 
 use laneweave_network::{ChainIndex, Network};
 use serde::{Deserialize, Serialize};
@@ -12,26 +12,26 @@ use crate::route::navigate::Navigator;
 use crate::state::goal::Destination;
 use crate::state::lane::Lane;
 
-/// Share of its roads that vehicles and the least gaps before them may take up (ours, from trials on closed maps: at
-/// twice that fewer arrive).
+/// Share of the core's roads that vehicles and the minimum gaps in front of them may occupy (ours, from trials on
+/// closed maps: at twice this value fewer vehicles reach their destinations).
 const BEARABLE: f64 = 0.10;
-/// Least gap before a vehicle [m].
+/// Minimum gap in front of a vehicle [m].
 const LEAST_GAP: f64 = 2.0;
-/// Roads that lead in rings of less than this in all are junctions, not towns [m] (ours).
+/// Roads in loops with less total length than this are a junction, not a town [m] (ours).
 const LEAST_TOWN: f64 = 500.0;
 
-/// Whether the roads of a town are full.
+/// Whether the roads of a town core are full.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PerimeterControl {
-    /// For each chain whether it is part of the town.
+    /// For each chain whether it is part of the core.
     is_core: Vec<bool>,
-    /// Length of all its lanes [m].
+    /// Length of all lanes of the core [m].
     length: f64,
     is_full: bool,
 }
 
 impl PerimeterControl {
-    /// Of `network`, on which there is nobody yet; `None` if its roads lead in no rings.
+    /// Perimeter control of `network`, with no vehicle yet; `None` if its roads form no loops of enough length.
     pub fn new(network: &Network) -> Option<PerimeterControl> {
         let is_core = in_the_core(network);
         let town = network.chains.iter().zip(&is_core).filter(|(_, is_core)| **is_core);
@@ -39,27 +39,27 @@ impl PerimeterControl {
         (length >= LEAST_TOWN).then_some(PerimeterControl { is_core, length, is_full: false })
     }
 
-    /// Whether it is of the same town, full or not.
+    /// Whether it belongs to the same core, full or not.
     pub(crate) fn fits(&self, other: &PerimeterControl) -> bool {
         self.is_core == other.is_core && self.length == other.length
     }
 
-    /// Whether a chain is part of the town.
+    /// Whether a chain is part of the core.
     pub fn is_core(&self, chain: ChainIndex) -> bool {
         self.is_core[chain.at()]
     }
 
-    /// What vehicles with the least gaps before them may take up of it [m].
+    /// Length that vehicles with the minimum gaps in front of them may occupy in the core [m].
     pub fn bearable(&self) -> f64 {
         BEARABLE * self.length
     }
 
-    /// What a vehicle of `length` [m] takes up [m].
+    /// Length that a vehicle of `length` [m] occupies [m].
     pub fn taken_by(length: f64) -> f64 {
         length + LEAST_GAP
     }
 
-    /// Measures what is taken up.
+    /// Measures how much of the core is occupied.
     pub(crate) fn measure(&mut self, lanes: &[Lane]) {
         let town = lanes.iter().zip(&self.is_core).filter(|(_, is_core)| **is_core);
         let motions = town.flat_map(|(lane, _)| lane.motions());
@@ -67,21 +67,21 @@ impl PerimeterControl {
         self.is_full = taken > self.bearable();
     }
 
-    /// Whether who would begin a trip through the town has to wait.
+    /// Whether a vehicle whose trip leads through the core has to wait.
     #[inline]
     pub(crate) fn is_full(&self) -> bool {
         self.is_full
     }
 
-    /// Whether the way from the start of a chain to a destination leads through the town.
+    /// Whether the route from the start of a chain to a destination leads through the core.
     pub(crate) fn is_on_way(&self, navigator: &Navigator, from: ChainIndex, to: Destination) -> bool {
         let mut way = navigator.way(from, to);
         way.any(|it| self.is_core[it.at()])
     }
 }
 
-/// For each chain whether it is part of a ring of roads, or of a road from one to another: what is left of a network
-/// without all that only leads to it, and all that only leads away.
+/// For each chain whether it is part of a loop of roads, or of a road between two loops. It removes repeatedly every
+/// chain without a previous or without a following one: roads that only lead to the loops, or only away from them.
 fn in_the_core(network: &Network) -> Vec<bool> {
     let chains = (0..network.chains.len() as u32).map(ChainIndex);
     let mut is_left = vec![true; network.chains.len()];

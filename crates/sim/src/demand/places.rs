@@ -17,8 +17,8 @@ pub struct Places {
 }
 
 impl Places {
-    /// Most waypoints that are planned on a map without gates; of more destinations an even choice remains. Ours: 260
-    /// MB.
+    /// Upper limit of the waypoints that are planned on a map without gates. With more destinations, every n-th one is
+    /// used. Ours: 260 MB.
     const MOST_WAYPOINTS: usize = 4_000_000;
 
     /// The entrances and exits of `network`.
@@ -27,7 +27,7 @@ impl Places {
         Places { origins: places(&network.entrances), destinations: places(&network.exits) }
     }
 
-    /// The same without origins from which no destination can be reached.
+    /// The same places without the origins from which no destination can be reached.
     pub fn reachable(mut self, network: &Network) -> Places {
         let navigator = Navigator::towards(network, &self.destinations);
         let count = self.destinations.len() as u16;
@@ -35,8 +35,8 @@ impl Places {
         self
     }
 
-    /// For a map without entrance or exit: places inside the map along those of `lanelets` that are long enough. Who
-    /// starts at one of the origins can reach a destination.
+    /// Places for a map without entrance or exit: places along those of `lanelets` that are long enough. A destination
+    /// can be reached from every origin.
     pub fn along(network: &Network, lanelets: impl IntoIterator<Item = LaneletIndex>) -> Places {
         let mut is_wanted = vec![false; network.lanelets.len()];
         lanelets.into_iter().for_each(|it| is_wanted[it.at()] = true);
@@ -64,10 +64,10 @@ impl Places {
     }
 }
 
-/// The station nearest to `usual` on a lanelet, which reaches along a `chain` `from` one station `to` another, before
-/// which the longest vehicle stands in no conflict zone and on the lanelet [m].
+/// The station nearest to `usual` at which the longest vehicle can start: in front of the station it stands on the
+/// lanelet and in no conflict zone [m]. The lanelet lies along `chain` between the stations `from` and `to`.
 fn clear_station(network: &Network, chain: ChainIndex, [from, to]: [f64; 2], usual: f64) -> Option<f64> {
-    /// A vehicle keeps this distance to a zone [m].
+    /// A vehicle keeps this distance from a zone [m].
     const SPARE: f64 = 1.0;
     let junctions = &network.junctions;
     let taken: Vec<[f64; 2]> = junctions

@@ -1,21 +1,22 @@
-//! Rates of arrivals, constant by pieces of time.
+//! Arrival rates that are piecewise constant in time.
 
 use serde::{Deserialize, Serialize};
 
-/// How many vehicles come per hour, and how that changes.
+/// Number of vehicles that arrive per hour, as a function of time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
-    /// From each time [s] on so many [veh/h]; the first time is 0, and they rise.
+    /// Start [s] and rate [veh/h] of each piece. The first start is 0, and the starts increase.
     pieces: Vec<(f64, f64)>,
 }
 
 impl Rate {
-    /// The same at all times [veh/h].
+    /// A rate that is constant in time [veh/h].
     pub fn constant(rate: f64) -> Rate {
         Rate { pieces: vec![(0.0, rate)] }
     }
 
-    /// From each time [s] on so many [veh/h]; nobody before the first. `None` if the times do not rise from 0 or later.
+    /// A rate from the start [s] and the rate [veh/h] of each piece; 0 before the first start. `None` if the starts do
+    /// not increase, or the first is negative.
     pub fn by_pieces(pieces: &[(f64, f64)]) -> Option<Rate> {
         let (first, _) = *pieces.first()?;
         let rise = pieces.windows(2).all(|it| it[0].0 < it[1].0);
@@ -26,7 +27,7 @@ impl Rate {
         Some(Rate { pieces: nobody.into_iter().chain(pieces.iter().copied()).collect() })
     }
 
-    /// The product of two, such as a rate and a factor, at each time.
+    /// The product of two functions of time, such as a rate and a factor.
     pub fn times(&self, factor: &Rate) -> Rate {
         let mut times: Vec<f64> = self.pieces.iter().chain(&factor.pieces).map(|(time, _)| *time).collect();
         times.sort_by(f64::total_cmp);
@@ -34,13 +35,13 @@ impl Rate {
         Rate { pieces: times.into_iter().map(|time| (time, self.at(time) * factor.at(time))).collect() }
     }
 
-    /// The rate at `time` [s], and so on until the next change [veh/h].
+    /// The rate at `time` [s], which is valid until the next change [veh/h].
     pub fn at(&self, time: f64) -> f64 {
         let after = self.pieces.partition_point(|(start, _)| *start <= time).max(1);
         self.pieces[after - 1].1
     }
 
-    /// When it changes next after `time` [s]; never: infinite.
+    /// Time of the next change after `time` [s]; infinite if there is none.
     pub(crate) fn changes_after(&self, time: f64) -> f64 {
         let after = self.pieces.partition_point(|(start, _)| *start <= time);
         self.pieces.get(after).map_or(f64::INFINITY, |(start, _)| *start)
@@ -56,7 +57,7 @@ impl Rate {
         self.values().fold(0.0, f64::max)
     }
 
-    /// Mean between two times [veh/h].
+    /// Mean rate between two times [veh/h].
     pub fn mean(&self, from: f64, to: f64) -> f64 {
         if let [(_, only)] = self.pieces[..] {
             return only;

@@ -1,6 +1,6 @@
 //! Sources: vehicles arrive at the origins of the demand, and wait there.
 //!
-//! An arrival that finds no room waits in the queue of its lane, and never delays the draw of the next.
+//! A vehicle that finds no space waits in the queue of its lane. It never delays the next arrival.
 
 use std::collections::VecDeque;
 
@@ -22,20 +22,20 @@ use crate::state::random::{Purpose, Random};
 use crate::state::vehicle::Class;
 use crate::view::scene::Scene;
 
-/// Road per lane change that is still to go within which a driver comes onto the map in the lane of its route [m]
-/// (ours).
+/// A driver enters the map in a lane of its route if the last place for its lane changes is within this distance per
+/// change [m] (ours).
 pub const TAKES_LANE_WITHIN: f64 = 800.0;
 
 /// A vehicle at the moment of its arrival.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Arrival {
     pub(crate) id: VehicleId,
-    /// When it came [s].
+    /// Time of arrival [s].
     pub(crate) time: f64,
     pub(crate) class: Class,
     pub(crate) parameters: u32,
     pub(crate) destination: Destination,
-    /// Its way leads through a town, which may be full.
+    /// Its route leads through the town core, which may be full.
     pub(crate) is_through_town: bool,
 }
 
@@ -43,23 +43,23 @@ pub(crate) struct Arrival {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Source {
     headways: Headways,
-    /// Arrivals per hour in each stream.
+    /// Arrival rate of each stream.
     rate: Rate,
-    /// What comes together here. Memoryless streams are one; of others there is one for each lane.
+    /// Streams of arrivals. Memoryless arrivals form one stream; others form one for each lane.
     streams: Vec<Stream>,
-    /// Its lanes from the slow side to the fast one.
+    /// The queues of its lanes, from the slow side to the fast side.
     lanes: Vec<Queue>,
     /// Destinations with their cumulated weights.
     destinations: Vec<(Destination, f64)>,
 }
 
-/// Vehicles that come one after the other.
+/// Vehicles that arrive one after the other.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Stream {
-    /// Subject of its draws.
+    /// Subject of its random numbers.
     number: u32,
     arrived: u32,
-    /// When the next one comes [s].
+    /// Time of the next arrival [s].
     next: f64,
 }
 
@@ -69,33 +69,33 @@ pub(crate) struct Queue {
     pub(crate) chain: ChainIndex,
     pub(crate) start: Start,
     pub(crate) waiting: VecDeque<Arrival>,
-    /// Step from which on the first of them has had to wait for others that use the same ground.
+    /// Step since which the first vehicle has waited for others that use the same conflict area.
     pub(crate) asks_since: Option<u32>,
 }
 
-/// How vehicles come onto a lane.
+/// How vehicles enter a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Start {
-    /// They come driving from before its start.
+    /// They are driving when they enter at its start.
     Driving,
     /// They start from rest, with the rear bumper at this station [m].
     FromRest(f64),
 }
 
 impl Queue {
-    /// The stretch of its lane on which its vehicles start.
+    /// The storage section on which its vehicles start.
     pub(crate) fn section(&self, network: &Network) -> StorageSection {
         StorageSection::at(&network.junctions, self.chain, self.start.station())
     }
 
-    /// The place in the queue of the first who may enter, if the town `is_full` or not.
+    /// The position in the queue of the first vehicle that may enter, with a town core that `is_full` or not.
     pub(crate) fn first(&self, is_full: bool) -> Option<usize> {
         self.waiting.iter().position(|it| !(is_full && it.is_through_town))
     }
 }
 
 impl Start {
-    /// Where the rear bumper of a vehicle is when it comes [m].
+    /// Where the rear bumper of a vehicle is when it enters [m].
     pub(crate) fn station(self) -> f64 {
         match self {
             Start::Driving => 0.0,
@@ -112,7 +112,7 @@ impl Source {
         demand: &Demand,
         random: &Random,
     ) -> Vec<Source> {
-        // The first stream of each source is called like it; further ones follow.
+        // The first stream of each source has the number of the source; further streams follow.
         let mut further = demand.origins.len() as u32..;
         let sources = demand.origins.iter().zip(0..).map(|(origin, number)| {
             let lanes = queues(network, &origin.place);
@@ -131,7 +131,8 @@ impl Source {
         sources.collect()
     }
 
-    /// Whether it is that of the same origin as `other` at `clock`, for so many drivers, and for ways that are known.
+    /// Whether it is the source of the same origin as `other` at `clock`, with this many sets of driver parameters, and
+    /// names known destinations only.
     pub(crate) fn fits(
         &self,
         other: &Source,
@@ -159,14 +160,14 @@ impl Source {
             && lanes.iter().zip(&other.lanes).all(queue_fits)
     }
 
-    /// Draws when the next vehicle of a stream comes after the last one.
+    /// Draws the time of the next arrival in a stream.
     fn draw_next(&mut self, stream: usize, random: &Random) {
         let Stream { number, arrived, next } = self.streams[stream];
         let chance = random.uniform(number, Purpose::Arrival, arrived);
         self.streams[stream].next = next_arrival(self.headways, &self.rate, next, chance);
     }
 
-    /// Lets those arrive who are due by `time` [s] and queue up; `next_id` names them.
+    /// The vehicles that are due by `time` [s] arrive and join the queues; `next_id` gives their ids.
     pub(crate) fn arrive(
         &mut self,
         scene: &Scene,
@@ -196,7 +197,7 @@ impl Source {
         }
     }
 
-    /// Draws the vehicle `id` that comes at `time` [s].
+    /// Draws the vehicle `id` that arrives at `time` [s].
     fn draw(
         &self,
         navigator: &Navigator,
@@ -226,8 +227,8 @@ impl Source {
         Arrival { id, time, class, parameters, destination, is_through_town: false }
     }
 
-    /// A destination as a class sees the way to it; where there is none for it, the destination of least time to which
-    /// there is one.
+    /// A destination with the class restriction of `class`. If the class has no route to it, the destination with the
+    /// least travel time to which it has one.
     fn reachable_for(&self, navigator: &Navigator, class: Class, destination: Destination) -> Destination {
         let seen = |it: Destination| navigator.seen_by(class, it);
         let time = |it: Destination| {
@@ -241,8 +242,8 @@ impl Source {
         others.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(seen(destination), |it| it.0)
     }
 
-    /// The lane in which a driver queues: the fewest changes from its route, if they have to be made soon; then long
-    /// vehicles on the slow side, others where fewer wait and where there is more room.
+    /// The lane in which a driver queues. First: fewest lane changes, if they have to be made soon. Then: long vehicles
+    /// on the slow side, others where fewer vehicles wait, and where there is more space.
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
@@ -263,7 +264,7 @@ impl Source {
         &mut self.lanes
     }
 
-    /// The same, to look at.
+    /// Its queues, read-only.
     pub(crate) fn lanes(&self) -> &[Queue] {
         &self.lanes
     }
@@ -279,11 +280,11 @@ impl Source {
     }
 }
 
-/// When the vehicle after the one at `last` [s] comes, whose headway is exceeded with `chance`, in a stream of `rate`
-/// [veh/h].
+/// Time of the next arrival after the one at `last` [s]. Its headway is exceeded with probability `chance`, in a stream
+/// of `rate` [veh/h].
 ///
-/// Where the rate changes in the meantime, the share of the headway that is left goes on at the new rate. So Poisson
-/// arrivals stay Poisson at any time, and the shortest headway of a law is kept.
+/// Where the rate changes in between, the remaining share of the headway continues at the new rate. So Poisson arrivals
+/// stay Poisson at any time, and the minimum headway of a distribution is kept.
 fn next_arrival(headways: Headways, rate: &Rate, last: f64, chance: f64) -> f64 {
     let (mut time, mut left) = (last, 1.0);
     while time < f64::INFINITY {

@@ -1,27 +1,29 @@
-//! The controller of a junction whose greens traffic extends: where its program is, and when it goes on.
+//! The controller of an actuated junction: the state of its signal program, and when it goes on. A *turn* is a phase of
+//! the program.
 //!
-//! Who comes to a light that is red calls the first turn in which it is green. As long as nobody calls another turn,
-//! the present one stays green. Then its green ends when nobody has come to its lights for its gap, or at its maximum,
-//! counted from the first call on; never before its minimum. Turns that nobody calls are left out. Gap, minimum and
-//! maximum are those of the usual actuated controllers (such as NEMA TS 2; from memory).
+//! A vehicle that comes to a red light calls the first turn in which this light is green. As long as no other turn is
+//! called, the present one stays green. Then its green ends when no vehicle has come to its lights for the gap time, or
+//! at the maximum green, which counts from the first call. It never ends before the minimum green. Turns that are not
+//! called are skipped. Gap time, minimum and maximum green are those of the usual actuated controllers (such as NEMA TS
+//! 2; from memory).
 
 use laneweave_network::{Extension, LightIndex, LightState, SignalPlan, Turn};
 use serde::{Deserialize, Serialize};
 
 use crate::state::clock::Clock;
 
-/// Where a program is.
+/// The state of a signal program.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Controller {
     turns: Vec<Timed>,
-    /// The turn whose lights are, or were last, green.
+    /// The turn whose lights are green, or were green last.
     turn: usize,
     stage: Stage,
     /// Step in which the stage began.
     since: u32,
-    /// Last step of the green in which somebody came to a light that will be red next.
+    /// Last step of the green in which a vehicle came to a light that will be red in the next turn.
     seen: u32,
-    /// First step of the green from which on another turn is called.
+    /// First step of the green since which another turn has been called.
     called: Option<u32>,
 }
 
@@ -39,7 +41,7 @@ enum Stage {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Timed {
     lights: Vec<LightIndex>,
-    /// Nobody has to call it, and nobody extends it.
+    /// It needs no call, and no vehicle extends it.
     is_fixed: bool,
     least: u32,
     most: u32,
@@ -65,14 +67,14 @@ impl Timed {
 }
 
 impl Controller {
-    /// That of `plan`, whose first turn begins now.
+    /// The controller of `plan`; its first turn begins now.
     pub(crate) fn of(plan: &SignalPlan, clock: Clock) -> Controller {
         let turns = plan.turns.iter().map(|it| Timed::of(it, clock)).collect();
         let step = clock.step;
         Controller { turns, turn: 0, stage: Stage::Green, since: step, seen: step, called: Some(step) }
     }
 
-    /// Whether it is that of the same program, wherever this is at `clock`.
+    /// Whether it has the same program as `other`, in any state that is valid at `clock`.
     pub(crate) fn fits(&self, other: &Controller, clock: Clock) -> bool {
         let Controller { turns, turn, stage, since, seen, called } = self;
         let stage_fits = match stage {
@@ -86,7 +88,7 @@ impl Controller {
             && steps.into_iter().flatten().all(|it| it <= clock.step)
     }
 
-    /// Its lights; those of several turns several times.
+    /// Its lights. A light of several turns occurs several times.
     pub(crate) fn lights(&self) -> impl Iterator<Item = LightIndex> {
         self.turns.iter().flat_map(|it| it.lights.iter().copied())
     }
@@ -103,7 +105,7 @@ impl Controller {
         }
     }
 
-    /// Goes on to `step`, in which somebody comes to the lights that `is_awaited` names.
+    /// Advances to `step`. `is_awaited` tells to which lights vehicles come in this step.
     pub(crate) fn advance(&mut self, step: u32, is_awaited: impl Fn(LightIndex) -> bool) {
         let lasted = |controller: &Controller, duration: u32| step - controller.since >= duration;
         if let Stage::Yellow(to) = self.stage
@@ -133,7 +135,7 @@ impl Controller {
         }
     }
 
-    /// The next turn that is fixed, or that somebody calls.
+    /// The next turn that is fixed, or that a vehicle calls.
     fn next_called(&self, is_awaited: impl Fn(LightIndex) -> bool) -> Option<usize> {
         let count = self.turns.len();
         let here = &self.turns[self.turn].lights;
@@ -154,7 +156,7 @@ mod tests {
     const LEFT: LightIndex = LightIndex(2);
     const CLOCK: Clock = Clock { step: 0, dt: 0.5 };
 
-    /// Green of 5 to 20 s by a gap of 2 s for each of these groups of lights, yellow 3 s, red for all 2 s.
+    /// A plan with a turn for each of these groups of lights: green 5 to 20 s, gap time 2 s, yellow 3 s, all-red 2 s.
     fn plan(groups: &[&[LightIndex]]) -> SignalPlan {
         let turn = |lights: &&[LightIndex]| Turn {
             lights: lights.to_vec(),
@@ -166,8 +168,8 @@ mod tests {
         SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() }
     }
 
-    /// When a light shows another colour [s], and which, in `duration` [s], in which vehicles come to a light as told
-    /// by time [s].
+    /// The times [s] at which a light changes, and what it shows then, within `duration` [s]. `is_awaited` tells by
+    /// time [s] whether vehicles come to a light.
     fn switches(
         plan: &SignalPlan,
         light: LightIndex,
@@ -217,7 +219,7 @@ mod tests {
     #[test]
     fn a_green_ends_a_gap_after_the_last_vehicle_but_not_before_its_minimum() {
         let plan = plan(&[&[MAIN], &[SIDE]]);
-        // Somebody waits at the side from 10 s on, and on the main road the last one passes at 30 s, or before.
+        // A vehicle waits at the side from 10 s on. On the main road the last vehicle passes at `last`.
         for (last, end) in [(12.0, 14.0), (21.0, 23.0), (0.0, 10.0)] {
             let found =
                 switches(
@@ -238,7 +240,7 @@ mod tests {
     fn a_busy_road_stays_green_for_its_maximum_after_somebody_came_from_the_side() {
         let plan = plan(&[&[MAIN], &[SIDE]]);
         let found = switches(&plan, MAIN, 200.0, |time, it| it == MAIN || (100.0..=125.0).contains(&time));
-        // The side has its minimum, and nobody calls it again.
+        // The side road gets its minimum green, and no vehicle calls it again.
         assert_eq!(found, [(0.0, Green), (120.0, Yellow), (123.0, Red), (135.0, Green)]);
     }
 

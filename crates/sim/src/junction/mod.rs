@@ -1,4 +1,4 @@
-//! Who holds which conflict zone, and what the lights show.
+//! Reservations of conflict zones, and what the traffic lights show.
 
 pub(crate) mod controller;
 pub(crate) mod need;

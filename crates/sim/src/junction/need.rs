@@ -1,36 +1,36 @@
-//! What reservation a driver needs.
+//! The reservation that a driver needs.
 
 use laneweave_network::{ChainIndex, LightIndex};
 
 use crate::junction::storage_section::StorageSection;
 use crate::junction::waiting::ZoneReservation;
 
-/// Room that a vehicle needs beyond the zones beside its length [m] (ours).
+/// Storage space that a vehicle needs beyond the zones, in addition to its length [m] (ours).
 pub(crate) const SPARE_SPACE: f64 = 2.0;
 
-/// What reservation a driver needs. Distances are those from its front [m].
+/// The reservation that a driver needs. Distances are measured from the front of its vehicle [m].
 #[derive(Clone, Debug)]
 pub(crate) struct Survey {
-    /// Where it stops without.
+    /// Where it stops without a reservation.
     pub(crate) stop: f64,
-    /// Lights, with the places where their drivers stop.
+    /// Lights, with the distances to the places where drivers stop for them.
     pub(crate) lights: Vec<(LightIndex, f64)>,
-    /// It has to stop first, whoever comes.
+    /// It has to stop first, even if no other vehicle comes.
     pub(crate) has_stop_sign: bool,
-    /// Sides of zones.
+    /// The sides of zones that it needs.
     pub(crate) holds: Vec<ZoneReservation>,
-    /// Where its front has to get for the rear to be out of all zones, and for it to be past all lines that belong to
+    /// Where its front has to be so that its rear has left all zones, and its front has passed all lines that belong to
     /// them.
     pub(crate) extent: f64,
-    /// Where it can stand then.
+    /// The storage section where it can stand then.
     pub(crate) section: StorageSection,
-    /// Where the chain of that begins.
+    /// Where the chain of this section begins.
     pub(crate) section_start: f64,
-    /// Room that it needs there.
+    /// Storage space that it needs there.
     pub(crate) needed: f64,
-    /// Room that there is.
+    /// Storage space that is available there.
     pub(crate) space: f64,
-    /// Room that there would be on an empty road.
+    /// Storage space that would be available on an empty road.
     pub(crate) most: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The reservations that were granted, the order in each zone, and who waits for one.
+//! The granted reservations, the order in each zone, and the waiting priorities.
 
 use laneweave_network::{LightIndex, Network, ZoneIndex};
 use serde::{Deserialize, Serialize};
@@ -14,50 +14,51 @@ use crate::state::lane::VehicleId;
 /// A vehicle has no reservation.
 pub(crate) const NO_RESERVATION: u32 = u32::MAX;
 
-/// All reservations of an instant.
+/// All reservations at one instant.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Reservations {
     given: Vec<Reservation>,
     free: Vec<u32>,
-    /// For each zone those who may pass it, in the order in which they do.
+    /// For each zone the vehicles that may pass it, in the order in which they pass.
     queues: Vec<Vec<Holder>>,
-    /// For each zone and side the turn of who has waited longest for it.
+    /// For each zone and side the turn of the vehicle that has waited longest for it.
     priorities: Vec<[Option<Turn>; 2]>,
     noted_on: Vec<ZoneIndex>,
     numbers: Numbers,
-    /// For each storage section who out of patience has waited longest for room on it, and how much it needs [m].
+    /// For each storage section the impatient vehicle that has waited longest for space on it, and the space it needs
+    /// [m].
     requested: Vec<Option<(WaitingPriority, f64)>>,
     requested_on: Vec<usize>,
-    /// For each storage section the room kept on it for those who are on their way there [cm].
+    /// For each storage section the space reserved for vehicles that are on their way there [cm].
     kept: Vec<u64>,
     pub(crate) roundabouts: Roundabouts,
 }
 
-/// The right of a vehicle to pass zones. Distances are those of its front from where the first of them was given [m].
+/// The right of a vehicle to pass zones. Distances are those of its front from the place of the first grant [m].
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Reservation {
     pub(crate) vehicle: VehicleId,
     pub(crate) is_given: bool,
-    /// Step in which its driver first asked for it.
+    /// Step in which its driver first requested it.
     since: u32,
     pub(crate) length: f64,
     pub(crate) speed: f64,
     pub(crate) desired: f64,
-    /// Driven so far.
+    /// Distance driven since the first grant.
     pub(crate) travelled: f64,
-    /// How far it goes.
+    /// Distance at which it ends.
     pub(crate) extent: f64,
     pub(crate) holds: Vec<ZoneReservation>,
     lights: Vec<(LightIndex, f64)>,
     kept_spaces: Vec<KeptSpace>,
 }
 
-/// Room kept for a vehicle beyond the zones.
+/// Storage space reserved for a vehicle beyond the zones.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct KeptSpace {
     /// Number of the storage section.
     on: usize,
-    /// Distance at which the vehicle has got there [m].
+    /// Distance at which the vehicle has arrived there [m].
     until: f64,
     /// Length [cm].
     length: u64,
@@ -71,7 +72,7 @@ pub(crate) struct Holder {
 }
 
 impl Reservations {
-    /// None given, on `network`.
+    /// No reservations, on `network`.
     pub(crate) fn new(network: &Network) -> Reservations {
         let zones = network.junctions.zones.len();
         let numbers = Numbers::of(network);
@@ -86,7 +87,7 @@ impl Reservations {
         }
     }
 
-    /// Whether it is of the same network as `other`, and names nothing that is not there.
+    /// Whether it belongs to the same network as `other`, and names only things that exist.
     pub(crate) fn fits(&self, other: &Reservations, lights: usize, clock: Clock) -> bool {
         let Reservations {
             given,
@@ -134,24 +135,24 @@ impl Reservations {
         self.given.get(slot as usize).filter(|it| it.is_given && it.vehicle == vehicle)
     }
 
-    /// Those who may pass `zone`, in order.
+    /// The vehicles that may pass `zone`, in order.
     #[inline]
     pub(crate) fn order(&self, zone: ZoneIndex) -> impl DoubleEndedIterator<Item = (&Holder, &Reservation)> {
         let holders = self.queues.get(zone.at()).map_or(&[][..], Vec::as_slice);
         holders.iter().map(|it| (it, &self.given[it.slot as usize]))
     }
 
-    /// The turn of who has waited longest on `side` of `zone`.
+    /// The turn of the vehicle that has waited longest on `side` of `zone`.
     pub(crate) fn priority(&self, zone: ZoneIndex, side: u8) -> Option<Turn> {
         self.priorities.get(zone.at()).and_then(|it| it[usize::from(side)])
     }
 
-    /// Room kept on `section` for those who are on their way there [m].
+    /// Space reserved on `section` for vehicles that are on their way there [m].
     pub(crate) fn kept_on(&self, section: StorageSection) -> f64 {
         self.numbers.of_section(section).map_or(0.0, |it| self.kept[it] as f64 / CENTIMETRES)
     }
 
-    /// Forgets who waits.
+    /// Clears all waiting priorities.
     pub(crate) fn clear_priorities(&mut self) {
         for zone in self.noted_on.drain(..) {
             self.priorities[zone.at()] = [None; 2];
@@ -162,7 +163,7 @@ impl Reservations {
         }
     }
 
-    /// Notes the turn of who waits for a side of a zone.
+    /// Records the turn of a vehicle that waits for a side of a zone.
     pub(crate) fn note_priority(&mut self, zone: ZoneIndex, side: u8, turn: Turn) {
         let noted = &mut self.priorities[zone.at()];
         if noted.iter().all(Option::is_none) {
@@ -172,7 +173,7 @@ impl Reservations {
         *own = own.filter(|first| first.priority < turn.priority).or(Some(turn));
     }
 
-    /// Notes who waits for `needed` [m] of room on a storage section.
+    /// Records a request for `needed` [m] of space on a storage section.
     pub(crate) fn note_space_request(
         &mut self,
         section: StorageSection,
@@ -187,13 +188,14 @@ impl Reservations {
         *noted = noted.filter(|(first, _)| *first < priority).or(Some((priority, needed)));
     }
 
-    /// Room on `section` that comes first to somebody else than the one who claims [m].
+    /// Space on `section` that is requested by another vehicle with a higher priority than `priority` [m].
     pub(crate) fn requested_before(&self, section: StorageSection, priority: WaitingPriority) -> f64 {
         let requested = self.numbers.of_section(section).and_then(|it| self.requested[it]);
         requested.filter(|(first, _)| *first < priority).map_or(0.0, |(_, needed)| needed)
     }
 
-    /// Gives `vehicle`, who has the reservation in `slot` if any, what was surveyed. Returns its slot.
+    /// Grants to `vehicle` what was surveyed, in addition to the reservation that it may have in `slot`. Returns its
+    /// slot.
     pub(crate) fn grant(&mut self, slot: u32, vehicle: VehicleId, length: f64, survey: &Survey) -> u32 {
         let slot = if self.of(slot, vehicle).is_some() { slot } else { self.open(vehicle, length) };
         let reservation = &mut self.given[slot as usize];
@@ -226,8 +228,8 @@ impl Reservations {
         slot
     }
 
-    /// The vehicle of the reservation in `slot` drove on by `distance` [m], and now has `speed` and desires `desired`
-    /// [m/s].
+    /// The vehicle of the reservation in `slot` drove on by `distance` [m]. Its speed is now `speed`, and its desired
+    /// speed `desired` [m/s].
     pub(crate) fn advance(&mut self, slot: u32, distance: f64, speed: f64, desired: f64) {
         let Reservations { given, queues, kept, .. } = self;
         let reservation = &mut given[slot as usize];
@@ -256,23 +258,23 @@ impl Reservations {
         }
     }
 
-    /// Notes that the driver of the reservation in `slot` first asked for it in step `since`.
+    /// Records that the driver of the reservation in `slot` first requested it in step `since`.
     pub(crate) fn note_since(&mut self, slot: u32, since: u32) {
         self.given[slot as usize].since = since;
     }
 
-    /// Step in which the driver of the reservation in `slot` first asked for it.
+    /// Step in which the driver of the reservation in `slot` first requested it.
     pub(crate) fn since(&self, slot: u32) -> u32 {
         self.given[slot as usize].since
     }
 
-    /// The vehicle of the reservation in `slot` goes, whatever lights show from now on: others have been let go because
-    /// it does.
+    /// The vehicle of the reservation in `slot` passes, whatever the lights show from now on: other vehicles were
+    /// granted reservations that rely on it.
     pub(crate) fn make_certain(&mut self, slot: u32) {
         self.given[slot as usize].lights.clear();
     }
 
-    /// Revokes all of a reservation that lies beyond `distance` from its beginning [m].
+    /// Revokes the part of a reservation that lies beyond `distance` from its beginning [m].
     pub(crate) fn revoke(&mut self, slot: u32, distance: f64) {
         let Reservations { given, queues, kept, .. } = self;
         let reservation = &mut given[slot as usize];
@@ -298,7 +300,7 @@ impl Reservations {
         }
     }
 
-    /// The vehicle is no longer on the road.
+    /// Revokes the reservation of a vehicle that is no longer on the road.
     pub(crate) fn end(&mut self, slot: u32, vehicle: VehicleId) {
         if self.of(slot, vehicle).is_some() {
             self.revoke(slot, f64::NEG_INFINITY);
@@ -306,7 +308,8 @@ impl Reservations {
     }
 }
 
-/// Centimetres in a metre: kept room is counted in whole ones, so that the order of changes does not matter.
+/// Centimetres in a metre. Reserved space is counted in whole centimetres, so that the order of changes does not
+/// matter.
 const CENTIMETRES: f64 = 100.0;
 
 fn leave_order(queue: &mut Vec<Holder>, slot: u32, side: u8) {
@@ -316,29 +319,29 @@ fn leave_order(queue: &mut Vec<Holder>, slot: u32, side: u8) {
 }
 
 impl Reservation {
-    /// What is left of it from the vehicle's front on [m].
+    /// The length of it that remains in front of the vehicle [m].
     pub(crate) fn left(&self) -> f64 {
         self.extent - self.travelled
     }
 
-    /// What of it is left from the vehicle's front on, whatever lights show [m].
+    /// The length of it that remains in front of the vehicle, whatever the lights show [m].
     pub(crate) fn left_for_certain(&self) -> f64 {
         let ends = self.lights.iter().map(|(_, line)| self.zone_over(*line).unwrap_or(*line).min(*line));
         ends.filter(|it| *it > self.travelled).fold(self.extent, f64::min) - self.travelled
     }
 
-    /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light: who stops at the
-    /// line has to stop for these, too. From the beginning of the reservation on [m].
+    /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light [m], from the
+    /// beginning of the reservation on. A vehicle that stops at the line has to stop for these zones, too.
     pub(crate) fn zone_over(&self, line: f64) -> Option<f64> {
         self.holds.iter().filter(|it| it.leave > line).map(|it| it.enter).reduce(f64::min)
     }
 
-    /// What it holds of the zone on the other side of `hold`.
+    /// Its reservation of the other side of the zone of `hold`.
     pub(crate) fn across(&self, hold: &ZoneReservation) -> Option<&ZoneReservation> {
         self.holds.iter().find(|it| it.zone == hold.zone && it.side != hold.side)
     }
 
-    /// The lights that it passes, with the distances to where their drivers stop [m].
+    /// The lights that it passes, with the distances to the places where drivers stop for them [m].
     pub(crate) fn lights(&self) -> impl Iterator<Item = (LightIndex, f64)> {
         self.lights.iter().map(|(light, at)| (*light, at - self.travelled))
     }

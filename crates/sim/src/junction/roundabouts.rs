@@ -1,7 +1,7 @@
-//! Roundabouts: rings of lanes without lights, on which vehicles queue behind each other once round.
+//! Roundabouts: short loops of lanes without lights, on which vehicles queue behind each other all the way round.
 //!
-//! A ring that is full locks: everybody waits for the room that the next takes up. So who comes from outside leaves
-//! some of it free, however long it waits, and those on it can always move up.
+//! A full roundabout locks: every vehicle waits for the space that the next one occupies. Vehicles that want to enter
+//! it therefore leave part of it free, however long they wait. So the vehicles on it can always move up.
 
 use laneweave_network::{ChainIndex, Network, Sign};
 use serde::{Deserialize, Serialize};
@@ -11,34 +11,34 @@ use crate::junction::reservations::Reservations;
 use crate::junction::waiting::WaitingPriority;
 use crate::state::lane::Lane;
 
-/// A ring is no longer than this [m] (ours; a roundabout of two lanes is some 60 m across).
+/// A roundabout is no longer than this [m] (ours; a roundabout with two lanes has a diameter of some 60 m).
 const LONGEST: f64 = 200.0;
-/// Share of its length that vehicles and the room between them may take up (ours: two places are left on a small
-/// roundabout, so that a truck can move up, too).
+/// Share of its length that vehicles and the gaps between them may occupy (ours: on a small roundabout space for two
+/// vehicles remains, so that a truck can move up, too).
 const BEARABLE: f64 = 0.4;
 
-/// The rings of a network.
+/// The roundabouts of a network.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Roundabouts {
     roundabouts: Vec<Roundabout>,
-    /// For each chain the ring that it is part of; empty if there are none.
+    /// For each chain the roundabout that it is part of; empty if there are none.
     of: Vec<Option<u32>>,
 }
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Roundabout {
     chains: Vec<ChainIndex>,
-    /// Those that lead into it from outside.
+    /// Chains that lead into it from outside.
     entries: Vec<ChainIndex>,
     /// Length of its chains [m].
     length: f64,
-    /// Who out of patience has waited longest to come onto it.
+    /// The impatient vehicle that has waited longest to enter it.
     priority: Option<WaitingPriority>,
 }
 
 impl Roundabouts {
-    /// The rings of `network`: chains that lead back to their starts within a short way, each with those that it is
-    /// linked to.
+    /// The roundabouts of `network`: chains that lead back to their starts within a short distance, each with the
+    /// chains of this kind that are linked to it.
     pub(crate) fn of(network: &Network) -> Roundabouts {
         let chains = (0..network.chains.len() as u32).map(ChainIndex);
         let is_on_ring: Vec<bool> = chains.clone().map(|it| comes_round(network, it)).collect();
@@ -65,7 +65,7 @@ impl Roundabouts {
         if roundabouts.roundabouts.is_empty() { Roundabouts::default() } else { roundabouts }
     }
 
-    /// Whether they are those of the same network, whoever waits for them.
+    /// Whether they are those of the same network, with any waiting priorities.
     pub(crate) fn fits(&self, other: &Roundabouts) -> bool {
         let alike = |(one, other): (&Roundabout, &Roundabout)| {
             one.chains == other.chains && one.entries == other.entries && one.length == other.length
@@ -75,23 +75,23 @@ impl Roundabouts {
             && self.roundabouts.iter().zip(&other.roundabouts).all(alike)
     }
 
-    /// The ring that is entered from one chain to another.
+    /// The roundabout that a vehicle enters from one chain to another.
     fn entered(&self, [from, to]: [ChainIndex; 2]) -> Option<u32> {
         let roundabout = |it: ChainIndex| self.of.get(it.at()).copied().flatten();
         roundabout(to).filter(|_| roundabout(from).is_none())
     }
 
-    /// Whether a roundabout is entered from one chain to another.
+    /// Whether a vehicle enters a roundabout from one chain to another.
     pub(crate) fn is_entered(&self, way: [ChainIndex; 2]) -> bool {
         self.entered(way).is_some()
     }
 
-    /// Forgets who waits.
+    /// Clears all waiting priorities.
     pub(crate) fn clear_priorities(&mut self) {
         self.roundabouts.iter_mut().for_each(|it| it.priority = None);
     }
 
-    /// Notes who waits to come from one chain to another.
+    /// Records the priority of a vehicle that waits to go from one chain to another.
     pub(crate) fn note_priority(&mut self, way: [ChainIndex; 2], priority: WaitingPriority) {
         if let Some(number) = self.entered(way) {
             let noted = &mut self.roundabouts[number as usize].priority;
@@ -99,8 +99,8 @@ impl Roundabouts {
         }
     }
 
-    /// Whether a roundabout between `from` and `section` would be full with who claims and needs `needed` [m] there, or
-    /// somebody else comes first.
+    /// Whether a vehicle with `priority` must not enter the roundabout between the two chains of `way`: another vehicle
+    /// has a higher priority, or the roundabout would be full with the `needed` space [m].
     pub(crate) fn is_closed(
         &self,
         reservations: &Reservations,
@@ -120,7 +120,7 @@ impl Roundabouts {
 }
 
 impl Roundabout {
-    /// What those on it, and those who may come onto it, take up [m].
+    /// Length that the vehicles on it, and those with a reservation to enter it, occupy [m].
     fn taken(&self, reservations: &Reservations, lanes: &[Lane]) -> f64 {
         let space = |length: f32| f64::from(length) + SPARE_SPACE;
         let here = self.chains.iter().flat_map(|it| lanes[it.at()].motions());
@@ -135,7 +135,7 @@ impl Roundabout {
     }
 }
 
-/// Whether a chain leads back to its start without a light within the length of a ring.
+/// Whether a chain leads back to its start without a light, within the length of a roundabout.
 fn comes_round(network: &Network, start: ChainIndex) -> bool {
     let has_light = |it: ChainIndex| {
         network.junctions.on(it).stops.iter().any(|stop| matches!(stop.sign, Sign::Light(_)))

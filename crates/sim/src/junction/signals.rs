@@ -1,4 +1,4 @@
-//! What the traffic lights show: fixed programs by the time, others by who comes.
+//! What the traffic lights show: fixed programs depend on the time, actuated ones on the traffic.
 
 use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Sign};
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use crate::junction::controller::Controller;
 use crate::state::clock::Clock;
 use crate::state::lane::Lane;
 
-/// Whose front is nearer to the line of a light comes to it [m], ours: at 50 km/h two seconds.
+/// A vehicle comes to a light if its front is within this distance before the line [m], ours: two seconds at 50 km/h.
 const DETECTED_WITHIN: f64 = 30.0;
 
 /// What all traffic lights show.
@@ -15,13 +15,13 @@ const DETECTED_WITHIN: f64 = 30.0;
 pub struct Signals {
     /// By light.
     shown: Vec<LightState>,
-    /// By light the last step in which it was green before the one in which it came to show what it shows; the
-    /// beginning if there was none yet.
+    /// For each light, its last green step before it came to show its present state; the first step if it has not been
+    /// green.
     was_green: Vec<u32>,
-    /// Until then no fixed program switches [s].
+    /// No fixed program switches before this time [s].
     steady_until: f64,
     controllers: Vec<Controller>,
-    /// By light where those are who come to it; empty where nobody asks.
+    /// For each light its detectors; empty where no program needs them.
     detectors: Vec<Vec<Detector>>,
 }
 
@@ -29,7 +29,7 @@ pub struct Signals {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Detector {
     chain: ChainIndex,
-    /// From where to where [m].
+    /// Where it begins and ends [m].
     from: f64,
     to: f64,
 }
@@ -42,7 +42,7 @@ impl Detector {
 }
 
 impl Signals {
-    /// Those of `network` at `clock`.
+    /// The signals of `network` at `clock`.
     pub(crate) fn new(network: &Network, clock: Clock) -> Signals {
         let junctions = &network.junctions;
         let controllers: Vec<Controller> =
@@ -65,7 +65,7 @@ impl Signals {
         signals
     }
 
-    /// Whether they are those of the same network and programs, whatever they show.
+    /// Whether they have the same network and programs as `other`, in any state.
     pub(crate) fn fits(&self, other: &Signals, clock: Clock) -> bool {
         let Signals { shown, was_green, steady_until: _, controllers, detectors } = self;
         shown.len() == other.shown.len()
@@ -76,7 +76,7 @@ impl Signals {
             && controllers.iter().zip(&other.controllers).all(|(one, other)| one.fits(other, clock))
     }
 
-    /// How many lights there are.
+    /// Number of lights.
     pub(crate) fn count(&self) -> usize {
         self.shown.len()
     }
@@ -87,7 +87,7 @@ impl Signals {
         self.shown[light.at()]
     }
 
-    /// Step in which a light was green last, as seen at `clock`.
+    /// Last green step of a light, at `clock`.
     pub(crate) fn green_at(&self, light: LightIndex, clock: Clock) -> u32 {
         if self.shown(light) == LightState::Green { clock.step } else { self.was_green[light.at()] }
     }
@@ -107,14 +107,14 @@ impl Signals {
         }
     }
 
-    /// Shows what is shown from `clock` on, by who is detected on the `lanes`.
+    /// Updates the lights at `clock`, by the vehicles that are detected on the `lanes`.
     pub(crate) fn switch(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
         let Signals { controllers, detectors, .. } = self;
         for controller in controllers {
             controller
                 .advance(clock.step, |light| detectors[light.at()].iter().any(|it| it.is_occupied(lanes)));
         }
-        // Rounding may make a light switch a step sooner.
+        // By rounding, a light may switch a step earlier.
         let may_switch = clock.time() + clock.dt > self.steady_until;
         if may_switch || !self.controllers.is_empty() {
             self.show(network, clock);
@@ -122,7 +122,7 @@ impl Signals {
     }
 }
 
-/// Adds the lanes on `distance` [m] before `line` [m] on `chain`.
+/// Adds the detectors on the `distance` [m] before `line` [m] on `chain`.
 fn detect(network: &Network, chain: ChainIndex, line: f64, distance: f64, detectors: &mut Vec<Detector>) {
     let from = line - distance;
     detectors.push(Detector { chain, from, to: line });

@@ -1,39 +1,39 @@
-//! Where vehicles stand beyond zones.
+//! Storage sections: where vehicles stand beyond zones.
 
 use laneweave_network::{ChainIndex, Junctions, Network};
 use serde::{Deserialize, Serialize};
 
-/// A stretch of a chain between two places where drivers may have to stop: who stands on one of them is in nobody's way
-/// on another.
+/// A storage section: a stretch of a chain between two places where drivers may have to stop. A vehicle that stands on
+/// one section does not block another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct StorageSection {
     pub(crate) chain: ChainIndex,
-    /// Number of places on the chain before it.
+    /// Number of such places on the chain before it.
     places: u32,
 }
 
 impl StorageSection {
-    /// The stretch from the start of a chain on.
+    /// The section at the start of a chain.
     pub(crate) const fn first_of(chain: ChainIndex) -> StorageSection {
         StorageSection { chain, places: 0 }
     }
 
-    /// The stretch on which `station` [m] of a chain lies.
+    /// The section on which `station` [m] of a chain lies.
     pub(crate) fn at(junctions: &Junctions, chain: ChainIndex, station: f64) -> StorageSection {
         let places = &junctions.on(chain).places;
         StorageSection { chain, places: places.partition_point(|it| it.station < station) as u32 }
     }
 
-    /// Whether it leads on to the next chain.
+    /// Whether it continues on the next chain.
     pub(crate) fn is_last(&self, junctions: &Junctions) -> bool {
         self.places as usize == junctions.on(self.chain).places.len()
     }
 }
 
-/// Numbers of all storage sections of a network, from 0 on; none where there are no zones.
+/// Numbers of all storage sections of a network, from 0 on; empty where there are no zones.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Numbers {
-    /// Those of the first of each chain.
+    /// For each chain the number of its first section.
     first: Vec<u32>,
     pub(crate) count: usize,
 }
@@ -54,7 +54,7 @@ impl Numbers {
         Numbers { first, count }
     }
 
-    /// Those of so many chains on which there is no place to stop.
+    /// The numbers of this many chains that have no place to stop.
     #[cfg(test)]
     pub(crate) fn of_chains(count: usize) -> Numbers {
         Numbers { first: (0..count as u32).collect(), count }

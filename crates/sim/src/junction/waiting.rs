@@ -1,4 +1,4 @@
-//! What drivers hold of conflict zones, and claim of them.
+//! Zone reservations and waiting priorities.
 
 use laneweave_network::ZoneIndex;
 use serde::{Deserialize, Serialize};
@@ -10,13 +10,13 @@ use crate::state::lane::VehicleId;
 pub(crate) struct ZoneReservation {
     pub(crate) zone: ZoneIndex,
     pub(crate) side: u8,
-    /// Where the front comes in the way [m].
+    /// Where its front enters the zone [m].
     pub(crate) enter: f64,
-    /// Where it is no longer: the rear is out, or the lanes have become one [m].
+    /// Where it no longer occupies the zone: its rear has left, or the lanes have merged [m].
     pub(crate) leave: f64,
 }
 
-/// A driver who waits because of others. Those out of patience come before all others, then who has waited longer.
+/// A driver who waits because of other vehicles. Impatient drivers come first, then those who have waited longer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) struct WaitingPriority {
     pub(crate) is_patient: bool,
@@ -25,10 +25,10 @@ pub(crate) struct WaitingPriority {
     pub(crate) is_long: bool,
 }
 
-/// The turn that somebody who waits claims on a side of a zone.
+/// The turn that a waiting driver requests on a side of a zone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Turn {
     pub(crate) priority: WaitingPriority,
-    /// Time until it can be there: those who have reservations hold it up, and it has to drive there [s].
+    /// Time until its vehicle can be there: vehicles with reservations delay it, and it has to drive there [s].
     pub(crate) begins: f64,
 }

@@ -17,7 +17,7 @@ fn of_one_zone() -> Reservations {
     }
 }
 
-/// Over the zone from 10 m to 15 m ahead, with a light at 8 m, to a place beyond it.
+/// A survey over the zone from 10 m to 15 m ahead, with a light at 8 m, to a place beyond it.
 fn over_the_zone(side: u8) -> Survey {
     Survey {
         lights: vec![(LightIndex(0), 8.0)],
@@ -61,7 +61,7 @@ fn a_reservation_can_be_given_back_from_a_place_on() {
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
     reservations.advance(slot, 2.0, 10.0, 14.0);
     assert_eq!(reservations.of(slot, 7).map(Reservation::left), Some(17.5));
-    // Beyond where it enters the zone it keeps the zone, and gives back the room.
+    // Revoked beyond the place where it enters the zone, it keeps the zone and loses the storage space.
     reservations.revoke(slot, 12.0);
     assert_eq!(order(&reservations), [7]);
     assert_eq!(reservations.of(slot, 7).map(Reservation::left), Some(10.0));
@@ -79,7 +79,7 @@ fn what_a_light_can_take_back_is_not_certain() {
     reservations.advance(slot, 8.0, 10.0, 14.0);
     assert_eq!(left(&reservations, slot), Some(11.5));
     reservations.end(slot, 7);
-    // Before a line within the zone one stops where the zone begins, and within it no more.
+    // Before a line within the zone a vehicle stops where the zone begins. Within the zone it no longer stops.
     let within = Survey { lights: vec![(LightIndex(0), 12.0)], ..over_the_zone(0) };
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &within);
     assert_eq!(left(&reservations, slot), Some(10.0));
@@ -95,7 +95,7 @@ fn what_a_light_can_take_back_is_not_certain() {
 fn the_reservation_of_who_leaves_the_road_ends_and_its_slot_is_used_again() {
     let mut reservations = of_one_zone();
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
-    // Not of somebody else.
+    // Another vehicle does not end it.
     reservations.end(slot, 8);
     assert_eq!(order(&reservations), [7]);
     reservations.end(slot, 7);
@@ -127,7 +127,7 @@ fn a_further_reservation_goes_on_from_where_the_vehicle_is() {
     let reservation = reservations.of(slot, 7).expect("it was given");
     assert_eq!(reservation.left(), 19.5);
     assert_eq!(reservation.holds.iter().map(|it| it.enter).collect::<Vec<_>>(), [10.0, 19.0]);
-    // The light of the first is passed.
+    // The vehicle has passed the light of the first grant.
     assert_eq!(reservation.lights().collect::<Vec<_>>(), [(LightIndex(0), 8.0)]);
 }
 
