@@ -1,12 +1,13 @@
 //! The world and its step.
 //!
-//! perceive → decide → drive on one snapshot, then advance, then resolve what concerns two lanes, then enter and
-//! observe. The order of vehicles and the number of threads change nothing, bit for bit.
+//! A step reads one snapshot: perceive → decide → drive. Then it advances the vehicles, resolves what concerns two
+//! lanes, lets vehicles enter, and observes. The order of vehicles and the number of threads change nothing, bit for
+//! bit.
 //!
-//! The code lies in wings, of which each imports from those before it only: `state` what there is; `route` which lanes
-//! lead where; `junction` who holds which conflict zone; `view` one instant as it is seen; `demand` who comes; `record`
-//! what is remembered; `right_of_way` who may pass; `driver` what a driver does; `step` the only part that changes a
-//! world; `ask` questions about it.
+//! The code has wings. A wing imports only from the wings before it: `state` the data; `route` which lanes lead where;
+//! `junction` reservations of conflict zones, and lights; `view` one instant as drivers see it; `demand` which vehicles
+//! arrive; `record` what is recorded; `right_of_way` which vehicle may pass; `driver` what a driver does; `step` the
+//! only part that changes a world; `ask` questions about a world.
 
 mod ask;
 mod demand;

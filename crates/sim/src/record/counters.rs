@@ -3,19 +3,19 @@
 use crate::record::desire_situations::DesireSituation;
 use serde::{Deserialize, Serialize};
 
-/// What was counted. Each thread counts for itself, but for distances, which lanes keep: so the sums do not depend on
-/// who did what.
+/// Counters. Each thread has its own ones, and each lane counts its own distances. So the sums do not depend on the
+/// distribution of the work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counters {
     /// Times that a driver considered lanes.
     pub considerations: u64,
     /// Of them, by drivers on a free road.
     pub free_considerations: u64,
-    /// Desires that came to them.
+    /// Desires that came in these considerations.
     pub free_desires: u64,
     /// Of them, by drivers held up beside a free lane.
     pub held_up_considerations: u64,
-    /// Desires that came to them.
+    /// Desires that came in these considerations.
     pub held_up_desires: u64,
     /// Vehicles moved, summed over steps.
     pub updates: u64,
@@ -23,23 +23,23 @@ pub struct Counters {
     pub distance: f64,
     /// Braking events that kinematics, not the model, decided.
     pub emergency_brakings: u64,
-    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each
-    /// other.
+    /// Times that a vehicle began to touch the one ahead of it, or that two vehicles began to overlap while they
+    /// approached each other.
     pub collisions: u64,
-    /// Other times that two vehicles came to overlap.
+    /// Other times that two vehicles began to overlap.
     pub overlaps: u64,
     /// Vehicles that stood for 300 s.
     pub stuck: u64,
-    /// Drivers who passed the last place for a change without reaching a lane of their route.
+    /// Drivers who passed the last place for a change and did not reach a lane of their route.
     pub missed_turns: u64,
-    /// Drivers who had no way left to any destination.
+    /// Drivers who had no route left to any destination.
     pub lost: u64,
     /// Times that a driver left its route for a better one.
     pub route_changes: u64,
 }
 
 impl Counters {
-    /// Counts a consideration of a driver with `sign`, and whether the desire came.
+    /// Counts a consideration of a driver in `situation`, and whether the desire came.
     #[inline]
     pub(crate) fn count_desire(&mut self, situation: Option<DesireSituation>, has_come: bool) {
         let (considerations, desires) = match situation {

@@ -1,28 +1,28 @@
-//! What the whole world does, counted.
+//! Counts of the whole world.
 
 use serde::{Deserialize, Serialize};
 
 use crate::record::incidents::Incident;
 
-/// Counts of what the whole world, not a lane, does.
+/// Counts of the whole world, not of single lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Vehicles that entered.
     pub entered: u64,
-    /// Vehicles that left.
+    /// Vehicles that completed their trips.
     pub left: u64,
-    /// Lane changes between lanes of equal worth for the route.
+    /// Discretionary lane changes: between lanes that are equally good for the route.
     pub discretionary_changes: u64,
-    /// Lane changes for the route, or off it.
+    /// Route-driven lane changes: for the route, or away from it.
     pub route_changes: u64,
-    /// Time on the map of those that left [s].
+    /// Time on the map of the completed trips [s].
     pub trip_time: f64,
-    /// Times that those that left came to a halt.
+    /// Halts during the completed trips.
     pub stops: u64,
-    /// Of those that left, those who had somewhere to go.
+    /// Completed trips that had a destination.
     pub planned: u64,
-    /// What their trips took beyond the time on a free road, at the speeds that they desired, of the way that they had
-    /// before them when they entered [s].
+    /// Delay of these trips: their time beyond that on a free road, at the speeds that the drivers desired, on the
+    /// routes that they had when they entered [s].
     pub delay: f64,
     /// The first incident, if there was any.
     pub first_incident: Option<Incident>,

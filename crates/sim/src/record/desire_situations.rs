@@ -1,7 +1,7 @@
-//! What separates drivers from the null-model control: how often the desire comes to those held up beside a free lane,
-//! and to those on a free road.
+//! Desire counts by situation: how often the desire comes to drivers held up beside a free lane, and to drivers on a
+//! free road. This separates drivers from the null-model control.
 
-/// A driver whose desires are counted.
+/// The situation of a driver whose desires are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum DesireSituation {
     /// On a free road.
@@ -10,13 +10,13 @@ pub(crate) enum DesireSituation {
     HeldUp,
 }
 
-/// Share of the desired speed from which a lane is free, and below which a driver is held up.
+/// Share of the desired speed: from FREE on a lane is free, up to HELD_UP a driver is held up.
 const FREE: f64 = 0.95;
 const HELD_UP: f64 = 0.9;
 
 impl DesireSituation {
-    /// Of a driver who wants `desired` [m/s] and anticipates `here` in its lane, and `best_there` in the better lane
-    /// beside that leads to the same place, if there is one.
+    /// The situation of a driver who desires the speed `desired` [m/s]. It anticipates the speed `here` in its lane,
+    /// and `best_there` in the better lane beside that leads to the same place, if there is one.
     pub(crate) fn of(desired: f64, here: f64, best_there: Option<f64>) -> Option<DesireSituation> {
         let best_there = best_there?;
         if here >= FREE * desired {

@@ -11,62 +11,62 @@ use crate::state::lane::{Kind, Kinematics, VehicleId};
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
-    /// A vehicle entered.
+    /// A vehicle entered the map.
     Entered(VehicleId),
-    /// A vehicle left the map after `duration` [s] on it.
+    /// A vehicle left the map: its trip is completed.
     Left {
-        /// Who.
+        /// Which vehicle.
         vehicle: VehicleId,
         /// Its time on the map [s].
         duration: f64,
         /// Its last chain.
         chain: ChainIndex,
-        /// How it moved in its last step, which may have ended beyond the chain.
+        /// Its kinematics in its last step, which may have ended beyond the chain.
         motion: Kinematics,
-        /// The record of its trip, where trips are recorded.
+        /// The record of its trip, if trips are recorded.
         trip: Option<TripRecord>,
     },
-    /// A lane change is completed, or was aborted.
+    /// A lane change was completed or aborted.
     LaneChange(LaneChange),
-    /// Two vehicles came to touch each other.
+    /// Two vehicles began to touch each other.
     Incident(Incident),
-    /// Something happened to one vehicle on its way.
+    /// Something happened to one vehicle during its trip.
     Driving(DrivingEvent),
 }
 
-/// Something that happens to one vehicle on its way.
+/// Something that happened to one vehicle during its trip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivingEvent {
-    /// What.
+    /// What happened.
     pub kind: DrivingEventKind,
-    /// To whom.
+    /// Which vehicle.
     pub vehicle: VehicleId,
-    /// When [s].
+    /// Time [s].
     pub time: f64,
-    /// Where: its front bumper.
+    /// Position of its front bumper.
     pub at: Position,
 }
 
-/// What happens to a vehicle on its way.
+/// What happened to a vehicle during its trip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DrivingEventKind {
-    /// It begins to brake as kinematics, not its model, demands.
+    /// It began to brake as kinematics, not its model, demand.
     EmergencyBraking,
     /// It came to a halt.
     Halt,
-    /// It drives on after it stood.
+    /// It drove on after a standstill.
     SetOff {
-        /// For how long it stood [s].
+        /// Time for which it stood [s].
         stood: f32,
     },
-    /// Its driver missed a turn, and takes another route if there is one.
+    /// Its driver missed a turn. It takes another route if there is one.
     MissedTurn,
     /// Its driver left its route for a better one.
     RouteChange,
 }
 
 impl DrivingEventKind {
-    /// The order in which a vehicle's events of one step are told.
+    /// The order in which a vehicle's events of one step are reported.
     pub(crate) fn rank(self) -> u8 {
         match self {
             DrivingEventKind::EmergencyBraking => 0,
@@ -81,40 +81,40 @@ impl DrivingEventKind {
 /// A lane change, with the reasons for it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LaneChange {
-    /// Who.
+    /// Which vehicle.
     pub vehicle: VehicleId,
-    /// Its driver parameters' place in the table.
+    /// Index of its driver in the table of driver parameters.
     pub parameters: u32,
     /// Its class.
     pub class: crate::state::vehicle::Class,
     /// Time when the lateral motion began [s].
     pub started: f64,
-    /// Time when the centre crossed the line, or the change was called off [s].
+    /// Time when the centre crossed the line, or the change was aborted [s].
     pub time: f64,
-    /// Time from begin to end of the lateral motion [s].
+    /// Time from the beginning to the end of the lateral motion [s].
     pub duration: f64,
-    /// Where from: its front bumper.
+    /// Position of its front bumper in the old lane.
     pub from: Position,
-    /// Where to.
+    /// Position of its front bumper in the new lane.
     pub to: Position,
-    /// To which side.
+    /// The side to which it changed.
     pub side: Side,
-    /// Why.
+    /// The kind of the change.
     pub kind: Kind,
-    /// Speed at the crossing [m/s].
+    /// Speed when the centre crossed the line [m/s].
     pub speed: f64,
-    /// Anticipated gain of speed when the desire came [m/s].
+    /// Anticipated speed gain when the desire came [m/s].
     pub speed_gain: f64,
-    /// What the driver made of it when the desire came.
+    /// The driver's appraisal when the desire came.
     pub appraisal: Appraisal,
-    /// Gap to the new leader at the start [m].
+    /// Gap to the new leader when the change began [m].
     pub gap_ahead: f64,
-    /// Gap to the new follower at the start [m].
+    /// Gap to the new follower when the change began [m].
     pub gap_behind: f64,
-    /// Time to collision with the new leader at the start [s].
+    /// Time to collision with the new leader when the change began [s].
     pub ttc_ahead: f64,
-    /// Time to collision of the new follower at the start [s].
+    /// Time to collision of the new follower when the change began [s].
     pub ttc_behind: f64,
-    /// It was carried out; otherwise it was aborted.
+    /// It was completed; otherwise it was aborted.
     pub is_completed: bool,
 }

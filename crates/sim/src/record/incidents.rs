@@ -1,4 +1,4 @@
-//! Incidents: two vehicles come to touch each other. Each is told once, for as long as they do.
+//! Incidents: two vehicles begin to touch each other. Each is reported once, for as long as they touch.
 
 use laneweave_network::{Point, Position};
 use serde::{Deserialize, Serialize};
@@ -6,22 +6,22 @@ use serde::{Deserialize, Serialize};
 use crate::state::lane::VehicleId;
 use crate::state::vehicle::Class;
 
-/// Two vehicles whose rectangles come to intersect by more than 5 cm.
+/// Two vehicles whose rectangles began to intersect by more than 5 cm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Incident {
-    /// What it is.
+    /// Its kind.
     pub kind: IncidentKind,
-    /// When it was seen [s].
+    /// Time when it was detected [s].
     pub time: f64,
-    /// Who, the smaller id first.
+    /// The vehicles, the smaller id first.
     pub vehicles: [VehicleId; 2],
-    /// Their driver parameters' places in the table.
+    /// Indices of their drivers in the table of driver parameters.
     pub driver_parameters: [u32; 2],
     /// Their classes.
     pub classes: [Class; 2],
-    /// The front bumper of each.
+    /// Positions of their front bumpers.
     pub places: [Position; 2],
-    /// Halfway between their centres.
+    /// The point halfway between their centres.
     pub at: Point,
     /// Their speeds [m/s].
     pub speeds: [f64; 2],
@@ -32,7 +32,7 @@ pub struct Incident {
 /// Kinds of incidents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum IncidentKind {
-    /// One touches the other on its way, or they meet while they come closer to each other.
+    /// One touches the vehicle ahead of it, or they overlap while they approach each other.
     Collision,
     /// Any other.
     Overlap,
@@ -48,6 +48,6 @@ impl IncidentKind {
     }
 }
 
-/// The pairs of vehicles that touched when it was last looked.
+/// The pairs of vehicles that touched at the last check.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Touching(pub(crate) Vec<[VehicleId; 2]>);

@@ -1,4 +1,4 @@
-//! Records of lane changes under way, kept in slots that are used again.
+//! Records of lane changes under way, in slots that are reused.
 
 use crate::record::events::LaneChange;
 use crate::state::tight::push_tight;
@@ -12,17 +12,17 @@ pub(crate) struct Records {
 }
 
 impl Records {
-    /// Whether there is something in a slot.
+    /// Whether a slot exists.
     pub(crate) fn has(&self, slot: u32) -> bool {
         (slot as usize) < self.kept.len()
     }
 
-    /// Whether every free slot is there.
+    /// Whether every free slot exists.
     pub(crate) fn is_sound(&self) -> bool {
         self.free.iter().all(|it| self.has(*it))
     }
 
-    /// Keeps a record; returns its slot.
+    /// Stores a record, and returns its slot.
     pub(crate) fn keep(&mut self, record: LaneChange) -> u32 {
         if let Some(slot) = self.free.pop() {
             self.kept[slot as usize] = record;
@@ -37,7 +37,7 @@ impl Records {
         &mut self.kept[slot as usize]
     }
 
-    /// The record in `slot` is no longer needed.
+    /// Frees `slot`.
     pub(crate) fn release(&mut self, slot: u32) {
         self.free.push(slot);
     }

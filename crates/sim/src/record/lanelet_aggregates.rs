@@ -1,8 +1,8 @@
-//! What vehicles do on every lanelet, as it is added up where somebody asks for it: the time that they spend there, the
-//! way that they drive, and who passes the end.
+//! Lanelet aggregates: sums of what vehicles do on every lanelet, if they are requested. These are the time that
+//! vehicles spend there, the distance that they drive, and the number that passes the end.
 //!
-//! Where a vehicle was is put down once a second, and whenever it leaves its chain: between two such instants it drives
-//! at constant speed, as far as the lanelets know.
+//! The state of a vehicle is recorded once a second, and whenever it leaves its chain. Between two such instants the
+//! aggregates assume a constant speed.
 
 use laneweave_network::{Chain, Network};
 use serde::{Deserialize, Serialize};
@@ -12,14 +12,14 @@ use crate::state::clock::Clock;
 use crate::state::lane::{Kinematics, Lane};
 use crate::state::standstill::STANDSTILL;
 
-/// What vehicles did on a lanelet, by their front bumpers.
+/// What vehicles did on a lanelet; the position of a vehicle is that of its front bumper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LaneletAggregate {
     /// Σt: time that they spent on it [s].
     pub time: f64,
-    /// Σd: way that they drove on it [m].
+    /// Σd: distance that they drove on it [m].
     pub way: f64,
-    /// Of the time, that of those who stood at its end: slower than 0.1 m/s [s].
+    /// The part of this time in which vehicles stood: slower than 0.1 m/s at the instant of recording [s].
     pub standing: f64,
     /// Vehicles that passed its end.
     pub passed: u32,
@@ -36,7 +36,7 @@ impl LaneletAggregate {
         }
     }
 
-    /// What was added since it was as `before`.
+    /// The difference from an earlier state `before`.
     pub fn since(self, before: LaneletAggregate) -> LaneletAggregate {
         LaneletAggregate {
             time: self.time - before.time,
@@ -47,42 +47,42 @@ impl LaneletAggregate {
     }
 }
 
-/// Up to where and when it is put down what a vehicle did.
+/// Where and when a vehicle was recorded last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Mark {
     /// Station on its chain [m].
     pub(crate) x: f64,
-    /// When [s].
+    /// Time [s].
     pub(crate) time: f64,
 }
 
 impl Mark {
-    /// Where a vehicle, which is beyond it now, was at the station `x` [m] of its chain in the last step.
+    /// The mark of a vehicle at the station `x` [m] of its chain, which it passed in the last step.
     pub(crate) fn at(x: f64, motion: &Kinematics, clock: Clock) -> Mark {
-        // Its speed changed evenly.
+        // The speed changed evenly.
         let driven = (motion.speed - 0.5 * f64::from(motion.acceleration) * clock.dt) * clock.dt;
         let share = if driven > 0.0 { ((motion.x - x) / driven).clamp(0.0, 1.0) } else { 0.0 };
         Mark { x, time: clock.time() - share * clock.dt }
     }
 }
 
-/// Sums by lanelet.
+/// Sums for each lanelet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LaneletAggregates {
     pub(crate) stays: Vec<LaneletAggregate>,
 }
 
 impl LaneletAggregates {
-    /// Nothing yet.
+    /// Empty aggregates of `network`.
     pub(crate) fn new(network: &Network) -> LaneletAggregates {
         LaneletAggregates { stays: vec![LaneletAggregate::default(); network.lanelets.len()] }
     }
 
-    /// Puts down where all vehicles are.
+    /// Records where all vehicles are.
     pub(crate) fn look(&mut self, network: &Network, lanes: &[Lane], trip_log: &mut TripLog, clock: Clock) {
         let time = clock.time();
         for (chain, lane) in network.chains.iter().zip(lanes) {
-            // They stand in driving order, so that their lanelets follow each other.
+            // They are in driving order, and so are their lanelets.
             let mut place = 0;
             for (motion, driver) in lane.motions().iter().zip(lane.drivers()) {
                 if driver.is_shadow {
@@ -100,20 +100,20 @@ impl LaneletAggregates {
         }
     }
 
-    /// Puts down what a vehicle did on `chain` between two marks.
+    /// Records what a vehicle did on `chain` between two marks.
     pub(crate) fn note(&mut self, chain: &Chain, [from, to]: [Mark; 2]) {
         let place = chain.starts.partition_point(|it| *it <= to.x).max(1) - 1;
         self.put_down(chain, place, [from, to], false);
     }
 
-    /// A vehicle passed the end of `chain`.
+    /// Counts a vehicle that passed the end of `chain`.
     pub(crate) fn pass_end(&mut self, chain: &Chain) {
         if let Some(last) = chain.lanelets.last() {
             self.stays[last.at()].passed += 1;
         }
     }
 
-    /// Puts down what a vehicle did between two marks on `chain`, the second of which is on its lanelet number `place`.
+    /// Records what a vehicle did between two marks on `chain`. The second mark is on lanelet number `place`.
     #[inline]
     fn put_down(&mut self, chain: &Chain, place: usize, marks: [Mark; 2], stands: bool) {
         let [from, to] = marks;
@@ -129,7 +129,7 @@ impl LaneletAggregates {
         }
     }
 
-    /// The same for a vehicle that passed from one lanelet to another.
+    /// Records the same for a vehicle that passed from one lanelet to another.
     #[cold]
     fn share_out(&mut self, chain: &Chain, mut place: usize, [from, to]: [Mark; 2]) {
         let pace = (to.time - from.time) / (to.x - from.x);
@@ -156,8 +156,7 @@ mod tests {
 
     use super::*;
 
-    /// What is put down of a way from one mark to another on a road of five lanelets of 100 m: time, way and passings
-    /// of each.
+    /// What is recorded between two marks on a road with five lanelets of 100 m: time, distance and passings of each.
     fn stays(marks: [Mark; 2]) -> Vec<(f64, f64, u32)> {
         let plan = Motorway { lanes: 1, length_m: 500.0, ..Motorway::default() };
         let network = motorway(&plan).unwrap().build().unwrap().network;

@@ -1,4 +1,4 @@
-//! All that is remembered of a run.
+//! The log of a run.
 
 use laneweave_network::{ChainIndex, Network, Position};
 use serde::{Deserialize, Serialize};
@@ -14,81 +14,81 @@ use crate::record::trips::Trips;
 use crate::state::clock::Clock;
 use crate::state::lane::{Entry, Kind, Lane, Milestone, Phase, Reached, VehicleId};
 
-/// Changes under way, trips, counts and incidents.
+/// Lane changes under way, trips, counts and incidents.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Log {
     /// The lane changes under way.
     records: Records,
     trips: Trips,
-    /// Where trips are recorded.
+    /// The trip log, if trips are recorded.
     trip_log: Option<TripLog>,
-    /// There too, what happens on the lanelets.
+    /// The lanelet aggregates, if trips are recorded.
     aggregates: Option<LaneletAggregates>,
-    /// What happened in the last step.
+    /// Events of the last step.
     #[serde(skip)]
     events: Vec<Event>,
-    /// Who touches whom.
+    /// The pairs of vehicles that touch.
     touching: Touching,
-    /// Whether it is looked for overlaps at every step.
+    /// Whether the world checks for overlaps at every step.
     #[serde(skip)]
     is_audited: bool,
     counts: Counts,
 }
 
 impl Log {
-    /// Every trip is recorded from now on until it ends, and what vehicles do on every lanelet of `network`.
+    /// Records every trip from now on until it ends, and what vehicles do on every lanelet of `network`.
     pub(crate) fn record_trips(&mut self, network: &Network) {
         self.trip_log = Some(TripLog::default());
         self.aggregates = Some(LaneletAggregates::new(network));
     }
 
-    /// Overlaps are looked for at every step from now on.
+    /// Makes the world check for overlaps at every step from now on.
     pub(crate) fn audit(&mut self) {
         self.is_audited = true;
     }
 
-    /// Whether overlaps are looked for at every step.
+    /// Whether the world checks for overlaps at every step.
     pub(crate) fn is_audited(&self) -> bool {
         self.is_audited
     }
 
-    /// A step begins, in which nothing has happened yet.
+    /// Begins a step: clears the events.
     pub(crate) fn begin_step(&mut self) {
         self.events.clear();
     }
 
-    /// What happened in the last step.
+    /// Events of the last step.
     pub(crate) fn events(&self) -> &[Event] {
         &self.events
     }
 
-    /// What was counted.
+    /// The counts.
     pub(crate) fn counts(&self) -> &Counts {
         &self.counts
     }
 
-    /// Forgets the counts, but for so many `on_road`, who count as entered.
+    /// Resets the counts. The `on_road` vehicles on the road count as entered.
     pub(crate) fn reset_counts(&mut self, on_road: usize) {
         self.counts = Counts { entered: on_road as u64, ..Counts::default() };
     }
 
-    /// Forgets what vehicles did on the lanelets.
+    /// Resets the lanelet aggregates.
     pub(crate) fn reset_lanelet_aggregates(&mut self, network: &Network) {
         self.aggregates = self.aggregates.as_ref().map(|_| LaneletAggregates::new(network));
     }
 
-    /// The record of the trip of a vehicle on the road, where trips are recorded.
+    /// The record of the trip of a vehicle on the road, if trips are recorded.
     pub(crate) fn trip(&self, id: VehicleId) -> Option<&TripRecord> {
         self.trip_log.as_ref()?.of(id)
     }
 
-    /// The same, to change.
+    /// The same record, mutable.
     pub(crate) fn trip_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
         self.trip_log.as_mut()?.of_mut(id)
     }
 
-    /// A vehicle came onto the road, whose trip takes `free_time` [s] on a free road. `record` makes its record, where
-    /// trips are recorded.
+    /// Begins the trip of a vehicle that came onto the road. It takes `free_time` [s] on a free road. `record` makes
+    /// its record, if trips are recorded.
     pub(crate) fn begin_trip(
         &mut self,
         id: VehicleId,
@@ -102,7 +102,7 @@ impl Log {
         self.counts.entered += 1;
     }
 
-    /// A vehicle entered by the demand, from this origin.
+    /// Records that a vehicle entered by the demand, from this origin.
     pub(crate) fn note_origin(&mut self, id: VehicleId, origin: usize) {
         if let Some(record) = self.trip_mut(id) {
             record.origin = Some(origin);
@@ -110,7 +110,7 @@ impl Log {
         self.events.push(Event::Entered(id));
     }
 
-    /// Something happened to a vehicle on its way.
+    /// Records an event of a vehicle during its trip.
     pub(crate) fn note_driving(&mut self, event: DrivingEvent) {
         if event.kind == DrivingEventKind::Halt {
             self.trips.stop(event.vehicle);
@@ -119,7 +119,7 @@ impl Log {
         self.events.push(Event::Driving(event));
     }
 
-    /// The vehicle of an entry left the map from the chain `from`.
+    /// Ends the trip of the vehicle of `entry`, which left the map from the chain `from`.
     pub(crate) fn end_trip(&mut self, network: &Network, clock: Clock, from: ChainIndex, entry: &Entry) {
         let Entry { motion, lane_change, .. } = *entry;
         let duration = f64::from(clock.step - lane_change.entered) * clock.dt;
@@ -141,7 +141,7 @@ impl Log {
         self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion, trip });
     }
 
-    /// The vehicle of an entry passed the end of the chain `from`, and goes on.
+    /// Records that the vehicle of `entry` passed the end of the chain `from` and goes on.
     pub(crate) fn go_on(&mut self, network: &Network, clock: Clock, from: ChainIndex, entry: &Entry) {
         let (id, length) = (entry.motion.id, network.chain(from).length);
         if let Some(trip) = self.trip_mut(id) {
@@ -152,8 +152,8 @@ impl Log {
         self.pass_end(network, from);
     }
 
-    /// What a vehicle did on the chain `from` up to the first mark is put down, where trips are recorded; it goes on
-    /// from the second.
+    /// Records what a vehicle did on the chain `from` up to the first mark, if trips are recorded. It goes on from the
+    /// second mark.
     fn leave_chain(&mut self, network: &Network, id: VehicleId, from: ChainIndex, [there, on]: [Mark; 2]) {
         let (Some(aggregates), Some(trip_log)) = (&mut self.aggregates, &mut self.trip_log) else { return };
         if let Some(trip) = trip_log.of_mut(id) {
@@ -165,15 +165,15 @@ impl Log {
         self.aggregates.iter_mut().for_each(|it| it.pass_end(network.chain(chain)));
     }
 
-    /// Puts down what vehicles did on the lanelets up to now, where trips are recorded.
+    /// Records what vehicles did on the lanelets up to now, if trips are recorded.
     pub(crate) fn put_down(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
         if let (Some(aggregates), Some(trip_log)) = (&mut self.aggregates, &mut self.trip_log) {
             aggregates.look(network, lanes, trip_log, clock);
         }
     }
 
-    /// What vehicles did on each lanelet up to now, where trips are recorded. Nothing is put down: what is put down
-    /// later does not depend on who asked.
+    /// What vehicles did on each lanelet up to now, if trips are recorded. It works on a copy: the question does not
+    /// change what is recorded later.
     pub(crate) fn lanelet_aggregates(
         &self,
         network: &Network,
@@ -186,7 +186,7 @@ impl Log {
         copy.aggregates.filter(|_| copy.trip_log.is_some()).map_or_else(Vec::new, |it| it.stays)
     }
 
-    /// Keeps the record of a lane change; returns where.
+    /// Stores the record of a lane change, and returns its slot.
     pub(crate) fn keep_change(&mut self, record: LaneChange) -> u32 {
         self.records.keep(record)
     }
@@ -196,7 +196,7 @@ impl Log {
         self.records.get_mut(slot)
     }
 
-    /// A lane change came to a milestone at `time` [s].
+    /// Records a milestone of a lane change at `time` [s].
     pub(crate) fn note_milestone(&mut self, network: &Network, milestone: &Milestone, time: f64) {
         match milestone.what {
             Reached::Nothing => self.records.release(milestone.record),
@@ -235,8 +235,8 @@ impl Log {
         self.leave_chain(network, milestone.id, from, [x, x_there].map(|x| Mark { x, time }));
     }
 
-    /// Counts and tells who came to touch each other, of all that are seen to; if all were `watched`, who was not seen
-    /// to no longer does.
+    /// Counts and reports the vehicles that began to touch each other, of all pairs `seen` to touch. If all vehicles
+    /// were `watched`, a pair that was not seen no longer touches.
     pub(crate) fn note_incidents(
         &mut self,
         seen: &mut Vec<Incident>,
@@ -244,7 +244,7 @@ impl Log {
         watched: bool,
     ) {
         let Log { touching: Touching(touching), events, counts, .. } = self;
-        // Of what is seen from both sides the graver counts.
+        // If both vehicles report an incident, the more serious report counts.
         let gravity = |it: &Incident| it.kind == IncidentKind::Overlap;
         seen.sort_unstable_by(|a, b| {
             a.vehicles.cmp(&b.vehicles).then(gravity(a).cmp(&gravity(b))).then(b.depth.total_cmp(&a.depth))
@@ -266,14 +266,13 @@ impl Log {
         seen.clear();
     }
 
-    /// Goes on from what was saved. Whether it is audited stays as it is.
+    /// Continues from a saved log. The checks for overlaps stay as they are.
     pub(crate) fn restore(&mut self, saved: Log) {
         *self = Log { is_audited: self.is_audited, ..saved };
     }
 
-    /// Whether it knows all who are on these lanes, and all who wait with the ids `waiting` can still begin their
-    /// trips;
-    /// `next_id` has not come yet.
+    /// Whether it knows all vehicles on these lanes, and whether the vehicles with the ids `waiting` can still begin
+    /// their trips. `next_id` is the first id that has not been given.
     pub(crate) fn fits(
         &self,
         network: &Network,

@@ -1,4 +1,4 @@
-//! What is remembered: events, trips, counts and incidents.
+//! What is recorded: events, trips, counts and incidents.
 
 pub(crate) mod counters;
 pub(crate) mod counts;

@@ -1,5 +1,5 @@
-//! Overlaps: vehicles are kept apart by gaps along lanes and by reservations where lanes meet; whether they are, is
-//! seen by holding their rectangles against each other, whatever lanes they are in.
+//! Detection of overlaps. Gaps along lanes, and reservations where lanes meet, keep vehicles apart. This module checks
+//! whether they do: it compares the rectangles of vehicles, whatever lanes they are in.
 
 use laneweave_network::{ChainIndex, Nearby, Pose, Position, Side};
 
@@ -9,16 +9,16 @@ use crate::state::vehicle::LONGEST;
 use crate::view::pose::pose;
 use crate::view::scene::{Scene, Spot};
 
-/// Rectangles that intersect less than this do not overlap [m].
+/// Rectangles that intersect by less than this do not overlap [m].
 const TOLERANCE: f64 = 0.05;
-/// Vehicles on levels further apart do not touch [m].
+/// Vehicles whose heights differ by more than this do not touch [m].
 const HEIGHT: f64 = 2.0;
 /// Vehicles further apart along the road than this cannot touch [m].
 const REACH: f64 = 30.0;
-/// A body at an angle, or in a bend, reaches this much further along a lane [m].
+/// A body at an angle, or in a curve, reaches this much further along a lane [m].
 const ASKEW: f64 = 3.0;
 
-/// Notes the vehicles on `chain` that intersect each other, or vehicles on other chains that are near it.
+/// Records the vehicles on `chain` that intersect each other, or vehicles on other chains near it.
 pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>) {
     in_lane(scene, chain, time, out);
     for nearby in scene.network.junctions.nearby(chain) {
@@ -31,13 +31,14 @@ pub(crate) fn overlaps(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Ve
     }
 }
 
-/// The vehicle at `spot` touches the one at `leader` on its way, by their gap: notes it, if their rectangles do.
+/// Records a collision of the vehicle at `spot` with the one at `leader`, to which it has no gap, if their rectangles
+/// intersect.
 pub(crate) fn touch(scene: &Scene, spot: Spot, leader: Spot, time: f64, out: &mut Vec<Incident>) {
     let incident = incident(scene, spot, leader, time);
     out.extend(incident.map(|it| Incident { kind: IncidentKind::Collision, ..it }));
 }
 
-/// Vehicles one behind the other in a lane.
+/// Compares vehicles one behind the other in a lane.
 fn in_lane(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>) {
     let motions = scene.motions(chain);
     for (index, behind) in motions.iter().enumerate() {
@@ -49,7 +50,8 @@ fn in_lane(scene: &Scene, chain: ChainIndex, time: f64, out: &mut Vec<Incident>)
     }
 }
 
-/// Vehicles on two lanes that come close to each other, but for those that follow each other from the one to the other.
+/// Compares vehicles on two lanes that are close to each other, except those that follow each other from one to the
+/// other.
 fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, out: &mut Vec<Incident>) {
     let others = scene.motions(nearby.chain);
     if others.is_empty() {
@@ -88,17 +90,17 @@ fn between_lanes(scene: &Scene, chain: ChainIndex, nearby: &Nearby, time: f64, o
     }
 }
 
-/// Whether a vehicle with its front on a stretch of fronts reaches back to where others are near.
+/// Whether a vehicle whose front is on the stretch `fronts` reaches back to where other vehicles are near.
 fn reaches(motion: &Kinematics, fronts: [f64; 2]) -> bool {
     motion.rear() <= fronts[1] - LONGEST
 }
 
-/// The vehicles with their fronts on a stretch.
+/// The vehicles whose fronts are on a stretch.
 fn within(motions: &[Kinematics], [from, to]: [f64; 2]) -> std::ops::Range<usize> {
     motions.partition_point(|it| it.x < from)..motions.partition_point(|it| it.x <= to)
 }
 
-/// A vehicle between two lanes, and all around it on these and on those beside them.
+/// Compares a vehicle between two lanes with all vehicles around it, on these two lanes and on the lanes beside them.
 fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
     let lane = &scene.lanes[spot.chain.at()];
     let (motion, lane_change) = (&lane.motions()[spot.index], &lane.lane_change_states()[spot.index]);
@@ -123,7 +125,7 @@ fn beside(scene: &Scene, spot: Spot, time: f64, out: &mut Vec<Incident>) {
     }
 }
 
-/// What two entries are to each other: nothing if they are of one vehicle, or their vehicles are apart.
+/// The incident between the vehicles of two entries; none if they are one vehicle, or apart.
 fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident> {
     if scene.motion(one).id == scene.motion(other).id {
         return None;
@@ -158,7 +160,7 @@ fn main_entry(scene: &Scene, spot: Spot) -> Option<Spot> {
     Some(Spot { chain: counterpart.chain, index })
 }
 
-/// A vehicle seen from above.
+/// A vehicle as seen from above.
 struct Rectangle {
     pose: Pose,
     speed: f64,
@@ -172,13 +174,13 @@ impl Rectangle {
         Rectangle { pose: pose(scene, spot), speed, length: f64::from(length), width: class.body().width }
     }
 
-    /// Half its extent along the direction (`x`, `y`).
+    /// Half its extent in the direction (`x`, `y`).
     fn reach(&self, x: f64, y: f64) -> f64 {
         let (sin, cos) = self.pose.heading.sin_cos();
         0.5 * (self.length * (cos * x + sin * y).abs() + self.width * (cos * y - sin * x).abs())
     }
 
-    /// How deep two rectangles intersect, by separating axes; not positive where they are apart.
+    /// Depth of the intersection of two rectangles, by separating axes; not positive if they are apart.
     fn depth(&self, other: &Rectangle) -> f64 {
         let (dx, dy) = self.to(other);
         let axes = [self, other].into_iter().flat_map(|it| {
@@ -193,7 +195,7 @@ impl Rectangle {
         (other.pose.at.x - self.pose.at.x, other.pose.at.y - self.pose.at.y)
     }
 
-    /// Whether the centres come closer to each other.
+    /// Whether the centres approach each other.
     fn closes(&self, other: &Rectangle) -> bool {
         let (dx, dy) = self.to(other);
         let velocity = |it: &Rectangle| {

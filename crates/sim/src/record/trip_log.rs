@@ -1,8 +1,8 @@
-//! Trips as they are recorded until they end, where somebody asks for it: what cannot be seen in the traffic of one
-//! instant.
+//! The trip log: records of trips until they end, if they are requested. They contain what the traffic of one instant
+//! does not show.
 //!
-//! They lie cold. Only what is rare is written to them: a vehicle enters, halts, drives on, goes over to the next
-//! chain, changes lanes, takes another route, leaves.
+//! The records are rarely in the cache. Only rare events write to them: a vehicle enters, halts, drives on, goes to the
+//! next chain, changes lanes, takes another route, or leaves the map.
 
 use std::collections::VecDeque;
 
@@ -17,31 +17,31 @@ use crate::state::vehicle::Class;
 /// A trip up to now.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TripRecord {
-    /// Who.
+    /// Which vehicle.
     pub vehicle: VehicleId,
     /// Its class.
     pub class: Class,
-    /// Its driver's place in the table of driver parameters.
+    /// Index of its driver in the table of driver parameters.
     pub parameters: u32,
-    /// Where it comes from: place in the list of origins of the demand; none outside of it.
+    /// Index of its origin in the demand; none if it did not enter by the demand.
     pub origin: Option<usize>,
-    /// Where it goes: place in the list of destinations; none for who drives on as the road leads.
+    /// Index of its destination; none if it follows the road without a destination.
     pub destination: Option<usize>,
-    /// When it came, and would have liked to enter [s].
+    /// Time when it arrived at the origin [s].
     pub arrived: f64,
-    /// When it entered [s].
+    /// Time when it entered [s].
     pub entered: f64,
-    /// Where its front bumper was then.
+    /// Position of its front bumper when it entered.
     pub from: Position,
-    /// Its speed then [m/s].
+    /// Its speed when it entered [m/s].
     pub speed: f64,
-    /// Time that its way takes on a free road at the speeds that the driver desires [s]; none without a destination.
+    /// Time that its route takes on a free road at the speeds that the driver desires [s]; none without a destination.
     pub free_time: Option<f64>,
-    /// What the station on its present chain is to be increased by to give the way that it has driven [m].
+    /// The distance driven so far is this plus the station on its present chain [m].
     pub way_to_start: f64,
     /// Times that it came to a halt.
     pub stops: u32,
-    /// Time for which it stood, without a halt that is not over [s].
+    /// Time for which it stood, without the present halt [s].
     pub stood: f64,
     /// Times that its centre crossed the line to another lane.
     pub lane_changes: u32,
@@ -49,7 +49,7 @@ pub struct TripRecord {
     pub route_changes: u32,
     /// Times that its driver missed a turn.
     pub missed_turns: u32,
-    /// Up to where it is put down what it did on the lanelets.
+    /// Up to here the lanelet aggregates have recorded it.
     pub(crate) mark: Mark,
 }
 
@@ -77,7 +77,7 @@ impl TripRecord {
         }
     }
 
-    /// The way that its front bumper has driven when it is at `x` on its chain [m].
+    /// The distance that its front bumper has driven when it is at `x` on its chain [m].
     pub fn way(&self, x: f64) -> f64 {
         self.way_to_start + x
     }
@@ -86,20 +86,20 @@ impl TripRecord {
 /// The records of all vehicles on the road.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct TripLog {
-    /// The oldest vehicle whose trip is not over.
+    /// The oldest vehicle whose trip has not ended.
     oldest: VehicleId,
-    /// For each since then where its record is.
+    /// For each vehicle from the oldest on: the slot of its record.
     slots: VecDeque<u32>,
     records: Vec<TripRecord>,
     free: Vec<u32>,
 }
 
-/// In place of a slot: the trip has not begun, or is over.
+/// Values in place of a slot: the trip has not begun, or has ended.
 const AHEAD: u32 = u32::MAX;
 const OVER: u32 = u32::MAX - 1;
 
 impl TripLog {
-    /// Whether its slots are there, and its records lie on so many chains.
+    /// Whether its slots exist, and its records name only this many chains.
     pub(crate) fn fits(&self, chains: usize) -> bool {
         let TripLog { oldest: _, slots, records, free } = self;
         let is_there = |it: u32| (it as usize) < records.len();
@@ -108,7 +108,7 @@ impl TripLog {
             && records.iter().all(|it| it.from.chain.at() < chains)
     }
 
-    /// Whether all who have come before the vehicle `next` have a slot, but for so many at most.
+    /// Whether all vehicles before the vehicle `next` have a slot, except at most `but_for`.
     pub(crate) fn reaches(&self, next: VehicleId, but_for: usize) -> bool {
         let left = next.checked_sub(self.oldest).and_then(|it| (it as usize).checked_sub(self.slots.len()));
         left.is_some_and(|it| it <= but_for)
@@ -119,7 +119,7 @@ impl TripLog {
         self.of(id).is_some()
     }
 
-    /// A trip begins.
+    /// Begins a trip.
     pub(crate) fn begin(&mut self, mut record: TripRecord) {
         record.way_to_start = -record.from.x;
         let place = (record.vehicle - self.oldest) as usize;
@@ -143,7 +143,7 @@ impl TripLog {
         self.records.get(self.slot(id)? as usize)
     }
 
-    /// The same, to change.
+    /// The same record, mutable.
     pub(crate) fn of_mut(&mut self, id: VehicleId) -> Option<&mut TripRecord> {
         let slot = self.slot(id)?;
         self.records.get_mut(slot as usize)
@@ -154,7 +154,7 @@ impl TripLog {
         self.slots.get(place as usize).copied()
     }
 
-    /// Something happened to a vehicle on its way.
+    /// Records an event of a vehicle during its trip.
     pub(crate) fn note(&mut self, event: &DrivingEvent) {
         let Some(record) = self.of_mut(event.vehicle) else { return };
         match event.kind {
@@ -166,7 +166,7 @@ impl TripLog {
         }
     }
 
-    /// A trip ends.
+    /// Ends a trip, and returns its record.
     pub(crate) fn end(&mut self, id: VehicleId) -> Option<TripRecord> {
         let ended = *self.of(id)?;
         let place = (id - self.oldest) as usize;

@@ -1,5 +1,5 @@
-//! What is kept of each trip until it ends: the time that it would take on a free road, and how often the vehicle
-//! stopped. It lies cold, by the vehicle's id.
+//! What is stored for each trip until it ends: its time on a free road, and the number of halts. It is rarely in the
+//! cache, and is found by the vehicle's id.
 
 use std::collections::VecDeque;
 
@@ -11,8 +11,8 @@ use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 use crate::state::lane::VehicleId;
 
-/// A trip: the time that its way takes at the speeds that the driver desires, in tenths of a second up to 29 hours;
-/// above it the number of times that the vehicle came to a halt; and whether it is over.
+/// A trip in one number. The low bits are the time that its route takes at the speeds that the driver desires, in
+/// tenths of a second up to 29 hours. Above them are the number of halts, and whether it has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Trip(u32);
 
@@ -21,7 +21,7 @@ impl Trip {
     const STOP: u32 = 1 << 20;
     const STOPS: u32 = (1 << 11) - 1;
     const OVER: u32 = 1 << 31;
-    /// Not begun, or to nowhere.
+    /// Not begun, or without a destination.
     const AHEAD: Trip = Trip(Trip::TENTHS);
 
     fn begin(&mut self, free_time: Option<f64>) {
@@ -45,14 +45,14 @@ impl Trip {
         (self.0 / Trip::STOP) & Trip::STOPS
     }
 
-    /// What a trip of `duration` [s] took beyond the time on a free road [s], if it went anywhere.
+    /// Delay of a trip of `duration` [s] against the time on a free road [s]; none without a destination.
     pub(crate) fn delay(self, duration: f64) -> Option<f64> {
         let tenths = self.0 & Trip::TENTHS;
         (tenths < Trip::TENTHS).then(|| duration - 0.1 * f64::from(tenths))
     }
 }
 
-/// The trips of all vehicles since the oldest one that is not over.
+/// The trips of all vehicles from the oldest one that has not ended.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Trips {
     oldest: VehicleId,
@@ -60,23 +60,23 @@ pub(crate) struct Trips {
 }
 
 impl Trips {
-    /// Whether a vehicle has one that has begun.
+    /// Whether a vehicle has a trip that has begun.
     pub(crate) fn has(&self, id: VehicleId) -> bool {
         id.checked_sub(self.oldest).is_some_and(|it| (it as usize) < self.trips.len())
     }
 
-    /// Whether a vehicle can still begin one.
+    /// Whether a vehicle can still begin a trip.
     pub(crate) fn can_begin(&self, id: VehicleId) -> bool {
         id >= self.oldest
     }
 
-    /// Whether all who have come before the vehicle `next` have one, but for so many at most.
+    /// Whether all vehicles before the vehicle `next` have a trip, except at most `but_for`.
     pub(crate) fn reach(&self, next: VehicleId, but_for: usize) -> bool {
         let left = next.checked_sub(self.oldest).and_then(|it| (it as usize).checked_sub(self.trips.len()));
         left.is_some_and(|it| it <= but_for)
     }
 
-    /// A trip begins.
+    /// Begins a trip.
     pub(crate) fn begin(&mut self, id: VehicleId, free_time: Option<f64>) {
         let place = (id - self.oldest) as usize;
         if place >= self.trips.len() {
@@ -90,12 +90,12 @@ impl Trips {
         self.trips[place].begin(free_time);
     }
 
-    /// The vehicle came to a halt.
+    /// Counts a halt of the vehicle.
     pub(crate) fn stop(&mut self, id: VehicleId) {
         self.trips[(id - self.oldest) as usize].stop();
     }
 
-    /// A trip ends.
+    /// Ends a trip, and returns it.
     pub(crate) fn end(&mut self, id: VehicleId) -> Trip {
         let trip = &mut self.trips[(id - self.oldest) as usize];
         trip.0 |= Trip::OVER;
@@ -108,8 +108,8 @@ impl Trips {
     }
 }
 
-/// Time [s] that a driver takes `from` a place to its destination on a free road, who drives at `speed` [m/s]
-/// under each limit and changes lanes where it last can. None without a destination, or a way to it.
+/// Time that a driver takes `from` a position to its destination on a free road [s]. It drives at `speed` [m/s] under
+/// each limit, and changes lanes at the last place. None without a destination, or without a route to it.
 pub(crate) fn free_time(
     network: &Network,
     navigator: &Navigator,
@@ -120,7 +120,7 @@ pub(crate) fn free_time(
     destination?;
     let Position { mut chain, mut x } = from;
     let mut time = 0.0;
-    // No way passes a chain twice but for a detour at its beginning.
+    // No route passes a chain twice, except for a detour at its beginning.
     for _ in 0..=2 * network.chains.len() {
         let here = network.chain(chain);
         let waypoint = navigator.waypoint_from(network, destination, chain, x);

@@ -1,25 +1,26 @@
-//! How classes of vehicles see the roads: which lanes they avoid where there is another way, as too tight or too
-//! narrow.
+//! Class restrictions: lanes that a class of vehicles avoids, as too tight or too narrow, where there is another route.
 
 use laneweave_network::{Chain, ChainIndex, Network, Point, Polyline};
 
 use crate::state::vehicle::{Class, Fleet};
 
-/// Long vehicles avoid lanes whose centre line turns tighter than this [m]: the mean of the radii 5.3 and 12.5 m of the
-/// ring in which each vehicle of the European Union can turn (Directive 96/53/EC, annex I, 1.5; from memory).
+/// Long vehicles avoid lanes whose centre line turns tighter than this [m]: the mean of the inner radius 5.3 m and the
+/// outer radius 12.5 m of the turning circle that each vehicle in the European Union must manage (Directive 96/53/EC,
+/// annex I, 1.5; from memory).
 const TIGHTEST_TURN: f64 = 8.9;
-/// A turn is measured over at least this length on either side [m], ours, so that a crooked drawing is no turn.
+/// The radius of a turn is measured over at least this length on either side [m], ours. So an inaccurate drawing is no
+/// turn.
 const ARM: f64 = 3.0;
 
 /// Chains that classes avoid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ClassRestrictions {
-    /// What long vehicles avoid, by chain; `None` if nothing, so that they drive where all others do.
+    /// The chains that long vehicles avoid; `None` if there are none, so that they drive where all others do.
     of_long: Option<Vec<bool>>,
 }
 
 impl ClassRestrictions {
-    /// How a fleet sees `network`.
+    /// The restrictions of the classes of `fleet` on `network`.
     pub(crate) fn of(network: &Network, fleet: &Fleet) -> ClassRestrictions {
         let has_long = fleet.shares().iter().any(|(class, share)| class.is_long() && *share > 0.0);
         if !has_long {
@@ -31,7 +32,7 @@ impl ClassRestrictions {
         ClassRestrictions { of_long: differs.then_some(is_tight) }
     }
 
-    /// Number of different restrictions, that of no restriction included.
+    /// Number of different restrictions, including the empty one.
     pub(crate) fn count(&self) -> usize {
         1 + usize::from(self.of_long.is_some())
     }
@@ -41,13 +42,14 @@ impl ClassRestrictions {
         usize::from(self.of_long.is_some() && class.is_long())
     }
 
-    /// Whether `chain` is avoided under a restriction.
+    /// Whether vehicles with `restriction` avoid `chain`.
     pub(crate) fn avoids(&self, restriction: usize, chain: ChainIndex) -> bool {
         restriction > 0 && self.of_long.as_ref().is_some_and(|it| it[chain.at()])
     }
 }
 
-/// The least radius of a line [m], of circles through its points and what lies an arm before and behind.
+/// The least radius of a line [m]. Each circle goes through a point of the line and through the points one arm before
+/// and behind it.
 fn tightest_turn(line: &Polyline) -> f64 {
     let (mut station, mut tightest) = (0.0, f64::INFINITY);
     for points in line.points().windows(3) {
@@ -77,7 +79,7 @@ mod tests {
     use crate::route::navigate::Navigator;
     use crate::route::place::Place;
 
-    /// A quarter of a circle, with points about so far apart [m], between two straight pieces of 20 m.
+    /// A quarter of a circle between two straight pieces of 20 m. Its points are about `spacing` [m] apart.
     fn turn(radius: f64, spacing: f64) -> Polyline {
         let pieces = (radius * FRAC_PI_2 / spacing).ceil() as usize;
         let arc = (0..=pieces).map(|it| {
@@ -111,8 +113,8 @@ mod tests {
         lanelet
     }
 
-    /// Where vehicles of `class` go on from a road that leads into `turns`, of which each has a radius [m] and is
-    /// followed by the same road.
+    /// The chain that vehicles of `class` take from a road that leads into `turns`. Each turn has a radius [m], and all
+    /// lead to the same road.
     fn chosen(class: Class, turns: &[f64]) -> Option<ChainIndex> {
         let straight = |y| Polyline::new([Point::new(0.0, y, 0.0), Point::new(200.0, y, 0.0)]).unwrap();
         let last = turns.len() as u32 + 1;

@@ -1,9 +1,9 @@
-//! What a way asks of its driver beside time.
+//! Route disutility: what a route costs its driver besides time.
 
 use laneweave_network::{ChainIndex, Network, Sign};
 use serde::{Deserialize, Serialize};
 
-/// Turns and traffic lights on a way.
+/// Turns and traffic lights on a route.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Disutility {
     /// Turns.
@@ -13,7 +13,7 @@ pub struct Disutility {
 }
 
 impl Disutility {
-    /// On `chain` from its start to `station` [m].
+    /// The disutility of `chain` from its start to `station` [m].
     pub(crate) fn until(network: &Network, chain: ChainIndex, station: f64) -> Disutility {
         let turns = network.junctions.turns(chain).iter().filter(|it| **it <= station);
         let stops = network.junctions.on(chain).stops.iter().filter(|it| it.station <= station);
@@ -21,7 +21,7 @@ impl Disutility {
         Disutility { turns: turns.count() as u16, lights: lights.count() as u16 }
     }
 
-    /// This and then `onward`.
+    /// The sum of this and `onward`.
     pub(crate) fn and(self, onward: Disutility) -> Disutility {
         Disutility {
             turns: self.turns.saturating_add(onward.turns),
@@ -29,7 +29,7 @@ impl Disutility {
         }
     }
 
-    /// What is left of it after `passed`.
+    /// What remains of it after `passed`.
     pub(crate) fn beyond(self, passed: Disutility) -> Disutility {
         Disutility {
             turns: self.turns.saturating_sub(passed.turns),

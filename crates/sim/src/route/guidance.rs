@@ -1,8 +1,8 @@
-//! Guidance: link times from the traffic itself, and ways planned with them.
+//! Route guidance: link times from the traffic itself, and routes planned with them.
 //!
-//! At an interval the time of each link becomes max(BPR(q), L/v̄), with q and v̄ by Edie's definitions over the link
-//! and the interval, from vehicle-metres and vehicle-seconds sampled once a second. Then the ways to all destinations
-//! that somebody drives to are planned anew, so many in a step that the work of a step is bounded.
+//! At each interval the time of each link becomes max(BPR(q), L/v̄). q and v̄ follow Edie's definitions over the link
+//! and the interval, from vehicle-metres and vehicle-seconds sampled once a second. Then the routes to all destinations
+//! in use are planned again. A limit per step bounds the work of a step.
 
 use laneweave_models::change::link_time;
 use laneweave_models::follow::{FollowingModel, Idm};
@@ -16,23 +16,23 @@ use crate::state::clock::Clock;
 use crate::state::lane::Lane;
 use crate::state::vehicle::Class;
 
-/// Waypoints that are planned in a step, ours: some milliseconds.
+/// Waypoints that are planned in a step, ours: this takes some milliseconds.
 const WAYPOINTS_A_STEP: usize = 4000;
 /// Time between two samples of the traffic [s].
 const SAMPLED_EVERY: f64 = 1.0;
 
-/// What guides drivers.
+/// Route guidance of drivers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Guidance {
     /// Steps between two measurements.
     period: u32,
-    /// By link, in the order of the links.
+    /// One for each link, in the order of the links.
     meters: Vec<Meter>,
-    /// Tables of usual ways whose destinations are to be planned, the next one last.
+    /// Tables of usual routes whose destinations have to be planned again, the next one last.
     due: Vec<usize>,
-    /// For each table whether somebody follows it.
+    /// For each table whether a driver uses it.
     in_use: Vec<bool>,
-    /// Waypoints that may be planned by now.
+    /// Number of waypoints that may be planned now.
     credit: usize,
 }
 
@@ -52,7 +52,7 @@ impl Meter {
         Meter { capacity: capacity(link.limit), seconds: 0.0, metres: 0.0 }
     }
 
-    /// Time [s] on `link` by what was counted in `interval` [s], and a new beginning.
+    /// Time [s] on `link` from the counts of `interval` [s]; resets the counts.
     fn read(&mut self, link: &Link, interval: f64) -> f64 {
         let Meter { capacity, seconds, metres } = *self;
         (self.seconds, self.metres) = (0.0, 0.0);
@@ -65,13 +65,13 @@ impl Meter {
 }
 
 impl Guidance {
-    /// Guides drivers over `links` by measurements every `period` steps.
+    /// Guidance over `links` with a measurement every `period` steps.
     pub(crate) fn new(links: &Links, period: u32) -> Guidance {
         let meters = links.all().iter().map(Meter::of).collect();
         Guidance { period, meters, due: Vec::new(), in_use: Vec::new(), credit: 0 }
     }
 
-    /// Whether it is of so many links and ways.
+    /// Whether it has this many links and tables.
     pub(crate) fn fits(&self, links: usize, tables: usize) -> bool {
         let Guidance { period, meters, due, in_use, credit } = self;
         let is_use = in_use.is_empty() || in_use.len() == tables;
@@ -83,7 +83,7 @@ impl Guidance {
             && *credit <= usize::MAX / 2
     }
 
-    /// Measures, and plans the ways to `destinations` anew, as far as it is time for that at `clock`.
+    /// Measures, and plans the routes to `destinations` again, if this is due at `clock`.
     pub(crate) fn advance(
         &mut self,
         network: &Network,
@@ -103,7 +103,7 @@ impl Guidance {
         self.plan(network, destinations, navigator);
     }
 
-    /// Counts who is where.
+    /// Samples where the vehicles are.
     fn sample(&mut self, lanes: &[Lane], links: &Links) {
         for (lane, chain) in lanes.iter().zip(0..) {
             let all = lane.motions().iter().zip(lane.drivers());
@@ -115,14 +115,14 @@ impl Guidance {
         }
     }
 
-    /// The link times since the last measurement [s].
+    /// The link times since the last measurement [s]; resets the counts.
     fn measure(&mut self, links: &Links, dt: f64) -> Vec<f64> {
         let interval = f64::from(self.period) * dt;
         let all = self.meters.iter_mut().zip(links.all());
         all.map(|(meter, link)| meter.read(link, interval)).collect()
     }
 
-    /// Notes which ways somebody follows, and whose destinations are to be planned.
+    /// Notes which tables drivers use, and which destinations have to be planned again.
     fn look_who_drives(&mut self, lanes: &[Lane], navigator: &Navigator) {
         let Guidance { due, in_use, .. } = self;
         in_use.clear();
@@ -136,7 +136,7 @@ impl Guidance {
         }
     }
 
-    /// Plans as many of the ways that are due as may be in a step.
+    /// Plans as many of the due routes as a step allows.
     fn plan(&mut self, network: &Network, destinations: &[Place], navigator: &mut Navigator) {
         let cost = network.chains.len();
         self.credit = (self.credit + WAYPOINTS_A_STEP).min(cost.max(WAYPOINTS_A_STEP));
@@ -151,7 +151,8 @@ impl Guidance {
     }
 }
 
-/// Capacity of a lane under `limit` [m/s], in veh/s: that of cars that follow by the usual IDM; ours.
+/// Capacity of a lane under `limit` [m/s], in veh/s: that of cars that follow by the IDM with its usual parameters;
+/// ours.
 fn capacity(limit: f64) -> f64 {
     FollowingModel::Idm(Idm::default()).capacity(limit, Class::Car.body().length)
 }

@@ -1,20 +1,20 @@
-//! Links: pieces of chains, each with a travel time of its own.
+//! Links: parts of chains, each with its own travel time.
 //!
-//! A chain may lead over an approach, a junction and the road beyond, so that a jam on one of them would be lost in the
-//! mean over all.
+//! A chain may contain an approach, a junction and the road beyond. The mean over the whole chain would hide a jam on
+//! one of them.
 
 use laneweave_network::{Chain, ChainIndex, Network};
 use serde::{Deserialize, Serialize};
 
 use crate::route::ways::free_time;
 
-/// A link begins with a lanelet, and takes in further ones until it is as long [m]; ours.
+/// A link begins with a lanelet, and includes further ones until it has this length [m]; ours.
 const SHORTEST: f64 = 50.0;
 
 /// The links of all chains, chain by chain.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Links {
-    /// For each chain the place of its first link; at last the number of links.
+    /// For each chain the index of its first link; the last entry is the number of links.
     first: Vec<usize>,
     links: Vec<Link>,
 }
@@ -37,7 +37,7 @@ pub(crate) struct Link {
 }
 
 impl Links {
-    /// The links of `network`, empty.
+    /// The links of `network`, with free travel times.
     pub(crate) fn of(network: &Network) -> Links {
         let mut it = Links::default();
         for chain in &network.chains {
@@ -48,7 +48,7 @@ impl Links {
         it
     }
 
-    /// Whether they are those of the same network, whatever their times.
+    /// Whether they are those of the same network, with any times.
     pub(crate) fn fits(&self, other: &Links) -> bool {
         let place = |it: &Link| (it.start, it.length, it.limit, it.free_time);
         self.first == other.first
@@ -56,7 +56,7 @@ impl Links {
             && self.links.iter().zip(&other.links).all(|(one, other)| place(one) == place(other))
     }
 
-    /// There are none: times are those of the free road.
+    /// Whether there are no links: then all times are those of the free road.
     #[inline]
     pub(crate) fn are_free(&self) -> bool {
         self.links.is_empty()
@@ -67,14 +67,14 @@ impl Links {
         &self.links
     }
 
-    /// The place of the link at `x` [m] on `chain` in the list of all.
+    /// The index of the link at `x` [m] on `chain` in the list of all.
     pub(crate) fn at(&self, chain: ChainIndex, x: f64) -> usize {
         let [from, until] = [0, 1].map(|it| self.first[chain.at() + it]);
         from + self.links[from + 1..until].partition_point(|it| it.start <= x)
     }
 
-    /// Travel time from the start of `chain` to `x` [m] on it [s]; before its start and beyond its end as on its first
-    /// and last link.
+    /// Travel time from the start of `chain` to `x` [m] on it [s]. Before the start and beyond the end, the first and
+    /// the last link are extrapolated.
     pub(crate) fn time_to(&self, chain: ChainIndex, x: f64) -> f64 {
         let it = &self.links[self.at(chain, x)];
         it.time_before + it.time * (x - it.start) / it.length
@@ -91,7 +91,7 @@ impl Links {
     }
 }
 
-/// Where the links of `chain` begin, and at last where it ends [m].
+/// Where the links of `chain` begin [m]; the last entry is the end of the chain.
 fn starts(chain: &Chain) -> Vec<f64> {
     let mut starts = vec![0.0];
     for start in &chain.starts {
@@ -160,7 +160,7 @@ mod tests {
         links.take([10.0, 100.0, 5.0].into_iter());
         let times = [0.0, 25.0, 50.0, 150.0, 300.0].map(|x| links.time_to(ChainIndex(0), x));
         assert_eq!(times, [0.0, 5.0, 10.0, 60.0, 115.0]);
-        // Where another chain begins before this one, or goes on beyond it.
+        // Another chain begins before this one, or goes on beyond it.
         assert_eq!([-10.0, 310.0].map(|x| links.time_to(ChainIndex(0), x)), [-2.0, 116.0]);
     }
 }

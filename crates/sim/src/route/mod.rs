@@ -1,4 +1,4 @@
-//! Which lanes lead where, and what the way costs.
+//! Which lanes lead where, and what a route costs.
 
 pub(crate) mod class_restrictions;
 pub(crate) mod disutility;

@@ -1,9 +1,9 @@
-//! Which lanes lead where: for every destination the usual way, that of the free road, and where drivers are guided the
-//! recommended one.
+//! Which lanes lead where. For every destination there is the usual route, that of the free road. Where drivers are
+//! guided, there is also the recommended route.
 //!
-//! A driver's goal names a table of waypoints: one of its destination as its class sees the roads, in one of three
-//! *ways*. The ways of a table that somebody follows stay as they are; only their times change. A new recommendation is
-//! planned in the table that nobody follows.
+//! A driver's goal names a table of waypoints: that of its destination, with the restriction of its class, in one of
+//! three *ways* (variants of the route). While a driver uses a table, its routes stay as they are, and only the times
+//! change. A new recommendation is planned in a table that no driver uses.
 
 use std::borrow::Cow;
 
@@ -23,30 +23,31 @@ use crate::state::vehicle::Class;
 /// The waypoints of all destinations.
 #[derive(Clone, Debug)]
 pub struct Navigator {
-    /// For each class restriction: for each destination the waypoints by chain; last, those of drivers without one. All
-    /// that for the usual way; then for the recommended ones, which are empty as long as nobody needs them.
+    /// For each class restriction: a table for each destination, with the waypoints by chain, and then that of drivers
+    /// without a destination. First all tables of the usual routes, then those of the recommended ones. These are empty
+    /// until they are needed.
     pub(super) tables: Vec<Vec<Waypoint>>,
     pub(super) onward: Onward,
     /// Number of tables of each class restriction.
     pub(super) of_restriction: usize,
-    /// For each table of a usual way that with the newest recommendation; empty where nobody is guided.
+    /// For each table of a usual route, the table with the newest recommendation; empty without guidance.
     pub(super) recommended: Vec<u16>,
     pub(super) links: Links,
-    /// How often they were measured.
+    /// Number of measurements of the links.
     pub(super) measurements: u32,
     pub(super) into: Vec<Into>,
     pub(super) restrictions: ClassRestrictions,
-    /// For each chain where trips end before its end.
+    /// For each chain the trip ends on it, before its end.
     pub(super) trip_ends: Vec<Vec<TripEnd>>,
 }
 
 impl Navigator {
-    /// Waypoints that may be planned, ours: 3.2 GB.
+    /// Upper limit of the waypoints that are planned, ours: 3.2 GB.
     pub(crate) const MOST_WAYPOINTS: usize = 50_000_000;
-    /// Ways to one destination: the usual one, and two of which the one is recommended while others may still follow
+    /// Ways to one destination: the usual route, and two more. One of these is recommended, while drivers may still use
     /// the other.
     pub(crate) const WAYS: usize = 3;
-    /// Nobody starts for a place on the same map that is nearer [m], ours.
+    /// No trip inside the map is shorter than this [m], ours.
     const SHORTEST_TRIP: f64 = 100.0;
 
     /// Plans all routes to the exits of `network`.
@@ -60,8 +61,7 @@ impl Navigator {
         Navigator::with_restrictions(network, destinations, ClassRestrictions::default())
     }
 
-    /// Plans all routes to `destinations`, of which there are [`Demand::MOST_DESTINATIONS`] at most, for classes with
-    /// their restrictions.
+    /// Plans all routes to `destinations`, at most [`Demand::MOST_DESTINATIONS`], for classes with their restrictions.
     pub(crate) fn with_restrictions(
         network: &Network,
         destinations: &[Place],
@@ -92,7 +92,7 @@ impl Navigator {
         navigator
     }
 
-    /// Notes anew what comes next on all ways.
+    /// Stores again the next chain on every route of all tables.
     pub(super) fn look_onward(&mut self, network: &Network) {
         self.onward = Onward::new(network, self.tables.len());
         for (number, table) in self.tables.iter().enumerate() {
@@ -105,7 +105,7 @@ impl Navigator {
         Planner { network, into, links, restrictions, restriction }
     }
 
-    /// Trips of those who drive by `table` end at `place`.
+    /// Ends the trips of the drivers who use `table` at `place`.
     pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
         if let Place::Inside(InnerPlace { chain, station, .. }) = place {
             let goal = Goal::from(Some(table as u16));
@@ -113,7 +113,7 @@ impl Navigator {
         }
     }
 
-    /// Whether the way to a destination is planned.
+    /// Whether the route to a destination is planned.
     pub(crate) fn has(&self, destination: Destination) -> bool {
         is_planned(&self.tables, destination)
     }
@@ -123,37 +123,37 @@ impl Navigator {
         self.tables.len()
     }
 
-    /// The tables of usual ways to a destination.
+    /// The tables of the usual routes to a destination.
     pub(crate) fn usual_tables(&self) -> impl DoubleEndedIterator<Item = usize> {
         let of_restriction = self.of_restriction;
         (0..self.usual()).filter(move |it| it % of_restriction < of_restriction - 1)
     }
 
-    /// Number of tables of usual ways.
+    /// Number of tables of usual routes.
     pub(super) fn usual(&self) -> usize {
         self.restrictions.count() * self.of_restriction
     }
 
-    /// Whether anywhere a driver has more than one way to go.
+    /// Whether a driver has more than one route anywhere.
     pub(crate) fn offers_a_choice(&self) -> bool {
         self.tables.iter().flatten().any(|it| it.leads_there() && it.alternative.is_finite())
     }
 
-    /// The tables of the ways to the same destination, as seen by the same class, as `table`; the usual one first.
+    /// The tables of all ways to the destination of `table`, with the same class restriction; the usual route first.
     pub(crate) fn ways(&self, table: usize) -> [usize; Navigator::WAYS] {
         let usual = table % self.usual();
         std::array::from_fn(|way| usual + way * self.usual())
     }
 
-    /// The table of the newest recommendation for those who follow `destination`, if they are guided and follow
-    /// another.
+    /// The table of the newest recommendation for drivers who use the table `destination`; none if they already use it,
+    /// or are not guided.
     #[inline]
     pub(crate) fn recommended(&self, destination: Destination) -> Destination {
         let table = destination.filter(|_| !self.recommended.is_empty())?;
         Some(self.recommended[usize::from(table) % self.usual()]).filter(|it| *it != table)
     }
 
-    /// `destination` by the usual way.
+    /// Whether the table `destination` is that of a usual route.
     pub(crate) fn is_usual(&self, destination: Destination) -> bool {
         destination.is_none_or(|it| usize::from(it) < self.usual())
     }
@@ -164,13 +164,13 @@ impl Navigator {
         &self.links
     }
 
-    /// Travel time from the start of `chain` to `x` on it [s], as it counts in the waypoints.
+    /// Travel time from the start of `chain` to `x` on it [s], as in the waypoints.
     #[inline]
     pub(crate) fn time_to(&self, network: &Network, chain: ChainIndex, x: f64) -> f64 {
         if self.links.are_free() { x / network.chain(chain).limit(x) } else { self.links.time_to(chain, x) }
     }
 
-    /// Measured travel time on the next `distance` [m] of the way to `destination` from `x` on `chain` on [s].
+    /// Measured travel time on the next `distance` [m] of the route to `destination`, from `x` on `chain` on [s].
     #[inline(never)]
     pub(crate) fn time_ahead(
         &self,
@@ -193,7 +193,7 @@ impl Navigator {
         time
     }
 
-    /// Whether the ways `one` and `other` go on alike from `x` on `chain` for at least `distance` [m].
+    /// Whether the routes `one` and `other` are the same from `x` on `chain` on, for at least `distance` [m].
     pub(crate) fn part_beyond(
         &self,
         network: &Network,
@@ -206,7 +206,7 @@ impl Navigator {
         one.eq(other)
     }
 
-    /// The walk along the way to `destination` on from `chain`, which starts so far ahead [m].
+    /// The walk along the route to `destination`, from `chain` on, which starts `start` ahead [m].
     #[inline]
     pub(crate) fn walk<'a>(
         &'a self,
@@ -218,7 +218,7 @@ impl Navigator {
         Walk::new(network, &self.onward, self.table(destination), chain, start)
     }
 
-    /// A destination as a class sees the way to it.
+    /// A destination with the restriction of `class`.
     pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
         let number = usize::from(destination?) % self.of_restriction;
         Some((self.restrictions.of_class(class) * self.of_restriction + number) as u16)
@@ -229,12 +229,12 @@ impl Navigator {
         usize::from(table) / self.of_restriction % self.restrictions.count()
     }
 
-    /// The destination's place in the list of destinations, whoever sees it.
+    /// The index of the destination in the list of destinations, for any class restriction and way.
     pub fn number(&self, destination: Destination) -> Option<usize> {
         destination.map(|it| usize::from(it) % self.of_restriction)
     }
 
-    /// The chains on the way from the start of `chain` to `destination`, over changes of lane as well.
+    /// The chains on the route from the start of `chain` to `destination`, including those after lane changes.
     pub(crate) fn way(
         &self,
         chain: ChainIndex,
@@ -244,19 +244,19 @@ impl Navigator {
         std::iter::successors(Some(chain), next)
     }
 
-    /// The waypoint of `chain`, from its start, on the way to `destination`.
+    /// The waypoint of `chain`, from its start, on the route to `destination`.
     #[inline]
     pub fn waypoint(&self, destination: Destination, chain: ChainIndex) -> &Waypoint {
         &self.tables[self.table(destination)][chain.at()]
     }
 
-    /// The table by which those drive who go to `destination`.
+    /// The table of the drivers who go to `destination`.
     #[inline]
     fn table(&self, destination: Destination) -> usize {
         destination.map_or(self.of_restriction - 1, usize::from)
     }
 
-    /// The chain that comes after `chain` on the way to `destination`.
+    /// The chain after `chain` on the route to `destination`.
     #[inline]
     pub(crate) fn next(
         &self,
@@ -273,7 +273,7 @@ impl Navigator {
         if self.trip_ends(chain).is_empty() { f64::INFINITY } else { self.waypoint(destination, chain).end }
     }
 
-    /// The waypoint of `chain` from `x` on: where that is too late for the usual way, of the way round over its end.
+    /// The waypoint of `chain` from `x` on. Where `x` is too late for the usual route, that of the detour over its end.
     #[inline]
     pub fn waypoint_from(
         &self,
@@ -290,7 +290,7 @@ impl Navigator {
         }
     }
 
-    /// The way to `destination` over the end of `chain`.
+    /// The route to `destination` over the end of `chain`.
     #[inline(never)]
     fn detour(&self, network: &Network, destination: Destination, chain: ChainIndex) -> Waypoint {
         let here = network.chain(chain);
@@ -321,8 +321,8 @@ impl Navigator {
         })
     }
 
-    /// The destination of least time that can be reached from `x` on `chain`, over its end, too, for one who was on its
-    /// way to `before`; of none, to wander.
+    /// The destination of least time that can be reached from `x` on `chain`, also over its end, for a driver with the
+    /// old destination `before`. `None` if there is none: the driver then follows the road.
     pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
         let first = before.map_or(0, |it| self.restriction(it)) * self.of_restriction;
         let all = (first..first + self.of_restriction - 1).map(|it| Some(it as u16));
@@ -333,15 +333,15 @@ impl Navigator {
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
-    /// The destination of least time to which the usual way leads from `x` on `chain`, for one who was on its way to
-    /// `before`.
+    /// The destination of least time to which the usual route leads from `x` on `chain`, for a driver with the old
+    /// destination `before`.
     pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
         let restriction = before.map_or(0, |it| self.restriction(it));
         let reachable = self.reachable_in(restriction, chain, x);
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
-    /// Whether a destination can be reached from `place`; from a place inside the map, whether it is worth a trip, too.
+    /// Whether a destination can be reached from `place`. From a trip end inside the map, it must also be far enough.
     pub(crate) fn leads(&self, network: &Network, place: &Place, destination: u16) -> bool {
         match place {
             Place::Gate(gate) => {
@@ -356,7 +356,7 @@ impl Navigator {
         }
     }
 
-    /// Where on `chain` trips end.
+    /// The trip ends on `chain`.
     #[inline]
     pub(crate) fn trip_ends(&self, chain: ChainIndex) -> &[TripEnd] {
         &self.trip_ends[chain.at()]

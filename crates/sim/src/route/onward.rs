@@ -1,10 +1,10 @@
-//! Which chain comes next on the ways of all tables: what drivers look up at every step, together for each chain.
+//! The next chain on the routes of all tables, stored together for each chain: drivers need it at every step.
 
 use laneweave_network::{ChainIndex, Network};
 
 use crate::route::waypoint::Waypoint;
 
-/// For each chain and table the place of the next chain among those that follow.
+/// For each chain and table, the index of the next chain among the following ones.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Onward {
     tables: usize,
@@ -13,15 +13,15 @@ pub(crate) struct Onward {
 }
 
 impl Onward {
-    /// There is none.
+    /// There is no next chain.
     const NOWHERE: u16 = u16::MAX;
 
-    /// Of as many tables for `network`, none of which leads anywhere yet.
+    /// A table of this size for `network`, in which no route leads anywhere yet.
     pub(crate) fn new(network: &Network, tables: usize) -> Onward {
         Onward { tables, places: vec![Onward::NOWHERE; tables * network.chains.len()] }
     }
 
-    /// Takes over the ways of a table.
+    /// Takes over the routes of a table.
     pub(crate) fn take(&mut self, network: &Network, table: usize, waypoints: &[Waypoint]) {
         let rows = self.places.chunks_exact_mut(self.tables);
         for ((row, waypoint), chain) in rows.zip(waypoints).zip(&network.chains) {
@@ -30,7 +30,7 @@ impl Onward {
         }
     }
 
-    /// The chain with which the way of `table` goes on from `chain`.
+    /// The chain after `chain` on the route of `table`.
     #[inline]
     pub(crate) fn next(&self, network: &Network, chain: ChainIndex, table: usize) -> Option<ChainIndex> {
         let place = self.places[chain.at() * self.tables + table];

@@ -1,34 +1,34 @@
-//! Places at which trips start and end: gates at the edge of the map, and places along its lanes.
+//! Places where trips start and end: gates at the edge of the map, and trip ends inside the map.
 
 use laneweave_network::{ChainIndex, Gate};
 
 /// Where trips start or end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
-    /// Lanes at the edge of the map: vehicles come driving at their starts, and leave at their ends.
+    /// Lanes at the edge of the map: vehicles enter at their starts while driving, and leave the map at their ends.
     Gate(Gate),
-    /// A place along a lane: vehicles start there from rest, and are gone when they reach it.
+    /// A trip end inside the map: vehicles start there from rest, and are removed when they reach it.
     Inside(InnerPlace),
 }
 
-/// A place along a lane.
+/// A trip end inside the map: a place along a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InnerPlace {
-    /// Its lanelet's id: its name.
+    /// The id of its lanelet, which is its name.
     pub id: i64,
     /// Its chain.
     pub chain: ChainIndex,
-    /// Where on it the rear bumper of a vehicle that starts is, and where a trip ends: when the front bumper passes
-    /// [m].
+    /// Its station on the chain [m]. The rear bumper of a vehicle that starts is here. A trip ends when the front
+    /// bumper passes it.
     pub station: f64,
 }
 
 impl InnerPlace {
-    /// Trips start and end on lanelets of this length or more [m].
+    /// Trips start and end only on lanelets of at least this length [m].
     pub const SHORTEST_LANELET: f64 = 20.0;
-    /// Share of its lanelet that lies before a place inside the map. Of the shortest lanelet 12 m, the longest vehicle,
-    /// lie behind it: who starts stands on the lanelet, and who has driven off the lanelet does not reach back to the
-    /// place inside the map.
+    /// Share of its lanelet that lies before a trip end inside the map. On the shortest lanelet, 12 m lie beyond it:
+    /// the length of the longest vehicle. So a vehicle that starts stands on the lanelet, and a vehicle that has left
+    /// the lanelet does not reach back to the trip end.
     pub(crate) const SHARE_BEFORE: f64 = 0.4;
 }
 

@@ -1,4 +1,4 @@
-//! What guidance changes of the ways: link times, and with them the recommendations.
+//! What guidance changes of the routes: link times, and with them the recommendations.
 
 use laneweave_network::{ChainIndex, Network};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::route::place::Place;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::{Destination, Goal};
 
-/// What guidance has changed of a navigator.
+/// What guidance has changed in a navigator.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Guided {
     tables: Vec<Vec<Waypoint>>,
@@ -19,13 +19,13 @@ pub(crate) struct Guided {
 }
 
 impl Guided {
-    /// Whether the way to a destination is planned.
+    /// Whether the route to a destination is planned.
     pub(crate) fn has(&self, destination: Destination) -> bool {
         is_planned(&self.tables, destination)
     }
 }
 
-/// Whether the way to a destination is planned in `tables`; who has none drives on as the road leads.
+/// Whether the route to a destination is planned in `tables`. A driver without a destination follows the road.
 pub(super) fn is_planned(tables: &[Vec<Waypoint>], destination: Destination) -> bool {
     destination.is_none_or(|it| tables.get(usize::from(it)).is_some_and(|it| !it.is_empty()))
 }
@@ -37,7 +37,7 @@ impl Navigator {
         Guided { tables, recommended, links, measurements }
     }
 
-    /// Whether it can go on from that.
+    /// Whether it can continue from `guided`.
     pub(crate) fn accepts(&self, guided: &Guided) -> bool {
         let Guided { tables, recommended, links, measurements: _ } = guided;
         let chains = self.trip_ends.len();
@@ -54,17 +54,17 @@ impl Navigator {
             && links.fits(&self.links)
     }
 
-    /// Goes on from what guidance had changed of a navigator of the same network.
+    /// Continues from what guidance had changed in a navigator of the same network.
     pub(crate) fn go_on(&mut self, network: &Network, guided: Guided) {
         let Guided { tables, recommended, links, measurements } = guided;
         *self = Navigator { tables, recommended, links, measurements, ..self.clone() };
         self.look_onward(network);
     }
 
-    /// Lets drivers be guided to `destinations`, by the link times of the free road for the time being.
+    /// Prepares guidance to `destinations`, at first with the link times of the free road.
     ///
     /// # Errors
-    /// If there are more destinations than [`Navigator::WAYS`] ways to each could be told apart: how many can be.
+    /// The greatest number of destinations, if there are too many for [`Navigator::WAYS`] ways to each.
     pub(crate) fn guide(&mut self, network: &Network, destinations: &[Place]) -> Result<(), usize> {
         let usual = self.usual();
         if usual * Navigator::WAYS > usize::from(Goal::NONE) {
@@ -82,19 +82,19 @@ impl Navigator {
         Ok(())
     }
 
-    /// Takes over measured times of all links [s]. Tables have them when they are guided next.
+    /// Takes over measured times of all links [s]. The tables use them when they are next renewed.
     pub(crate) fn take_link_times(&mut self, times: impl Iterator<Item = f64>) {
         self.links.take(times);
         self.measurements += 1;
     }
 
-    /// How often link times were measured.
+    /// Number of measurements of the link times.
     pub(crate) fn measurements(&self) -> u32 {
         self.measurements
     }
 
-    /// Gives the ways to `place` in the tables `ways`, of which somebody follows those that are `in_use`, the present
-    /// link times; and recommends the best way anew, if there is room for it.
+    /// Updates the routes to `place` in the tables `ways` to the present link times. Drivers use those tables that are
+    /// `in_use`. Recommends the best route again, if a table is free for it.
     pub(crate) fn renew(
         &mut self,
         network: &Network,
@@ -111,7 +111,7 @@ impl Navigator {
         let mut spare = ways.into_iter().zip(in_use).skip(1);
         let spare = spare.find(|(way, in_use)| is_new && !in_use && *way != newest);
         if is_new && spare.is_none() {
-            // What cannot be recommended is nobody's alternative.
+            // A route that cannot be recommended is no alternative.
             best.clone_from(&self.tables[newest]);
             planner.retime(&mut best, place);
             planner.note_alternatives(&mut best, None);

@@ -1,4 +1,4 @@
-//! The roads, and what those who drive there know of them.
+//! The roads, and what drivers know of them.
 
 use std::sync::Arc;
 
@@ -15,19 +15,19 @@ use crate::state::lane::Lane;
 use crate::state::random::Random;
 use crate::state::vehicle::Fleet;
 
-/// What a step only reads, but for the ways of those who are guided: roads, drivers and chance.
+/// What a step only reads, except for the routes of guidance: roads, driver parameters and random numbers.
 pub(crate) struct Roads {
     network: Arc<Network>,
     navigator: Navigator,
-    /// All different drivers.
+    /// All sets of driver parameters.
     driver_parameters: Vec<Style>,
     random: Random,
-    /// Where drivers are guided.
+    /// Route guidance, if drivers are guided.
     guidance: Option<Guidance>,
 }
 
 impl Roads {
-    /// The roads of `network`, with ways to `destinations` for the classes of `fleet`; nobody is guided.
+    /// The roads of `network`, with routes to `destinations` for the classes of `fleet`, without guidance.
     pub(crate) fn new(
         network: Arc<Network>,
         driver_parameters: Vec<Style>,
@@ -46,30 +46,30 @@ impl Roads {
         &self.network
     }
 
-    /// The network, for those who need it beyond the world: it never changes.
+    /// The network, shared with users outside the world: it never changes.
     pub(crate) fn shared_network(&self) -> Arc<Network> {
         Arc::clone(&self.network)
     }
 
-    /// The ways.
+    /// The navigator, which has the routes.
     #[inline]
     pub(crate) fn navigator(&self) -> &Navigator {
         &self.navigator
     }
 
-    /// All different drivers.
+    /// All sets of driver parameters.
     #[inline]
     pub(crate) fn driver_parameters(&self) -> &[Style] {
         &self.driver_parameters
     }
 
-    /// The driver at this place in the table of all different ones.
+    /// The driver at this index in the table of driver parameters.
     #[inline]
     pub(crate) fn style(&self, parameters: u32) -> &Style {
         &self.driver_parameters[parameters as usize]
     }
 
-    /// Each driver becomes the one in its place among `driver_parameters`, of which there are as many.
+    /// Replaces each set of driver parameters by the one at the same index. Their number stays the same.
     pub(crate) fn change_driver_parameters(&mut self, driver_parameters: Vec<Style>) {
         self.driver_parameters = driver_parameters;
     }
@@ -80,7 +80,7 @@ impl Roads {
         self.random
     }
 
-    /// Drivers are guided to `destinations` from now on, by measurements every `period` steps.
+    /// Guides drivers to `destinations` from now on, with a measurement every `period` steps.
     ///
     /// # Errors
     /// The greatest number of destinations, if there are more.
@@ -90,7 +90,7 @@ impl Roads {
         Ok(())
     }
 
-    /// Guidance to `destinations`, if there is any, goes on at `clock` with the vehicles on these lanes.
+    /// Continues guidance to `destinations`, if there is any, at `clock` with the vehicles on these lanes.
     pub(crate) fn go_on_guiding(&mut self, lanes: &[Lane], destinations: &[Place], clock: Clock) {
         let Roads { network, navigator, guidance, .. } = self;
         if let Some(guidance) = guidance {
@@ -103,7 +103,7 @@ impl Roads {
         self.guidance.as_ref().map(|it| (it, self.navigator.guided()))
     }
 
-    /// Whether guidance can go on from what it had changed.
+    /// Whether guidance can continue from `guided`.
     pub(crate) fn accepts(&self, guided: Option<&(Guidance, Guided)>) -> bool {
         let Roads { navigator, guidance, .. } = self;
         match (guided, guidance) {
@@ -114,7 +114,7 @@ impl Roads {
         }
     }
 
-    /// Guidance goes on from what it had changed, which these roads accept.
+    /// Continues guidance from `guided`, which these roads accept.
     pub(crate) fn restore(&mut self, guided: Option<(Guidance, Guided)>) {
         self.guidance = None;
         if let Some((guidance, guided)) = guided {

@@ -1,4 +1,4 @@
-//! The walk along a route, chain by chain, as far as somebody looks.
+//! The walk along a route, chain by chain, as far as needed.
 
 use laneweave_network::{ChainIndex, Network};
 
@@ -7,28 +7,28 @@ use crate::route::onward::Onward;
 /// A chain on a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Leg {
-    /// Which.
+    /// The chain.
     pub(crate) chain: ChainIndex,
-    /// How far ahead it starts [m]; negative for the chain where the walk begins.
+    /// Distance to its start [m]; negative for the first chain of the walk.
     pub(crate) start: f64,
-    /// The chain before it on the route; none where the walk begins.
+    /// The chain before it on the route; none for the first chain of the walk.
     pub(crate) before: Option<ChainIndex>,
 }
 
-/// The chains of a route that start within reach, from the one where the walk begins on.
+/// The chains of a route that start within reach, from the first chain of the walk on.
 #[derive(Clone, Debug)]
 pub(crate) struct Walk<'a> {
     network: &'a Network,
     onward: &'a Onward,
     table: usize,
-    /// The chain that was come to last.
+    /// The present chain.
     at: Leg,
     has_begun: bool,
     reach: f64,
 }
 
 impl<'a> Walk<'a> {
-    /// The walk of those who drive by `table` on from `chain`, which starts so far ahead [m].
+    /// The walk along the route of `table`, from `chain` on, which starts `start` ahead [m].
     #[inline]
     pub(super) fn new(
         network: &'a Network,
@@ -41,25 +41,25 @@ impl<'a> Walk<'a> {
         Walk { network, onward, table, at, has_begun: false, reach: f64::INFINITY }
     }
 
-    /// The same, over chains only that start less than `reach` ahead [m], and the one where it begins.
+    /// The same walk, limited to its first chain and to chains that start less than `reach` ahead [m].
     #[inline]
     pub(crate) fn within(self, reach: f64) -> Walk<'a> {
         Walk { reach, ..self }
     }
 
-    /// Looks so far ahead from now on [m].
+    /// Changes the reach to `reach` [m].
     #[inline]
     pub(crate) fn look_on(&mut self, reach: f64) {
         self.reach = reach;
     }
 
-    /// The chain that was come to last.
+    /// The present chain.
     #[inline]
     pub(crate) fn at(&self) -> ChainIndex {
         self.at.chain
     }
 
-    /// How far ahead the chain ends that was come to last [m].
+    /// Distance to the end of the present chain [m].
     #[inline]
     pub(crate) fn end(&self) -> f64 {
         self.at.start + self.network.chain(self.at.chain).length

@@ -1,34 +1,33 @@
-//! What a chain means on the way to a destination.
+//! Waypoints: what a chain means on the route to a destination.
 
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
 
 use crate::route::disutility::Disutility;
 
-/// What a chain means on the way to a destination.
+/// What a chain means on the route to a destination.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Waypoint {
-    /// n: fewest lane changes from it to a lane that leads there; [`Waypoint::NO_WAY`] if none does.
+    /// n: fewest lane changes from it to a lane that leads there; [`Waypoint::NO_WAY`] if no lane does.
     pub changes: u32,
-    /// The chain from which on the way was planned: the next one, or the one to change to; itself at the destination.
+    /// The chain from which the search came: the next chain, or the one to change to; itself at the destination.
     pub(super) via: ChainIndex,
-    /// Last place for the next change, from the chain's start, beyond its end if on a later one [m]; infinite for
-    /// n = 0.
+    /// Last place for the next change, from the chain's start; beyond its end if on a later chain [m]; infinite for n =
+    /// 0.
     pub last_place: f64,
-    /// The chain that it goes on with.
+    /// The chain that follows it on the route.
     pub next: Option<ChainIndex>,
     /// Travel time from its start to the destination [s].
     pub time: f64,
-    /// T_alt: travel time from its start of the best way over its end that is not this one [s]; infinite if there is
-    /// none.
+    /// T_alt: travel time from its start on the best other route over its end [s]; infinite if there is none.
     pub alternative: f64,
-    /// Way from its start to the destination [m].
+    /// Distance from its start to the destination [m].
     pub distance: f64,
-    /// Where on it the trip ends [m]; infinite where it goes on to the chain's end.
+    /// Where the trip ends on it [m]; infinite where the trip goes on to the chain's end.
     pub end: f64,
-    /// What the way from its start asks for.
+    /// Disutility of the route from its start.
     pub disutility: Disutility,
-    /// What the alternative asks for.
+    /// Disutility of the alternative.
     pub alternative_effort: Disutility,
 }
 
@@ -38,9 +37,9 @@ impl Waypoint {
         [Some(self.via), self.next].into_iter().flatten()
     }
 
-    /// More changes than any road has lanes: there is no way.
+    /// More changes than any road has lanes: there is no route.
     pub const NO_WAY: u32 = 1000;
-    /// What a lane change counts for in the choice of a route [s].
+    /// Cost of a lane change in the choice of a route [s].
     const CHANGE_COST: f64 = 20.0;
 
     pub(crate) const NOWHERE: Waypoint = Waypoint {
@@ -56,29 +55,29 @@ impl Waypoint {
         alternative_effort: Disutility { turns: 0, lights: 0 },
     };
 
-    /// There is a way.
+    /// Whether there is a route.
     #[inline]
     pub fn leads_there(&self) -> bool {
         self.changes < Waypoint::NO_WAY
     }
 
-    /// The destination can still be reached from `x` on the chain.
+    /// Whether the destination can still be reached from `x` on the chain.
     #[inline]
     pub fn leads_on(&self, x: f64) -> bool {
         self.leads_there() && x <= self.last_place && x <= self.end
     }
 
-    /// The chain that comes next on the way, if there is one: itself at the destination.
+    /// The next chain on the route, if there is one; itself at the destination.
     pub(crate) fn goes_on(&self) -> Option<ChainIndex> {
         self.leads_there().then_some(self.via)
     }
 
-    /// What is least on the best way [s].
+    /// The cost that the best route minimises [s].
     pub(crate) fn cost(&self) -> f64 {
         self.time + Waypoint::CHANGE_COST * f64::from(self.changes)
     }
 
-    /// Both lead the same way over the same chain.
+    /// Whether both take the same route over the same chain.
     pub(crate) fn goes_like(&self, other: &Waypoint) -> bool {
         (self.changes, self.via, self.next) == (other.changes, other.via, other.next)
     }
