@@ -10,7 +10,7 @@ pub(crate) enum DesireSituation {
     HeldUp,
 }
 
-/// Share of the desired speed: from FREE on a lane is free, up to HELD_UP a driver is held up.
+/// Shares of the desired speed. From `FREE` on, a lane is free. Up to `HELD_UP`, a driver is held up.
 const FREE: f64 = 0.95;
 const HELD_UP: f64 = 0.9;
 

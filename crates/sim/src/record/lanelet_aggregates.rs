@@ -1,8 +1,8 @@
 //! Lanelet aggregates: sums of what vehicles do on every lanelet, if they are requested. These are the time that
 //! vehicles spend there, the distance that they drive, and the number that passes the end.
 //!
-//! The state of a vehicle is recorded once a second, and whenever it leaves its chain. Between two such instants the
-//! aggregates assume a constant speed.
+//! The position of a vehicle is recorded once a second, and whenever it leaves its chain. Between two such instants
+//! the aggregates assume a constant speed.
 
 use laneweave_network::{Chain, Network};
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ pub(crate) struct Mark {
 impl Mark {
     /// The mark of a vehicle at the station `x` [m] of its chain, which it passed in the last step.
     pub(crate) fn at(x: f64, motion: &Kinematics, clock: Clock) -> Mark {
-        // The speed changed evenly.
+        // This assumes a constant acceleration within the step.
         let driven = (motion.speed - 0.5 * f64::from(motion.acceleration) * clock.dt) * clock.dt;
         let share = if driven > 0.0 { ((motion.x - x) / driven).clamp(0.0, 1.0) } else { 0.0 };
         Mark { x, time: clock.time() - share * clock.dt }

@@ -1,5 +1,5 @@
-//! The ways to one destination: for each chain the lane changes still to make, the last place for the next of them, the
-//! way on, and the times of this way and of the best other one, with the turns and lights on them.
+//! Planning of the routes to one destination. For each chain: the lane changes still to make, the last place for the
+//! next one, the next chain, the times of this route and of the best other one, and the turns and lights on both.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -15,7 +15,7 @@ use crate::route::waypoint::Waypoint;
 /// Stretches from which a change leads into a chain: chain, side and number.
 pub(crate) type Into = Vec<(ChainIndex, Side, usize)>;
 
-/// Plans ways on a network as one class sees it.
+/// Plans routes on a network for one class restriction.
 #[derive(Clone, Copy)]
 pub(crate) struct Planner<'a> {
     pub(crate) network: &'a Network,
@@ -27,13 +27,12 @@ pub(crate) struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// Road that is kept for each further change before the last place [m].
+    /// Road that is kept before the last place for each further change [m].
     const ROOM_FOR_A_CHANGE: f64 = 40.0;
-    /// What a chain counts for beside its time in the choice of a route, if it is avoided [s], ours: no detour in a
-    /// town is as long.
+    /// Cost of an avoided chain besides its time in the choice of a route [s], ours: no detour in a town is as long.
     const AVOIDED: f64 = 600.0;
 
-    /// What missing a change counts for, ours: once round the block [s].
+    /// Cost of a missed change, ours: once around the block [s].
     const MISSED: f64 = 120.0;
 
     /// Time along `chain` from its start to `until` [s].
@@ -45,20 +44,20 @@ impl Planner<'_> {
         }
     }
 
-    /// Time from the start of `chain` to where it can be left over `stretch`, less that from the start of the other one
-    /// to there [s].
+    /// Time from the start of `chain` to the beginning of `stretch`, minus the time on the other chain from its start
+    /// to the same place [s].
     fn lag(&self, chain: ChainIndex, stretch: &Beside) -> f64 {
         let place = stretch.start.max(stretch.back(0.0));
         self.time(chain, place) - self.time(stretch.chain, stretch.across(place))
     }
 
-    /// What a change counts for in the choice of a route for which there are `room` metres [s]: the shorter the road
-    /// for it, the more of those who try will miss it.
+    /// The missed-turn penalty of a change with `room` metres of road [s]: the shorter the road, the more drivers miss
+    /// the change.
     fn missed_turn_penalty(room: f64) -> f64 {
         Planner::MISSED * (1.0 - room / Planner::ROOM_FOR_A_CHANGE).max(0.0)
     }
 
-    /// Road on which a driver can change from `chain` to another one by `last_place` [m].
+    /// Length of road on which a driver can change from `chain` to `to`, before `last_place` [m].
     fn room_to_change(&self, chain: ChainIndex, to: ChainIndex, last_place: f64) -> f64 {
         let here = self.network.chain(chain);
         let leading =
@@ -67,17 +66,17 @@ impl Planner<'_> {
         windows.map(|[start, end]| (end.min(last_place) - start).max(0.0)).sum()
     }
 
-    /// What `chain` asks for from its start to its end.
+    /// Disutility of `chain` from its start to its end.
     fn disutility(&self, chain: ChainIndex) -> Disutility {
         Disutility::until(self.network, chain, f64::INFINITY)
     }
 
-    /// What `chain` counts for beside its time [s].
+    /// Cost of `chain` besides its time [s].
     fn delay(&self, chain: ChainIndex) -> f64 {
         if self.restrictions.avoids(self.restriction, chain) { Planner::AVOIDED } else { 0.0 }
     }
 
-    /// The waypoint of `chain` for who goes on to `next`, whose waypoint is `onward`.
+    /// The waypoint of `chain` for a driver who goes on to `next`, whose waypoint is `onward`.
     pub(crate) fn before(&self, chain: ChainIndex, next: ChainIndex, onward: &Waypoint) -> Waypoint {
         let length = self.network.chain(chain).length;
         Waypoint {
@@ -92,8 +91,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Best waypoints towards `place`, spread backwards from it until none improves; then on from those to chains that
-    /// have no way unless its changes are made on less road than usual.
+    /// The best waypoints towards `place`. The search goes backwards from it until no waypoint improves. Then it
+    /// continues to chains that have a route only if changes may use less road than usual.
     pub(crate) fn plan(&self, place: &Place) -> Vec<Waypoint> {
         let mut search = Search::new(self, place);
         if search.spread(self, Room::Usual) {
@@ -133,8 +132,8 @@ impl Planner<'_> {
         }
     }
 
-    /// The last place for a change within a window of `stretch` for who has the waypoint `onward` beyond [m]: so that
-    /// road is left for the next change.
+    /// The last place for a change within the window of `stretch` [m], with the waypoint `onward` on the other chain.
+    /// Road is left for the next change.
     fn last_place(stretch: &Beside, [start, end]: [f64; 2], onward: &Waypoint, room: Room) -> f64 {
         let next = onward.last_place.min(onward.end);
         if next == f64::INFINITY {
@@ -147,7 +146,7 @@ impl Planner<'_> {
         }
     }
 
-    /// The waypoint of `chain` for who changes over `stretch` to the chain `to`, whose waypoint is `onward`.
+    /// The waypoint of `chain` for a driver who changes over `stretch` to the chain `to`, whose waypoint is `onward`.
     fn beside(
         &self,
         chain: ChainIndex,
@@ -171,7 +170,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Gives the ways of `table` towards `place`, which stay as they are, the present link times.
+    /// Updates the times of `table` towards `place` to the present link times. The routes stay as they are.
     pub(crate) fn retime(&self, table: &mut [Waypoint], place: &Place) {
         for chain in from_the_destination(table) {
             let Waypoint { changes, via, last_place, .. } = table[chain.at()];
@@ -195,8 +194,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Notes for each chain of `table` the time of the best way over its end that is not the way of the table, and what
-    /// that asks for, by the ways of `best`, or else by its own. Of equal times that with less effort counts.
+    /// Writes to each chain of `table` the time and disutility of the best other route over its end. This route goes on
+    /// by the waypoints of `best`, or else by those of `table`. Of equal times, that with less disutility counts.
     pub(crate) fn note_alternatives(&self, table: &mut [Waypoint], best: Option<&[Waypoint]>) {
         let mut alternatives = vec![(f64::INFINITY, Disutility::default()); table.len()];
         for chain in from_the_destination(table) {
@@ -225,18 +224,18 @@ impl Planner<'_> {
 /// Road that is kept for the next change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Room {
-    /// What is usual.
+    /// The usual length.
     Usual,
-    /// Half of what there is.
+    /// Half of the available road.
     Half,
 }
 
-/// A search for the best ways, backwards from a destination.
+/// A search for the best routes, backwards from a destination.
 struct Search {
     table: Vec<Waypoint>,
     ranks: Vec<Rank>,
     open: BinaryHeap<(Reverse<Rank>, ChainIndex)>,
-    /// Chains whose ways stay as they are.
+    /// Chains whose routes stay as they are.
     is_settled: Vec<bool>,
 }
 
@@ -255,7 +254,7 @@ impl Search {
         search
     }
 
-    /// Takes a waypoint of a chain if it is better than the one known.
+    /// Replaces the waypoint of a chain if `waypoint` is better.
     fn offer(&mut self, network: &Network, to: ChainIndex, waypoint: Waypoint) {
         let new = rank(network, &waypoint);
         if new < self.ranks[to.at()] && !self.is_settled[to.at()] {
@@ -264,14 +263,14 @@ impl Search {
         }
     }
 
-    /// Looks on from all chains that have a way, whose ways stay as they are.
+    /// Reopens all chains that have a route. Their routes stay as they are.
     fn reopen(&mut self) {
         self.is_settled = self.table.iter().map(Waypoint::leads_there).collect();
         let settled = (0..).map(ChainIndex).zip(&self.is_settled).filter(|it| *it.1);
         self.open = settled.map(|(index, _)| (Reverse(self.ranks[index.at()]), index)).collect();
     }
 
-    /// Spreads until no waypoint improves. Returns whether there were changes for which there is less road than usual.
+    /// Continues until no waypoint improves. Returns whether some changes had less road than usual.
     fn spread(&mut self, planner: &Planner, room: Room) -> bool {
         let Planner { network, into, .. } = *planner;
         let mut are_short = false;
@@ -291,7 +290,7 @@ impl Search {
                 if ahead.contains(&from) {
                     continue;
                 }
-                // Whichever stretch one takes, it leads to the same: the last that still does is the last chance.
+                // All stretches lead to the same chain. The last usable one is the last chance.
                 let chain = network.chain(from);
                 let last = stretches.iter().rev().find_map(|(_, side, number)| {
                     let stretch = &chain.stretches(*side)[*number];
@@ -310,8 +309,8 @@ impl Search {
     }
 }
 
-/// The chains to which a driver changes from `chain`, one after the other: nobody changes back to where it comes from,
-/// to overtake a jam.
+/// The chains to which a driver changes from `chain`, one after the other. No driver changes back to one of these to
+/// overtake a jam.
 fn changed_to(table: &[Waypoint], chain: ChainIndex) -> Vec<ChainIndex> {
     let next = |at: &ChainIndex| {
         let Waypoint { changes, via, .. } = table[at.at()];
@@ -320,7 +319,7 @@ fn changed_to(table: &[Waypoint], chain: ChainIndex) -> Vec<ChainIndex> {
     std::iter::successors(next(&chain), next).collect()
 }
 
-/// The chains of `table` that have a way, each after the one that it goes on with.
+/// The chains of `table` that have a route, each after the chain it goes on with.
 fn from_the_destination(table: &[Waypoint]) -> Vec<ChainIndex> {
     let mut order = Vec::with_capacity(table.len());
     let mut is_known: Vec<bool> = table.iter().map(|it| !it.leads_there()).collect();
@@ -337,7 +336,7 @@ fn from_the_destination(table: &[Waypoint]) -> Vec<ChainIndex> {
     order
 }
 
-/// The stretch of `chain` over which who has to change by `last_place` changes to the chain `to`.
+/// The stretch of `chain` for a change to the chain `to` by `last_place`.
 pub(crate) fn stretch_to(chain: &Chain, to: ChainIndex, last_place: f64) -> Option<&Beside> {
     let all = Side::BOTH.into_iter().flat_map(|side| chain.stretches(side));
     let mut leading = all.filter(|it| it.chain == to);
@@ -354,9 +353,9 @@ pub(crate) fn free_time(chain: &Chain, until: f64) -> f64 {
 /// See [`rank`].
 type Rank = (i64, i64, i64);
 
-/// Of two waypoints of a chain the one with the lower rank is better: less cost [µs, so that equal ways count as
-/// equal], then a later last place [mm], then what goes on to the lanelet of the smaller id, however the chains are
-/// stored.
+/// The rank of a waypoint: of two waypoints of a chain, that with the lower rank is better. It has less cost [µs, so
+/// that equal routes count as equal], then a later last place [mm], then the next lanelet with the smaller id. It does
+/// not depend on how chains are stored.
 fn rank(network: &Network, waypoint: &Waypoint) -> Rank {
     let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(Position::new(it, 0.0)).0.id);
     ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)
@@ -375,7 +374,7 @@ pub(crate) fn beside_into(network: &Network) -> Vec<Into> {
     into
 }
 
-/// For drivers without a destination: on along the first following chain; out of lanes that end.
+/// Waypoints for drivers without a destination: they take the first following chain, and leave lanes that end.
 pub(crate) fn wander(network: &Network) -> Vec<Waypoint> {
     let on = |chain: &Chain| Waypoint {
         changes: 0,

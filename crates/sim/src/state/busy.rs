@@ -1,4 +1,4 @@
-//! Lanes in which there is something to do: of the many short ones of a town most are empty at any time.
+//! Lanes that have work to do. Most of the many short lanes of a town are empty at any time.
 
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
@@ -8,26 +8,26 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Busy {
     /// A bit for each lane.
     marks: Vec<u64>,
-    /// Those of the present step.
+    /// The lanes of the present step.
     chosen: Vec<u32>,
     /// The marks have changed since they were chosen.
     has_changed: bool,
 }
 
 impl Busy {
-    /// None of `count` lanes.
+    /// No busy lane among `count` lanes.
     pub(crate) fn none_of(count: usize) -> Busy {
         Busy { marks: vec![0; count.div_ceil(64)], chosen: Vec::new(), has_changed: false }
     }
 
-    /// Whether it is of so many lanes.
+    /// Whether it has this many lanes.
     pub(crate) fn is_of(&self, count: usize) -> bool {
         let Busy { marks, chosen, has_changed: _ } = self;
         let last = marks.last().map_or(0, |it| marks.len() * 64 - it.leading_zeros() as usize);
         marks.len() == count.div_ceil(64) && last <= count && chosen.iter().all(|it| (*it as usize) < count)
     }
 
-    /// A vehicle comes onto `chain`.
+    /// Notes that a vehicle comes onto `chain`.
     #[inline]
     pub(crate) fn note(&mut self, chain: ChainIndex) {
         let (word, bit) = self.mark(chain);
@@ -36,7 +36,7 @@ impl Busy {
         self.has_changed |= has_changed;
     }
 
-    /// There was nobody to be moved on `chain`.
+    /// Notes that `chain` had no vehicle to move.
     #[inline]
     pub(crate) fn forget(&mut self, chain: ChainIndex) {
         let (word, bit) = self.mark(chain);
@@ -48,8 +48,8 @@ impl Busy {
         (&mut self.marks[chain.at() / 64], 1 << (chain.at() % 64))
     }
 
-    /// The lanes that are to be moved in this step, in order. The lanes themselves are not looked at: other threads
-    /// have just written to them.
+    /// The lanes to move in this step, in order. It does not read the lanes themselves: other threads have just written
+    /// to them.
     pub(crate) fn chosen(&mut self) -> &[u32] {
         if std::mem::take(&mut self.has_changed) {
             self.chosen.clear();

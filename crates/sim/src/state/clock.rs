@@ -23,7 +23,7 @@ impl Clock {
         f64::from(self.step - step) * self.dt
     }
 
-    /// Whether a whole second since the start is over: what is done once a second is done now.
+    /// Whether a step begins at a whole second: work that is done once a second is done now.
     pub(crate) fn begins_a_second(&self) -> bool {
         self.step.is_multiple_of(self.steps(1.0))
     }

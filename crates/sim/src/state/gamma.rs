@@ -1,16 +1,16 @@
-//! The gamma distribution function and its inverse, for shapes that need not be whole.
+//! The gamma distribution function and its inverse, for shapes that need not be whole numbers.
 //!
 //! Series and continued fraction of the incomplete gamma function: Abramowitz and Stegun (1964), 6.5.29 and 6.5.31, the
 //! latter in Lentz's form.
 
-/// Sums end when a term no longer matters.
+/// Sums end when a term is smaller than this share.
 const PRECISION: f64 = 1e-15;
-/// Terms until then, for shapes up to some thousands.
+/// Upper limit of the number of terms, for shapes up to some thousands.
 const MOST_TERMS: usize = 2_000;
-/// Steps of the inverse; each at least halves the interval where Newton's fails.
+/// Upper limit of the steps of the inverse. Where Newton's method fails, a step halves the interval.
 const MOST_STEPS: usize = 200;
 
-/// Q(k, x) = Γ(k, x)/Γ(k): chance that a gamma variable of shape `k` > 0 and scale 1 exceeds `x`.
+/// Q(k, x) = Γ(k, x)/Γ(k): probability that a gamma variable of shape `k` > 0 and scale 1 exceeds `x`.
 pub(crate) fn survival(k: f64, x: f64) -> f64 {
     if x <= 0.0 {
         1.0
@@ -21,7 +21,7 @@ pub(crate) fn survival(k: f64, x: f64) -> f64 {
     }
 }
 
-/// The number that a gamma variable of shape `k` and scale 1 exceeds with chance `u`, 0 < u < 1.
+/// The number that a gamma variable of shape `k` and scale 1 exceeds with probability `u`, 0 < u < 1.
 pub(crate) fn exceeded(k: f64, u: f64) -> f64 {
     let (mut low, mut high) = (0.0, k + 1.0);
     while survival(k, high) > u {
@@ -45,7 +45,7 @@ pub(crate) fn exceeded(k: f64, u: f64) -> f64 {
     x
 }
 
-/// xᵏ⁻¹ e⁻ˣ/Γ(k).
+/// The density of the gamma distribution: xᵏ⁻¹ e⁻ˣ/Γ(k).
 fn density(k: f64, x: f64) -> f64 {
     libm::exp((k - 1.0) * libm::log(x) - x - libm::lgamma(k))
 }
@@ -66,7 +66,7 @@ fn lower_series(k: f64, x: f64) -> f64 {
 
 /// Q by its continued fraction, which converges fast above the mean.
 fn upper_fraction(k: f64, x: f64) -> f64 {
-    /// In place of a zero in the fraction.
+    /// Replaces a zero in the fraction.
     const TINY: f64 = 1e-300;
     let mut b = x + 1.0 - k;
     let mut c = 1.0 / TINY;

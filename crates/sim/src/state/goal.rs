@@ -1,9 +1,9 @@
-//! Where a driver goes.
+//! The destination of a driver.
 
 use serde::{Deserialize, Serialize};
 
-/// Where a driver goes and which way: at first the destination's place in the list of destinations. `None`: it drives
-/// on as the road leads.
+/// The table of waypoints of a driver: destination, restriction and way. The first tables are those of the list of
+/// destinations. `None`: the driver has no destination and follows the road.
 pub type Destination = Option<u16>;
 
 /// A destination in two bytes.
@@ -11,7 +11,7 @@ pub type Destination = Option<u16>;
 pub struct Goal(u16);
 
 impl Goal {
-    /// In place of a destination where there is none.
+    /// Stands for no destination.
     pub(crate) const NONE: u16 = u16::MAX;
 
     /// The destination.
@@ -27,11 +27,11 @@ impl From<Destination> for Goal {
     }
 }
 
-/// Where on a chain the trips to a destination end.
+/// A station on a chain where the trips to a destination end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TripEnd {
     /// Along the chain [m].
     pub(crate) station: f64,
-    /// For whom.
+    /// The destination.
     pub(crate) goal: Goal,
 }

@@ -1,9 +1,9 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
-//! An entry has three parts, kept in arrays of the same order: its [`Kinematics`], written anew at every step, is all
-//! that others need to see; [`DriverState`] is what its driver needs to drive on and to consider lanes;
-//! [`LaneChangeState`] what only changes of lane need. A vehicle that changes lanes stands in both lanes: with its main
-//! entry where its centre is, with a shadow in the other.
+//! An entry has three parts, in arrays of the same order. [`Kinematics`] is all that other vehicles see, and is written
+//! again at every step. [`DriverState`] is what a driver needs to drive on and to consider lanes. [`LaneChangeState`]
+//! is what only lane changes need. A vehicle that changes lanes has an entry in both lanes: its main entry where its
+//! centre is, and a shadow in the other.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Position, Side};
@@ -14,10 +14,10 @@ use crate::state::prefetch::prefetch;
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
 
-/// Name of a vehicle; it never changes and is never given again.
+/// The id of a vehicle. It never changes, and is never used again.
 pub type VehicleId = u32;
 
-/// How a vehicle moves, and what others see of it: half a cache line.
+/// The kinematics of a vehicle, which is all that others see of it: half a cache line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
 pub struct Kinematics {
@@ -27,11 +27,11 @@ pub struct Kinematics {
     pub speed: f64,
     /// Acceleration of the last step [m/s²].
     pub acceleration: f32,
-    /// Share of its usual time gap that the driver accepts for now.
+    /// Headway relaxation: share of its usual time gap that the driver accepts at present.
     pub headway_relaxation: f32,
     /// Vehicle length [m].
     pub length: f32,
-    /// Who it is.
+    /// The id of the vehicle.
     pub id: VehicleId,
 }
 
@@ -42,7 +42,7 @@ impl Kinematics {
         self.x - f64::from(self.length)
     }
 
-    /// It as the leader of one whose net gap to it is `gap` [m].
+    /// Itself as the leader of a vehicle that has the net gap `gap` [m] to it.
     #[inline(always)]
     pub(crate) fn ahead(&self, gap: f64) -> Ahead {
         Ahead { gap, speed: self.speed, acceleration: f64::from(self.acceleration) }
@@ -53,29 +53,29 @@ impl Kinematics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
 pub struct DriverState {
-    /// Desired speed [m/s]; a lower limit is approached gently.
+    /// Desired speed [m/s]; it falls gradually to a lower speed limit.
     pub desired: f32,
-    /// Desired speed that the current speed limit gives [m/s].
+    /// Desired speed under the present speed limit [m/s].
     pub limit_desired: f32,
     /// Time at standstill [s].
     pub standing: f32,
-    /// Its driver's place in the table of driver parameters.
+    /// Index of its driver in the table of driver parameters.
     pub parameters: u32,
-    /// Step at which its driver considers lanes next.
+    /// Step in which its driver considers lanes next.
     pub due: u32,
-    /// Step before which there is no new voluntary change.
+    /// End of the cooldown: the driver begins no discretionary change before this step.
     pub cooldown_until: u32,
-    /// Where it goes.
+    /// Its destination.
     pub goal: Goal,
     /// Its class.
     pub class: Class,
-    /// What its driver is about.
+    /// The state of its lane change.
     pub phase: Phase,
-    /// This entry is the shadow of one in another lane.
+    /// This entry is the shadow of an entry in another lane.
     pub is_shadow: bool,
-    /// Kinematics, not the model, decided in the present braking.
+    /// Kinematics, not the model, decided the present braking.
     pub in_emergency: bool,
-    /// Its driver reacts to more than the leader: the last place for a change, or a vehicle that it lets in.
+    /// Its driver reacts to more than the leader, such as the last place for a change, or a vehicle that it lets in.
     pub needs_full_update: bool,
 }
 
@@ -83,7 +83,7 @@ const _: () =
     assert!(size_of::<Kinematics>() == 32 && size_of::<DriverState>() == 32, "an entry fills one cache line");
 
 impl DriverState {
-    /// Its driver only follows: no change of lanes, nothing else to react to or to remember.
+    /// Whether its driver only follows: it changes no lane, and reacts to nothing else.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
         self.phase == Phase::Cruises
@@ -93,61 +93,61 @@ impl DriverState {
     }
 }
 
-/// What a driver is about.
+/// The state of a driver's lane change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Phase {
-    /// Keeps its lane.
+    /// It keeps its lane.
     Cruises,
-    /// Waits for a gap.
+    /// It waits for a gap.
     Wants,
-    /// Changes lanes.
+    /// It changes lanes.
     Changes,
-    /// Goes back to where it came from.
+    /// It returns to the old lane.
     Aborts,
 }
 
 impl Phase {
-    /// Its vehicle is between two lanes, and stands in both.
+    /// Whether the vehicle is between two lanes, with an entry in both.
     #[inline]
     pub fn is_between_lanes(self) -> bool {
         matches!(self, Phase::Changes | Phase::Aborts)
     }
 }
 
-/// The warm part of a vehicle.
+/// The warm part of a vehicle: its lane-change state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LaneChangeState {
     /// Side of the desired or current change.
     pub side: Side,
     /// Kind of the desired or current change.
     pub kind: Kind,
-    /// Step at which it entered.
+    /// Step in which the vehicle entered the map.
     pub entered: u32,
-    /// Step at which the desire came, or the change began.
+    /// Step in which the desire came, or the change began.
     pub since: u32,
-    /// Metres along this chain for a metre driven: 1 but for shadows in curves.
+    /// Distance along this chain per metre driven: 1 except for shadows in curves.
     pub stretch: f32,
-    /// Share of the change's time that has passed.
+    /// Share of the duration of the change that has passed.
     pub progress: f32,
     /// Urgency of the desired change, 0…1.
     pub urgency: f32,
-    /// Where the appraisal of the desired or current change is kept.
+    /// The slot of the record of the desired or current change.
     pub record: u32,
-    /// Where it came from.
+    /// The chains that it came from.
     pub previous_lanes: PreviousLanes,
-    /// Where its other entry stands.
+    /// Its other entry.
     pub counterpart: Option<Counterpart>,
-    /// Where a driver in a wrong lane has to have left it, along the chain [m]; infinite in a right one.
+    /// Last place for a driver in a wrong lane to leave it, along the chain [m]; infinite in a right lane.
     pub last_place: f64,
-    /// A vehicle that the driver lets in: gap [m], infinite if there is none, and speed [m/s].
+    /// The vehicle that the driver lets in: gap [m], infinite if there is none, and speed [m/s].
     pub lets_in: (f32, f32),
-    /// Where its reservation through a junction is kept, if it has one.
+    /// The slot of its reservation, if it has one.
     pub(crate) reservation: u32,
 }
 
 impl LaneChangeState {
-    /// Nobody to let in.
+    /// No vehicle to let in.
     pub(crate) const NOBODY: (f32, f32) = (f32::INFINITY, 0.0);
 }
 
@@ -160,69 +160,69 @@ pub struct Counterpart {
     pub chain: ChainIndex,
     /// Its front bumper there [m].
     pub x: f64,
-    /// Its metres for a metre driven.
+    /// Distance along its chain per metre driven.
     pub stretch: f32,
 }
 
 impl Counterpart {
-    /// Where it stands.
+    /// Its position.
     pub(crate) fn at(&self) -> Position {
         Position::new(self.chain, self.x)
     }
 }
 
-/// Something that happened to a lane change.
+/// A milestone of a lane change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Milestone {
-    /// Who.
+    /// Which vehicle.
     pub(crate) id: VehicleId,
-    /// Where its record is kept.
+    /// The slot of its record.
     pub(crate) record: u32,
-    /// What.
+    /// What was reached.
     pub(crate) what: Reached,
-    /// The front bumper of its main entry.
+    /// Position of the front bumper of its main entry.
     pub(crate) at: Position,
-    /// The shadow's.
+    /// The same of its shadow.
     pub(crate) shadow: Option<Position>,
     /// Speed [m/s].
     pub(crate) speed: f64,
 }
 
-/// What a lane change has reached.
+/// What a lane change reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Reached {
-    /// The desire was given up.
+    /// The desire ended without a change.
     Nothing,
     /// The centre crossed the line.
     Crossing,
-    /// It is done.
+    /// The change is complete.
     End,
-    /// It is back where it came from.
+    /// The vehicle is back in the old lane.
     Return,
 }
 
-/// Why a change is desired.
+/// The kind of a lane change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Kind {
-    /// Between lanes that lead to the same place.
+    /// Discretionary: between lanes that lead to the same place.
     Discretionary,
-    /// For the route, or off it.
+    /// Route-driven: for the route, or away from it.
     Route,
 }
 
 /// An entry with all its parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
-    /// How it moves.
+    /// Its kinematics.
     pub(crate) motion: Kinematics,
-    /// Its driver's hot part.
+    /// The hot part of its driver.
     pub(crate) driver: DriverState,
-    /// Its driver's warm part.
+    /// The warm part of its driver.
     pub(crate) lane_change: LaneChangeState,
 }
 
-/// The vehicles of one chain in driving order: the last entry is foremost.
+/// The vehicles of one chain in driving order: the last entry is the foremost.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Lane {
     motions: Vec<Kinematics>,
@@ -231,7 +231,7 @@ pub struct Lane {
 }
 
 impl Lane {
-    /// Whether its arrays go together, and its vehicles stand in driving order.
+    /// Whether its arrays have the same length, and its vehicles are in driving order.
     pub(crate) fn is_sound(&self) -> bool {
         let Lane { motions, drivers, lane_change_states } = self;
         let is_number = |it: &Kinematics| it.x.is_finite() && it.speed.is_finite() && it.length > 0.0;
@@ -242,25 +242,25 @@ impl Lane {
             && is_in_order
     }
 
-    /// How they move.
+    /// The kinematics of the vehicles.
     #[inline]
     pub fn motions(&self) -> &[Kinematics] {
         &self.motions
     }
 
-    /// Their drivers' hot parts.
+    /// The hot parts of the drivers.
     #[inline]
     pub fn drivers(&self) -> &[DriverState] {
         &self.drivers
     }
 
-    /// Their drivers' warm parts.
+    /// The warm parts of the drivers.
     #[inline]
     pub fn lane_change_states(&self) -> &[LaneChangeState] {
         &self.lane_change_states
     }
 
-    /// Their drivers' hot parts, to change.
+    /// The hot parts of the drivers, mutable.
     #[inline]
     pub(crate) fn drivers_mut(&mut self) -> &mut [DriverState] {
         &mut self.drivers
@@ -275,7 +275,7 @@ impl Lane {
         }
     }
 
-    /// The parts of the entry at `index`, to change. The order must stay that of the positions.
+    /// The parts of the entry at `index`, mutable. The entries must stay in the order of their positions.
     #[inline]
     pub(crate) fn entry_mut(
         &mut self,
@@ -284,26 +284,26 @@ impl Lane {
         (&mut self.motions[index], &mut self.drivers[index], &mut self.lane_change_states[index])
     }
 
-    /// Number of entries that there is room for.
+    /// Number of entries for which memory is allocated.
     #[inline]
     pub(crate) fn capacity(&self) -> usize {
         self.drivers.capacity()
     }
 
-    /// Asks for the memory of the hot part of the driver at `index`.
+    /// Prefetches the hot part of the driver at `index`.
     #[inline]
     pub(crate) fn prefetch_car(&self, index: u32) {
         prefetch(&self.drivers[index as usize]);
     }
 
-    /// Asks for the memory of both parts of the driver at `index`.
+    /// Prefetches both parts of the driver at `index`.
     #[inline]
     pub(crate) fn prefetch_driver(&self, index: u32) {
         prefetch(&self.drivers[index as usize]);
         prefetch(&self.lane_change_states[index as usize]);
     }
 
-    /// Asks for the memory of the entry at `index`, if there is one.
+    /// Prefetches the entry at `index`, if there is one.
     #[inline]
     pub(crate) fn prefetch(&self, index: usize) {
         if let (Some(motion), Some(driver)) = (self.motions.get(index), self.drivers.get(index)) {
@@ -312,21 +312,21 @@ impl Lane {
         }
     }
 
-    /// All move: `next` becomes how they move, and is given what it was.
+    /// Moves all vehicles: `next` becomes their kinematics, and receives the old ones. Panics if the lengths differ.
     #[inline]
     pub(crate) fn swap_motions(&mut self, next: &mut Vec<Kinematics>) {
         assert_eq!(self.motions.len(), next.len(), "every entry moves once");
         std::mem::swap(&mut self.motions, next);
     }
 
-    /// Number of entries that are not beyond `x`: the index of the first one ahead.
+    /// Number of entries up to `x`, which is the index of the first entry ahead.
     #[inline]
     pub fn ahead_of(&self, x: f64) -> usize {
         self.motions.partition_point(|it| it.x <= x)
     }
 
-    /// The same, sought from the index `hint` on: drivers who look across one after the other are near each other, and
-    /// a walk over neighbours meets no cold memory as a bisection does.
+    /// The same, searched from the index `hint` on. Drivers who look at this lane one after the other are near each
+    /// other. So the search stays among neighbours, where a bisection would read cold memory.
     #[inline]
     pub(crate) fn ahead_of_near(&self, x: f64, hint: usize) -> usize {
         let mut index = hint.min(self.motions.len());
@@ -339,22 +339,22 @@ impl Lane {
         index
     }
 
-    /// Index of the entry of vehicle `id`, which stood at `x` at most one step ago.
+    /// Index of the entry of vehicle `id`, which was at `x` at most one step ago.
     pub fn find(&self, id: VehicleId, x: f64) -> Option<usize> {
         /// No vehicle moves further in a step of at most one second [m].
         const STEP: f64 = 100.0;
-        /// Rounding [m].
+        /// Tolerance for rounding [m].
         const NEAR: f64 = 0.01;
         let from = self.motions.partition_point(|it| it.x < x - NEAR);
         let within = self.motions[from..].iter().take_while(|it| it.x <= x + STEP);
         within.zip(from..).find(|(it, _)| it.id == id).map(|(_, index)| index)
     }
 
-    /// Adds an entry at its place.
+    /// Inserts an entry in driving order.
     pub(crate) fn insert(&mut self, entry: Entry) {
         let index = self.ahead_of(entry.motion.x);
         if self.drivers.len() == self.drivers.capacity() {
-            // Doubling would leave a third of the memory of much traffic unused.
+            // If the capacity doubled, a third of the memory of much traffic would be unused.
             let more = 4 + self.drivers.len() / 32;
             self.drivers.reserve_exact(more);
             self.lane_change_states.reserve_exact(more);
@@ -367,7 +367,7 @@ impl Lane {
         self.lane_change_states.insert(index, entry.lane_change);
     }
 
-    /// Takes an entry out.
+    /// Removes an entry, and returns it.
     pub(crate) fn remove(&mut self, index: usize) -> Entry {
         Entry {
             motion: self.motions.remove(index),
@@ -376,7 +376,7 @@ impl Lane {
         }
     }
 
-    /// Takes out the shadows of changes that are over.
+    /// Removes the shadows of changes that have ended.
     pub(crate) fn remove_ended(&mut self) {
         let mut index = 0;
         while index < self.drivers.len() {
@@ -388,7 +388,7 @@ impl Lane {
         }
     }
 
-    /// Takes the foremost entry out if it is beyond `end`.
+    /// Removes the foremost entry if it is beyond `end`, and returns it.
     pub(crate) fn pop_beyond(&mut self, end: f64) -> Option<Entry> {
         self.motions.last().filter(|it| it.x > end)?;
         Some(self.remove(self.motions.len() - 1))

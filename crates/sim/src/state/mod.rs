@@ -1,4 +1,4 @@
-//! What there is: vehicles, lanes, time and chance, as plain data.
+//! The state as plain data: vehicles, lanes, time and random numbers.
 
 pub(crate) mod busy;
 pub(crate) mod clock;

@@ -1,11 +1,11 @@
-//! The moment at which drivers decide.
+//! The instant at which drivers decide.
 
 use laneweave_network::Side;
 
 use crate::state::clock::Clock;
 use crate::state::random::Random;
 
-/// What deciding needs beside the scene.
+/// What decisions need besides the scene.
 #[derive(Clone, Copy)]
 pub(crate) struct Moment {
     pub(crate) clock: Clock,

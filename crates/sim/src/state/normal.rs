@@ -1,7 +1,7 @@
 //! The inverse of the normal distribution function.
 //!
-//! Wichura (1988), Algorithm AS 241: The percentage points of the normal distribution, Applied Statistics 37,
-//! 477–484, its variant of sixteen digits.
+//! Wichura (1988), Algorithm AS 241: The percentage points of the normal distribution, Applied Statistics 37, 477–484,
+//! its variant with sixteen digits.
 
 /// Half the width of the middle, where the first ratio holds.
 const MIDDLE: f64 = 0.425;

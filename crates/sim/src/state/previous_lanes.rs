@@ -1,4 +1,4 @@
-//! Where a vehicle came from: over short chains its rear is still on an earlier one.
+//! Previous lanes: on short chains, the rear of a vehicle is still on an earlier chain.
 
 use laneweave_network::{ChainIndex, Network};
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ pub struct PreviousLanes {
 impl PreviousLanes {
     const UNKNOWN: u32 = u32::MAX;
 
-    /// Of a vehicle that has just appeared.
+    /// The previous lanes of a vehicle that has just appeared.
     pub const NONE: PreviousLanes =
         PreviousLanes { last: PreviousLanes::UNKNOWN, before: PreviousLanes::UNKNOWN };
 
@@ -22,18 +22,18 @@ impl PreviousLanes {
         PreviousLanes { last: chain.0, before: self.last }
     }
 
-    /// The chain before the one that the vehicle is on.
+    /// The chain before the present one.
     #[inline]
     pub fn last(self) -> Option<ChainIndex> {
         (self.last != PreviousLanes::UNKNOWN).then_some(ChainIndex(self.last))
     }
 
-    /// The chains that it is known to have come over, the latest first.
+    /// The known chains that it came over, the latest first.
     pub fn known(self) -> impl Iterator<Item = ChainIndex> {
         [self.last, self.before].into_iter().take_while(|it| *it != PreviousLanes::UNKNOWN).map(ChainIndex)
     }
 
-    /// The chains before `chain`, the nearest first: those that are known, then those that there is no choice of.
+    /// The chains before `chain`, the nearest first: the known ones, then each chain that is the only previous one.
     pub(crate) fn back(self, network: &Network, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> + '_ {
         let mut known = [self.last, self.before].into_iter();
         std::iter::successors(Some(chain), move |here| match known.next() {

@@ -1,8 +1,8 @@
-//! Counter-based random numbers: a draw depends on (seed, subject, purpose, count), never on what was drawn before.
+//! Counter-based random numbers: a number depends on (seed, subject, purpose, count), never on earlier numbers.
 //!
 //! Philox 4×32 with ten rounds (Salmon, Moraes, Dror, Shaw, 2011).
 
-/// What a draw is for; draws for different purposes are independent.
+/// The purpose of a random number. Numbers for different purposes are independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Purpose {
@@ -14,25 +14,25 @@ pub enum Purpose {
     Class,
     /// Style of a driver.
     Style,
-    /// Character of a driver within its style.
+    /// Driver parameters of a driver within its style.
     Character,
-    /// Where a driver goes.
+    /// Destination of a driver.
     Destination,
     /// A parameter of a driver.
     Parameter,
     /// Whether a driver is concentrated.
     Attention,
-    /// What a driver believes of travel times.
+    /// A driver's belief about travel times.
     Belief,
     /// Whether a driver keeps its route out of habit.
     Habit,
-    /// Whether a driver minds new travel times.
+    /// Whether a driver considers new travel times.
     Compliance,
     /// Whether a driver leaves its route.
     Route,
 }
 
-/// Source of all draws of a run.
+/// The source of all random numbers of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Random {
     seed: u64,
@@ -44,7 +44,7 @@ impl Random {
         Random { seed }
     }
 
-    /// A number uniform in the open interval (0, 1), number `count` of `subject` for `purpose`.
+    /// A uniform number in the open interval (0, 1): number `count` of `subject` for `purpose`.
     #[inline]
     pub fn uniform(&self, subject: u32, purpose: Purpose, count: u32) -> f64 {
         const STEP: f64 = 1.0 / (1u64 << 53) as f64;

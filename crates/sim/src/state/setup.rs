@@ -1,25 +1,25 @@
-//! How a world is to run, and what is put into it.
+//! The setup of a world, and new vehicles.
 
 use laneweave_network::ChainIndex;
 
 use crate::state::goal::Destination;
 use crate::state::vehicle::Class;
 
-/// How a world is to run.
+/// The setup of a world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setup {
     /// Length of a step [s].
     pub step: f64,
-    /// Seed of all draws.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Number of threads.
     pub threads: usize,
 }
 
-/// A vehicle as it is put on the road.
+/// A vehicle that is put on the road.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewVehicle {
-    /// The chain.
+    /// Its chain.
     pub chain: ChainIndex,
     /// Front bumper along it [m].
     pub x: f64,
@@ -27,8 +27,8 @@ pub struct NewVehicle {
     pub speed: f64,
     /// Class.
     pub class: Class,
-    /// Its driver's place in the table of driver parameters.
+    /// Index of its driver in the table of driver parameters.
     pub parameters: u32,
-    /// Where it goes.
+    /// Its destination.
     pub destination: Destination,
 }

@@ -1,8 +1,8 @@
-//! When a vehicle counts as standing, and how far it keeps from where it has to stop.
+//! Limits of standstill, and the distance to a place where a driver stops.
 
-/// Standstill below this speed [m/s].
+/// A vehicle below this speed is at standstill [m/s].
 pub(crate) const STANDSTILL: f64 = 0.1;
-/// Slower than this [m/s] a vehicle stands before a junction (ours).
+/// A vehicle below this speed stands before a junction [m/s] (ours).
 pub(crate) const STANDS: f64 = 0.3;
-/// Road that a driver keeps before a place where it stops at a junction [m].
+/// Distance that a driver keeps from a place where it stops at a junction [m].
 pub(crate) const ROOM_AT_A_STOP: f64 = 0.7;

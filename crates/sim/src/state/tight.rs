@@ -1,6 +1,6 @@
-//! Lists that are kept from step to step, and grow by little.
+//! Lists that exist from step to step, and grow by small amounts.
 
-/// Adds to a list that is kept from step to step: doubling would leave much of its memory unused.
+/// Adds to a list that exists from step to step. If the capacity doubled, much of the memory would be unused.
 #[inline]
 pub(crate) fn push_tight<T>(list: &mut Vec<T>, item: T) {
     if list.len() == list.capacity() {

@@ -1,4 +1,4 @@
-//! All that is on the road at an instant.
+//! All vehicles on the road at one instant.
 
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Entry, Lane, LaneChangeState};
 
-/// The vehicles, and the instant.
+/// The vehicles and the clock.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Traffic {
     clock: Clock,
@@ -19,7 +19,7 @@ pub(crate) struct Traffic {
     crowd: usize,
 }
 
-/// What it takes to move all vehicles.
+/// What is needed to move all vehicles.
 pub(crate) struct Moving<'a> {
     pub(crate) clock: Clock,
     pub(crate) lanes: &'a mut [Lane],
@@ -28,7 +28,7 @@ pub(crate) struct Moving<'a> {
 }
 
 impl Traffic {
-    /// Nobody on so many chains, with steps of this length [s].
+    /// Empty lanes for this many chains, with steps of length `step` [s].
     pub(crate) fn new(chains: usize, step: f64) -> Traffic {
         Traffic {
             clock: Clock { step: 0, dt: step },
@@ -38,13 +38,13 @@ impl Traffic {
         }
     }
 
-    /// The instant.
+    /// The clock.
     #[inline]
     pub(crate) fn clock(&self) -> Clock {
         self.clock
     }
 
-    /// A step is over.
+    /// Ends a step.
     pub(crate) fn tick(&mut self) {
         self.clock.step += 1;
     }
@@ -66,7 +66,7 @@ impl Traffic {
         &self.lanes[chain.at()]
     }
 
-    /// The same, to change. Vehicles come onto it by [`Traffic::insert`] only.
+    /// The same lane, mutable. Vehicles come onto it only by [`Traffic::insert`].
     #[inline]
     pub(crate) fn lane_mut(&mut self, chain: ChainIndex) -> &mut Lane {
         &mut self.lanes[chain.at()]
@@ -78,29 +78,29 @@ impl Traffic {
         self.lanes[chain.at()].insert(entry);
     }
 
-    /// A new vehicle comes onto the lane of `chain`.
+    /// Adds a new vehicle to the lane of `chain`.
     pub(crate) fn enter(&mut self, chain: ChainIndex, entry: Entry) {
         self.insert(chain, entry);
         self.crowd += 1;
     }
 
-    /// A vehicle has left the road.
+    /// Counts a vehicle that left the road.
     pub(crate) fn leave(&mut self) {
         self.crowd -= 1;
     }
 
-    /// There was nobody to be moved on `chain`.
+    /// Notes that `chain` had no vehicle to move.
     pub(crate) fn forget(&mut self, chain: ChainIndex) {
         self.busy.forget(chain);
     }
 
-    /// What it takes to move all vehicles.
+    /// What is needed to move all vehicles.
     pub(crate) fn moving(&mut self) -> Moving<'_> {
         let Traffic { clock, lanes, busy, crowd: _ } = self;
         Moving { clock: *clock, lanes, chosen: busy.chosen() }
     }
 
-    /// Whether it can be on so many chains, for so many drivers, and for ways that are known.
+    /// Whether it fits this many chains and sets of driver parameters, and names known destinations only.
     pub(crate) fn fits(
         &self,
         chains: usize,

@@ -20,7 +20,7 @@ pub enum Class {
     Motorcycle,
 }
 
-/// Shares of the classes; all that are none of these are cars.
+/// Shares of the classes; the remaining vehicles are cars.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fleet {
     /// Share of trucks.
@@ -32,14 +32,14 @@ pub struct Fleet {
 }
 
 impl Fleet {
-    /// Cars, and a share of trucks.
+    /// A fleet of cars with a share of trucks.
     pub fn with_trucks(trucks: f64) -> Fleet {
         Fleet { trucks, ..Fleet::default() }
     }
 
     /// Each class with its share.
     pub fn shares(&self) -> [(Class, f64); 4] {
-        /// Shares that add up to so little more than 1 do so by rounding.
+        /// A sum of shares that exceeds 1 by no more than this does so by rounding.
         const ROUNDING: f64 = 1e-9;
         let Fleet { trucks, buses, motorcycles } = *self;
         let cars = 1.0 - (trucks + buses + motorcycles);
@@ -48,7 +48,7 @@ impl Fleet {
         [(Class::Car, cars), others[0], others[1], others[2]]
     }
 
-    /// The class that a uniform number stands for.
+    /// The class for a uniform random number.
     pub(crate) fn class(&self, uniform: f64) -> Class {
         let mut at = uniform;
         let others = &self.shares()[1..];
@@ -60,7 +60,7 @@ impl Fleet {
     }
 }
 
-/// What a class of vehicles has in common; the numbers are ours, of usual European vehicles.
+/// What the vehicles of a class have in common. The numbers are ours, for usual European vehicles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// Its name in tables.
@@ -69,9 +69,9 @@ pub struct Body {
     pub length: f64,
     /// Width [m].
     pub width: f64,
-    /// Hardest acceleration [m/s²].
+    /// Maximum acceleration [m/s²].
     pub strength: f64,
-    /// Speed that its drivers take for the limit where the road allows more [m/s].
+    /// Maximum speed of the class: its drivers treat it as the limit where the road allows more [m/s].
     pub top_speed: f64,
 }
 
@@ -79,7 +79,7 @@ impl Class {
     /// All of them, in their order.
     pub const ALL: [Class; 4] = [Class::Car, Class::Truck, Class::Bus, Class::Motorcycle];
 
-    /// What its vehicles have in common.
+    /// What the vehicles of this class have in common.
     #[inline]
     pub fn body(self) -> &'static Body {
         match self {
@@ -98,19 +98,19 @@ impl Class {
         }
     }
 
-    /// Its vehicles are long: they keep to the slow side, and avoid tight turns.
+    /// Whether its vehicles are long: they keep to the slow side, and avoid tight turns.
     #[inline]
     pub fn is_long(self) -> bool {
         matches!(self, Class::Truck | Class::Bus)
     }
 
-    /// Hardest acceleration [m/s²].
+    /// Maximum acceleration [m/s²].
     #[inline]
     pub fn strength(self) -> f64 {
         self.body().strength
     }
 
-    /// Speed [m/s] that a driver of `style` desires under `limit` [m/s].
+    /// Desired speed [m/s] of a driver of `style` under the limit `limit` [m/s].
     #[inline]
     pub fn desired_speed(self, style: &Style, limit: f64) -> f64 {
         limit.min(self.body().top_speed) * style.speed_factor

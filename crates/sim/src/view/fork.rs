@@ -1,4 +1,4 @@
-//! Forks: who went from one chain to another and has not parted yet from those who go elsewhere.
+//! Forks: near a fork, a vehicle that takes another branch may still be in the way.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::ChainIndex;
@@ -8,26 +8,27 @@ use crate::state::vehicle::LONGEST;
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer, nearest};
 
 impl<'a> Scene<'a> {
-    /// The nearer of who is ahead on one's way, and who forked off to another chain before and is still in the way.
+    /// The nearer of the leader on the own route and a vehicle on another branch of the fork behind that is still in
+    /// the way.
     #[inline(never)]
     pub(crate) fn nearest_in_fork(&self, from: Viewpoint, on_way: Option<Ahead>) -> Option<Ahead> {
         let beside = self.beside_in_fork(from);
         nearer(on_way, beside.map(|(spot, rear)| self.rear_ahead(spot, rear - from.x)))
     }
 
-    /// The nearest vehicle ahead that forked off to another chain before and is still in the way, and where its rear
-    /// bumper is from the fork on [m].
+    /// The nearest vehicle ahead on another branch of the fork behind that is still in the way, and the distance of its
+    /// rear bumper from the fork [m].
     pub(crate) fn beside_in_fork(&self, from: Viewpoint) -> Option<(Spot, f64)> {
         let siblings = self.siblings(from.chain);
         nearest(siblings.filter_map(|(back, it)| self.last_in_fork(back, it, from.id, from.x)))
     }
 
-    /// The vehicle at `spot`, whose rear bumper is `gap` ahead [m].
+    /// The vehicle at `spot` as a leader, with its rear bumper `gap` ahead [m].
     pub(crate) fn rear_ahead(&self, spot: Spot, gap: f64) -> Ahead {
         self.motion(spot).ahead(gap)
     }
 
-    /// The chains that fork off together with `chain`, each with the one before the fork.
+    /// The other branches of the forks that lead to `chain`, each with the chain before the fork.
     fn siblings(&self, chain: ChainIndex) -> impl Iterator<Item = (ChainIndex, ChainIndex)> + 'a {
         let network = self.network;
         network.chain(chain).previous.iter().flat_map(move |back| {
@@ -36,8 +37,8 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The last vehicle beyond `x` that went from `back` to `sibling` and has not parted from the others yet, and where
-    /// its rear bumper is from the fork on [m].
+    /// The last vehicle beyond `x` that went from `back` to `sibling` and is still in the way of the other branches,
+    /// and the distance of its rear bumper from the fork [m].
     #[inline]
     fn last_in_fork(
         &self,
@@ -64,8 +65,8 @@ impl<'a> Scene<'a> {
         nearest(own.into_iter().chain(hanging))
     }
 
-    /// The last vehicle that forked off from `chain` to another one than `next` and is still in the way, and where its
-    /// rear bumper is from the fork on [m].
+    /// The last vehicle that went from `chain` to another branch than `next` and is still in the way, and the distance
+    /// of its rear bumper from the fork [m].
     pub(crate) fn beyond_the_fork(
         &self,
         chain: ChainIndex,
@@ -80,15 +81,15 @@ impl<'a> Scene<'a> {
         nearest(siblings.filter_map(|it| self.last_in_fork(chain, *it, id, f64::NEG_INFINITY)))
     }
 
-    /// Rear bumper of a vehicle that forked off from `chain` to another one than `next`, is still in the way, and has
-    /// no reservation out of it, from the fork on [m].
+    /// Distance of the rear bumper from the fork of a vehicle that went from `chain` to another branch than `next`, is
+    /// still in the way, and has no reservation that leads it out of the way [m].
     #[inline]
     pub(crate) fn waits_in_fork(&self, chain: ChainIndex, next: ChainIndex, id: VehicleId) -> Option<f64> {
         let siblings = self.network.chain(chain).following.iter().filter(|it| **it != next);
         siblings.filter_map(|it| self.waits_on(chain, *it, id, f64::NEG_INFINITY)).reduce(f64::min)
     }
 
-    /// The same for who is within the fork itself.
+    /// The same for a vehicle that is within the fork itself.
     #[inline]
     pub(crate) fn waits_beside_in_fork(&self, from: Viewpoint) -> Option<f64> {
         let chain = self.network.chain(from.chain);
@@ -100,8 +101,8 @@ impl<'a> Scene<'a> {
             .reduce(f64::min)
     }
 
-    /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling`, if it is in the way of those
-    /// who forked off, and no reservation leads it out of it [m].
+    /// Rear bumper of the first vehicle beyond `x` that came from `back` onto `sibling` [m], if it is in the way of the
+    /// other branches, and no reservation leads it out of the way.
     fn waits_on(&self, back: ChainIndex, sibling: ChainIndex, id: VehicleId, x: f64) -> Option<f64> {
         let lane = &self.lanes[sibling.at()];
         let mut came = lane.motions().iter().zip(lane.lane_change_states());

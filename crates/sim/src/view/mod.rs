@@ -1,4 +1,4 @@
-//! One instant as it is seen: who is where, and who is next to whom.
+//! One instant as drivers see it: where vehicles are, and which ones are next to each other.
 
 pub(crate) mod fork;
 pub(crate) mod pose;

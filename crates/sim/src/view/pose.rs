@@ -1,4 +1,4 @@
-//! Where a vehicle's body is. Computed when somebody asks.
+//! The pose of a vehicle's body. It is computed only when needed.
 
 use laneweave_models::Manner;
 use laneweave_models::lateral::Crossing;
@@ -8,19 +8,19 @@ use crate::state::lane::{Entry, Kinematics, LaneChangeState};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::view::scene::{Scene, Spot};
 
-/// Pose of the centre of the vehicle whose main entry is `spot`.
+/// Pose of the centre of the vehicle with the main entry `spot`.
 pub(crate) fn pose(scene: &Scene, spot: Spot) -> Pose {
     between(bumpers(scene, spot))
 }
 
-/// Pose of the centre of a vehicle between the middles of its front and its rear bumper.
+/// Pose of the centre of a vehicle, from the middles of its front and rear bumpers.
 pub fn between([front, rear]: [Point; 2]) -> Pose {
     Pose { at: rear.towards(&front, 0.5), heading: (front.y - rear.y).atan2(front.x - rear.x) }
 }
 
-/// The middles of the front and the rear bumper of the vehicle whose main entry is `spot`.
+/// The middles of the front and rear bumpers of the vehicle with the main entry `spot`.
 ///
-/// In a lane change both lie on the path: the rear bumper follows the front one, so that a long vehicle does not swing
+/// In a lane change both lie on the path. The rear bumper follows the front one, so that a long vehicle does not swing
 /// out.
 pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let (network, entry) = (scene.network, scene.lanes[spot.chain.at()].entry(spot.index));
@@ -48,8 +48,8 @@ pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     }
 }
 
-/// The middles of the front and the rear bumper of a vehicle that moves on `chain` and keeps its lane, and came there
-/// over `previous lanes`.
+/// The middles of the front and rear bumpers of a vehicle that keeps its lane on `chain`, and came there over
+/// `previous_lanes`.
 pub fn bumpers_in_lane(
     network: &Network,
     chain: ChainIndex,
@@ -59,8 +59,8 @@ pub fn bumpers_in_lane(
     [motion.x, motion.rear()].map(|it| on_path(network, chain, previous_lanes, it, 0.0))
 }
 
-/// The vehicle's length along the lane that its main entry is in, and along the other, where it drives `stretch` metres
-/// for one [m]: true in the old lane when the change begins, and in the new one when it ends.
+/// The vehicle's length along the lane of its main entry, and along the other lane, where it drives `stretch` metres
+/// per metre [m]. It is the true length in the old lane when the change begins, and in the new lane when it ends.
 fn lengths(motion: &Kinematics, progress: f32, stretch: f32) -> [f64; 2] {
     let (length, progress, stretch) = (f64::from(motion.length), f64::from(progress), f64::from(stretch));
     let is_across = progress >= 0.5;
@@ -68,21 +68,21 @@ fn lengths(motion: &Kinematics, progress: f32, stretch: f32) -> [f64; 2] {
     [length * (here + (1.0 - here) / stretch), length * (here * stretch + (1.0 - here))]
 }
 
-/// How far the vehicle's centre is to the left of the centre of its lane [m].
+/// Offset of the vehicle's centre to the left of the centre of its lane [m].
 pub(crate) fn lateral_offset(scene: &Scene, spot: Spot) -> f64 {
     let entry = scene.lanes[spot.chain.at()].entry(spot.index);
     let [front, rear] = offsets(scene, spot.chain, &entry);
     0.5 * (front + rear)
 }
 
-/// Offsets of the front and the rear bumper to the left [m].
+/// Offsets of the front and rear bumpers to the left [m].
 fn offsets(scene: &Scene, chain: ChainIndex, entry: &Entry) -> [f64; 2] {
     let has_crossed = entry.lane_change.progress >= 0.5;
     let spacing = entry.lane_change.side.sign() * lane_spacing(scene, chain, entry);
     shares(scene, entry).map(|share| if has_crossed { -spacing * share } else { spacing * share })
 }
 
-/// Shares of the way to its other lane that the front and the rear bumper are away from the lane in which it is.
+/// Offsets of the front and rear bumpers from the lane of the main entry, as shares of the distance to the other lane.
 fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
     let Entry { motion, driver, lane_change } = entry;
     let progress = f64::from(lane_change.progress).clamp(0.0, 1.0);
@@ -94,7 +94,7 @@ fn shares(scene: &Scene, entry: &Entry) -> [f64; 2] {
     if lane_change.progress < 0.5 { moved } else { moved.map(|it| 1.0 - it) }
 }
 
-/// The vehicle in its lane change, as the lateral model sees it.
+/// The vehicle in its lane change, as plain data for the lateral model.
 #[inline]
 pub(crate) fn crossing(manner: &Manner, motion: &Kinematics, lane_change: &LaneChangeState) -> Crossing {
     let duration = manner.duration(f64::from(lane_change.urgency));
@@ -116,7 +116,7 @@ fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
     }
 }
 
-/// The point at `x` along the path that came over `previous lanes` onto `chain`, `offset` to the left [m].
+/// The point at `x` along the path over `previous_lanes` onto `chain`, `offset` to the left [m].
 fn on_path(
     network: &Network,
     chain: ChainIndex,
@@ -153,7 +153,7 @@ mod tests {
             assert_eq!(lengths(&motion, 0.0, stretch)[0], 12.0, "true in the old lane when it begins");
             assert_eq!(lengths(&motion, 1.0, 1.0 / stretch)[0], 12.0, "true in the new one when it ends");
             let [old, new] = lengths(&motion, 0.499_999, stretch);
-            // Its main entry is in the other lane now.
+            // Its main entry is now in the other lane.
             let [new_after, old_after] = lengths(&motion, 0.5, 1.0 / stretch);
             assert!((old - old_after).abs() < 1e-4 && (new - new_after).abs() < 1e-4, "{stretch}");
         }

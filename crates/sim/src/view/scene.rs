@@ -1,4 +1,4 @@
-//! One instant of traffic, simulated or recorded: who is ahead and behind, on any lane, across the ends of chains.
+//! One instant of traffic, simulated or recorded: leaders and followers on any lane, across the ends of chains.
 
 use laneweave_models::Style;
 use laneweave_models::change::SIGHT;
@@ -20,13 +20,13 @@ use crate::state::traffic::Traffic;
 pub struct Scene<'a> {
     /// The roads.
     pub network: &'a Network,
-    /// The ways on them.
+    /// The routes on them.
     pub navigator: &'a Navigator,
     /// The vehicles, by chain.
     pub lanes: &'a [Lane],
     /// The driver parameters.
     pub driver_parameters: &'a [Style],
-    /// Who may pass the junctions.
+    /// The reservations at junctions.
     pub reservations: &'a Reservations,
     /// What the lights show.
     pub signals: &'a Signals,
@@ -41,7 +41,7 @@ pub struct Spot {
     pub index: usize,
 }
 
-/// Where one looks from: a front bumper on a chain, and whose.
+/// A viewpoint: a front bumper on a chain, and its vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     /// The chain.
@@ -50,24 +50,24 @@ pub struct Viewpoint {
     pub x: f64,
     /// Index of the first entry ahead.
     pub ahead: usize,
-    /// The one who looks; its own entries are not seen.
+    /// The vehicle that looks. It does not see its own entries.
     pub id: VehicleId,
-    /// Where it goes.
+    /// Its destination.
     pub destination: Destination,
     /// Its vehicle is long.
     pub is_long: bool,
 }
 
-/// A vehicle that was found, and how far its front bumper is ahead of, or behind, one's own [m].
+/// A vehicle that was found, and its distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
-    /// Where it stands.
+    /// Its entry.
     pub spot: Spot,
-    /// Distance between the front bumpers [m], positive.
+    /// Distance between its front bumper and the own one [m], positive.
     pub distance: f64,
 }
 
-/// How far back a follower is looked for [m].
+/// Range of the search for a follower [m].
 pub(crate) const REAR_SIGHT: f64 = 250.0;
 
 impl<'a> Scene<'a> {
@@ -119,8 +119,8 @@ impl<'a> Scene<'a> {
         self.signals.shown(light)
     }
 
-    /// Whether the vehicle at `spot` has a reservation that leads further than `distance` [m]: nobody may come before
-    /// it there.
+    /// Whether the vehicle at `spot` has a reservation that leads further than `distance` [m]. No other vehicle may go
+    /// before it there.
     pub(crate) fn has_reservation(&self, spot: Spot, distance: f64) -> bool {
         self.reservation(spot).is_some_and(|it| it.left() > distance)
     }
@@ -128,12 +128,13 @@ impl<'a> Scene<'a> {
     /// The reservation of the vehicle at `spot`.
     #[inline]
     pub(crate) fn reservation(&self, spot: Spot) -> Option<&'a Reservation> {
-        // A driver with one needs a full update: the mind of others is not worth a look into cold memory.
+        // A driver with a reservation needs a full update. For other drivers, a read of the cold lane-change state is
+        // avoided.
         let lane_change = self.driver(spot).needs_full_update.then(|| self.lane_change(spot))?;
         self.reservations.of(lane_change.reservation, self.motion(spot).id)
     }
 
-    /// How the entry at `spot` moves.
+    /// The kinematics of the entry at `spot`.
     #[inline]
     pub fn motion(&self, spot: Spot) -> &'a Kinematics {
         &self.motions(spot.chain)[spot.index]
@@ -160,19 +161,19 @@ impl<'a> Scene<'a> {
         Viewpoint { chain: spot.chain, x, ahead: spot.index + 1, id, destination, is_long }
     }
 
-    /// What who looks `from` would see from `x` on another chain.
+    /// The viewpoint of the same vehicle at `x` on another chain.
     #[inline]
     pub fn viewpoint_at(&self, from: Viewpoint, chain: ChainIndex, x: f64) -> Viewpoint {
         Viewpoint { chain, x, ahead: self.lanes[chain.at()].ahead_of(x), ..from }
     }
 
-    /// The chain on which a driver goes on.
+    /// The chain after `chain` on the route to `destination`.
     #[inline]
     pub fn next(&self, destination: Destination, chain: ChainIndex) -> Option<ChainIndex> {
         self.navigator.next(self.network, destination, chain)
     }
 
-    /// The walk along the route of who looks `from`, from its own chain on.
+    /// The walk along the route of the vehicle at `from`, from its own chain on.
     #[inline]
     pub(crate) fn walk(&self, from: Viewpoint) -> Walk<'a> {
         self.navigator.walk(self.network, from.destination, from.chain, -from.x)
@@ -190,7 +191,7 @@ impl<'a> Scene<'a> {
         if is_in_fork { self.nearest_in_fork(from, on_way) } else { on_way }
     }
 
-    /// The next vehicle on one's way within sight, or beside it in a fork, wherever it comes from.
+    /// The next vehicle on the route within sight, or beside it in a fork, wherever it comes from.
     pub(crate) fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
         self.walk(from).within(SIGHT).find_map(|Leg { chain, before, .. }| {
             let (first, beside) = match before {
@@ -223,8 +224,8 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Distance to the vehicle `it`, `base` before the start of the chain that it is on [m]. Whose rear is still on
-    /// another way into that chain is in the way from where the ways meet on.
+    /// Gap to the vehicle `it`, whose chain starts `base` ahead [m]. If its rear is still on another route into that
+    /// chain, it is in the way only from the merge on.
     fn gap_to(&self, chain: ChainIndex, base: f64, it: &Kinematics, lane_change: &LaneChangeState) -> f64 {
         let gap = base + it.rear();
         if it.rear() >= 0.0 {
@@ -265,14 +266,14 @@ impl<'a> Scene<'a> {
         None
     }
 
-    /// Who is behind the vehicle that was found behind another, `id`, and how far it is behind that one.
+    /// The follower of the vehicle that was `found` behind the vehicle `id`, with its distance from that vehicle.
     pub(crate) fn next_behind(&self, found: Found, id: VehicleId) -> Option<Found> {
         let from = self.viewpoint(found.spot);
         let next = self.follower(Viewpoint { ahead: found.spot.index, id, ..from })?;
         Some(Found { distance: found.distance + next.distance, ..next })
     }
 
-    /// The foremost vehicle that comes from a previous chain onto `chain`, and the chain to look on from.
+    /// The foremost vehicle that comes from a previous chain onto `chain`, and the chain to continue from.
     fn last_on_previous(
         &self,
         chain: ChainIndex,
@@ -302,13 +303,13 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The one whose rear bumper is nearest; of those that are as near the first.
+/// The entry whose rear bumper is nearest; of equal ones the first.
 #[inline]
 pub(crate) fn nearest(rears: impl Iterator<Item = (Spot, f64)>) -> Option<(Spot, f64)> {
     rears.reduce(|nearest, it| if it.1 < nearest.1 { it } else { nearest })
 }
 
-/// The nearer of two.
+/// The nearer of two leaders.
 pub(crate) fn nearer(one: Option<Ahead>, other: Option<Ahead>) -> Option<Ahead> {
     match (one, other) {
         (Some(one), Some(other)) => Some(if other.gap < one.gap { other } else { one }),

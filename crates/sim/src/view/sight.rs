@@ -1,4 +1,4 @@
-//! What one sees along a lane.
+//! What a driver sees along a lane.
 
 use laneweave_models::change::{Flow, anticipated_speed};
 use laneweave_models::follow::Ahead;
@@ -8,12 +8,12 @@ use crate::route::walk::Leg;
 use crate::state::lane::{Kinematics, VehicleId};
 use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
 
-/// T_h window ahead [m].
+/// T_h: length of the window ahead [m].
 const WINDOW_AHEAD: f64 = 200.0;
-/// T_h window back [m].
+/// T_h: length of the window behind [m].
 const WINDOW_BACK: f64 = 100.0;
 
-/// What one sees along a lane.
+/// What a driver sees along a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneSight {
     /// The leader, or the end of the lane.
@@ -44,7 +44,7 @@ impl Window {
         self.lengths += f64::from(other.length);
     }
 
-    /// Means over a window of `extent` [m]; an empty one looks like a road on which one drives as one likes.
+    /// Means over a window of `extent` [m]. An empty window looks like a free road with the desired speed.
     fn flow(&self, extent: f64, desired: f64, own_length: f64) -> Flow {
         if self.count == 0.0 {
             return Flow { spacing: extent, speed: desired, length: own_length };
@@ -58,7 +58,7 @@ impl Window {
 }
 
 impl Scene<'_> {
-    /// All that a driver who wants `desired` [m/s] and sees `sight` [m] ahead sees along the lane it looks at.
+    /// What a driver sees along a lane. It desires the speed `desired` [m/s] and sees `sight` [m] ahead.
     pub fn look(&self, from: Viewpoint, desired: f64, own_length: f64, sight: f64) -> LaneSight {
         let mut view = View {
             sight,
@@ -75,7 +75,7 @@ impl Scene<'_> {
         LaneSight { ahead: leader_ahead, leader, follower, anticipated_speed, flow }
     }
 
-    /// Looks at what is ahead; returns the window's extent [m].
+    /// Looks ahead; returns the window's extent [m].
     #[inline]
     fn look_ahead(&self, from: Viewpoint, desired: f64, view: &mut View) -> f64 {
         let window_ahead = view.window_ahead;
@@ -103,8 +103,8 @@ impl Scene<'_> {
         end.clamp(1.0, window_ahead)
     }
 
-    /// The first line ahead at which a light stops drivers counts as a standing leader. The `stops` are those of a
-    /// chain whose start is `base` ahead [m].
+    /// Counts the first line ahead with a red light as a standing leader, for the anticipated speed. The `stops` are
+    /// those of a chain that starts `base` ahead [m].
     #[inline(never)]
     fn stop_at_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
         let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
@@ -115,7 +115,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Looks at what is behind; returns the follower and the window's extent [m].
+    /// Looks back; returns the follower and the window's extent [m].
     #[inline]
     fn look_back(&self, from: Viewpoint, window: &mut Window) -> (Option<Found>, f64) {
         let motions = &self.motions(from.chain)[..from.ahead];
@@ -142,7 +142,7 @@ impl Scene<'_> {
         (follower, self.look_back_beyond(from, window))
     }
 
-    /// Looks at the window on the chain before; returns the window's extent [m].
+    /// Adds the part of the window on the previous chain; returns the window's extent [m].
     fn look_back_beyond(&self, from: Viewpoint, window: &mut Window) -> f64 {
         let missing = WINDOW_BACK - from.x;
         let Some(back) = self.network.chain(from.chain).previous.first().filter(|_| missing > 0.0) else {
@@ -155,11 +155,11 @@ impl Scene<'_> {
     }
 }
 
-/// What is gathered while looking ahead.
+/// What a look ahead collects.
 struct View {
-    /// How far one sees [m].
+    /// Range of sight [m].
     sight: f64,
-    /// How far the window reaches ahead [m].
+    /// Length of the window ahead [m].
     window_ahead: f64,
     window: Window,
     ahead: Option<Ahead>,
@@ -168,8 +168,8 @@ struct View {
 }
 
 impl View {
-    /// Looks along `motions`, the first of which has the index `first` on `chain`, whose start is `base` ahead [m].
-    /// Returns whether the end of sight was reached.
+    /// Looks along `motions`. The first of them has the index `first` on `chain`, which starts `base` ahead [m].
+    /// Returns whether the range of sight was reached.
     #[inline]
     fn pass(
         &mut self,

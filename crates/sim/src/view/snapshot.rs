@@ -15,10 +15,10 @@ use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
 use crate::view::scene::{Scene, Spot};
 
-/// A vehicle as it was seen at one instant.
+/// A vehicle as seen at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
-    /// Who it is; nobody else at this instant has the same.
+    /// Its id, which no other vehicle has at this instant.
     pub id: VehicleId,
     /// The chain in which its centre is.
     pub chain: ChainIndex,
@@ -32,42 +32,42 @@ pub struct Seen {
     pub length: f64,
     /// Class.
     pub class: Class,
-    /// Its driver's place in the table of driver parameters.
+    /// Index of its driver in the table of driver parameters.
     pub parameters: u32,
-    /// Speed that its driver desires [m/s].
+    /// Desired speed of its driver [m/s].
     pub desired: f64,
-    /// Where it goes.
+    /// Its destination.
     pub destination: Destination,
-    /// The lane change that it is about.
+    /// Its lane change under way.
     pub change: Option<Across>,
 }
 
 /// A lane change under way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Across {
-    /// To which side.
+    /// The side to which it changes.
     pub side: Side,
-    /// Share of its time that has passed, 0…1.
+    /// Share of its duration that has passed, 0…1.
     pub progress: f64,
-    /// Where its front bumper is in the other of its two lanes.
+    /// Position of its front bumper in the other lane.
     pub other: Position,
 }
 
-/// One instant of traffic. A vehicle that changes lanes stands in both, as in a [`crate::World`].
+/// One instant of traffic. A vehicle that changes lanes has an entry in both lanes, as in a [`crate::World`].
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     lanes: Vec<Lane>,
     reservations: Reservations,
     signals: Signals,
-    /// The main entries in order of ids.
+    /// The main entries, ordered by id.
     spots: Vec<(VehicleId, Spot)>,
 }
 
 impl Snapshot {
-    /// The instant at which `vehicles` are on `network`.
+    /// The instant with `vehicles` on `network`.
     ///
     /// # Panics
-    /// If a chain is none of the network's.
+    /// If a chain does not belong to the network.
     pub fn new(network: &Network, vehicles: impl IntoIterator<Item = Seen>) -> Snapshot {
         let mut lanes = vec![Lane::default(); network.chains.len()];
         for seen in vehicles {
@@ -89,7 +89,7 @@ impl Snapshot {
         Snapshot { lanes, reservations, signals, spots }
     }
 
-    /// The instant as drivers with `driver_parameters`, who find their ways by `navigator`, see it.
+    /// The scene that drivers with `driver_parameters` see, with routes by `navigator`.
     pub fn scene<'a>(
         &'a self,
         network: &'a Network,
@@ -105,7 +105,7 @@ impl Snapshot {
         self.spots.binary_search_by_key(&id, |(it, _)| *it).ok().map(|it| self.spots[it].1)
     }
 
-    /// The main entries of all vehicles, in order of their ids.
+    /// The main entries of all vehicles, ordered by id.
     pub fn spots(&self) -> &[(VehicleId, Spot)] {
         &self.spots
     }
@@ -154,7 +154,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
     Entry { motion, driver, lane_change }
 }
 
-/// The entry in the other lane.
+/// The entry of a vehicle in its other lane.
 fn shadow(network: &Network, seen: &Seen, change: &Across) -> Entry {
     let Entry { motion, driver, lane_change } = main_entry(network, seen);
     let x = change.other.x;

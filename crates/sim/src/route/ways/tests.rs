@@ -3,7 +3,7 @@ use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
 use super::*;
 use crate::route::place::InnerPlace;
 
-/// A lane to the east between two stations [m] at 10 m/s, followed by `following`.
+/// A lane to the east between two stations [m], with a limit of 10 m/s, followed by `following`.
 pub(crate) fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
     let line = Polyline::new([from, to].map(|x| Point::new(x, 0.0, 0.0))).unwrap();
     let mut lanelet = Lanelet::alone(id, [line.clone(), line.clone(), line], 10.0);
@@ -27,8 +27,8 @@ fn chain(network: &Network, id: i64) -> ChainIndex {
     chains.into_iter().find(|it| network.lanelet_at(Position::new(*it, 0.0)).0.id == id).unwrap()
 }
 
-/// The way over the fork, its time and that of the other one, when the chain of a lanelet takes another time than the
-/// free one.
+/// The first lanelet after the fork, the time of the route, and that of the alternative. `slow` gives a lanelet's chain
+/// another time than the free one.
 fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
     let network = fork();
     let into = beside_into(&network);
@@ -72,7 +72,7 @@ fn the_alternative_is_the_best_way_over_the_end_of_the_lane_that_is_not_the_own_
     assert_eq!(way(false, None), (2, 40.0, 60.0));
 }
 
-/// A lane of 1,000 m, and one on its left from 300 m on.
+/// A lane of 1,000 m, and a lane on its left from 300 m on.
 fn two_lanes() -> Network {
     let beside = |it: Lanelet, left, right| Lanelet { left, right, ..it };
     let index = |it| Some(LaneletIndex(it));
@@ -108,7 +108,7 @@ fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
         let [here, there] = [long, short].map(|it| table[it.at()]);
         assert_eq!((here.changes, here.via), (0, long), "{jammed}");
         assert_eq!((there.changes, there.via), (1, long), "{jammed}");
-        // Who comes from the start of the long lane is not there before who starts where the short one does.
+        // A driver from the start of the long lane arrives later than one from the start of the short lane.
         assert!(here.time > there.time, "{jammed}: {} {}", here.time, there.time);
         let mut timed = table.clone();
         planner.retime(&mut timed, &Place::Inside(inner));
