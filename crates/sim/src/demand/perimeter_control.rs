@@ -80,8 +80,9 @@ impl PerimeterControl {
     }
 }
 
-/// For each chain whether it is part of a loop of roads, or of a road between two loops. It removes repeatedly every
-/// chain without a previous or without a following one: roads that only lead to the loops, or only away from them.
+/// For each chain whether it is part of a loop of roads, or of a road between two loops. The search
+/// removes again and again every chain without a previous or without a following one: roads that only lead to the
+/// loops, or only away from them.
 fn in_the_core(network: &Network) -> Vec<bool> {
     let chains = (0..network.chains.len() as u32).map(ChainIndex);
     let mut is_left = vec![true; network.chains.len()];

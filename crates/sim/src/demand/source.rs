@@ -160,7 +160,7 @@ impl Source {
             && lanes.iter().zip(&other.lanes).all(queue_fits)
     }
 
-    /// Draws the time of the next arrival in a stream.
+    /// Samples the time of the next arrival in a stream.
     fn draw_next(&mut self, stream: usize, random: &Random) {
         let Stream { number, arrived, next } = self.streams[stream];
         let chance = random.uniform(number, Purpose::Arrival, arrived);
@@ -197,7 +197,7 @@ impl Source {
         }
     }
 
-    /// Draws the vehicle `id` that arrives at `time` [s].
+    /// Makes the vehicle `id` that arrives at `time` [s], from random numbers.
     fn draw(
         &self,
         navigator: &Navigator,

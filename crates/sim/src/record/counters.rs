@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 pub struct Counters {
     /// Times that a driver considered lanes.
     pub considerations: u64,
-    /// Of them, by drivers on a free road.
+    /// Considerations by drivers on a free road.
     pub free_considerations: u64,
     /// Desires that came in these considerations.
     pub free_desires: u64,
-    /// Of them, by drivers held up beside a free lane.
+    /// Considerations by drivers held up beside a free lane.
     pub held_up_considerations: u64,
     /// Desires that came in these considerations.
     pub held_up_desires: u64,

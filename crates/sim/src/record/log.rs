@@ -272,7 +272,7 @@ impl Log {
     }
 
     /// Whether it knows all vehicles on these lanes, and whether the vehicles with the ids `waiting` can still begin
-    /// their trips. `next_id` is the first id that has not been given.
+    /// their trips. `next_id` is the first unused id.
     pub(crate) fn fits(
         &self,
         network: &Network,

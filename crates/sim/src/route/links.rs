@@ -80,7 +80,7 @@ impl Links {
         it.time_before + it.time * (x - it.start) / it.length
     }
 
-    /// Gives all links new travel times [s].
+    /// Sets new travel times of all links [s].
     pub(crate) fn take(&mut self, times: impl Iterator<Item = f64>) {
         let mut before = 0.0;
         for (link, time) in self.links.iter_mut().zip(times) {

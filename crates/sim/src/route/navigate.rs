@@ -105,7 +105,7 @@ impl Navigator {
         Planner { network, into, links, restrictions, restriction }
     }
 
-    /// Ends the trips of the drivers who use `table` at `place`.
+    /// Records that the trips of drivers who use `table` end at `place`.
     pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
         if let Place::Inside(InnerPlace { chain, station, .. }) = place {
             let goal = Goal::from(Some(table as u16));

@@ -16,7 +16,7 @@ impl Onward {
     /// There is no next chain.
     const NOWHERE: u16 = u16::MAX;
 
-    /// A table of this size for `network`, in which no route leads anywhere yet.
+    /// The next chains for this number of tables of `network`; no route leads anywhere yet.
     pub(crate) fn new(network: &Network, tables: usize) -> Onward {
         Onward { tables, places: vec![Onward::NOWHERE; tables * network.chains.len()] }
     }

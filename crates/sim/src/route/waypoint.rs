@@ -10,12 +10,13 @@ use crate::route::disutility::Disutility;
 pub struct Waypoint {
     /// n: fewest lane changes from it to a lane that leads there; [`Waypoint::NO_WAY`] if no lane does.
     pub changes: u32,
-    /// The chain from which the search came: the next chain, or the one to change to; itself at the destination.
+    /// The chain from which the backward search reached it: the next chain, or the one to change to; itself at the
+    /// destination.
     pub(super) via: ChainIndex,
-    /// Last place for the next change, from the chain's start; beyond its end if on a later chain [m]; infinite for n =
-    /// 0.
+    /// Last place for the next change, from the chain's start; beyond its end if on a later chain [m]; infinite if
+    /// n is 0.
     pub last_place: f64,
-    /// The chain that follows it on the route.
+    /// The chain to which a vehicle drives on over its end.
     pub next: Option<ChainIndex>,
     /// Travel time from its start to the destination [s].
     pub time: f64,

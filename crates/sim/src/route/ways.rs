@@ -44,8 +44,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Time from the start of `chain` to the beginning of `stretch`, minus the time on the other chain from its start
-    /// to the same place [s].
+    /// Time from the start of `chain` to the first place for a change over `stretch`, minus the time on the other chain
+    /// from its start to there [s].
     fn lag(&self, chain: ChainIndex, stretch: &Beside) -> f64 {
         let place = stretch.start.max(stretch.back(0.0));
         self.time(chain, place) - self.time(stretch.chain, stretch.across(place))
@@ -319,7 +319,7 @@ fn changed_to(table: &[Waypoint], chain: ChainIndex) -> Vec<ChainIndex> {
     std::iter::successors(next(&chain), next).collect()
 }
 
-/// The chains of `table` that have a route, each after the chain it goes on with.
+/// The chains of `table` that have a route, each after the next chain of its route.
 fn from_the_destination(table: &[Waypoint]) -> Vec<ChainIndex> {
     let mut order = Vec::with_capacity(table.len());
     let mut is_known: Vec<bool> = table.iter().map(|it| !it.leads_there()).collect();

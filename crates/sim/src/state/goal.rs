@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The table of waypoints of a driver: destination, restriction and way. The first tables are those of the list of
-/// destinations. `None`: the driver has no destination and follows the road.
+/// Destination and route of a driver: the index of its table of waypoints. At first this is the index of the
+/// destination in the list of destinations. `None`: the driver follows the road.
 pub type Destination = Option<u16>;
 
 /// A destination in two bytes.

@@ -69,7 +69,7 @@ pub struct DriverState {
     pub goal: Goal,
     /// Its class.
     pub class: Class,
-    /// The state of its lane change.
+    /// The phase of its lane change.
     pub phase: Phase,
     /// This entry is the shadow of an entry in another lane.
     pub is_shadow: bool,
@@ -83,7 +83,7 @@ const _: () =
     assert!(size_of::<Kinematics>() == 32 && size_of::<DriverState>() == 32, "an entry fills one cache line");
 
 impl DriverState {
-    /// Whether its driver only follows: it changes no lane, and reacts to nothing else.
+    /// Whether its driver only follows: it changes no lane, reacts to nothing else, and has nothing else to store.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
         self.phase == Phase::Cruises
@@ -93,7 +93,7 @@ impl DriverState {
     }
 }
 
-/// The state of a driver's lane change.
+/// The phase of a driver's lane change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Phase {
@@ -231,7 +231,7 @@ pub struct Lane {
 }
 
 impl Lane {
-    /// Whether its arrays have the same length, and its vehicles are in driving order.
+    /// Whether its arrays have the same length, and its vehicles have valid numbers and are in driving order.
     pub(crate) fn is_sound(&self) -> bool {
         let Lane { motions, drivers, lane_change_states } = self;
         let is_number = |it: &Kinematics| it.x.is_finite() && it.speed.is_finite() && it.length > 0.0;

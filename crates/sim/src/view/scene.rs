@@ -191,7 +191,7 @@ impl<'a> Scene<'a> {
         if is_in_fork { self.nearest_in_fork(from, on_way) } else { on_way }
     }
 
-    /// The next vehicle on the route within sight, or beside it in a fork, wherever it comes from.
+    /// The next vehicle within sight, on the route or beside it in a fork, wherever it comes from.
     pub(crate) fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
         self.walk(from).within(SIGHT).find_map(|Leg { chain, before, .. }| {
             let (first, beside) = match before {

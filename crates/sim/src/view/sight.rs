@@ -8,9 +8,9 @@ use crate::route::walk::Leg;
 use crate::state::lane::{Kinematics, VehicleId};
 use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
 
-/// T_h: length of the window ahead [m].
+/// Length of the window of T_h ahead [m].
 const WINDOW_AHEAD: f64 = 200.0;
-/// T_h: length of the window behind [m].
+/// Length of the window of T_h behind [m].
 const WINDOW_BACK: f64 = 100.0;
 
 /// What a driver sees along a lane.
