@@ -1,5 +1,5 @@
-//! Who asks to pass a junction: all that the right of way depends on, whether it is on the road or waits to come onto
-//! it.
+//! The applicant for a reservation: all that the right of way depends on. The vehicle is on the road, or waits to
+//! enter it.
 
 use laneweave_models::Style;
 use laneweave_models::yielding::time_to_cover;
@@ -7,10 +7,10 @@ use laneweave_models::yielding::time_to_cover;
 use crate::junction::reservations::Reservation;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
-/// Who asks to pass a junction.
+/// A vehicle whose driver asks for a reservation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Applicant<'a> {
-    /// Where it is, and where it goes.
+    /// Where it is, and its destination.
     pub(crate) from: Viewpoint,
     /// Length [m].
     pub(crate) length: f64,
@@ -18,9 +18,9 @@ pub(crate) struct Applicant<'a> {
     pub(crate) speed: f64,
     /// Desired speed [m/s].
     pub(crate) desired: f64,
-    /// Its driver's style.
+    /// The style of its driver.
     pub(crate) style: &'a Style,
-    /// What it has been given already.
+    /// The reservation that it already has.
     pub(crate) reservation: Option<&'a Reservation>,
 }
 

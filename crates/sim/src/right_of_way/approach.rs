@@ -11,31 +11,32 @@ use crate::state::standstill::STANDS;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};
 
-/// A vehicle that takes up both lanes of a tight bend is at least this long [m] (ours).
+/// Vehicles of at least this length take up both lanes of a tight bend [m] (ours).
 pub(crate) const LONG: f64 = 7.0;
-/// Braking with which a driver stops at a light that turns yellow rather than go on [m/s²] (ours; usual for the design
-/// of yellow times).
+/// A driver stops at a light that turns yellow if braking at most this hard is enough [m/s²] (ours; usual in the
+/// design of yellow times).
 pub const STOPS_AT_YELLOW: f64 = 3.0;
-/// Drivers ask for their reservation so early that they need not brake harder than this [m/s²], and a time before [s]
-/// (ours).
+/// Drivers ask for their reservation so early that they need not brake harder than this [m/s²], and this much earlier
+/// [s] (ours).
 const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;
-/// And never later than at this distance [m].
+/// They ask at this distance at the latest [m].
 const NEAR: f64 = 10.0;
 
-/// What a driver reacts to.
+/// What a driver reacts to at a junction.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Junction {
-    /// Distance of the front to where it has to stop [m].
+    /// Distance from the front to the place where it has to stop [m].
     pub(crate) stop: Option<f64>,
-    /// Whom it follows into a merge.
+    /// The vehicle that it follows into a merge.
     pub(crate) leader: Option<Ahead>,
-    /// It would like to pass, and waits for it.
+    /// It waits for a reservation.
     pub(crate) asks: bool,
-    /// It does not go on at the light there as long as this shows what it shows.
+    /// It waits at the next light until that changes.
     pub(crate) is_held: bool,
-    /// What it cannot use of its reservation now, from so far beyond its beginning on [m]: a light that it meant to
-    /// pass is no longer green, and it can stop there; or somebody without a reservation came before it, and it stands.
+    /// The part of its reservation that it cannot use now begins here, measured from the start of the reservation
+    /// [m]. Either a light on its route is no longer green and it can stop there, or the vehicle stands and a vehicle
+    /// without a reservation is in front of it.
     pub(crate) revokes_from: Option<f64>,
 }
 
@@ -45,7 +46,7 @@ pub(crate) fn sight(speed: f64) -> f64 {
     speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
 }
 
-/// Whether the driver at `spot` is far from all junctions and has no reservation: there is nothing to react to.
+/// Whether the driver at `spot` is far from all junctions and has no reservation. Then it has nothing to react to.
 #[inline]
 pub(crate) fn is_nothing_near(scene: &Scene, spot: Spot) -> bool {
     let until = sight(scene.motion(spot).speed);
@@ -61,7 +62,7 @@ pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
     look_closely(scene, spot, sight(scene.motion(spot).speed))
 }
 
-/// What it reacts to within `until` [m].
+/// What the driver at `spot` reacts to within `until` [m].
 #[inline(never)]
 fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
@@ -72,16 +73,16 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         junction.revokes_from = to_revoke(scene, reservation, motion.speed).or_else(|| {
             if motion.speed < STANDSTILL { cut_off_from(scene, spot, reservation) } else { None }
         });
-        // What is given back is not used any more from now on.
+        // A revoked part is no longer used.
         let left = junction.revokes_from.map_or(reservation.left(), |from| from - reservation.travelled);
         granted = left.max(0.0);
     }
     if let Some(Point { stop, what }) = stop_ahead(scene, scene.viewpoint(spot), granted, until) {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
-        // Who has to leave the lane before does not go on along it.
+        // A driver who has to leave the lane before the place does not ask.
         let keeps_lane = scene.lane_change(spot).last_place >= motion.x + stop;
         let is_settled = !driver.is_shadow && !driver.phase.is_between_lanes();
-        // Who has others before it that have to stop waits until they are let go.
+        // A driver does not ask while vehicles ahead have to stop before the place.
         let is_first = || !stops_before(scene, scene.viewpoint(spot), stop);
         junction.asks = keeps_lane && is_settled && junction.revokes_from.is_none() && is_first();
         junction.is_held =
@@ -90,7 +91,7 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     junction
 }
 
-/// Whether a driver at `speed` [m/s] drives past a light at which it would stop `at` metres ahead.
+/// Whether a driver at `speed` [m/s] passes a light whose stopping place is `at` metres ahead.
 pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> bool {
     match scene.light(light) {
         LightState::Green => true,
@@ -99,7 +100,7 @@ pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> 
     }
 }
 
-/// Those on the other side of a zone that the reservation in `slot` holds who go before it.
+/// The vehicles on the other side of a zone that go before the reservation in `slot`.
 pub(crate) fn earlier<'a>(
     scene: &'a Scene,
     reservation: &'a Reservation,
@@ -115,7 +116,7 @@ pub(crate) fn earlier<'a>(
     others.map(|(_, other)| other)
 }
 
-/// Yields to those who go before it through a zone.
+/// Makes the driver yield to vehicles that go before it through a zone.
 fn yield_to_earlier(scene: &Scene, reservation: &Reservation, slot: u32, junction: &mut Junction) {
     for hold in &reservation.holds {
         let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
@@ -140,16 +141,17 @@ fn yield_to_earlier(scene: &Scene, reservation: &Reservation, slot: u32, junctio
     }
 }
 
-/// `other`, who goes before into the merge `to_merge` ahead [m]: as far ahead as it is nearer to it. From another road
-/// its speed is seen, and not whether it changes (ours).
+/// The vehicle `other`, which goes first into the merge `to_merge` ahead [m], as a leader. Its gap follows from its
+/// distance to the merge. Drivers on another road see its speed, not its acceleration (ours).
 pub(crate) fn leader_into(to_merge: f64, hold: &ZoneReservation, other: &Reservation) -> Option<Ahead> {
     let theirs = other.across(hold)?;
     let gap = to_merge - (theirs.leave - other.travelled) - other.length;
     Some(Ahead::steady(gap, other.speed))
 }
 
-/// From where on, along the reservation of the driver at `spot`, somebody is in its way who has none, as who changed
-/// into its lane before it: whom it lets go first could wait for others, and they for it [m].
+/// Where a vehicle without a reservation blocks the reservation of the driver at `spot`, measured from the start of
+/// the reservation [m]. Such a vehicle may have changed lanes in front of the driver. It may wait for others that
+/// wait for this reservation.
 fn cut_off_from(scene: &Scene, spot: Spot, reservation: &Reservation) -> Option<f64> {
     let from = scene.viewpoint(spot);
     let leader =
@@ -161,8 +163,8 @@ fn cut_off_from(scene: &Scene, spot: Spot, reservation: &Reservation) -> Option<
     (next < f64::INFINITY && gap < until).then_some(reservation.travelled + gap.max(0.0))
 }
 
-/// Where a driver stops, from the beginning of its reservation on [m], for the first light ahead that is no longer
-/// green if it can do so with comfort and outside of all zones.
+/// Where a driver stops for the first light that is no longer green, measured from the start of its reservation [m].
+/// `None` if it cannot stop there comfortably and outside of all zones.
 fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64> {
     let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
     let (_, at) = reservation.lights().find(is_red)?;
@@ -173,7 +175,7 @@ fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64
     (from > reservation.travelled && stops_gently(speed, stop)).then_some(from)
 }
 
-/// Whether a driver at `speed` [m/s] can stop where one stops for a place `at` metres ahead without hard braking.
+/// Whether a driver at `speed` [m/s] can stop without hard braking for a place `at` metres ahead.
 fn stops_gently(speed: f64, at: f64) -> bool {
     let way = if speed < STANDS { at } else { at - ROOM_AT_A_STOP };
     speed * speed <= 2.0 * STOPS_AT_YELLOW * way.max(0.0)

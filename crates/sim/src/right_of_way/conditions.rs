@@ -1,4 +1,4 @@
-//! Whether a driver may pass now.
+//! The conditions under which a driver may pass a junction now.
 
 use laneweave_models::braking::is_secure;
 use laneweave_models::follow::Ahead;
@@ -21,39 +21,40 @@ use crate::view::scene::Scene;
 pub(crate) enum Hindrance {
     /// A light is not green.
     Light,
-    /// It has not stopped yet, as a sign asks.
+    /// It has not stopped yet at a stop sign.
     Sign,
-    /// It could not leave the zones again.
+    /// There is no storage space beyond the zones.
     Space,
-    /// It would fill a ring.
+    /// It would fill a roundabout.
     Roundabout,
-    /// Others go first: it claims its turn.
+    /// Others go first; it waits for its turn.
     Others,
 }
 
-/// Of the gap that one leaves in a queue, who is out of patience does without this much [m] (ours).
+/// A driver who is out of patience leaves this much less of the usual gap in a queue [m] (ours).
 const CLOSES_UP: f64 = 0.5;
-/// Standstill at a stop sign [m/s], and how near to the line [m].
+/// Speed below which a vehicle has stopped at a stop sign [m/s], and its largest distance to the line [m].
 const STOPPED: f64 = 0.3;
 const AT_THE_LINE: f64 = 4.0;
-/// Room that who gives way leaves for one who goes first [m] (ours); a ring has room for others anyway.
+/// Storage space that a yielding driver leaves for a vehicle with priority [m] (ours). It leaves none where it enters
+/// a roundabout, which keeps space for others anyway.
 const ROOM_FOR_ANOTHER: f64 = 7.0;
-/// Who comes from the side that does not go first has waited for this long before it takes its turn [s] (ours): so ends
-/// a standoff in which everybody gives way to somebody.
+/// A driver who has to yield to the right goes by waiting time after it has waited this long [s] (ours). This ends a
+/// deadlock in which every driver yields to another.
 const STANDOFF: f64 = 4.0;
 
-/// Who asks.
+/// The waiting priority and the waiting time of a driver who asks to pass.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asking {
     pub(crate) priority: WaitingPriority,
-    /// Time since it first asked [s].
+    /// Time since its first request [s].
     pub(crate) waited: f64,
-    /// When it asks.
+    /// Time of this request.
     pub(crate) clock: Clock,
 }
 
 impl Asking {
-    /// Of who first asked in step `since`.
+    /// The applicant's first request was in step `since`.
     pub(crate) fn of(applicant: &Applicant, since: u32, clock: Clock) -> Asking {
         let waited = clock.since(since);
         let is_patient = waited < applicant.style.yielding.patience;
@@ -62,16 +63,16 @@ impl Asking {
         Asking { priority, waited, clock }
     }
 
-    /// How much less room than usual it needs [m]: out of patience one closes up.
+    /// How much less storage space than usual it needs [m]: a driver who is out of patience leaves a smaller gap.
     pub(crate) fn squeezes_into(&self) -> f64 {
         if self.priority.is_patient { 0.0 } else { CLOSES_UP }
     }
 }
 
-/// Whether the applicant may pass what it has surveyed.
+/// Checks whether the applicant may pass the zones that it has surveyed.
 ///
 /// # Errors
-/// What hinders it.
+/// The reason why it may not pass.
 pub(crate) fn may_pass(
     scene: &Scene,
     applicant: &Applicant,
@@ -89,7 +90,7 @@ pub(crate) fn may_pass(
     if reservations.roundabouts.is_closed(reservations, lanes, way, asking.priority, survey.needed) {
         return Err(Hindrance::Roundabout);
     }
-    // Not for ever: those who go first may all wait for who would take the room.
+    // An impatient driver leaves no space: the vehicles with priority may all wait for the driver who would take it.
     let leaves_room = asking.priority.is_patient && !reservations.roundabouts.is_entered(way);
     let space = survey.space - reservations.requested_before(survey.section, asking.priority);
     let needed = survey.needed - asking.squeezes_into();
@@ -106,7 +107,7 @@ pub(crate) fn may_pass(
     }
 }
 
-/// Whether somebody comes on the other side of a zone who goes first.
+/// Whether a vehicle with priority comes, waits or passes on the other side of a zone.
 fn gives_way(scene: &Scene, hold: &ZoneReservation) -> bool {
     let (zone, side) = (&scene.network.junctions.zones[hold.zone.at()], 1 - hold.side);
     let waits = || scene.reservations.priority(hold.zone, side).is_some();
@@ -138,7 +139,7 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     fits && accepts_lag(scene, applicant, hold, asking)
 }
 
-/// Whether who claims a turn on the other side goes before who asks.
+/// Whether the driver who waits for its turn on the other side goes before the asking driver.
 fn goes_first(precedence: Precedence, other_side: u8, priority: WaitingPriority, asking: Asking) -> bool {
     let came_first = priority < asking.priority;
     if !priority.is_patient || !asking.priority.is_patient {
@@ -152,13 +153,13 @@ fn goes_first(precedence: Precedence, other_side: u8, priority: WaitingPriority,
     }
 }
 
-/// Whether there is room enough behind `other`, who goes first into the merge.
+/// Whether the gap behind `other`, which goes first into the merge, is large enough.
 fn follows(applicant: &Applicant, hold: &ZoneReservation, other: &Reservation, dt: f64) -> bool {
     let Some(ahead) = leader_into(hold.leave, hold, other) else { return true };
     ahead.gap >= applicant.style.safety.min_gap && is_secure(applicant.speed, ahead, dt)
 }
 
-/// The nearest of those who go first into the merges of what was surveyed, as the applicant would follow it.
+/// The nearest vehicle that goes first into a surveyed merge, as the applicant would follow it.
 pub(crate) fn leader_of(scene: &Scene, survey: &Survey) -> Option<Ahead> {
     let zone = |hold: &ZoneReservation| &scene.network.junctions.zones[hold.zone.at()];
     let merges = survey.holds.iter().filter(|it| matches!(zone(it).kind, ZoneKind::Merging(_)));
@@ -169,7 +170,7 @@ pub(crate) fn leader_of(scene: &Scene, survey: &Survey) -> Option<Ahead> {
     merges.filter_map(last).reduce(|a, b| if b.gap < a.gap { b } else { a })
 }
 
-/// Whether those who go first on the other side are far enough.
+/// Whether the lag to vehicles with priority on the other side is long enough.
 fn accepts_lag(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let other_side = 1 - hold.side;

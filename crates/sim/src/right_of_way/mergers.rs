@@ -1,5 +1,5 @@
-//! Those who come from elsewhere into a lane before a driver: it does not see them on its way yet, and will stand
-//! behind them.
+//! Vehicles that merge into a lane in front of a driver. They are not yet ahead on its lane, but it will stand behind
+//! them.
 
 use laneweave_network::ZoneKind;
 
@@ -11,8 +11,9 @@ use crate::right_of_way::approach::leader_into;
 use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 
-/// Whether all who go before the applicant into a merge, of its reservation or of what it has surveyed, have
-/// reservations that lead them as far as it would go: else it would stand within the zones behind one who waits.
+/// Whether all vehicles that go before the applicant into a merge have reservations that reach as far as the
+/// applicant would go. If not, the applicant would stand within the zones behind a waiting vehicle. The merges are
+/// those of its reservation and those that it has surveyed.
 pub(crate) fn are_led_on(scene: &Scene, applicant: &Applicant, survey: &Survey) -> bool {
     let clear = survey.extent - applicant.length;
     let is_merge = |hold: &&ZoneReservation| {

@@ -1,13 +1,14 @@
-//! Junctions: who may pass the conflict zones ahead, and in which order.
+//! Right of way: which drivers may pass the conflict zones ahead, and in which order.
 //!
-//! A driver passes a zone only with a *reservation*: the right, given once, to drive through all zones up to the next
-//! place where its vehicle can stand without being in anybody's way, and only if there is room for it there. Of those
-//! who were granted reservations through one zone the earlier goes first: over a crossing the later waits until the
-//! earlier is out of it, into a merge it follows. Reservations are granted one after the other, so the order is the
-//! same in all zones and somebody can always go on: no standoff within a junction.
+//! A vehicle passes a zone only with a *reservation*. A reservation is the right to drive through all zones up to the
+//! next place where the vehicle can stand without blocking others. It is granted only if there is storage space at
+//! that place. Reservations through one zone are ordered as they were granted. At a crossing the later vehicle waits
+//! until the earlier one has left the zone; into a merge it follows the earlier one. Reservations are granted one
+//! after the other, so the order is the same in all zones. Therefore some vehicle can always go on, and there is no
+//! deadlock within a junction.
 //!
-//! Who gives way to whom before that is up to drivers: lights and signs, the lag to those who go first
-//! (`laneweave_models::yielding`), then who waits longest; nobody need wait for who could not go yet anyway.
+//! Drivers decide who goes first before that: by lights and signs, by the lag to vehicles with priority
+//! (`laneweave_models::yielding`), then by waiting time. No driver has to wait for a driver who could not go yet.
 
 pub(crate) mod applicant;
 pub(crate) mod approach;

@@ -1,25 +1,26 @@
-//! Who comes on the other side of a zone, and when.
+//! Vehicles that come on the other side of a zone, and when they arrive.
 
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ChainIndex, LightState, Reach, Sign, ZoneIndex};
 
 use crate::view::scene::{Scene, Spot};
 
-/// Others are looked for so far along their way [m] (ours).
+/// How far back vehicles are searched along the road [m] (ours).
 const SIGHT: f64 = 130.0;
-/// Most chains that are looked along.
+/// Largest number of chains that are searched.
 const MOST_CHAINS: usize = 24;
-/// Who stands, slower than this [m/s], claims its turn where it has one; nobody need wait for it to start.
+/// A vehicle slower than this stands [m/s]. It has a waiting priority if it may go first; others need not wait for it
+/// to start.
 const STANDS: f64 = 0.5;
 
-/// Least time [s] in which somebody who has no reservation there arrives at the stretch `reach`, a side of `zone`;
-/// infinite if nobody is in sight.
+/// Shortest time [s] in which a vehicle without a reservation for `zone` arrives at its side `reach`; infinite if no
+/// vehicle is in sight.
 pub(crate) fn lag(scene: &Scene, zone: ZoneIndex, reach: &Reach) -> f64 {
     let mut open: [(ChainIndex, f64, f64); MOST_CHAINS] = [(reach.chain, reach.start, 0.0); MOST_CHAINS];
     let (mut at, mut count) = (0, 1);
     let mut least = f64::INFINITY;
     while at < count {
-        // Stations before `end` of the chain are looked at; that is `base` before the zone.
+        // Vehicles before the station `end` of the chain are searched; `end` is `base` before the zone.
         let (chain, end, base) = open[at];
         at += 1;
         let is_before_it = at > 1;
@@ -61,7 +62,7 @@ pub(crate) fn lag(scene: &Scene, zone: ZoneIndex, reach: &Reach) -> f64 {
     least
 }
 
-/// Last station before `end` at which a light of the chain stops its drivers [m].
+/// The last station before `end` with a red light [m].
 fn red_before(scene: &Scene, chain: ChainIndex, end: f64) -> Option<f64> {
     let stops = scene.network.junctions.on(chain).stops.iter().rev();
     let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if scene.light(it) == LightState::Red);
@@ -73,7 +74,7 @@ fn holds(scene: &Scene, spot: Spot, zone: ZoneIndex) -> bool {
     reservation.is_some_and(|it| it.holds.iter().any(|hold| hold.zone == zone))
 }
 
-/// Whether the way of a vehicle leads over the chains that were looked along to get to it.
+/// Whether the route of a vehicle leads to the zone over the chains that were searched.
 fn comes(scene: &Scene, spot: Spot, looked: &[(ChainIndex, f64, f64)]) -> bool {
     let destination = scene.driver(spot).goal.destination();
     let way = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).skip(1);

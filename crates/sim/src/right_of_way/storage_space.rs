@@ -1,4 +1,4 @@
-//! How much room there is for a vehicle where it would stand beyond zones.
+//! The storage space for a vehicle beyond the zones.
 
 use laneweave_network::Side;
 
@@ -9,25 +9,26 @@ use crate::route::walk::Leg;
 use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
-/// So far beyond the zones a vehicle is looked for that might leave no room [m] (ours).
+/// Vehicles are searched up to this distance beyond the zones [m] (ours).
 pub(crate) const SPACE_SIGHT: f64 = 120.0;
-/// Braking that is expected of who is beyond the zones [m/s²] (ours).
+/// Expected braking of vehicles beyond the zones [m/s²] (ours).
 const EXPECTED_BRAKING: f64 = 4.0;
 
-/// Where a vehicle would stand after its reservation. Distances are those from its front now [m].
+/// Where a vehicle would stand after its reservation. Distances are from its front now [m].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beyond {
     pub(crate) section: StorageSection,
-    /// Where the zones end.
+    /// End of the zones.
     pub(crate) clear: f64,
-    /// Where the next place, or the end of the way, lets it go no further.
+    /// The next place to stop, or the end of the route.
     pub(crate) limit: f64,
-    /// Time until it is out of the zones [s].
+    /// Time until it has left the zones [s].
     pub(crate) arrival: f64,
 }
 
-/// Room from where the zones end [m], to the limit or to where the vehicles that are out of the zones will all be; none
-/// if somebody ahead who is not out of them, and of the way, has no reservation out.
+/// Storage space from the end of the zones [m]. It reaches to the limit, or to the place where the last vehicle
+/// beyond the zones will be. There is none if a vehicle ahead is still within the zones and has no reservation that
+/// leads it out of them or off the route.
 pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
     let Beyond { section, clear, limit, arrival } = beyond;
@@ -56,7 +57,7 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
             let reservation = scene.reservations.of(lane.lane_change_states()[index].reservation, motion.id);
             let gets_to = rear + reservation.map_or(0.0, |it| it.left_for_certain().max(0.0));
             if rear >= clear {
-                // Whose reservation leads beyond the room does not stop in it.
+                // A vehicle whose reservation leads beyond the storage space does not stop in it.
                 if gets_to < limit {
                     let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
                     let moves_to =
@@ -75,8 +76,8 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     end.min(limit.min(reach) - taken) - clear
 }
 
-/// Whether the vehicle at `spot` drives on as long as those before it on the way of who looks `from` do: it goes the
-/// same way, and has to do with no other lane.
+/// Whether the vehicle at `spot` moves up as the vehicles before it do. It does if it follows the same route as the
+/// vehicle at `from`, changes no lanes, and has no lane beside it.
 fn moves_up(scene: &Scene, from: Viewpoint, spot: Spot) -> bool {
     let (x, driver, chain) = (scene.motion(spot).x, scene.driver(spot), scene.network.chain(spot.chain));
     let is_alone = || [Side::Left, Side::Right].iter().all(|it| chain.beside(*it, x).is_none());

@@ -1,4 +1,5 @@
-//! What a driver sees of the junction ahead: where it has to stop without a reservation, and what reservation it needs.
+//! The survey of the junction ahead: where a driver has to stop without a reservation, and which reservation it
+//! needs.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -14,23 +15,23 @@ use crate::route::walk::Leg;
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
-/// How far before a zone a vehicle stops [m] (ours).
+/// A vehicle stops this far before a zone [m] (ours).
 pub(crate) const BEFORE_A_ZONE: f64 = 1.0;
-/// How far before a zone the first of a queue stands [m].
+/// The first vehicle of a queue stands this far before a zone [m].
 pub const STANDS_BEFORE_A_ZONE: f64 = BEFORE_A_ZONE + ROOM_AT_A_STOP;
-/// How far before a line it stops [m] (ours).
+/// A vehicle stops this far before a line [m] (ours).
 const BEFORE_A_LINE: f64 = 0.3;
-/// How far before a line the first of a queue stands [m].
+/// The first vehicle of a queue stands this far before a line [m].
 pub const STANDS_BEFORE_A_LINE: f64 = BEFORE_A_LINE + ROOM_AT_A_STOP;
-/// A reservation leads so far over the last place within it [m], more than distances are rounded (ours).
+/// A reservation reaches this far beyond the last place within it [m]: more than the rounding of distances (ours).
 const PAST_A_PLACE: f64 = 0.1;
-/// A line belongs to the zones that follow within this [m] (ours).
+/// A line belongs to the zones that follow within this distance [m] (ours).
 const LINE_TO_ZONE: f64 = 30.0;
 
-/// A place on a driver's way where it may have to stop.
+/// A place on a driver's route where it may have to stop.
 #[derive(Clone, Copy)]
 pub(crate) struct Point {
-    /// Where the front has to stay behind [m].
+    /// The front has to stay before this [m].
     pub(crate) stop: f64,
     pub(crate) what: What,
 }
@@ -52,12 +53,12 @@ impl Point {
 #[derive(Clone, Copy)]
 pub(crate) enum What {
     Sign(Sign),
-    /// A zone, its end, and the place where the lanes become one, if they do [m].
+    /// A zone, its end [m], and the place where the lanes merge, if they do [m].
     Zone(Crossing, f64, Option<f64>),
 }
 
-/// Visits the places on the way of who looks `from`, in order, up to `until` [m], which may grow on the way. Returns
-/// how far the way goes on.
+/// Visits the places on the route from `from`, in order, up to `until` [m]. `visit` may increase `until`. Returns how
+/// far the route goes on [m].
 fn points(
     scene: &Scene,
     from: Viewpoint,
@@ -70,7 +71,7 @@ fn points(
         let places = &junctions.on(chain).places[..];
         let trip_end = base + scene.navigator.trip_end(from.destination, chain);
         let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
-        // Who has its front beyond a place has passed it.
+        // A vehicle whose front is beyond a place has passed it.
         let passed = places.partition_point(|it| base + it.station <= 0.0);
         for place in &places[passed..] {
             let at = base + place.station;
@@ -99,7 +100,7 @@ fn points(
     if last.is_lane_drop { end - last.length + last.driven_until(from.is_long) } else { f64::INFINITY }
 }
 
-/// Whether a place matters to vehicles that are long or not.
+/// Whether a place concerns vehicles of this kind, long or not.
 fn concerns(place: &Place, is_long: bool) -> bool {
     match place.what {
         PlaceKind::Sign(_) => true,
@@ -107,8 +108,8 @@ fn concerns(place: &Place, is_long: bool) -> bool {
     }
 }
 
-/// The nearest place ahead within `until` [m] where who looks `from` has to stop without a further reservation than the
-/// `granted` [m] it has.
+/// The nearest place within `until` [m] where the vehicle at `from` has to stop, beyond the `granted` [m] of its
+/// reservation.
 pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f64) -> Option<Point> {
     if granted >= until || is_far(scene, from, until) {
         return None;
@@ -124,7 +125,7 @@ pub(crate) fn stop_ahead(scene: &Scene, from: Viewpoint, granted: f64, until: f6
     found
 }
 
-/// Whether there is a place within `until` [m] where who looks `from` might have to stop.
+/// Whether there is a place within `until` [m] where the vehicle at `from` may have to stop.
 pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool {
     if is_far(scene, from, until) {
         return false;
@@ -137,28 +138,28 @@ pub(crate) fn is_place_ahead(scene: &Scene, from: Viewpoint, until: f64) -> bool
     is_there
 }
 
-/// Whether there is no place within `until` [m], whichever way one goes.
+/// Whether there is no place within `until` [m] on any route.
 #[inline]
 pub(crate) fn is_far(scene: &Scene, from: Viewpoint, until: f64) -> bool {
-    /// Sums of lengths are not told apart closer than this [m].
+    /// Rounding error of sums of lengths [m].
     const ROUNDING: f64 = 0.001;
     let length = scene.network.chain(from.chain).length;
     scene.network.junctions.free_way(from.chain, from.x, length) - ROUNDING > until
 }
 
-/// Whether a vehicle ahead has to stop before who looks `from` comes to a place `distance` ahead [m].
+/// Whether a vehicle ahead has to stop before the vehicle at `from` comes to a place `distance` ahead [m].
 pub(crate) fn stops_before(scene: &Scene, from: Viewpoint, distance: f64) -> bool {
     shield(scene, from, distance) < distance
 }
 
-/// How far the way of the vehicle ahead is free, as far as `until` [m].
+/// How far ahead the vehicle in front can drive, as far as `until` [m].
 fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     if let Some(rear) = scene.waits_beside_in_fork(from) {
         return rear - from.x;
     }
     let mut first = from.ahead;
     for Leg { chain, start, before } in scene.walk(from).within(until) {
-        // Who waits within the fork is in the way of all that come after.
+        // A vehicle that waits within the fork blocks all that come after it.
         if let Some(rear) = before.and_then(|it| scene.waits_in_fork(it, chain, from.id)) {
             return start + rear;
         }
@@ -173,8 +174,8 @@ fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
     f64::INFINITY
 }
 
-/// Surveys the reservation that the applicant needs next, beyond the `granted` [m] it has. Returns whether there is one
-/// within `until` [m]. Nothing is surveyed beyond a light so far ahead that `is_held` there.
+/// Surveys the reservation that the applicant needs next, beyond the `granted` [m] that it has. Returns whether it
+/// needs one within `until` [m]. The survey ends at a light where the driver `is_held`.
 pub(crate) fn survey(
     scene: &Scene,
     applicant: &Applicant,
@@ -189,10 +190,10 @@ pub(crate) fn survey(
     let mut first: Option<f64> = None;
     let mut ends = false;
     let mut clear = f64::NEG_INFINITY;
-    // The last place that it leads over: nobody stops there any more.
+    // The last place within the reservation: the vehicle no longer stops there.
     let mut last = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
-    // As far as the vehicle will need room: zones may be longer than anybody sees.
+    // As far as the vehicle needs storage space: zones may be longer than the sight.
     let far = Cell::new(until + SPACE_SIGHT);
     let way_end = points(scene, from, &far, |point, at, _| {
         if at <= granted {
@@ -246,14 +247,14 @@ pub(crate) fn survey(
     true
 }
 
-/// Notes where the applicant can stand after its reservation, which is `clear` of all zones from so far ahead on, and
-/// how much room there is up to the `limit` [m].
+/// Notes the storage section of the applicant after its reservation, and the space there. All zones end `clear` ahead
+/// [m]; the space ends at `limit` ahead [m].
 fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], out: &mut Survey) {
     let from = applicant.from;
     let beyond = chain_at(scene, from, clear);
     (out.section, out.section_start) =
         (StorageSection::at(&scene.network.junctions, beyond.chain, clear - beyond.start), beyond.start);
-    // Whose trip ends before the next place is behind others who stop there.
+    // A vehicle whose trip ends before the next place stands behind others that stop there.
     let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
@@ -261,13 +262,14 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
     out.space = space(scene, from, Beyond { section: out.section, clear, limit, arrival });
 }
 
-/// The chain on the way on which the place `distance` ahead lies [m].
+/// The chain on the route with the place `distance` ahead [m].
 fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> Leg {
     let legs = scene.walk(from).take_while(|it| it.before.is_none() || it.start <= distance);
     legs.last().unwrap_or(Leg { chain: from.chain, start: -from.x, before: None })
 }
 
-/// Where the vehicle that looks `from` would stand after the reservation that it surveyed, back to front.
+/// The storage sections on which the vehicle at `from` would stand after the surveyed reservation, from its rear to
+/// its front.
 pub(crate) fn sections(
     scene: &Scene,
     from: Viewpoint,
@@ -278,10 +280,10 @@ pub(crate) fn sections(
     walk.within(extent).map(move |it| it.before.map_or(section, |_| StorageSection::first_of(it.chain)))
 }
 
-/// Whether the vehicle at `spot` stands where the one that looks `from` would after the reservation that it surveyed,
-/// or ahead of that before the next place: if it drives off, those between them move up.
+/// Whether the vehicle at `spot` stands where the vehicle at `from` would stand after the surveyed reservation, or
+/// farther ahead, before the next place. If it drives off, the vehicles between them move up.
 pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spot: Spot) -> bool {
-    /// Most chains that are looked along.
+    /// Largest number of chains that are searched.
     const MOST_CHAINS: usize = 24;
     let junctions = &scene.network.junctions;
     let next = |at: &StorageSection| {
@@ -292,18 +294,18 @@ pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spo
     std::iter::successors(Some(survey.section), next).take(MOST_CHAINS).any(|it| it == stands_on)
 }
 
-/// How far ahead the next place on `leg` is, beyond `distance`, where drivers may have to stop [m].
+/// Distance to the next place on `leg` beyond `distance` where drivers may have to stop [m].
 fn next_place(scene: &Scene, leg: Leg, distance: f64, is_long: bool) -> f64 {
     let places = scene.network.junctions.on(leg.chain).places.iter();
     let stops = places.filter(|it| concerns(it, is_long)).map(|it| leg.start + Point::of(it, 0.0).stop);
     stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
 
-/// Distances are not told apart closer than this [m].
+/// Smaller differences of distances are rounding errors [m].
 pub(crate) const ROUNDING: f64 = 0.5;
 
-/// Where the vehicle at `spot`, whose chain begins `base` ahead, parts from the way of who looks `from` [m]; infinite
-/// if it goes on along it.
+/// Where the vehicle at `spot`, whose chain begins `base` ahead, leaves the route of the vehicle at `from` [m];
+/// infinite if it does not leave it.
 pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f64 {
     let own = scene.next(from.destination, spot.chain);
     let theirs = scene.next(scene.driver(spot).goal.destination(), spot.chain);

@@ -1,7 +1,7 @@
-//! When those who wait can have their turn. Who is out of a zone before another who claims it could be there takes
-//! nothing from it, and need not wait for it: so those who come from opposite sides go together, and a junction is used
-//! while who has waited longest is held up elsewhere in it. Estimates err, and many small delays add up; so nobody goes
-//! before who is out of patience.
+//! The turns of waiting drivers. A vehicle that leaves a zone before another one with an earlier turn can enter it
+//! does not delay that one, and need not wait. So vehicles from opposite sides pass together, and the junction is
+//! used while the longest-waiting driver is delayed in another zone. Estimates have errors, and many small delays add
+//! up. Therefore no vehicle goes before a driver who is out of patience.
 
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
@@ -14,13 +14,14 @@ use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::LONG;
 use crate::view::scene::Scene;
 
-/// An earlier one on the other side may be in a crossing this long after one could enter it [s] (ours): one approaches
-/// while it clears.
+/// An earlier vehicle on the other side may occupy a crossing until this long after the applicant could reach it [s]
+/// (ours): the applicant approaches while the crossing clears.
 const APPROACHES: f64 = 1.5;
-/// Who has its turn lets another go who is out of its way so soon after it could be there itself [s] (ours).
+/// A driver with an earlier turn lets another go that leaves the zone at most this long after the driver could enter
+/// it [s] (ours).
 const COURTESY: f64 = 1.0;
 
-/// The turns that the applicant claims on all zones that it `holds` with its reservation.
+/// The turns that the applicant requests in all zones that it `holds` with its reservation.
 pub(crate) fn turns(
     scene: &Scene,
     applicant: &Applicant,
@@ -34,8 +35,8 @@ pub(crate) fn turns(
     })
 }
 
-/// Whether the applicant, if it goes now, is out of a zone before it would be in the way of who has its `turn` there,
-/// and is patient.
+/// Whether the applicant, if it goes now, leaves a zone before it delays the driver whose `turn` it is. False if that
+/// driver is out of patience.
 pub(crate) fn is_out_before(
     scene: &Scene,
     applicant: &Applicant,
@@ -46,7 +47,7 @@ pub(crate) fn is_out_before(
     turn.priority.is_patient && out <= turn.begins + COURTESY
 }
 
-/// Whether `other` will be out of the crossing by the time that the applicant gets there.
+/// Whether `other` will have left the crossing when the applicant arrives.
 pub(crate) fn clears(
     scene: &Scene,
     applicant: &Applicant,
@@ -56,7 +57,7 @@ pub(crate) fn clears(
     clearance(scene, hold, other) <= arrival(scene, applicant, hold)
 }
 
-/// How much later than now those who have reservations let the applicant begin its way to a zone [s].
+/// Delay of the applicant's arrival at a zone by vehicles with reservations [s].
 fn held_up(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, priority: WaitingPriority) -> f64 {
     let touch = scene.network.junctions.zones[hold.zone.at()].touch;
     let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
@@ -65,7 +66,7 @@ fn held_up(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, priorit
     clearances.fold(0.0, f64::max) - arrival(scene, applicant, hold)
 }
 
-/// Time until the applicant can be in a zone, and others have to be out of it [s].
+/// Time until the applicant can be in a zone and others must have left it [s].
 fn arrival(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation) -> f64 {
     if is_merge(scene, hold) {
         applicant.time_to(hold.leave)
@@ -74,7 +75,7 @@ fn arrival(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation) -> f64 
     }
 }
 
-/// Time until `other` is out of the way of who would hold the other side of a zone [s].
+/// Time until `other` no longer blocks a vehicle on the other side of a zone [s].
 fn clearance(scene: &Scene, hold: &ZoneReservation, other: &Reservation) -> f64 {
     other.across(hold).map_or(0.0, |it| {
         let distance = departure(scene, it, other.length) - other.travelled;
@@ -82,7 +83,7 @@ fn clearance(scene: &Scene, hold: &ZoneReservation, other: &Reservation) -> f64 
     })
 }
 
-/// Where the front of a vehicle is when others can go through the zone, or follow it into the merge [m].
+/// Position of a vehicle's front when others can pass the zone, or follow it into the merge [m].
 fn departure(scene: &Scene, hold: &ZoneReservation, length: f64) -> f64 {
     if is_merge(scene, hold) { hold.leave + length + SPARE_SPACE } else { hold.leave }
 }

@@ -12,7 +12,7 @@ use crate::route::navigate::Navigator;
 use crate::state::vehicle::Class;
 use crate::view::snapshot::{Seen, Snapshot};
 
-/// A truck that stands.
+/// A standing truck.
 fn standing() -> Seen {
     Seen {
         id: 1,
@@ -74,7 +74,7 @@ fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere
     assert!(surveyed > 100, "{surveyed}");
 }
 
-/// Visits what a standing vehicle surveys, at places all over a network.
+/// Visits the surveys of standing vehicles all over a network.
 fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, &Survey)) {
     let navigator = Navigator::new(network);
     for number in 0..400_u32 {
@@ -121,7 +121,7 @@ fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_m
     assert!(surveyed > 200, "{surveyed}");
 }
 
-/// A road of 200 m across two others, 25 m apart, with a line behind the first of them.
+/// A road of 200 m across two others, 25 m apart, with a line beyond the first of them.
 fn two_crossings(line: f64) -> Network {
     let lane = |id, from: [f64; 2], to: [f64; 2], aside: [f64; 2]| {
         let border = |by: f64| {
@@ -144,7 +144,7 @@ fn a_reservation_leads_over_every_line_before_which_the_rear_would_still_stand_i
     let drawings = (1..=12).map(|it| laneweave_maps::generate::random(it).drawing);
     let own = own_maps().unwrap().into_iter().map(|it| it.1);
     let drawn = drawings.chain(own).map(|it| regulated(&it));
-    // A truck has left the first crossing when its front is at some 64 m.
+    // A truck has left the first crossing when its front is at about 64 m.
     let lines = [55.0, 58.0, 61.0, 63.0, 64.0, 65.0, 68.0].map(two_crossings);
     for network in drawn.chain(lines) {
         survey_all_over(&network, |scene, applicant, out| {
