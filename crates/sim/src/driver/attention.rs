@@ -1,18 +1,18 @@
-//! Whether a driver is concentrated or inattentive: a function of seed, driver and time alone, with nothing to
-//! remember.
+//! Whether a driver is concentrated or inattentive. This is a function of seed, driver and time alone, so no state is
+//! kept.
 //!
-//! A Markov process of two states with the mean dwell times τ_c and τ_i is a state that is drawn anew, inattentive with
-//! the share τ_i/(τ_c + τ_i), at the points of a Poisson process with the rate 1/τ_c + 1/τ_i. Here time is cut into
-//! slots, sixteen to the mean time between two points, each of which may hold one: dwell times are geometric in slots,
-//! with exactly the mean that the style gives. The state is what was drawn at the last point, which is looked for
-//! from the present back.
+//! The state is a Markov process of two states with the mean dwell times τ_c and τ_i. Such a process redraws its
+//! state at the points of a Poisson process with the rate 1/τ_c + 1/τ_i. Each state drawn is inattentive with the
+//! probability τ_i/(τ_c + τ_i). Here time is divided into slots, sixteen to the mean time between two points, and
+//! each slot has at most one point. Dwell times are then geometric in slots, with exactly the mean that the style
+//! gives. The state is the one drawn at the last point, which is searched backwards from the present.
 
 use laneweave_models::{Attention, Concentration};
 
 use crate::state::lane::VehicleId;
 use crate::state::random::{Purpose, Random};
 
-/// Slots in the time in which a state is forgotten (ours).
+/// Slots in the mean time between two points (ours).
 const SLOTS: f64 = 16.0;
 
 /// The state of the driver of `id` at `time` [s].
@@ -39,7 +39,8 @@ fn drawn(attention: &Attention, random: Random, id: VehicleId, time: f64) -> Con
     if is_inattentive { Concentration::Inattentive } else { Concentration::Concentrated }
 }
 
-/// What was drawn for the state, uniform in (0, 1), at the last point up to `slot`; there is one at the beginning.
+/// The random number of the state, uniform in (0, 1), at the last point up to `slot`. The first slot always has a
+/// point.
 fn last_draw(random: Random, id: VehicleId, slot: u32) -> f64 {
     let draw = |slot| random.uniform(id, Purpose::Attention, slot);
     let at_a_point = (1..=slot).rev().map(|slot| draw(slot) * SLOTS).find(|it| *it < 1.0);
@@ -57,7 +58,7 @@ mod tests {
         inattentive: laneweave_models::Alertness { epoch: 2.0, sight: 150.0, comfort: 2.0 },
     };
 
-    /// Times of the complete dwells [s] of one driver in either state, within `hours`.
+    /// Durations of the complete dwells [s] of one driver in each state, within `hours`.
     fn dwells(hours: f64) -> [Vec<f64>; 2] {
         let mut dwells = [Vec::new(), Vec::new()];
         let (mut state, mut since) = (None, 0.0);
@@ -80,7 +81,8 @@ mod tests {
             let n = times.len() as f64;
             let mean = times.iter().sum::<f64>() / n;
             let sd = (times.iter().map(|it| (it - mean) * (it - mean)).sum::<f64>() / (n - 1.0)).sqrt();
-            // Three standard errors; an exponential time has a deviation like its mean, and outlasts it by 1/e.
+            // Three standard errors. The deviation of an exponential time is its mean; a share of 1/e is longer than
+            // the mean.
             assert!((mean / expected - 1.0).abs() < 3.0 / n.sqrt(), "{mean} of {expected}, {n} dwells");
             assert!((sd / mean - 1.0).abs() < 0.1, "{sd} of {mean}");
             let longer = times.iter().filter(|it| **it > expected).count() as f64 / n;

@@ -1,4 +1,4 @@
-//! A driver considers lanes at its turn: it notes how it stands, follows its route, looks around, and chooses.
+//! A driver considers lanes at its turn: it notes whether it stands, follows its route, perceives, and chooses.
 
 use std::borrow::Cow;
 
@@ -25,15 +25,16 @@ use crate::state::standstill::STANDSTILL;
 use crate::state::tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
-/// Who stands this long [s] within this distance [m] of the last place for a change gives its turn up.
+/// A driver who stands this long [s], within this distance [m] of the last place for a change, gives up its turn-off.
 const STANDS_IN_VAIN: f32 = 120.0;
 const AT_THE_PLACE: f64 = 20.0;
-/// Distance to the last place for a change from which a driver in a wrong lane reacts to it [m].
+/// A driver in a wrong lane reacts to the last place for a change within this distance [m].
 const REACTS_WITHIN: f64 = 400.0;
-/// A vehicle that stands this long is stuck, unless it waits for what is bound to end [s].
+/// A vehicle that stands this long is stuck, unless what it waits for is sure to end [s].
 const STUCK_AFTER: f32 = 300.0;
 
-/// A driver considers both sides at its turn. `hints` are the entries beside the last driver of the lane who did.
+/// Considers both sides at a driver's turn. `hints` are the entries beside the last driver of the lane who had its
+/// turn.
 pub(crate) fn consider(
     scene: &Scene,
     moment: Moment,
@@ -81,7 +82,7 @@ pub(crate) fn consider(
     keep_in_mind(concern, me.driver, plan);
 }
 
-/// Notes that the driver had its turn, and whether it stands. Returns for how long it has [s].
+/// Notes that the driver had its turn, and whether it stands. Returns how long it has stood [s].
 fn note_turn(
     scene: &Scene,
     moment: Moment,
@@ -110,13 +111,13 @@ fn note_turn(
     note.standing
 }
 
-/// What its route is to a driver where it is.
+/// The waypoint of a driver's route at its position.
 pub(crate) fn waypoint<'a>(scene: &Scene<'a>, me: &Me) -> Cow<'a, Waypoint> {
     scene.navigator.waypoint_from(scene.network, me.driver.goal.destination(), me.spot.chain, me.motion.x)
 }
 
-/// What a driver, who has been `standing` so long [s], has to keep in mind of its route: the last place for its next
-/// change, or another goal if it can no longer get there.
+/// Follows the route of a driver who has stood for `standing` [s]. Returns the last place for its next change, or a
+/// new destination if it can no longer reach its own.
 fn follow_route(
     scene: &Scene,
     moment: Moment,
@@ -142,8 +143,8 @@ fn follow_route(
     if !waypoint.leads_on(motion.x) {
         return concern;
     }
-    // Who passed the last place takes another route, if there is one; if not, it has a reservation, and is re-routed
-    // beyond.
+    // A driver who passed the last place takes another route if there is one. If not, it has a reservation, and is
+    // rerouted beyond it.
     if is_detour && me.lane_change.last_place < motion.x {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
     }
@@ -151,13 +152,14 @@ fn follow_route(
     Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
 }
 
-/// Who may change to neither side has nothing to weigh, and nothing left to wait for.
+/// Whether a driver may change to a side, or is recommended a route. Without that it has nothing to decide or to wait
+/// for.
 fn has_a_choice(scene: &Scene, me: &Me) -> bool {
     Side::BOTH.into_iter().any(|side| window::beside(scene, me.spot, side).is_some())
         || scene.navigator.recommended(me.driver.goal.destination()).is_some()
 }
 
-/// What a driver sees around it at its turn.
+/// What a driver perceives at its turn.
 pub(crate) fn look<'s, 'a>(
     scene: &'s Scene<'a>,
     moment: Moment,
@@ -189,8 +191,8 @@ fn want_on(
     Concern { gives_up, urgency: wanted.map_or(0.0, |it| it.pressure as f32), ..concern }
 }
 
-/// A driver who keeps its lane begins to want a change if the desire comes, or at the last place for one that it has to
-/// make.
+/// A driver who keeps its lane begins to want a change if the desire arises, or at the last place for a necessary
+/// change.
 fn choose(
     moment: Moment,
     me: &Me,
@@ -212,36 +214,36 @@ fn choose(
     }
 }
 
-/// Where a driver, who has been `standing` so long [s], goes from now on because it cannot get to where it goes by its
-/// `waypoint`, or has waited for the change in vain: the nearest destination that it still can, or as the road leads.
-/// None if it goes on.
+/// The new destination of a driver who has stood for `standing` [s]. It needs one if it cannot reach its own by its
+/// `waypoint`, or has waited for the change in vain. It takes the nearest destination that it can still reach, or
+/// follows the road. `None` if it keeps its own.
 fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Option<Destination> {
     let (spot, goal, x) = (me.spot, me.driver.goal.destination(), me.motion.x);
     let found = if !waypoint.leads_on(x) {
         scene.navigator.nearest(scene.network, goal, spot.chain, x)
     } else if standing >= STANDS_IN_VAIN && waypoint.last_place - x < AT_THE_PLACE {
-        // Only a way that asks for no change here helps it on.
+        // Only a route that needs no lane change here helps it.
         Some(scene.navigator.nearest_in_lane(goal, spot.chain, waypoint.last_place + AT_THE_PLACE)?)
     } else {
         return None;
     };
-    // Who has a reservation goes the way that it was granted for; who drives as the road leads has no other goal to
-    // lose.
+    // A driver with a reservation keeps the route for which it was granted. A driver who follows the road has no
+    // destination to give up.
     let is_free = goal.is_some() && !scene.has_reservation(spot, f64::NEG_INFINITY);
     (found != goal && is_free).then_some(found)
 }
 
-/// Whether a driver comes to the last place for a change that it has to make: there it looks for a gap at every step,
-/// and wants the change whatever else speaks against it (ours).
+/// Whether a driver comes to the last place for a necessary change. There it looks for a gap at every step, and wants
+/// the change whatever speaks against it (ours).
 pub(crate) fn has_last_chance(change: &LaneChangeModel, motion: &Kinematics, waypoint: &Waypoint) -> bool {
-    /// Way before that place [m], and time [s].
+    /// Distance to that place [m], and time [s].
     const WAY: f64 = 30.0;
     const TIME: f64 = 4.0;
     let is_near = waypoint.last_place - motion.x < (TIME * motion.speed).max(WAY);
     waypoint.changes > 0 && is_near && waypoint.leads_on(motion.x) && change.follows_a_route()
 }
 
-/// A driver keeps its way in mind if there is something about it to keep, or to forget.
+/// Stores what a driver notes about its route, if something has to be stored or cleared.
 #[inline(never)]
 fn keep_in_mind(concern: Concern, driver: &DriverState, plan: &mut Plan) {
     let minds_more = concern.last_place.is_finite() || concern.minds_offside;
@@ -250,12 +252,12 @@ fn keep_in_mind(concern: Concern, driver: &DriverState, plan: &mut Plan) {
     }
 }
 
-/// What the driver keeps in mind whatever it decides, considering lanes once in `period` steps.
+/// The note that is stored at every turn. The driver considers lanes once in `period` steps.
 fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
     let Me { spot, motion, driver, style, .. } = *me;
     let limit = scene.network.chain(spot.chain).limit(motion.x);
     let stands = motion.speed < STANDSTILL;
-    // Considerations between two turns add no time to that between the turns.
+    // A consideration between two turns adds nothing to the time, which is counted from turn to turn.
     let is_turn = next_turn(motion.id, moment.clock.step, period) == moment.clock.step;
     let since_last = if is_turn { (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 };
     Note {
@@ -266,7 +268,8 @@ fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
     }
 }
 
-/// A waiting driver loses patience, or the reason to change to the side that it wanted, and not to the other.
+/// Whether a waiting driver gives up. It does if it loses patience, has no more reason to change, or prefers the
+/// other side.
 fn gives_up(
     moment: Moment,
     lane_change: &LaneChangeState,

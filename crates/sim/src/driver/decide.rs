@@ -10,7 +10,7 @@ use crate::state::lane::Phase;
 use crate::state::moment::Moment;
 use crate::view::scene::{Scene, Spot};
 
-/// All drivers of a lane decide.
+/// Decides for all drivers of a lane.
 pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
     let (mut hints, mut last) = ([0; 2], 0);
@@ -30,7 +30,7 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
                     go_or_ask(scene, moment, spot, outbox);
                 }
                 if driver.due <= moment.clock.step {
-                    // Beside there are about as many entries between two drivers.
+                    // The number of entries between two drivers is about the same beside.
                     hints = hints.map(|it| it + index - last);
                     last = index;
                     consider(scene, moment, spot, &mut hints, plan, outbox);
@@ -40,7 +40,7 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
     }
 }
 
-/// A waiting driver goes if the gap is acceptable, else asks to be let in.
+/// A driver who wants to change goes if the gap is acceptable; if not, it asks to be let in.
 pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut Outbox) {
     let (motion, lane_change) = (scene.motion(spot), scene.lane_change(spot));
     let asks_from = scene.style(spot).change.asks_from();
@@ -71,12 +71,12 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
     }
 }
 
-/// Before the crossing a driver goes back if its new leader forces it to brake much harder than its old one.
+/// Aborts a change before the crossing if the new leader forces much harder braking than the old one.
 pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
     let Some(counterpart) = lane_change.counterpart.filter(|_| lane_change.progress < 0.5) else { return };
-    // Back in a lane that ends it could no longer stop before that.
+    // In a lane that ends here, the driver could no longer stop before the end.
     let left = scene.network.chain(spot.chain).driven_until(driver.class.is_long()) - motion.x;
     let ends_here = scene.network.chain(spot.chain).is_lane_drop;
     if ends_here && deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER {

@@ -1,4 +1,4 @@
-//! Drivers drive on: how everybody moves at the end of the step, written down on the snapshot.
+//! Drivers drive on: the kinematics of all vehicles at the end of the step, computed on the snapshot.
 
 use laneweave_network::ChainIndex;
 
@@ -12,8 +12,8 @@ use crate::state::lane::{Kinematics, Lane};
 use crate::state::tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
-/// All drivers of a lane accelerate and move.
-// The busiest loop of a motorway has the registers to itself.
+/// Accelerates and moves all vehicles of a lane.
+// This is the busiest loop on a motorway; a function of its own has all registers.
 #[inline(never)]
 pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
@@ -49,14 +49,15 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
     outbox.counters.updates += updates;
 }
 
-/// The lane that those beside it will look into next, if it is worth asking for: few lanes stay in the cache anyway.
+/// The lane that the drivers of a neighbouring lane will look at next. `None` where there are few lanes: these stay
+/// in the cache.
 fn upcoming<'a>(scene: &Scene<'a>, chain: ChainIndex) -> Option<&'a Lane> {
     const FEW: usize = 100;
     scene.lanes.get(chain.at() + 2).filter(|_| scene.lanes.len() > FEW)
 }
 
-/// A driver who does not only follow, or whose vehicle kinematics has to slow down. Returns its acceleration [m/s²],
-/// and the metres along the chain for a metre driven.
+/// Drives a vehicle whose driver reacts to more than its leader, or whose braking kinematics decides. Returns its
+/// acceleration [m/s²], and the metres along the chain for a metre driven.
 #[inline(never)]
 fn drive_with_care(
     scene: &Scene,
@@ -70,7 +71,7 @@ fn drive_with_care(
     let chosen = with_care(scene, clock, spot, lane_end);
     let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
     let in_emergency = by_kinematics || (driver.in_emergency && acceleration < 0.0);
-    // A shadow counts as well: kinematics in either lane is kinematics.
+    // A shadow counts too: kinematics decides for the vehicle in either lane.
     if by_kinematics && !driver.in_emergency {
         outbox.note(scene, clock, spot, DrivingEventKind::EmergencyBraking);
     }
@@ -99,7 +100,7 @@ fn stretch(scene: &Scene, spot: Spot) -> f64 {
     if scene.driver(spot).phase.is_between_lanes() { f64::from(scene.lane_change(spot).stretch) } else { 1.0 }
 }
 
-/// How a vehicle moves after a step, and the distance driven [m].
+/// The kinematics of a vehicle after a step, and the distance driven [m].
 #[inline]
 fn moved(motion: &Kinematics, acceleration: f64, stretch: f64, dt: f64) -> (Kinematics, f64) {
     let next = motion.speed + acceleration * dt;

@@ -9,22 +9,22 @@ use crate::state::moment::Moment;
 use crate::state::random::Purpose;
 use crate::view::scene::{Scene, Spot};
 
-/// Braking with which a driver could still stop before its new way parts from its old one [m/s²], and what it keeps
-/// beside [m]; ours.
+/// Braking with which a driver can still stop before its new route leaves the old one [m/s²], and the distance that
+/// it keeps in addition [m]; ours.
 const EASY_BRAKING: f64 = 2.0;
 const ROOM: f64 = 5.0;
 
-/// A way on that a driver goes over to.
+/// A driver's change to another route.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Departure {
-    /// The same destination by the other way.
+    /// The same destination by the other route.
     pub(crate) to: Destination,
-    /// The ways are not the same: its route changes.
+    /// The two routes differ.
     pub(crate) is_change: bool,
 }
 
-/// The way that a driver goes over to, if it does so within `epochs`: the better one that it finds, by the same rule by
-/// which it changes lanes; or the same way, newly planned.
+/// The route that a driver changes to, if it does so within `epochs`. It is a better route, chosen by the same rule
+/// as a lane change, or the same route, newly planned.
 #[inline]
 pub(crate) fn departure(
     scene: &Scene,
@@ -39,7 +39,7 @@ pub(crate) fn departure(
     towards(scene, moment, spot, [own, Some(new)], perception, change, epochs)
 }
 
-/// The same for a driver who is recommended another way than its own.
+/// The same for a driver who is recommended another route.
 #[inline(never)]
 fn towards(
     scene: &Scene,
@@ -63,14 +63,14 @@ fn towards(
     can_go_over(scene, spot, [own, new]).then_some(departure)
 }
 
-/// Two ways are the same from here on, as far as their times tell.
+/// Whether two routes are the same from here on, judged by their times.
 fn goes_on_alike(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     let [own, new] = ways.map(|it| scene.navigator.waypoint(it, spot.chain));
     own.goes_like(new) && own.time == new.time
 }
 
-/// Who has a reservation goes the way that it was granted for; others could still stop before the ways part, and are in
-/// a lane that leads on over its end.
+/// Whether a driver can change its route here. A driver with a reservation keeps the route for which it was granted.
+/// Others have to be able to stop before the routes separate, and to be in a lane that leads on beyond its end.
 fn can_go_over(scene: &Scene, spot: Spot, ways: [Destination; 2]) -> bool {
     let Scene { network, navigator, .. } = scene;
     let motion = scene.motion(spot);

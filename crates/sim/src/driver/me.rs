@@ -1,4 +1,4 @@
-//! A driver with all that it has at hand.
+//! A driver with all of its state.
 
 use std::borrow::Cow;
 
@@ -30,7 +30,7 @@ impl<'a> Me<'a> {
     }
 }
 
-/// How a driver attends at its turn.
+/// The attention of a driver at its turn.
 #[derive(Clone, Copy)]
 pub(crate) struct Attending {
     pub(crate) state: Concentration,
@@ -42,7 +42,7 @@ pub(crate) struct Attending {
 }
 
 impl Attending {
-    /// How `me` attends at this moment.
+    /// The attention of `me` at this moment.
     #[inline]
     pub(crate) fn of(me: &Me, moment: Moment) -> Attending {
         let attention = &me.style.attention;
@@ -53,7 +53,7 @@ impl Attending {
         Attending { state, alertness, period, epochs }
     }
 
-    /// The lane-change model of a driver of `style` who attends like that.
+    /// The lane-change model of a driver of `style` with this attention.
     pub(crate) fn model<'a>(&self, style: &'a Style) -> Cow<'a, LaneChangeModel> {
         match self.state {
             Concentration::Concentrated => Cow::Borrowed(&style.change),

@@ -1,4 +1,4 @@
-//! What a driver does: it perceives, decides and accelerates, and writes that into a plan.
+//! Drivers: they perceive, decide and accelerate, and write the results into a plan.
 
 pub(crate) mod accelerate;
 pub(crate) mod attention;

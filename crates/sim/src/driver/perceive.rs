@@ -1,4 +1,5 @@
-//! Traffic as one driver sees it. The only bridge from traffic to models, for simulated and for recorded drivers.
+//! Perception: traffic as one driver sees it. This is the only bridge from traffic to models, for simulated and for
+//! recorded drivers.
 
 mod gain_bound;
 
@@ -17,10 +18,11 @@ use crate::view::sight::LaneSight;
 
 pub(crate) use gain_bound::Dismissed;
 
-/// Who stands at the end of its lane has this much road left to drive on [m].
+/// A vehicle at the end of its lane counts as having this much road left [m].
 const LEAST_ROOM: f64 = 0.1;
 
-/// What a concentrated driver knows when it considers the lane on `side`; `None` where it may not change to one.
+/// What a concentrated driver knows when it considers the lane on `side`; `None` where it may not change to that
+/// side.
 pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation<'a>> {
     let Viewpoint { chain, x, destination, .. } = scene.viewpoint(me);
     let here = scene.network.chain(chain);
@@ -49,7 +51,7 @@ pub fn driver_of<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
     }
 }
 
-/// A driver's view of its own lane, from which it considers both sides.
+/// A driver's perception of its own lane and of both sides.
 pub(crate) struct Perception<'s, 'a> {
     scene: &'s Scene<'a>,
     driver: &'a DriverState,
@@ -60,15 +62,15 @@ pub(crate) struct Perception<'s, 'a> {
     beliefs: Beliefs<'a>,
     sight: LaneSight,
     here: LaneView<'a>,
-    /// Its usual way is over, and it goes round.
+    /// It can no longer follow its usual route, and takes another one.
     goes_round: bool,
-    /// Where it would be in the lanes beside, left and right, where it may change to them.
+    /// Its positions in the lanes on the left and on the right, where it may change to them.
     beside: [Option<Viewpoint>; 2],
 }
 
 impl<'s, 'a> Perception<'s, 'a> {
-    /// Looks along the own lane of a driver whose waypoint is `waypoint`, and who sees `reach` [m] ahead. The first
-    /// entries ahead in the lanes beside are sought from `hints` on, left and right, and kept in them.
+    /// Looks along the own lane of a driver with this `waypoint` who sees `reach` [m] ahead. The first entries ahead
+    /// on the left and on the right are searched from `hints` on, and written back to them.
     pub(crate) fn new(
         scene: &'s Scene<'a>,
         spot: Spot,
@@ -84,7 +86,7 @@ impl<'s, 'a> Perception<'s, 'a> {
         let beside = Side::BOTH.map(|side| {
             let beside = window::beside(scene, spot, side)?;
             let there = scene.network.chain(beside.chain);
-            // Into a lane that is tight for it a long vehicle changes for its route only.
+            // A long vehicle changes into a lane that is tight for it only if its route requires it.
             let is_tight = from.is_long && there.is_tight_for_long && waypoint.changes == 0;
             if is_tight || !there.takes(beside.across(from.x), from.is_long) {
                 return None;
@@ -108,12 +110,12 @@ impl<'s, 'a> Perception<'s, 'a> {
         }
     }
 
-    /// The driver's own vehicle.
+    /// The state of the driver.
     pub(crate) fn driver(&self) -> &'a DriverState {
         self.driver
     }
 
-    /// What it believes of travel times.
+    /// Its beliefs about travel times.
     pub(crate) fn beliefs(&self) -> Beliefs<'a> {
         self.beliefs
     }
@@ -123,12 +125,12 @@ impl<'s, 'a> Perception<'s, 'a> {
         &self.here
     }
 
-    /// Where the driver would be in the lane on `side`; `None` where it may not change to one.
+    /// The driver's position in the lane on `side`; `None` where it may not change to that side.
     pub(crate) fn beside(&self, side: Side) -> Option<Viewpoint> {
         self.beside[side.at()]
     }
 
-    /// What the driver knows about the lane on `side`, where it would look `from`.
+    /// What the driver knows about the lane on `side`, seen from its position there, `from`.
     pub(crate) fn situation(&self, side: Side, from: Viewpoint) -> Situation<'a> {
         let sight = self.scene.look(from, self.me.pace.desired, self.me.length, self.reach);
         let (section, [route_here, route_there]) = self.routes(from);
@@ -140,8 +142,8 @@ impl<'s, 'a> Perception<'s, 'a> {
         Situation { toward, me, here, there, section, band, merging }
     }
 
-    /// The length over which the speeds of the own lane and of the one where the driver would be at `from` differ for
-    /// it [m], and what the two lanes mean for its route beyond.
+    /// The length of road on which the speeds of the own lane and of the lane at `from` are compared [m], and what
+    /// the two lanes mean for the route beyond it.
     #[inline]
     fn routes(&self, from: Viewpoint) -> (f64, [RouteView; 2]) {
         let there = route_view(self.scene, from, &self.waypoint_beside(from), self.beliefs);
@@ -155,8 +157,8 @@ impl<'s, 'a> Perception<'s, 'a> {
         (section, [here, there])
     }
 
-    /// Times [s] that waypoints hold for the next `section` [m] of the own lane, and of the lane where the driver would
-    /// be at `there`: on the free road the same.
+    /// Times [s] on the next `section` [m], as waypoints count them, in the own lane and in the lane at `there`.
+    /// Where the times are those of the free road, both are the same.
     #[inline]
     fn times_on(&self, section: f64, there: Viewpoint) -> [f64; 2] {
         let Scene { network, navigator, .. } = self.scene;
@@ -177,7 +179,7 @@ impl<'s, 'a> Perception<'s, 'a> {
         }
     }
 
-    /// The way on from beside. Only a driver who goes round already would go round from there.
+    /// The waypoint at a position beside. Only a driver who already takes another route would do so from there.
     fn waypoint_beside(&self, there: Viewpoint) -> Cow<'a, Waypoint> {
         let Scene { network, navigator, .. } = self.scene;
         let Viewpoint { destination, chain, x, .. } = there;
@@ -188,9 +190,9 @@ impl<'s, 'a> Perception<'s, 'a> {
         }
     }
 
-    /// Who signals a change into the lane that the driver would leave to `side`, where it would look `from` and see
-    /// `there`: on the other side the next one behind, or else ahead; on this side the new leader. The new follower
-    /// counts as such.
+    /// The vehicles that signal a change into the lane that the driver would leave to `side`. `from` is the driver's
+    /// position there, and `there` what it sees. On the other side this is the next vehicle behind, or else the next
+    /// one ahead. On this side it is the new leader; the new follower counts as a follower only.
     fn merging(&self, side: Side, from: Viewpoint, there: &LaneSight) -> [Option<Merging<'a>>; 2] {
         let across = self.beside(side.opposite()).and_then(|Viewpoint { chain, x, ahead, .. }| {
             let drivers = self.scene.drivers(chain);
@@ -205,8 +207,8 @@ impl<'s, 'a> Perception<'s, 'a> {
         [across, leader.and_then(|it| self.merging_from(it, side, from.x))]
     }
 
-    /// The vehicle at `spot` on `side`, which signals a change and beside whose lane the driver is at `x` [m], if it
-    /// wants into the driver's lane and nobody is between it and the driver there.
+    /// The vehicle at `spot` on `side`, if it wants to change into the driver's lane, and no vehicle is between it
+    /// and the driver there. The driver is at `x` [m] beside the vehicle's lane.
     #[inline(never)]
     fn merging_from(&self, spot: Spot, side: Side, x: f64) -> Option<Merging<'a>> {
         let lane_change = self.scene.lane_change(spot);
@@ -234,8 +236,8 @@ impl<'s, 'a> Perception<'s, 'a> {
         })
     }
 
-    /// What the vehicle at `spot` has ahead as long as it cannot change: its leader, or where it has to have left its
-    /// lane.
+    /// What the vehicle at `spot` has ahead while it cannot change: its leader, or the place where it has to have
+    /// left its lane.
     fn held_in_its_lane(&self, spot: Spot) -> Option<Ahead> {
         let room = self.scene.lane_change(spot).last_place - self.scene.motion(spot).x;
         let end = room.is_finite().then(|| Ahead::standing(room.max(LEAST_ROOM)));
@@ -255,8 +257,7 @@ fn lane_view<'a>(scene: &Scene<'a>, me: &Driver, sight: &LaneSight, route: Route
     }
 }
 
-/// What a lane means for the driver's route, whose waypoint there is `waypoint`; times count from the driver's place
-/// on.
+/// What a lane with this `waypoint` means for the driver's route. Times count from the driver's position.
 #[inline(always)]
 fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beliefs) -> RouteView {
     if !waypoint.leads_on(from.x) {

@@ -1,4 +1,4 @@
-//! Who is stuck: it has stood for long, and nothing that is bound to end holds it.
+//! Stuck vehicles: a vehicle is stuck if it has stood for long, and nothing that is sure to end blocks it.
 
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
@@ -9,26 +9,26 @@ use crate::state::clock::Clock;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};
 
-/// A light that was green within this time will be so again [s].
+/// A light that was green within this time will be green again [s].
 const RECENTLY: f64 = 180.0;
-/// A longer chain of blocked vehicles leads back to itself.
+/// A longer chain of blocked vehicles is a cycle.
 const LONGEST: usize = 1000;
 
-/// What holds a standing vehicle.
+/// What blocks a standing vehicle.
 enum Blocker {
     /// The vehicle at a spot.
     Vehicle(Spot),
-    /// A light that was green not long ago.
+    /// A light that was green recently.
     Light,
-    /// Nothing any more: it is about to drive off.
+    /// Nothing: the vehicle is about to drive off.
     Nothing,
     /// Something else.
     Other,
 }
 
-/// Whether the vehicle at `spot`, which has stood for long, is stuck: it is not if the head of those who block it
-/// moves, is about to, or waits at a red light that was green not long ago. Those who wait for each other are stuck,
-/// all of them.
+/// Whether the vehicle at `spot`, which has stood for long, is stuck. It is not stuck if the first of the vehicles
+/// that block it moves, is about to move, or waits at a light that was green recently. Vehicles that wait for each
+/// other are all stuck.
 #[inline(never)]
 pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
     let mut at = spot;
@@ -37,7 +37,7 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
             Blocker::Vehicle(next) => at = next,
             Blocker::Light => return false,
-            // Who is itself about to drive off has stood for no reason of another.
+            // A vehicle that is itself about to drive off did not stand because of another.
             Blocker::Nothing => return at == spot,
             Blocker::Other => return true,
         }
@@ -54,7 +54,7 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
         None if is_let_go() => Blocker::Nothing,
         None => Blocker::Other,
     };
-    // It waits behind another, or for one who goes before it into a merge, or it is itself the head.
+    // A vehicle at the head waits for no leader, and for none into a merge.
     let is_head = surveyed(scene, &Applicant::at(scene, at), survey)
         && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
     if !is_head {

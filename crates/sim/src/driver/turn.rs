@@ -1,10 +1,10 @@
-//! When drivers consider lanes: each at its own turn within the epoch, so that at every step there are as many.
+//! Turns: drivers consider lanes once in an epoch, each in its own step, so that all steps have about the same load.
 
 use crate::state::lane::VehicleId;
 
-/// The first turn of the driver of `id` from step `from` on, of one in every `period` steps.
+/// The first turn of the driver of `id` from step `from` on. It has one turn in every `period` steps.
 ///
-/// Turns are dealt out by multiples of the golden ratio, which spread evenly over any number of successive vehicles.
+/// The turns are multiples of the golden ratio, which spread evenly over any number of successive vehicles.
 #[inline]
 pub(crate) fn next_turn(id: VehicleId, from: u32, period: u32) -> u32 {
     /// 2³² divided by the golden ratio.

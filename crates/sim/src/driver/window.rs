@@ -1,5 +1,5 @@
-//! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short one looks at the
-//! lane beside before it may change there, so that it comes to the window with a gap, and slowly enough to use it.
+//! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short window looks at
+//! the lane beside before it may change. So it reaches the window with a gap, and slowly enough to use it.
 
 use laneweave_network::{Beside, Side};
 
@@ -7,14 +7,14 @@ use crate::route::walk::Leg;
 use crate::state::lane::DriverState;
 use crate::view::scene::{Scene, Spot};
 
-/// A window is short up to this length [m]: a driver who looks for a gap only there finds none in time. Ours.
+/// A window is short up to this length [m] (ours): a driver who looks for a gap only within it finds none in time.
 const SHORT: f64 = 80.0;
-/// So far before a short window a driver looks for a gap [m]. Ours.
+/// A driver looks for a gap from this distance before a short window on [m] (ours).
 const LOOKS_AHEAD: f64 = 60.0;
 
-/// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in which
-/// it has to change.
-// Considering a lane begins with it.
+/// The stretch on which the driver at `spot` may change to `side`: the one where it is, or the short one ahead in
+/// which it has to change.
+// Every consideration of a lane begins with this function.
 #[inline(always)]
 pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'a Beside> {
     let stretches = scene.network.chain(spot.chain).stretches(side);
@@ -29,8 +29,8 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
     }
 }
 
-/// The first of `stretches` ahead of the driver at `spot`, if the short window in which it has to change lanes begins
-/// with it.
+/// The next of `stretches` ahead of the driver at `spot`, if the short window in which it has to change begins with
+/// it.
 #[inline(never)]
 fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a Beside> {
     let (x, last_place) = (scene.motion(spot).x, scene.lane_change(spot).last_place);
@@ -43,28 +43,27 @@ fn coming<'a>(scene: &Scene, spot: Spot, stretches: &'a [Beside]) -> Option<&'a 
     (begins_it && window.is_near_and_short() && next.across(x) >= 0.0).then_some(next)
 }
 
-/// A window ahead, or one that the driver is in. Distances are those from its front [m].
+/// A window ahead of the driver, or around it. Distances are from its front [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Window {
-    /// Where it begins; negative within it.
+    /// Where it begins; negative if the driver is in it.
     pub(crate) start: f64,
     /// The last place for the change.
     pub(crate) end: f64,
 }
 
 impl Window {
-    /// The one in which the driver at `spot` has to change lanes by the last place that it keeps in mind; none where
-    /// that is far.
+    /// The window in which the driver at `spot` has to change lanes, by its stored last place; `None` if that is far.
     pub(crate) fn of(scene: &Scene, spot: Spot) -> Option<Window> {
         let (x, place) = (scene.motion(spot).x, scene.lane_change(spot).last_place);
-        // A short one is near, and a long one so far ahead is not worth the search.
+        // A short window is near; a long one so far ahead is not worth the search.
         if place - x > SHORT + LOOKS_AHEAD {
             return None;
         }
         let DriverState { goal, class, .. } = scene.driver(spot);
         let (destination, is_long) = (goal.destination(), class.is_long());
         let walk = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).within(place);
-        // For each side the window that ends last so far, along the own chain.
+        // For each side the window along the own chains that ends last so far.
         let mut runs = [[f64::NEG_INFINITY; 2]; 2];
         for Leg { chain, start, .. } in walk {
             let here = scene.network.chain(chain);
@@ -89,14 +88,14 @@ impl Window {
         self.end - self.start
     }
 
-    /// Whether it is short, and the driver near it or in it.
+    /// Whether it is short, and the driver is near it or in it.
     pub(crate) fn is_near_and_short(&self) -> bool {
         self.length() < SHORT && self.start < LOOKS_AHEAD
     }
 
     /// The speed at which a change of this `duration` [s] fits into it [m/s].
     pub(crate) fn speed_for(&self, duration: f64) -> f64 {
-        /// Of the length for which the change is allowed, what it takes to the crossing at most. Ours.
+        /// Largest share of the window's length on the way to the crossing (ours).
         const SHARE: f64 = 0.7;
         2.0 * SHARE * self.length() / duration
     }

@@ -1,5 +1,5 @@
-//! A bound of what the lanes beside can gain. Most drivers on most occasions see by the next vehicles there that
-//! neither lane can be worth a change, and look no further; what they decide is the same to the last bit.
+//! An upper bound of the gain in the lanes beside. For most drivers the next vehicles there show that neither lane
+//! can be worth a change, so they look no further. Their decisions are the same to the last bit.
 
 use laneweave_models::change::{Behind, GainBound, Mcdm, anticipated_speed};
 use laneweave_models::follow::Ahead;
@@ -12,13 +12,13 @@ use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
 /// What a driver has seen who looks no further.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dismissed {
-    /// Best speed that may be anticipated in a lane beside that leads to the same place [m/s]; `None` where there is
-    /// none.
+    /// Highest anticipated speed in a lane beside that leads to the same place [m/s]; `None` if there is no such
+    /// lane.
     pub(crate) best_prospect: Option<f64>,
 }
 
 impl Perception<'_, '_> {
-    /// Whether neither side can gain as much as `reach`. `None` where it can, or the bound does not tell.
+    /// Whether neither side can gain as much as `reach`. `None` if one can, or if the bound is not valid.
     #[inline]
     pub(crate) fn dismisses(&self, model: &Mcdm, reach: f64) -> Option<Dismissed> {
         if self.here.route.changes != 0
@@ -70,7 +70,7 @@ impl Perception<'_, '_> {
         })
     }
 
-    /// The leader and the follower where the driver would be at `from`; `None` where they are not on that chain.
+    /// The leader and the follower of the driver if it were at `from`; `None` if they are not both on that chain.
     #[inline]
     fn next_to(&self, from: Viewpoint) -> Option<(Option<Ahead>, Option<Found>)> {
         let motions = self.scene.motions(from.chain);
