@@ -1,5 +1,5 @@
-//! What a driver makes of its lanes at an instant, and what it is about to do in the next step: told without moving
-//! anything, so that a run can be asked for its reasons whenever it is repeated.
+//! A driver's view of its lanes at an instant, and what it will do in the next step. Nothing moves, so that a
+//! repeated run can be asked for its reasons at any time.
 
 use std::borrow::Cow;
 
@@ -19,41 +19,41 @@ use crate::state::random::Purpose;
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
 
-/// What a driver makes of its lanes.
+/// A driver's account of its lanes.
 #[derive(Debug)]
 pub struct Account<'a> {
-    /// Who.
+    /// The vehicle.
     pub vehicle: VehicleId,
-    /// When [s].
+    /// Time [s].
     pub time: f64,
-    /// Where its main entry stands.
+    /// Position of its main entry.
     pub spot: Spot,
     /// Its driver parameters.
     pub style: &'a Style,
-    /// Whether it attends.
+    /// Whether the driver is concentrated or inattentive.
     pub state: Concentration,
     /// Its lane-change model in that state.
     pub change: Cow<'a, LaneChangeModel>,
-    /// The sides to which it may change, that for overtaking first.
+    /// The sides to which it may change, the side for overtaking first.
     pub sides: [Option<SideAccount<'a>>; 2],
-    /// For so long it makes no voluntary change after the last one [s].
+    /// Remaining time of the cooldown, in which it makes no discretionary change [s].
     pub cooldown_left: f64,
-    /// Epochs that pass from one turn to the next.
+    /// Epochs from one turn to the next.
     pub epochs: f64,
-    /// It comes to the last place for a change that it has to make, which it then wants whatever it makes of it.
+    /// It comes to the last place for a necessary change, which it then wants whatever its appraisal.
     pub has_last_chance: bool,
-    /// What was drawn for this turn, evenly from [0, 1).
+    /// The random number of this turn, uniform in [0, 1).
     pub draw: f64,
-    /// What it does.
+    /// What it does in the next step.
     pub act: Act,
-    /// The gap that it waits for, if it does: with its new leader, and with its new follower.
+    /// The pairings in the gap that it waits for, if it waits: with its new leader, and with its new follower.
     pub pairings: [Option<Pairing<'a>>; 2],
-    /// The highest own speed for which the road left does for that change [m/s].
+    /// The highest own speed at which the road is long enough for that change [m/s].
     pub fastest: f64,
 }
 
 impl Account<'_> {
-    /// It wants the change that it has to make at its last place, not by what it makes of it.
+    /// Whether it wants the change because this is its last chance, not because of its appraisal.
     pub fn wants_its_last_chance(&self) -> bool {
         let helps = |side: Side| {
             let mut sides = self.sides.iter().flatten().filter(|it| it.side == side);
@@ -63,46 +63,46 @@ impl Account<'_> {
     }
 }
 
-/// A side to which a driver may change.
+/// A side to which a driver may change, and the driver's appraisal of it.
 #[derive(Debug)]
 pub struct SideAccount<'a> {
-    /// Which.
+    /// The side.
     pub side: Side,
     /// What the driver sees.
     pub situation: Situation<'a>,
-    /// What it makes of it.
+    /// Its appraisal.
     pub appraisal: Appraisal,
-    /// Chance that the desire for this side comes at this turn; 0 while the driver is calm and its route does not press
-    /// it.
+    /// Probability that the desire for this side arises at this turn. It is 0 in the cooldown, unless the side helps
+    /// the route.
     pub chance: f64,
-    /// It does not weigh the side, as it is calm.
+    /// It does not consider the side, because it is in the cooldown.
     pub is_out_of_question: bool,
 }
 
 /// What a driver does in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Act {
-    /// Drives on: it is not its turn to consider lanes.
+    /// It drives on: this is not its turn to consider lanes.
     DrivesOn,
-    /// Considers lanes, and stays.
+    /// It considers lanes, and stays.
     Stays,
-    /// Begins to want to change.
+    /// It begins to want a change.
     Wants(Side, Kind),
-    /// Waits for a gap, for this reason.
+    /// It waits for a gap, for this reason.
     Waits(Side, Hindrance),
-    /// Has found its gap, and asks to go: it does unless another takes the gap before it.
+    /// It has found a gap, and asks to change. It changes unless another driver takes the gap first.
     Goes(Side),
-    /// Gives up waiting.
+    /// It gives up waiting.
     GivesUp(Side),
-    /// Leaves its route for another: a better one, or any other where its own is lost.
+    /// It takes another route: a better one, or any other if it can no longer follow its own.
     TakesAnotherRoute,
-    /// Is on its way across.
+    /// It is changing lanes.
     Changes(Side),
-    /// Calls its change off, or is on its way back.
+    /// It aborts its change, or is on its way back.
     GoesBack(Side),
 }
 
-/// What the driver of the vehicle at `spot` makes of its lanes now, and does in the next step.
+/// A driver's account: the vehicle at `spot`, its lanes now, and what it does in the next step.
 pub fn explain(world: &World, spot: Spot) -> Account<'_> {
     let scene = world.scene();
     let overtaking = scene.network.driving_side.overtaking();
@@ -149,7 +149,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
     }
 }
 
-/// What the driver at `spot` does: it decides as in a step, and what it writes down is read.
+/// What the driver at `spot` does. It decides as in a step, and its plan is read.
 fn act(scene: &Scene, moment: Moment, spot: Spot) -> Act {
     let (driver, side) = (scene.driver(spot), scene.lane_change(spot).side);
     let is_turn = driver.due <= moment.clock.step;

@@ -1,4 +1,4 @@
-//! Questions about a world, which change nothing.
+//! Questions about a world. They change nothing.
 
 pub(crate) mod account;
 pub(crate) mod queues;

@@ -1,4 +1,4 @@
-//! Who waits at the origins of the demand, and what holds them.
+//! The queues at the origins of the demand, and what blocks them.
 
 use laneweave_network::ChainIndex;
 
@@ -14,19 +14,19 @@ use crate::view::scene::{Scene, Spot};
 /// The queue for one lane of an origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EntryQueue {
-    /// The origin's place in the demand.
+    /// Index of the origin in the demand.
     pub origin: usize,
     /// The lane.
     pub chain: ChainIndex,
-    /// Where on it vehicles start [m].
+    /// Station at which vehicles start [m].
     pub station: f64,
-    /// How many wait.
+    /// Number of waiting vehicles.
     pub waiting: usize,
-    /// What holds the first of them.
+    /// What blocks the first of them.
     pub held: Option<Held>,
 }
 
-/// What holds the first of a queue.
+/// What blocks the first vehicle of a queue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Held {
     /// The traffic on the lane moves, but leaves no gap.
@@ -35,11 +35,12 @@ pub enum Held {
     Queue,
     /// They stand because of a red light.
     RedLight,
-    /// They stand because others go first at a junction, or a sign stops them.
+    /// They stand because others go first at a junction, or because of a stop sign.
     Priority,
-    /// They stand because there is no room beyond a junction; or the room at a place inside the map is kept for others.
+    /// They stand because there is no storage space beyond a junction, or the space at a trip end inside the map is
+    /// kept for others.
     Space,
-    /// The whole map is full: no trip begins within it.
+    /// Perimeter control: the whole map is full, and no trip begins within it.
     FullMap,
 }
 
@@ -49,11 +50,11 @@ impl Held {
         [Held::Traffic, Held::Queue, Held::RedLight, Held::Priority, Held::Space, Held::FullMap];
 }
 
-/// Slower than this a vehicle is part of a queue [m/s], and so near to the one ahead [m]; ours.
+/// A vehicle slower than this [m/s], and this near to the one ahead [m], is part of a queue; ours.
 const QUEUES: f64 = 2.0;
 const NEAR: f64 = 15.0;
 
-/// The queues at all lanes of all origins, in the order of the demand.
+/// The queues of all lanes of all origins, in the order of the demand.
 pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
     let lanes = world.arrivals().sources().iter().enumerate();
     let lanes = lanes.flat_map(|(origin, source)| source.lanes().iter().map(move |it| (origin, it)));
@@ -66,7 +67,7 @@ pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
     })
 }
 
-/// What holds the first of a queue.
+/// What blocks the first vehicle of a queue.
 fn held(world: &World, queue: &Queue) -> Option<Held> {
     let first = queue.waiting.front()?;
     let scene = world.scene();
@@ -88,7 +89,7 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
     Some(last.map_or(Held::Traffic, |it| why_head_stands(world, &scene, head(&scene, it))))
 }
 
-/// Why the driver at the head of a queue stands.
+/// Why the vehicle at the head of a queue stands.
 fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
     let Some(waiting) = world.waits_at_a_junction(spot) else {
         return Held::Queue;
@@ -106,9 +107,9 @@ fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
     }
 }
 
-/// The first of the queue in which the vehicle at `spot` stands.
+/// The first vehicle of the queue in which the vehicle at `spot` stands.
 fn head(scene: &Scene, mut spot: Spot) -> Spot {
-    /// No queue within the map is followed further.
+    /// Largest number of vehicles that are followed within the map.
     const MOST: usize = 1000;
     for _ in 0..MOST {
         let from = scene.viewpoint(spot);

@@ -1,4 +1,4 @@
-//! Why a vehicle stands, or can hardly move: of all that its driver reacts to, the nearest.
+//! Why a vehicle stands, or hardly moves: the nearest of all that its driver reacts to.
 
 use laneweave_network::Position;
 
@@ -14,12 +14,12 @@ use crate::state::lane::VehicleId;
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
 
-/// What holds a vehicle.
+/// What a vehicle stands for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StandsFor {
     /// The vehicle ahead.
     Leader {
-        /// Who.
+        /// Its id.
         vehicle: VehicleId,
         /// The gap to it [m].
         gap: f64,
@@ -30,18 +30,18 @@ pub enum StandsFor {
     StopSign,
     /// It waits for its reservation before a conflict area.
     Junction {
-        /// The chains that share the ground, and where on each that begins [m].
+        /// The two chains of each conflict area, and where it begins on each [m].
         areas: Vec<[Position; 2]>,
-        /// Why it is not given.
+        /// Why the reservation is not granted.
         why: JunctionHindrance,
-        /// Who holds the area, or waits longer for it.
+        /// The vehicles that have a reservation of the area, or go first.
         others: Vec<VehicleId>,
     },
-    /// It has a reservation, and goes after these.
+    /// It has a reservation, and follows these vehicles.
     After(Vec<VehicleId>),
     /// The end of its lane, so far ahead [m].
     LaneEnd(f64),
-    /// The last place for a change that it has to make, so far ahead [m].
+    /// The last place for a necessary change, so far ahead [m].
     LastPlace(f64),
     /// It lets in a vehicle so far ahead [m].
     LetsIn(f64),
@@ -49,7 +49,7 @@ pub enum StandsFor {
     Nothing,
 }
 
-/// Why a driver is not given its reservation.
+/// Why a driver's reservation is not granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JunctionHindrance {
     /// Others go first.
@@ -60,7 +60,7 @@ pub enum JunctionHindrance {
     Roundabout,
 }
 
-/// What holds the vehicle at `spot`.
+/// What the vehicle at `spot` stands for.
 pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let scene = world.scene();
     let junction = look(&scene, spot);
@@ -85,7 +85,7 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
         place.map(|it| (it, StandsFor::LastPlace(lane_change.last_place - motion.x))),
         lets_in.map(|it| (it, StandsFor::LetsIn(it))),
     ];
-    /// Nobody stands for what is further ahead [m].
+    /// Nothing farther ahead than this makes a vehicle stand [m].
     const FAR: f64 = 30.0;
     let near = all.into_iter().flatten().filter(|it| it.0 < FAR);
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(StandsFor::Nothing, |it| it.1)
@@ -132,7 +132,7 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
     StandsFor::Junction { areas: areas.collect(), why, others }
 }
 
-/// Those from other lanes who pass before the vehicle at `spot`, which has a reservation.
+/// Vehicles from other lanes that pass before the vehicle at `spot`, which has a reservation.
 fn before_it(scene: &Scene, spot: Spot) -> Vec<VehicleId> {
     let (own, slot) = (scene.reservation(spot), scene.lane_change(spot).reservation);
     let mut others: Vec<VehicleId> = Vec::new();

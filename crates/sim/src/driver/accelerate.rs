@@ -1,5 +1,4 @@
-//! Drivers choose accelerations: behind their leaders, towards the ends of lanes, into and out of lanes, and above all
-//! that emergency braking.
+//! Drivers choose accelerations: behind leaders, at lane ends, and in lane changes. Emergency braking overrides them.
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
@@ -15,18 +14,17 @@ use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;
 use crate::view::scene::{Scene, Spot};
 
-/// Drivers brake for the end of a lane, or the last place for a change, when this is needed to stop there [m/s²].
+/// Drivers brake for the end of a lane, or the last place for a change, when they need this to stop there [m/s²].
 const COMFORTABLE_BRAKING: f64 = 2.0;
-/// Road kept before the end of a lane, and before the last place for a change, to steer on [m]: what a truck needs to
-/// get past another vehicle and into the lane.
+/// Road kept before the end of a lane and the last place for a change [m]: a truck needs it to steer past a vehicle.
 const ROOM_AT_THE_END: f64 = 16.0;
-/// What is left of it when it is used [m].
+/// What is left of that road when it is used [m].
 const LEAST_ROOM: f64 = 1.0;
-/// Who has waited this long [s] for a gap, and hardly moves [m/s], uses that room.
+/// A driver who has waited this long for a gap [s], and hardly moves [m/s], uses that road.
 const WAITS: f64 = 8.0;
 const HARDLY_MOVES: f64 = 3.0;
-/// Drivers who desire no more than this stop at the last place for a change [m/s]; the faster slow down to half of
-/// what they desire beyond it (ours: in a town one waits for a gap, on a motorway one does not stop).
+/// Drivers with a desired speed up to this stop at the last place for a change [m/s]. Faster drivers slow down to
+/// half of the excess (ours: in towns drivers wait for a gap, on motorways they do not stop).
 const WAITS_BELOW: f64 = 17.0;
 
 /// The acceleration that a driver chose.
@@ -34,26 +32,25 @@ const WAITS_BELOW: f64 = 17.0;
 pub(crate) struct Chosen {
     /// Acceleration [m/s²].
     pub(crate) acceleration: f64,
-    /// Kinematics, not the model, decided, and the driver brakes.
+    /// Kinematics, not the model, decided the braking.
     pub(crate) by_kinematics: bool,
-    /// The vehicle touches its leader.
+    /// The vehicle overlaps its leader.
     pub(crate) touches: bool,
     /// What the driver reacts to at a junction.
     pub(crate) junction: Junction,
 }
 
-/// Where along a chain who only follows a leader on it reacts to nothing else: beyond a fork, and where the leader is
-/// not beyond the next place to stop.
+/// Where a driver with a leader on its chain reacts only to it: beyond the fork, and before the next place to stop.
 #[derive(Clone, Copy)]
 pub(crate) struct OpenRoad {
-    /// From here on whatever the leader does [m].
+    /// From here on it reacts only to its leader, wherever that is [m].
     from: f64,
     fork_clearance: f64,
     first_place: f64,
 }
 
 impl OpenRoad {
-    /// That of `chain`, which ends at `lane_end` if it is a lane that ends: there it has none.
+    /// The open road of `chain`. A lane that ends, at `lane_end`, has none.
     #[inline]
     pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<LaneEnd>) -> OpenRoad {
         let [first_place, last_place] = scene.network.junctions.places(chain);
@@ -62,19 +59,19 @@ impl OpenRoad {
         OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
     }
 
-    /// Whether it reaches from a driver to a leader at `leader` [m].
+    /// Whether the driver and its leader at `leader` [m] are both on it.
     #[inline]
     pub(crate) fn reaches(&self, motion: &Kinematics, leader: f64) -> bool {
-        // Where it may have to stop behind its leader, or where that will have gone on, it looks more closely.
+        // A driver who may have to stop behind its leader, or where the leader has gone on, needs a closer look.
         let stays_before = || self.first_place - motion.x >= stopping_way(motion.speed);
         motion.x >= self.from
             || (motion.x >= self.fork_clearance && leader <= self.first_place && stays_before())
     }
 }
 
-/// The usual case: a driver who reacts only to its leader on the same chain, and is secure behind it with room to
-/// spare. `None` if it is not.
-// The most frequent call of a motorway.
+/// The usual case: the driver reacts only to its leader on the same chain, and its gap is large enough to be secure.
+/// `None` if not.
+// This is the most frequent call on a motorway.
 #[inline(always)]
 pub(crate) fn behind(
     scene: &Scene,
@@ -93,7 +90,7 @@ pub(crate) fn behind(
     (ahead.gap >= 0.0 && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
 }
 
-/// Every case. A vehicle in a lane change follows both leaders: both its entries take the lower acceleration.
+/// Every case. A vehicle in a lane change follows both leaders: both entries take the lower acceleration.
 pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let chosen = in_lane(scene, clock, spot, lane_end);
     if !scene.driver(spot).phase.is_between_lanes() {
@@ -107,8 +104,7 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
 }
 
-/// For one entry: the leader may be beyond the end of the chain, the driver may react to more than it, and kinematics
-/// may have to decide.
+/// The acceleration for one entry. Its leader may be on another chain, and kinematics may have to decide.
 #[inline(never)]
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
@@ -135,14 +131,14 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
     Chosen {
         acceleration,
-        // To accelerate less is no braking.
+        // A lower positive acceleration is no braking.
         by_kinematics: acceleration < wish && acceleration < 0.0,
         touches: leader.is_some_and(|it| it.gap < 0.0),
         junction,
     }
 }
 
-/// What a driver accelerates at a junction, and where it has to stop there.
+/// The acceleration of a driver at a junction, and the place where it has to stop there.
 fn at_junction(
     motion: &Kinematics,
     driver: &DriverState,
@@ -171,16 +167,16 @@ fn stopping_speed(room: f64) -> f64 {
     (2.0 * COMFORTABLE_BRAKING * room.max(0.0)).sqrt()
 }
 
-/// Way on which a driver at `speed` [m/s] stops with comfort, and somewhat more [m].
+/// Distance in which a driver at `speed` [m/s] stops comfortably, with a margin [m].
 #[inline]
 pub(crate) fn stopping_way(speed: f64) -> f64 {
-    /// A moment [s] and some room [m].
+    /// Margin in time [s] and in distance [m].
     const MOMENT: f64 = 1.0;
     const ROOM: f64 = 5.0;
     speed * speed / (2.0 * COMFORTABLE_BRAKING) + MOMENT * speed + ROOM
 }
 
-/// Speed at which a driver enters who may have to stop `distance` ahead [m/s].
+/// Entry speed of a driver who may have to stop `distance` ahead [m/s].
 pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
     stopping_speed(distance - ROOM_AT_A_STOP)
 }
@@ -193,7 +189,7 @@ fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
     }
 }
 
-/// `clamp` for bounds in order.
+/// `clamp` for ordered bounds.
 #[inline]
 fn within(value: f64, low: f64, high: f64) -> f64 {
     let value = if value < high { value } else { high };
@@ -225,16 +221,17 @@ fn reacting_to_more(
 /// Where a lane ends beside another one, along a chain [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LaneEnd {
-    /// Where it ends as it is drawn: who changes lanes has to be across by then.
+    /// Its end as drawn. A vehicle that changes lanes has to have crossed by then.
     drawn: f64,
-    /// Where it becomes too narrow for a car, and for a long vehicle: who does not change lanes stops before.
+    /// Where it becomes too narrow for a car, and for a long vehicle. A vehicle that does not change lanes stops
+    /// before.
     open: [f64; 2],
-    /// From where on one may change lanes to leave it.
+    /// Start of the last window in which vehicles may leave it.
     window: f64,
 }
 
 impl LaneEnd {
-    /// That of `next`, which begins at `start`.
+    /// The end of the lane `next`, which begins at `start`.
     #[inline(never)]
     fn of(next: &Chain, start: f64) -> LaneEnd {
         let open = [false, true].map(|is_long| start + next.driven_until(is_long));
@@ -242,7 +239,7 @@ impl LaneEnd {
         LaneEnd { drawn: start + next.length, open, window }
     }
 
-    /// Where it ends for the entry at `spot`.
+    /// Where the lane ends for the entry at `spot`.
     pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
         let (driver, has_crossed) = (scene.driver(spot), scene.lane_change(spot).progress >= 0.5);
         let is_leaving = match driver.phase {
@@ -259,7 +256,7 @@ impl LaneEnd {
     }
 }
 
-/// Where the lane ends for all that are on it.
+/// Where the lane ends, if it does.
 #[inline]
 pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
     let here = scene.network.chain(chain);
@@ -273,15 +270,15 @@ pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
     }
 }
 
-/// A vehicle whose centre has left the lane need not mind its end.
+/// Whether the vehicle's centre has left the lane: then it need not react to its end.
 fn is_leaving(scene: &Scene, spot: Spot) -> bool {
     let driver = scene.driver(spot);
     driver.is_shadow && driver.phase == Phase::Changes && scene.lane_change(spot).progress >= 0.5
 }
 
-/// Road that a driver keeps before the place where it has to have left its lane [m]. Who changes already uses it; so
-/// does who has waited there in vain, if only the vehicle behind is in the way: of two drivers side by side who want
-/// each other's lane the one ahead moves on, and both can go.
+/// Road that a driver keeps before the place where it has to have left its lane [m]. A driver who changes uses it. So
+/// does one who waited there in vain, if only the vehicle behind blocks it: of two drivers side by side who want each
+/// other's lane, the one ahead moves on, and both can go.
 fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (driver, lane_change) = (scene.driver(spot), scene.lane_change(spot));
     let moves_up = match driver.phase {
@@ -298,15 +295,14 @@ fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
 }
 
-/// Of the room that a driver keeps before a place, as much as leaves it within the `window` [m] in which lanes may be
-/// changed: where that is short, one waits at its beginning.
+/// The part of the `kept` road that leaves a driver in the `window` [m]. In a short one it waits at the start.
 fn within_window(kept: f64, window: f64) -> f64 {
-    /// So far into it one waits [m].
+    /// It waits this far behind the start of the window [m].
     const INTO: f64 = 3.0;
     kept.min((window - INTO).max(LEAST_ROOM))
 }
 
-/// What a driver reacts to beside its leader.
+/// The acceleration for all that a driver reacts to besides its leader.
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
     let pace = pace(motion, driver);
@@ -314,7 +310,7 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let mut acceleration = f64::INFINITY;
     if driver.phase == Phase::Wants {
         let beside = leader_beside(scene, spot, lane_change.side);
-        // Along a queue that stands one drives on: further ahead there may be a gap, and behind others want to pass.
+        // Along a standing queue a driver drives on: there may be a gap ahead, and others behind want to pass.
         let drives_on = motion.speed < HARDLY_MOVES && beside.is_some_and(|it| it.speed < STANDS);
         let falls_in = f64::from(lane_change.urgency) >= style.change.synchronizes_from();
         if falls_in && !drives_on {
@@ -335,7 +331,7 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         let giving_way = style.follow.acceleration(pace, Some(ahead));
         acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
     }
-    // Who is on its way through a junction waits for no gap there.
+    // A driver with a reservation for a junction does not wait for a gap there.
     let may_wait = matches!(driver.phase, Phase::Cruises | Phase::Wants) && scene.reservation(spot).is_none();
     if lane_change.last_place.is_finite() && may_wait {
         acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
@@ -351,8 +347,8 @@ pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Opt
         - scene.motion(spot).x
 }
 
-/// How a driver comes to the last place for a change. Into a short window it drives slowly enough to change there, and
-/// on through it if it has a gap; else it stops within it, or on a motorway slows down.
+/// The acceleration before the last place for a change. A driver with a gap drives into a short window slowly enough
+/// to change there. A driver without one stops within it, or slows down on a motorway.
 fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
     let manner = &scene.style_of(driver).manner;
@@ -373,14 +369,14 @@ fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     }
 }
 
-/// The leader on the lane beside, on `side`.
+/// The leader in the lane on `side`.
 fn leader_beside(scene: &Scene, spot: Spot, side: Side) -> Option<Ahead> {
     let from = scene.viewpoint(spot);
     let beside = window::beside(scene, spot, side)?;
     scene.ahead(scene.viewpoint_at(from, beside.chain, beside.across(from.x)))
 }
 
-/// Braking that passes a place `room` metres ahead at `passing` [m/s], as soon as it is no longer gentle.
+/// Braking to pass a place `room` metres ahead at `passing` [m/s]. It begins when gentle braking is no longer enough.
 fn approach(speed: f64, room: f64, passing: f64) -> f64 {
     if speed <= passing {
         return f64::INFINITY;
@@ -389,7 +385,7 @@ fn approach(speed: f64, room: f64, passing: f64) -> f64 {
     if needed > COMFORTABLE_BRAKING { -needed.min(2.0 * COMFORTABLE_BRAKING) } else { f64::INFINITY }
 }
 
-/// The acceleration, or what kinematics leaves of it behind `obstacle`.
+/// The acceleration, limited by kinematics behind `obstacle`.
 #[inline]
 fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64 {
     let next = speed + acceleration * dt;

@@ -1,4 +1,5 @@
-//! What drivers believe of travel times and mind of turns and lights, and for what gain they would leave their route.
+//! What drivers believe about travel times, how much they mind turns and lights, and for what gain they leave their
+//! route.
 
 use laneweave_models::Guidance;
 use laneweave_network::{ChainIndex, Network};
@@ -10,26 +11,26 @@ use crate::state::lane::VehicleId;
 use crate::state::normal::quantile;
 use crate::state::random::{Purpose, Random};
 
-/// What a driver believes since travel times were measured last.
+/// A driver's beliefs since the last measurement of travel times.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beliefs<'a> {
     guidance: &'a Guidance,
-    /// What it takes the time of its own way for, as a multiple.
+    /// Believed time of its own route, as a multiple of the measured one.
     pub(crate) own: f64,
-    /// The same of other ways.
+    /// The same for other routes.
     pub(crate) other: f64,
     /// Gain for which it leaves its route [s].
     pub(crate) band: f64,
 }
 
 impl<'a> Beliefs<'a> {
-    /// Who is recommended no other way knows the times, and keeps its own.
+    /// The beliefs of a driver without a recommended route: it knows the times, and keeps its route.
     #[inline]
     pub(crate) fn settled(guidance: &'a Guidance) -> Beliefs<'a> {
         Beliefs { guidance, own: 1.0, other: 1.0, band: f64::INFINITY }
     }
 
-    /// Those of the driver of `id`, who follows `destination`.
+    /// The beliefs of the driver of `id`, who drives to `destination`.
     #[inline]
     pub(crate) fn of(
         guidance: &'a Guidance,
@@ -59,8 +60,8 @@ impl<'a> Beliefs<'a> {
         Beliefs { guidance, own: belief(0), other: belief(1), band }
     }
 
-    /// What the driver adds to the times of a way and of another one for what they ask of it from `x` on `chain` on
-    /// [s].
+    /// Route disutility [s] that the driver adds to the times of its own route and of another one, for the turns and
+    /// lights from `x` on `chain` on.
     #[inline]
     pub(crate) fn added(
         &self,

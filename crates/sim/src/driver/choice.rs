@@ -1,4 +1,4 @@
-//! A side, and what a driver makes of it.
+//! A driver's choice of a side.
 
 use laneweave_models::change::{Appraisal, LaneChangeModel, Situation};
 use laneweave_network::Side;
@@ -10,12 +10,12 @@ use crate::record::desire_situations::DesireSituation;
 use crate::state::lane::{DriverState, Kind};
 use crate::state::moment::Moment;
 
-/// A side, and what the driver makes of it.
+/// A side, and the driver's appraisal of it.
 pub(crate) struct Choice {
     pub(crate) side: Side,
     pub(crate) appraisal: Appraisal,
     pub(crate) is_symmetric: bool,
-    /// Fewer changes are left to make there.
+    /// Fewer lane changes are left to make there.
     pub(crate) helps_the_route: bool,
     /// How much the driver is pressed to this side, 0…1.
     pub(crate) pressure: f64,
@@ -24,7 +24,7 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// What the driver makes of both sides, that for overtaking first.
+    /// The driver's appraisals of both sides, the side for overtaking first.
     pub(crate) fn both(
         perception: &Perception,
         moment: Moment,
@@ -34,7 +34,8 @@ impl Choice {
         [of(moment.overtaking), of(moment.overtaking.opposite())]
     }
 
-    /// What the driver makes of `side`, if it may change there; soon after a change only if it helps the route.
+    /// The driver's appraisal of `side`, if it may change there. In the cooldown a side counts only if it helps the
+    /// route.
     fn of(perception: &Perception, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
         let from = perception.beside(side)?;
         if is_calm(perception.driver(), moment) && perception.here().route.changes == 0 {
@@ -65,18 +66,18 @@ impl Choice {
     }
 }
 
-/// Soon after a change a driver makes no other by choice.
+/// Whether the driver is in the cooldown, in which it makes no other discretionary change.
 fn is_calm(driver: &DriverState, moment: Moment) -> bool {
     moment.clock.step < driver.cooldown_until
 }
 
-/// A driver does not weigh a side soon after a change, unless that helps its route.
+/// Whether the driver does not consider a side, because it is in the cooldown and the side does not help its route.
 pub(crate) fn is_out_of_question(driver: &DriverState, moment: Moment, situation: &Situation) -> bool {
     is_calm(driver, moment) && situation.there.route.changes >= situation.here.route.changes
 }
 
-/// The side to which a driver who keeps its lane desires to change, if within `epochs` epochs the desire comes where
-/// `draw` was drawn.
+/// The side to which a driver who keeps its lane desires to change. `None` if the desire does not arise within
+/// `epochs` epochs with the random number `draw`.
 #[inline]
 pub(crate) fn desire(
     perception: &Perception,
@@ -91,7 +92,8 @@ pub(crate) fn desire(
         && moment.clock.step >= perception.driver().cooldown_until
         && let Some(Dismissed { best_prospect }) = perception.dismisses(model, change.reach(epochs, draw))
     {
-        // Whether the lane beside is free, and not only its next leader far ahead, takes a longer look.
+        // It takes a full look to see whether the lane beside is free: the bound knows only its next leader, far
+        // ahead.
         let situation = DesireSituation::of(desired, here, best_prospect);
         if situation != Some(DesireSituation::HeldUp) {
             counters.count_desire(situation, false);

@@ -30,7 +30,7 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
                     go_or_ask(scene, moment, spot, outbox);
                 }
                 if driver.due <= moment.clock.step {
-                    // The number of entries between two drivers is about the same beside.
+                    // Between two drivers there are about as many entries in the lanes beside.
                     hints = hints.map(|it| it + index - last);
                     last = index;
                     consider(scene, moment, spot, &mut hints, plan, outbox);

@@ -1,4 +1,4 @@
-//! The gap in the lane beside: whether a driver takes it, and who could make it larger.
+//! The gap in the lane beside: whether a driver accepts it, and which driver could make it larger.
 
 use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
@@ -16,9 +16,9 @@ use crate::state::lane::Phase;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 
-/// Desire that a voluntary change counts for in the time gap accepted (ours).
+/// Desire that counts for the accepted time gap in a discretionary change (ours).
 const VOLUNTARY_DESIRE: f64 = 0.3;
-/// What a driver who lets another in leaves beyond its usual gap [m].
+/// A driver who lets another in leaves this much beyond its usual gap [m].
 pub(crate) const ROOM_TO_YIELD: f64 = 1.0;
 
 /// Why a driver who wants to change does not go.
@@ -26,33 +26,33 @@ pub(crate) const ROOM_TO_YIELD: f64 = 1.0;
 pub enum Hindrance {
     /// A change to that side is not allowed here.
     NotAllowed,
-    /// It is not allowed for as long as it takes to cross the line.
+    /// The change is not allowed for as long as it takes to cross the line.
     TooLittleRoad,
-    /// It would not be over before a place where somebody may have to stop, or would take room there that is kept for
-    /// others.
+    /// The change would not be over before a place where drivers may have to stop, or it would take storage space
+    /// that is kept for others.
     Junction,
-    /// It is on its way through a junction, and keeps its lane.
+    /// The driver has a reservation for a junction, and keeps its lane.
     InReservation,
-    /// Somebody waits longer for the room in that lane.
+    /// Another driver has waited longer for the space in that lane.
     WantedBefore,
-    /// The gap to the new leader.
+    /// The gap to the new leader is not accepted.
     Ahead(Refusal, GapPair),
-    /// The gap to the new follower.
+    /// The gap to the new follower is not accepted.
     Behind(Refusal, GapPair),
 }
 
-/// A gap in the lane beside, as it would be taken.
+/// A gap in the lane beside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
-    /// The chain.
+    /// The chain of that lane.
     pub(crate) chain: ChainIndex,
-    /// Where the own front bumper would be on it [m].
+    /// Position of the own front bumper on it [m].
     pub(crate) x: f64,
-    /// It is looked at ahead of the place from which on the change is allowed.
+    /// The driver looks at it before the place where the change becomes allowed.
     pub(crate) is_coming: bool,
-    /// Metres there for a metre here.
+    /// Metres on that chain for a metre on the own one.
     pub(crate) scale: f64,
-    /// Road on which the centre can still cross [m].
+    /// Length of road on which the centre can still cross the line [m].
     pub(crate) room: f64,
     /// The new leader.
     pub(crate) ahead: Option<Ahead>,
@@ -60,7 +60,7 @@ pub(crate) struct Gap {
     pub(crate) follower: Option<Found>,
 }
 
-/// The gap beside; `None` where a change to `side` is not allowed.
+/// The gap in the lane on `side`; `None` where a change to that side is not allowed.
 pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
     let motion = scene.motion(spot);
     let beside = window::beside(scene, spot, side)?;
@@ -77,7 +77,7 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
     })
 }
 
-/// How far on a change to `side` stays allowed [m], as far as a change needs.
+/// How far ahead a change to `side` stays allowed [m]. No more road is counted than a change needs.
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
     const ENOUGH: f64 = 150.0;
     const ROUNDING: f64 = 1e-6;
@@ -108,17 +108,17 @@ fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
 /// Two vehicles that would follow each other after a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pairing<'a> {
-    /// Who would follow.
+    /// The new follower.
     pub follower: Driver<'a>,
-    /// Whom it would follow.
+    /// The new leader of that follower.
     pub leader: Ahead,
 }
 
 impl Pairing<'_> {
-    /// Whether `safety` accepts it, with time step `dt` [s].
+    /// Checks whether `safety` accepts the pairing, with time step `dt` [s].
     ///
     /// # Errors
-    /// Why not.
+    /// The reason why it is not accepted.
     pub fn accepted(&self, safety: &Safety, dt: f64) -> Result<(), (Refusal, GapPair)> {
         let Pairing { follower, leader } = *self;
         let demanded = follower.follow.acceleration(follower.pace, Some(leader));
@@ -128,10 +128,10 @@ impl Pairing<'_> {
 }
 
 impl Gap {
-    /// Whether the driver, its new leader and its new follower can live with the change.
+    /// Checks whether the road is long enough, and the gaps to the new leader and to the new follower are accepted.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason why the gap is not accepted.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Hindrance> {
         self.has_road(scene, spot, scene.motion(spot).speed)?;
         let style = scene.style(spot);
@@ -144,7 +144,7 @@ impl Gap {
             .map_err(|(why, pair)| Hindrance::Behind(why, pair))
     }
 
-    /// Whether the road left does for the change at that `speed` [m/s] of the driver at `spot`.
+    /// Checks whether the road is long enough for the change at that `speed` [m/s] of the driver at `spot`.
     fn has_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<(), Hindrance> {
         let style = scene.style(spot);
         let duration = style.manner.duration(f64::from(scene.lane_change(spot).urgency));
@@ -152,7 +152,7 @@ impl Gap {
         if self.room < crossing {
             return Err(Hindrance::TooLittleRoad);
         }
-        // Into a lane that ends nobody changes who could not stop before that.
+        // A driver does not change into a lane that ends if it could not stop before the end.
         let is_long = scene.driver(spot).class.is_long();
         let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
         if end.is_some_and(|it| it < 2.0 * crossing + stopping_way(speed)) {
@@ -164,8 +164,8 @@ impl Gap {
         Ok(())
     }
 
-    /// The highest speed of the driver at `spot` for which the road left does, to the last bit [m/s]; infinite where
-    /// that is more than anybody drives, 0 where it does for no speed.
+    /// The highest speed of the driver at `spot` at which the road is long enough, to the last bit [m/s]. It is
+    /// infinite if this is higher than any driver's speed, and 0 if the road is too short at every speed.
     pub(crate) fn fastest(&self, scene: &Scene, spot: Spot) -> f64 {
         const NOBODY: f64 = 128.0;
         let does = |speed: f64| self.has_road(scene, spot, speed).is_ok();
@@ -182,7 +182,7 @@ impl Gap {
         }
     }
 
-    /// Who would follow whom: the driver its new leader, its new follower the driver.
+    /// The driver with its new leader, and its new follower with the driver.
     pub(crate) fn pairings<'a>(&self, scene: &Scene<'a>, spot: Spot) -> [Option<Pairing<'a>>; 2] {
         let me = driver_of(scene, spot);
         let ahead = self.ahead.map(|leader| {
@@ -197,10 +197,10 @@ impl Gap {
         [ahead, behind]
     }
 
-    /// Whether the driver at `spot`, who waits for this gap, takes it now.
+    /// Checks whether the driver at `spot`, who waits for this gap, takes it now.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason why it does not.
     pub(crate) fn taken(&self, scene: &Scene, spot: Spot, clock: Clock) -> Result<(), Hindrance> {
         if scene.has_reservation(spot, f64::NEG_INFINITY) {
             return Err(Hindrance::InReservation);
@@ -212,16 +212,17 @@ impl Gap {
         if self.is_coming { Err(Hindrance::NotAllowed) } else { Ok(()) }
     }
 
-    /// Whether somebody who waits before a junction for room on that stretch comes first to it.
+    /// Whether a driver who waits before a junction for storage space on that stretch comes first.
     fn is_requested_before(&self, scene: &Scene, spot: Spot, clock: Clock) -> bool {
         let section = StorageSection::at(&scene.network.junctions, self.chain, self.x);
         let priority = Asking::of(&Applicant::at(scene, spot), scene.lane_change(spot).since, clock).priority;
         scene.reservations.requested_before(section, priority) > 0.0
     }
 
-    /// The first behind who makes room by braking no harder than it does to let others in: those nearer drive past.
+    /// The first follower that can make room by braking no harder than it does to let others in. Those nearer drive
+    /// past.
     pub(crate) fn who_can_let_in(&self, scene: &Scene, spot: Spot) -> Option<Found> {
-        /// So many behind see who wants in.
+        /// This many followers see the signal.
         const SEE_IT: usize = 10;
         let motion = scene.motion(spot);
         let room = scene.style(spot).safety.min_gap + ROOM_TO_YIELD;
@@ -229,22 +230,22 @@ impl Gap {
             let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
             let gentle = scene.style_of(driver).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
-            // Who stands beside or right behind a standing vehicle cannot make room for it.
+            // A vehicle beside a standing one, or right behind it, cannot make room for it.
             let is_beside = gap < room && motion.speed <= STANDSTILL;
             let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
-            // Nobody may come before who has a reservation: it lets in nobody.
+            // A driver with a reservation lets in nobody: no vehicle may come in front of it.
             let is_free = !scene.has_reservation(it.spot, gap);
             driver.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle
         };
         std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
     }
 
-    /// Whether the change, which takes `way` [m], is over before the next place where somebody may have to stop, and
-    /// nobody who has a reservation already comes behind.
+    /// Whether the change, which takes `way` [m], is over before the next place where drivers may have to stop, and
+    /// no follower has a reservation already.
     fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
-        /// Least way before such a place on which a lane is still changed, at walking speed [m].
+        /// Least distance to such a place at which lanes are still changed, at walking speed [m].
         const LEAST: f64 = 15.0;
-        /// So far into a chain a junction may reach [m].
+        /// A junction may reach this far into a chain [m].
         const JUNCTION: f64 = 15.0;
         let motion = scene.motion(spot);
         let here = scene.viewpoint(spot);
@@ -252,7 +253,7 @@ impl Gap {
         let way = way.max(LEAST);
         let has_reservation =
             |it: &Found| scene.has_reservation(it.spot, it.distance - f64::from(motion.length));
-        // Room that is kept for others beyond a junction stays theirs.
+        // Storage space beyond a junction is kept for others.
         let section = StorageSection::at(&scene.network.junctions, self.chain, self.x);
         let kept = scene.reservations.kept_on(section);
         let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
@@ -278,7 +279,7 @@ impl Gap {
         self.pace(spot, scene).headway_relaxation
     }
 
-    /// Gaps [m] and times to collision [s] ahead and behind; infinite where there is nobody.
+    /// Gaps [m] and times to collision [s] ahead and behind; infinite if there is no vehicle.
     pub(crate) fn measures(&self, scene: &Scene, spot: Spot) -> [f64; 4] {
         let motion = scene.motion(spot);
         let (gap_ahead, ttc_ahead) = self.ahead.map_or((f64::INFINITY, f64::INFINITY), |it| {

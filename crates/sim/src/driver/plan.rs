@@ -1,4 +1,4 @@
-//! What drivers resolve to do in a step, written down on the snapshot and carried out afterwards.
+//! Plans: what drivers decide in a step, recorded on the snapshot and carried out afterwards.
 
 use laneweave_models::change::Appraisal;
 use laneweave_network::{ChainIndex, Position, Side, ZoneIndex};
@@ -16,31 +16,31 @@ use crate::state::goal::Destination;
 use crate::state::lane::{Entry, Kind, Kinematics, Milestone, VehicleId};
 use crate::view::scene::{Scene, Spot};
 
-/// The resolutions of one lane's drivers. Kept from step to step, so that nothing is allocated anew; on cache lines of
-/// its own, so that threads do not disturb each other, and on few of them: towns have thousands of lanes. Lines are
-/// fetched in pairs, so it begins with a pair.
+/// The decisions of one lane's drivers. It is reused from step to step, so that nothing is allocated anew. It has
+/// cache lines of its own, so that threads do not disturb each other, and few of them: towns have thousands of lanes.
+/// Cache lines are fetched in pairs, so it begins with a pair.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(crate) struct Plan {
-    /// How each entry moves at the end of the step.
+    /// The kinematics of each entry at the end of the step.
     pub(crate) next: Vec<Kinematics>,
-    /// Entries about which there is more to keep than how they move.
+    /// Entries with more to update than their kinematics.
     pub(crate) upkeep: Vec<Upkeep>,
-    /// What drivers who considered lanes keep in mind.
+    /// Notes of drivers who considered lanes.
     pub(crate) notes: Vec<Note>,
-    /// What some of them keep in mind beside.
+    /// Additional notes of some of them.
     pub(crate) concerns: Vec<Concern>,
-    /// Drivers who wait for their reservation, now and in the step before.
+    /// Drivers who wait for a reservation, in this step and in the one before.
     pub(crate) waiting: Vec<Waiting>,
     pub(crate) waited: Vec<Waiting>,
-    /// Distance that its vehicles have driven [m]: the only count that depends on the order in which it is added up.
+    /// Distance driven by its vehicles [m]: the only counter that depends on the order of addition.
     pub(crate) distance: f64,
 }
 
 const _: () = assert!(size_of::<Plan>() <= 256, "four cache lines");
 
 impl Plan {
-    /// Forgets the last step.
+    /// Clears what belongs to the last step.
     pub(crate) fn clear(&mut self) {
         self.next.clear();
         self.upkeep.clear();
@@ -51,48 +51,48 @@ impl Plan {
     }
 }
 
-/// What concerns more than one lane, as one thread gathers it from the lanes that it happens to move: in no order that
-/// may matter.
+/// What concerns more than one lane, collected by one thread from the lanes that it happens to move. The order must
+/// not matter.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(crate) struct Outbox {
-    /// What drivers ask for.
+    /// Requests of drivers.
     pub(crate) requests: Vec<Request>,
-    /// What happened to lane changes.
+    /// Milestones of lane changes.
     pub(crate) milestones: Vec<Milestone>,
     /// Entries that passed the ends of their chains.
     pub(crate) leaving: Vec<(ChainIndex, Entry)>,
-    /// How far the vehicles with a reservation drove.
+    /// Distances driven by vehicles with a reservation.
     pub(crate) progress: Vec<Progress>,
-    /// What drivers ask for at junctions.
+    /// Requests of drivers at junctions.
     pub(crate) reservation_requests: Vec<ReservationRequest>,
-    /// Drivers who stand because there is no room for them beyond a junction.
+    /// Drivers who stand because they have no storage space beyond a junction.
     pub(crate) blocked: Vec<ReservationRequest>,
-    /// Turns of those who wait for a side of a zone because of others.
+    /// Turns of drivers who wait for a side of a zone because of others.
     pub(crate) priorities: Vec<(ZoneIndex, u8, Turn)>,
-    /// Drivers out of patience who wait for so much room on a storage section [m].
+    /// Space requests of drivers out of patience: the storage section, and the space that they need there [m].
     pub(crate) space_requests: Vec<(StorageSection, WaitingPriority, f64)>,
-    /// Drivers out of patience who wait for a ring to take them in, each between two chains.
+    /// Drivers out of patience who wait to enter a roundabout, each from one chain to another.
     pub(crate) roundabouts: Vec<([ChainIndex; 2], WaitingPriority)>,
-    /// Room for the thread's work on one driver, and on one lane: drivers who have a reservation revoked, and from
-    /// where on; entries whose trips ended.
+    /// Buffers for the thread's work on one driver or on one lane: a survey; drivers whose reservations are revoked,
+    /// and from where on; entries whose trips ended.
     pub(crate) survey: Survey,
     pub(crate) returns: Vec<(u32, f64)>,
     pub(crate) ended: Vec<u32>,
-    /// What was counted since the counts were forgotten, but for distances.
+    /// Counters since they were last reset, without distances.
     pub(crate) counters: Counters,
-    /// What happened to vehicles on their way.
+    /// Driving events of vehicles.
     pub(crate) driving: Vec<DrivingEvent>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
     /// Vehicles that touch each other.
     pub(crate) incidents: Vec<Incident>,
-    /// Lanes that had no vehicles when they were to be moved.
+    /// Lanes without vehicles at the time of the move.
     pub(crate) empty: Vec<ChainIndex>,
 }
 
 impl Outbox {
-    /// Notes what happens to the vehicle at `spot` on its way.
+    /// Notes a driving event of the vehicle at `spot`.
     pub(crate) fn note(&mut self, scene: &Scene, clock: Clock, spot: Spot, kind: DrivingEventKind) {
         match kind {
             DrivingEventKind::EmergencyBraking => self.counters.emergency_brakings += 1,
@@ -105,7 +105,7 @@ impl Outbox {
         self.driving.push(event);
     }
 
-    /// Takes over all that is in `other`.
+    /// Takes all of `other`.
     pub(crate) fn gather(&mut self, other: &mut Outbox) {
         take_over(&mut self.requests, &mut other.requests);
         take_over(&mut self.milestones, &mut other.milestones);
@@ -123,14 +123,14 @@ impl Outbox {
     }
 }
 
-/// Appends `other`, and writes to it only if there is something: its thread keeps it in its own cache.
+/// Appends `other`. Writes to it only if it is not empty, so that it stays in the cache of its own thread.
 fn take_over<T>(list: &mut Vec<T>, other: &mut Vec<T>) {
     if !other.is_empty() {
         list.append(other);
     }
 }
 
-/// What became in a step of an entry that does not only follow.
+/// The update of an entry that does not only follow its leader.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Upkeep {
     /// The entry.
@@ -139,29 +139,29 @@ pub(crate) struct Upkeep {
     pub(crate) distance: f64,
     /// Kinematics decided in the present braking.
     pub(crate) in_emergency: bool,
-    /// The reservation that it had is over.
+    /// The reservation that it had has ended.
     pub(crate) reservation_is_over: bool,
 }
 
-/// A driver who waits for its reservation.
+/// A driver who waits for a reservation.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Waiting {
     /// Its entry.
     pub(crate) index: u32,
-    /// Who.
+    /// Its vehicle.
     pub(crate) id: VehicleId,
-    /// Step in which it first asked.
+    /// Step of its first request.
     pub(crate) since: u32,
-    /// The next that it has to pass is a light at which it does not go on.
+    /// It waits at a light that is next on its route.
     pub(crate) is_held: bool,
 }
 
 /// How far a vehicle with a reservation drove.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Progress {
-    /// Where the reservation is kept.
+    /// The slot of the reservation.
     pub(crate) slot: u32,
-    /// Whose it is.
+    /// Its vehicle.
     pub(crate) id: VehicleId,
     /// Distance driven [m].
     pub(crate) distance: f64,
@@ -171,77 +171,77 @@ pub(crate) struct Progress {
     pub(crate) desired: f64,
 }
 
-/// What a driver asks for at a junction.
+/// A driver's request at a junction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ReservationRequest {
-    /// Step in which it first asked; who asked first comes first.
+    /// Step of its first request; the earliest comes first.
     pub(crate) since: u32,
-    /// Who.
+    /// The vehicle.
     pub(crate) id: VehicleId,
     /// Its chain.
     pub(crate) chain: ChainIndex,
-    /// Where it was on the snapshot [m].
+    /// Its position on the snapshot [m].
     pub(crate) x: f64,
-    /// What.
+    /// The kind of request.
     pub(crate) what: RequestKind,
 }
 
-/// What there is to ask for at a junction.
+/// The kinds of requests at a junction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum RequestKind {
     /// To pass.
     Pass,
-    /// To have a reservation revoked from this distance from its beginning on [m].
+    /// To revoke the reservation from this distance from its start on [m].
     Revoke(f64),
 }
 
-/// What every driver keeps in mind after considering lanes.
+/// What every driver stores after it considered lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Note {
     /// Its entry.
     pub(crate) index: u32,
-    /// Step at which it considers lanes next.
+    /// Step in which it considers lanes next.
     pub(crate) due: u32,
-    /// Desired speed that the current limit gives [m/s].
+    /// Desired speed at the current limit [m/s].
     pub(crate) limit_desired: f32,
     /// Time at standstill [s].
     pub(crate) standing: f32,
 }
 
-/// What a driver keeps in mind beside, who has to leave its lane soon, reacts to more than its leader, or wants to
+/// What a driver stores in addition if it has to leave its lane soon, reacts to more than its leader, or wants to
 /// change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Concern {
     /// Its entry.
     pub(crate) index: u32,
-    /// Where it has to have left a wrong lane soon [m]; infinite if it has not.
+    /// The place by which it has to have left a wrong lane [m]; infinite if it has not, or if that is far.
     pub(crate) last_place: f64,
-    /// How much it is pressed to the change that it wants, 0…1.
+    /// How much it is pressed to make the change that it wants, 0…1.
     pub(crate) urgency: f32,
     /// It no longer wants to change.
     pub(crate) gives_up: bool,
-    /// It may have to stay behind slower drivers on the lane for overtaking.
+    /// It may have to stay behind slower drivers in the lane for overtaking.
     pub(crate) minds_offside: bool,
-    /// It goes somewhere else, or another way, from now on.
+    /// Its new destination or route, if it has one.
     pub(crate) rerouted: Option<Destination>,
 }
 
-/// Something that concerns another lane.
+/// A request that concerns another lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Request {
-    /// How pressing, 0…1; the most pressing goes first.
+    /// Urgency, 0…1; the most urgent request goes first.
     pub(crate) urgency: f32,
-    /// Who asks.
+    /// The vehicle.
     pub(crate) id: VehicleId,
     /// Its chain.
     pub(crate) chain: ChainIndex,
-    /// Where it was on the snapshot [m].
+    /// Its position on the snapshot [m].
     pub(crate) x: f64,
-    /// What it asks for.
+    /// What is requested.
     pub(crate) ask: Ask,
 }
 
-/// What a request asks for.
+/// The kinds of requests.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Ask {
     /// To wait for a gap.
@@ -250,19 +250,19 @@ pub(crate) enum Ask {
     Change,
     /// To be let in by a follower, who is seen at `x` of `chain`.
     LetIn { follower: VehicleId, chain: ChainIndex, x: f64, gap: f32, speed: f32 },
-    /// To go back.
+    /// To abort the change.
     Abort,
 }
 
 /// A desire to change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Want {
-    /// To where.
+    /// The side.
     pub(crate) side: Side,
-    /// Why.
+    /// The kind of change.
     pub(crate) kind: Kind,
-    /// What the driver makes of it.
+    /// The driver's appraisal of the change.
     pub(crate) appraisal: Appraisal,
-    /// Anticipated gain of speed [m/s].
+    /// Gain of anticipated speed [m/s].
     pub(crate) speed_gain: f32,
 }

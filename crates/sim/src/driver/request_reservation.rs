@@ -1,6 +1,6 @@
-//! Drivers who wait at junctions ask for their reservation, or give it back: on the snapshot, for what concerns them
-//! alone. Those who may pass are granted reservations one after the other once all have moved, on the state in which it
-//! takes effect.
+//! Drivers at junctions request reservations, or revoke their own. Requests are made on the snapshot, each for one
+//! driver alone. Once all vehicles have moved, reservations are granted one after the other, on the state in which
+//! they take effect.
 
 use laneweave_network::{ChainIndex, LightIndex};
 
@@ -17,11 +17,11 @@ use crate::state::clock::Clock;
 use crate::state::standstill::STANDS;
 use crate::view::scene::{Scene, Spot};
 
-/// Who has waited at a light for so long [s], through a green, did not get the room that it needs: it comes first to it
-/// (ours; as long as drivers are patient elsewhere).
+/// A driver who has waited at a light this long, through a green, did not get the storage space that it needs [s]. It
+/// then comes first to that space (ours; as long as drivers are patient elsewhere).
 const STARVES: f64 = 45.0;
 
-/// The drivers of a lane who wait at a junction and may pass ask for their reservations.
+/// Adds the requests of the drivers of a lane who wait at a junction and may pass.
 pub(crate) fn request_reservations(
     scene: &Scene,
     clock: Clock,
@@ -41,7 +41,7 @@ pub(crate) fn request_reservations(
             what,
         });
     }
-    // At a light there is nothing to ask for, but by who starves there.
+    // A driver at a red light has nothing to request, unless it has waited too long.
     let has_to_ask = |it: &&Waiting| !it.is_held || clock.since(it.since) > STARVES;
     for waiting in plan.waiting.iter().filter(has_to_ask) {
         let spot = Spot { chain, index: waiting.index as usize };
@@ -86,15 +86,15 @@ pub(crate) fn request_reservations(
     }
 }
 
-/// Whether who waits at a light has waited for long, and was not let go by a green in the meantime.
+/// Whether a driver has waited at a light for long, and could not go during a green in the meantime.
 fn starves(scene: &Scene, asking: Asking, survey: &Survey) -> bool {
     let Asking { priority, waited, clock } = asking;
     let was_green = |light| scene.signals.green_at(light, clock) > priority.since;
     waited > STARVES && survey.lights.last().is_some_and(|it| was_green(it.0))
 }
 
-/// The driver at `spot`, who has surveyed its way, claims room there. Who comes onto a ring from outside does not stop
-/// it.
+/// Requests space for the driver at `spot`, who has surveyed its route. A driver who enters a roundabout gets a
+/// waiting priority there instead, and does not stop its traffic.
 fn request_space(scene: &Scene, spot: Spot, priority: WaitingPriority, outbox: &mut Outbox) {
     let Outbox { survey, space_requests, roundabouts, .. } = outbox;
     let way = [spot.chain, survey.section.chain];
@@ -106,13 +106,14 @@ fn request_space(scene: &Scene, spot: Spot, priority: WaitingPriority, outbox: &
     }
 }
 
-/// Surveys what an applicant needs next. Returns whether there is something, and nobody before it waits there.
+/// Surveys what an applicant needs next. Returns whether it needs something, and no vehicle waits in front of it
+/// there.
 pub(crate) fn surveyed(scene: &Scene, applicant: &Applicant, out: &mut Survey) -> bool {
     let is_held = |light, at| !lets_go(scene, light, at, applicant.speed);
     survey_at(scene, applicant, is_held, out) && are_led_on(scene, applicant, out)
 }
 
-/// Surveys what an applicant needs next, up to a light where it `is_held`. Returns whether there is something.
+/// Surveys what an applicant needs next, up to a light where it `is_held`. Returns whether it needs something.
 fn survey_at(
     scene: &Scene,
     applicant: &Applicant,

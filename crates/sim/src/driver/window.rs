@@ -95,7 +95,7 @@ impl Window {
 
     /// The speed at which a change of this `duration` [s] fits into it [m/s].
     pub(crate) fn speed_for(&self, duration: f64) -> f64 {
-        /// Largest share of the window's length on the way to the crossing (ours).
+        /// Largest share of the window's length that is driven before the crossing (ours).
         const SHARE: f64 = 0.7;
         2.0 * SHARE * self.length() / duration
     }
