@@ -25,7 +25,7 @@ use crate::state::standstill::STANDSTILL;
 use crate::state::tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
-/// A driver who stands this long [s], within this distance [m] of the last place for a change, gives up the change, and goes elsewhere.
+/// A driver who stands this long [s], this near to the last place for a change [m], gives the change up.
 const STANDS_IN_VAIN: f32 = 120.0;
 const AT_THE_PLACE: f64 = 20.0;
 /// A driver in a wrong lane reacts to the last place for a change within this distance [m].

@@ -1,4 +1,4 @@
-//! Vehicles move, and drivers take note of what they decided. The only place where a lane's own entries change.
+//! Vehicles move, and drivers store what they decided. Only here do a lane's own entries change.
 
 use laneweave_models::Style;
 
@@ -12,19 +12,19 @@ use crate::state::lane::{
 use crate::view::pose::crossing;
 use laneweave_network::{ChainIndex, Position};
 
-/// How fast a desired speed above a new, lower limit comes down [m/s²].
+/// Rate at which a desired speed above a new, lower limit decreases [m/s²].
 const EASING: f64 = 1.5;
 
-/// Where vehicles go off a chain.
+/// Where vehicles leave a chain.
 #[derive(Clone, Copy)]
 pub(crate) struct Ends<'a> {
     /// Its length [m].
     pub(crate) length: f64,
-    /// Where trips end before that.
+    /// The trip ends before that.
     pub(crate) trips: &'a [TripEnd],
 }
 
-/// All vehicles of a lane move, and what else became of them is kept.
+/// Moves all vehicles of a lane, and carries out their plans.
 pub(crate) fn advance(
     lane: &mut Lane,
     chain: ChainIndex,
@@ -84,7 +84,7 @@ pub(crate) fn advance(
     }
 }
 
-/// Vehicles whose front bumpers passed the places that they go to in this step are gone.
+/// Removes vehicles whose front bumpers passed their trip ends in this step.
 fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &Plan, outbox: &mut Outbox) {
     let (before, ended) = (&plan.next, &mut outbox.ended);
     ended.clear();
@@ -100,7 +100,7 @@ fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &Plan,
     }
 }
 
-/// Drivers who considered lanes keep in mind what they saw and resolved.
+/// Stores what drivers who considered lanes perceived and decided.
 fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, outbox: &mut Outbox) {
     let drivers = lane.drivers_mut();
     for note in &plan.notes {
@@ -125,7 +125,7 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
     }
 }
 
-/// A change is done at this share of its time: the steps add up to 1 but for rounding.
+/// A change is complete at this share of its time: the steps add up to 1 except for rounding.
 const DONE: f32 = 0.9999;
 
 fn milestone(
@@ -144,8 +144,8 @@ fn milestone(
     }
 }
 
-/// A change goes on by `step` of its time, or back. Both entries of a vehicle come to the same. Returns whether this
-/// entry has ended.
+/// Advances a change by `step` of its time, or moves it back. Both entries of a vehicle reach the same progress.
+/// Returns whether this entry has ended.
 fn go_across(
     motion: &Kinematics,
     driver: &mut DriverState,
@@ -190,7 +190,7 @@ fn go_across(
     false
 }
 
-/// The centre crosses the line: main entry and shadow swap their parts.
+/// Lets the centre cross the line: main entry and shadow exchange their roles.
 fn cross(driver: &mut DriverState, lane_change: &mut LaneChangeState) {
     let scale = if driver.is_shadow {
         lane_change.stretch

@@ -1,4 +1,4 @@
-//! What a world says of itself.
+//! Queries of a world about itself.
 
 use std::sync::Arc;
 
@@ -25,15 +25,15 @@ use crate::step::world::World;
 use crate::view::scene::Spot;
 
 impl World {
-    /// All different drivers.
+    /// The driver parameters of all drivers.
     pub fn driver_parameters(&self) -> &[Style] {
         self.roads.driver_parameters()
     }
 
-    /// Gives the drivers other driver parameters, each in the place of its own. What they are about they go on with.
+    /// Replaces the driver parameters, each by the one at its index. Drivers go on with what they are doing.
     ///
     /// # Errors
-    /// If there are not as many of them.
+    /// If their number differs.
     pub fn change_driver_parameters(&mut self, driver_parameters: Vec<Style>) -> Result<(), WorldError> {
         let [found, expected] = [driver_parameters.len(), self.roads.driver_parameters().len()];
         if found != expected {
@@ -48,23 +48,23 @@ impl World {
         self.roads.random()
     }
 
-    /// Who comes, and who waits to enter.
+    /// The arrivals, and the vehicles that wait to enter.
     pub(crate) fn arrivals(&self) -> &Arrivals {
         &self.arrivals
     }
 
-    /// Since when the driver at `spot` waits at a junction, if it does.
+    /// How the driver at `spot` waits at a junction, if it waits there.
     pub(crate) fn waits_at_a_junction(&self, spot: Spot) -> Option<&Waiting> {
         let id = self.traffic.lane(spot.chain).motions()[spot.index].id;
         self.work.plans[spot.chain.at()].waiting.iter().find(|it| it.id == id)
     }
 
-    /// The record of the trip of a vehicle on the road, where trips are recorded.
+    /// The trip record of a vehicle on the road, if trips are recorded.
     pub fn trip(&self, id: VehicleId) -> Option<&TripRecord> {
         self.log.trip(id)
     }
 
-    /// What happened in the last step.
+    /// The events of the last step.
     pub fn events(&self) -> &[Event] {
         self.log.events()
     }
@@ -74,43 +74,43 @@ impl World {
         self.traffic.clock()
     }
 
-    /// The roads.
+    /// The network.
     pub fn network(&self) -> &Network {
         self.roads.network()
     }
 
-    /// The roads, for those who need them beyond the world: they never change.
+    /// The network, which never changes, for use beyond the world.
     pub fn shared_network(&self) -> Arc<Network> {
         self.roads.shared_network()
     }
 
-    /// Who comes, from where and to where.
+    /// The demand.
     pub fn demand(&self) -> &Demand {
         self.arrivals.demand()
     }
 
-    /// Where its demand leads on average between two times [s].
+    /// The average assignment of its demand between two times [s].
     pub fn assignment(&self, during: [f64; 2]) -> Assignment {
         Assignment::new(self.roads.network(), self.roads.navigator(), self.arrivals.demand(), during)
     }
 
-    /// Whether drivers from an origin of the demand can reach one of its destinations, and would drive there.
+    /// Whether drivers from an origin of the demand can reach one of its destinations, and would choose it.
     pub fn leads(&self, origin: usize, destination: usize) -> bool {
         let place = &self.arrivals.demand().origins[origin].place;
         self.roads.navigator().leads(self.roads.network(), place, destination as u16)
     }
 
-    /// What the drivers did so far, added up over threads, and distances over the lanes.
+    /// The counters of drivers, added over threads, with distances added over lanes.
     pub fn counters(&self) -> Counters {
         Counters { distance: self.work.plans.iter().map(|it| it.distance).sum(), ..self.work.counted() }
     }
 
-    /// What the world did so far.
+    /// The counts of the world.
     pub fn counts(&self) -> &Counts {
         self.log.counts()
     }
 
-    /// Forgets all counts: what follows is measured, what was before is warm-up. Vehicles on the road count as entered.
+    /// Resets all counts at the end of the warm-up. Vehicles on the road count as entered.
     pub fn reset_counts(&mut self) {
         let on_road = self.on_road();
         let World { roads, traffic, log, work, .. } = self;
@@ -121,12 +121,12 @@ impl World {
         log.reset_lanelet_aggregates(roads.network());
     }
 
-    /// What vehicles did on each lanelet since the counts were last forgotten, where trips are recorded.
+    /// The aggregates of each lanelet since the counts were last reset, if trips are recorded.
     pub fn lanelet_aggregates(&self) -> Vec<LaneletAggregate> {
         self.log.lanelet_aggregates(self.roads.network(), self.traffic.lanes(), self.traffic.clock())
     }
 
-    /// Vehicles on the road.
+    /// Number of vehicles on the road.
     pub fn on_road(&self) -> usize {
         self.traffic
             .lanes()
@@ -135,17 +135,17 @@ impl World {
             .sum()
     }
 
-    /// Whether its steps are shared among all its threads: where few vehicles drive, one moves them all.
+    /// Whether all threads share its steps. With few vehicles one thread moves them all.
     pub fn moves_on_all_threads(&self) -> bool {
         self.work.pools[pool_for(self.traffic.crowd())].threads() > 1
     }
 
-    /// Vehicles that wait to enter.
+    /// Number of vehicles that wait to enter.
     pub fn waiting(&self) -> usize {
         self.arrivals.count_waiting()
     }
 
-    /// Vehicles that have arrived, whether they entered or wait.
+    /// Number of vehicles that have arrived, whether they have entered or wait.
     pub fn arrived(&self) -> u64 {
         self.arrivals.count_arrived()
     }

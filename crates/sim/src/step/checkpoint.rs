@@ -1,5 +1,5 @@
-//! All of a world that moves, as bytes: a world that is made anew of the same network, drivers and demand, and given
-//! them, goes on as this one would, bit for bit.
+//! Checkpoints: all parts of a world that change, as bytes. A new world of the same network, drivers and demand that
+//! restores them goes on in the same way, bit for bit.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -19,7 +19,7 @@ use crate::state::lane::Lane;
 use crate::state::traffic::Traffic;
 use crate::step::world::World;
 
-/// Why a world cannot go on from what was saved.
+/// Why a world cannot go on from a checkpoint.
 #[derive(Debug, Error, PartialEq)]
 pub enum CheckpointError {
     /// The bytes are not those of a world.
@@ -30,7 +30,7 @@ pub enum CheckpointError {
     Other(&'static str),
 }
 
-/// What a world has to share with the one that was saved.
+/// What a world must have in common with the saved one.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Identity {
     /// Hash of its chains.
@@ -40,24 +40,24 @@ struct Identity {
     destinations: usize,
 }
 
-/// What is saved: of each part what moves.
+/// The saved state: the changing state of each part.
 type Saved = (
     Identity,
     Traffic,
     JunctionState,
     Backlog,
     Log,
-    // By lane those who wait for a reservation, and the distance driven [m].
+    // For each lane the drivers who wait for a reservation, and the distance driven [m].
     Vec<(Vec<Waiting>, f64)>,
     Counters,
     Option<(Guidance, Guided)>,
 );
 
-/// Bytes of the hash at the end.
+/// Length of the hash at the end [bytes].
 const HASH: usize = 8;
 
 impl World {
-    /// Everything that moves, as it is after the last step, as bytes.
+    /// Saves all that changes, as it is after the last step.
     ///
     /// # Errors
     /// None, as long as there is memory.
@@ -71,15 +71,15 @@ impl World {
         Ok(bytes)
     }
 
-    /// Goes on from what was saved of a world of the same network, drivers, demand and seed.
+    /// Restores the saved state of a world of the same network, drivers, demand and seed.
     ///
     /// # Errors
-    /// If the bytes are not those of such a world; this one is left as it was.
+    /// If the bytes are not those of such a world. This world is then unchanged.
     pub fn restore(&mut self, saved: &[u8]) -> Result<(), CheckpointError> {
         let whole = saved.split_last_chunk::<HASH>();
         let whole = whole.filter(|(body, hash)| xxh3_64(body).to_le_bytes() == **hash);
         let (body, _) = whole.ok_or_else(|| CheckpointError::Unreadable("it is damaged".into()))?;
-        // Whose world it is comes first: what follows can be read as that of another only by chance.
+        // The identity comes first: the rest can be read as another world's only by chance.
         let (identity, _) = postcard::take_from_bytes(body).map_err(unreadable)?;
         Identity::of(&self.roads, self.arrivals.demand()).check(&identity)?;
         let saved: Saved = postcard::from_bytes(body).map_err(unreadable)?;
@@ -98,7 +98,8 @@ impl World {
         Ok(())
     }
 
-    /// Whether all that was saved fits this world, part by part: nothing in it may name what is not there.
+    /// Checks whether the saved state fits this world, part by part. It must not refer to anything that does not
+    /// exist.
     fn check(&self, saved: &Saved) -> Result<(), CheckpointError> {
         let World { roads, traffic: own, junctions: own_junctions, arrivals, log: _, work: _ } = self;
         let (_, traffic, junctions, backlog, log, kept, _, guided) = saved;

@@ -1,4 +1,5 @@
-//! Vehicles come onto the road: at the edge of the map with the traffic there, at a place inside the map from rest.
+//! Vehicles enter the road: at the edge of the map at the speed of the traffic, at a trip end inside the map from
+//! rest.
 
 use laneweave_models::Style;
 use laneweave_models::braking::is_secure;
@@ -23,7 +24,7 @@ use crate::step::reserve::{Entry, applicant, entry, reserve};
 use crate::step::work::Work;
 use crate::view::scene::{Found, Scene, nearer};
 
-/// Vehicles arrive, queue up, and enter where there is room.
+/// Vehicles arrive, wait in queues, and enter where there is space.
 pub(crate) fn enter(
     roads: &Roads,
     traffic: &mut Traffic,
@@ -48,7 +49,7 @@ pub(crate) fn enter(
     }
 }
 
-/// What a vehicle changes that enters, and what it depends on.
+/// What an entering vehicle changes, and what it depends on.
 struct Entering<'a> {
     roads: &'a Roads,
     traffic: &'a mut Traffic,
@@ -61,7 +62,7 @@ impl Entering<'_> {
         Scene::of(self.roads, self.traffic, self.junctions)
     }
 
-    /// Lets the vehicle at a `place` of a queue onto the road, if there is room for it. Returns whether it came.
+    /// Lets the vehicle at a `place` of a queue enter, if there is space for it. Returns whether it entered.
     fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize, survey: &mut Survey) -> bool {
         let clock = self.traffic.clock();
         let needs = entry(&self.scene(), queue, &queue.waiting[place], clock, survey);
@@ -84,7 +85,7 @@ impl Entering<'_> {
     }
 }
 
-/// The vehicle as it comes onto the lane of `queue`, if there is room for it and it has what it needs.
+/// The vehicle as it enters the lane of `queue`, if there is space and it has what it needs.
 fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<NewVehicle> {
     let (granted, before) = match needs {
         Entry::Refused(_) => return None,
@@ -111,7 +112,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
             let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));
             let follower = scene.follower(from);
             let is_let_in = follower.is_none_or(|it| lets_start(scene, &it, style.safety.min_gap, dt));
-            // Room that is kept for others stays theirs.
+            // Storage space that is kept for others stays free.
             let is_free = scene.reservations.kept_on(queue.section(scene.network)) == 0.0;
             (leaves_room && is_let_in && is_free).then_some(0.0)?
         }
@@ -119,16 +120,17 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
     Some(NewVehicle { chain, x, speed, class, parameters, destination })
 }
 
-/// Speed [m/s] at which a driver enters behind `ahead`; `None` if it has to wait.
+/// Speed at which a driver enters behind `ahead` [m/s]; `None` if it has to wait.
 fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Option<f64> {
-    /// Who would have to enter slower than its leader, and than this share of its desired speed, waits (ours).
+    /// A driver who would have to enter slower than its leader, and than this share of its desired speed, waits
+    /// (ours).
     const LEAST_SHARE: f64 = 0.8;
     let Some(ahead) = ahead else { return Some(desired) };
-    /// Nobody minds a vehicle so far ahead [m].
+    /// A vehicle this far ahead has no influence [m].
     const FAR: f64 = 1e4;
     let fits = |speed: f64| {
         let behind = |gap| style.follow.acceleration(Pace::new(speed, desired), Some(Ahead { gap, ..ahead }));
-        // Who would have to brake at once holds up those behind; there are models that brake even on a free road.
+        // A driver who would have to brake at once delays those behind. Some models brake even on a free road.
         let least = behind(FAR).min(0.0);
         ahead.gap >= style.safety.min_gap && behind(ahead.gap) >= least && is_secure(speed, ahead, dt)
     };
@@ -146,18 +148,18 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
     Some(slow)
 }
 
-/// Gap to a leader [m] with which a driver starts from a place inside the map: into a queue nobody squeezes.
+/// Gap to a leader with which a driver starts from a trip end inside the map [m]. It does not start into a queue.
 fn room_to_start(style: &Style, ahead: Ahead) -> f64 {
-    /// Who drives slower than this [m/s] queues, and so much way to a queue is left free [m]; ours.
+    /// A vehicle slower than this stands in a queue [m/s], and this distance to a queue is kept free [m]; ours.
     const QUEUES: f64 = 2.0;
     const WAY_TO_A_QUEUE: f64 = 30.0;
     if ahead.speed < QUEUES { WAY_TO_A_QUEUE } else { style.safety.min_gap }
 }
 
-/// Whether a vehicle at rest may appear before `follower`: it must be secure, and neither its model nor kinematics may
-/// demand more than moderate braking.
+/// Whether a vehicle may start from rest in front of `follower`. The gap must be secure, and neither the follower's
+/// model nor kinematics may require more than moderate braking.
 fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
-    /// Braking that one may expect of who drives behind [m/s²], ours.
+    /// Braking that a driver may expect of its follower [m/s²] (ours).
     const MODERATE: f64 = 2.0;
     if scene.has_reservation(follower.spot, follower.distance) {
         return false;

@@ -1,5 +1,5 @@
-//! Reservations are granted, and revoked: one after the other once all have moved, on the state in which it takes
-//! effect.
+//! Reservations are granted and revoked one after the other, once all vehicles have moved, on the state in which they
+//! take effect.
 
 use laneweave_network::ZoneKind;
 
@@ -19,11 +19,11 @@ use crate::step::wait_cycles::open_wait_cycles;
 use crate::step::work::Work;
 use crate::view::scene::{Scene, Spot};
 
-/// Of those who let each other go a vehicle may stand within zones by so much [m] until those before it have moved up:
-/// a truck comes into the place of a car (ours).
+/// In a wait cycle, a vehicle may stand within zones by this length until those before it have moved up [m]: a truck
+/// takes the place of a car (ours).
 const HANGS_OUT: f64 = 8.0;
 
-/// Vehicles with a reservation drove on: what is behind them is free for others.
+/// Advances the reservations of vehicles that drove on. The zones behind them become free for others.
 pub(crate) fn advance_reservations(junctions: &mut JunctionState, work: &mut Work) {
     let (reservations, progress) = (junctions.reservations_mut(), &mut work.outbox().progress);
     progress.sort_unstable_by_key(|it| it.slot);
@@ -34,7 +34,7 @@ pub(crate) fn advance_reservations(junctions: &mut JunctionState, work: &mut Wor
     }
 }
 
-/// Reservations are revoked, and granted to those who may pass, who asked first before the others.
+/// Revokes reservations, then grants them to drivers who may pass, the earliest request first.
 pub(crate) fn grant_reservations(
     roads: &Roads,
     traffic: &mut Traffic,
@@ -77,7 +77,7 @@ impl Granting<'_> {
         Scene::of(self.roads, self.traffic, self.junctions)
     }
 
-    /// Gives what is requested if it can be given, or takes it back.
+    /// Grants the requested reservation if possible, or revokes it.
     fn answer(&mut self, request: &ReservationRequest, work: &mut Work) {
         let ReservationRequest { since, id, chain, x, what } = *request;
         let Some(index) = self.traffic.lane(chain).find(id, x) else { return };
@@ -91,7 +91,7 @@ impl Granting<'_> {
                 );
                 if reservations.of(slot, id).is_some() {
                     reservations.revoke(slot, from);
-                    // It keeps its place among those who wait.
+                    // The driver keeps its waiting time.
                     let waiting =
                         Waiting { index: index as u32, id, since: reservations.since(slot), is_held: true };
                     work.plans[chain.at()].waiting.push(waiting);
@@ -109,8 +109,8 @@ impl Granting<'_> {
         }
     }
 
-    /// Whether the driver at `spot`, whose way is surveyed anew, may pass if the vehicle at `next` drives off, and
-    /// leaves it its place. Who stays within a merge for that is in nobody's way but of those who come after.
+    /// Surveys again, and checks whether the driver at `spot` may pass if the vehicle at `next` drives off and leaves
+    /// its place. A driver who then stands within a merge blocks only those that come after it.
     pub(super) fn may_after(&self, spot: Spot, asking: Asking, next: Spot, survey: &mut Survey) -> bool {
         let scene = self.scene();
         let applicant = Applicant::at(&scene, spot);
@@ -127,7 +127,7 @@ impl Granting<'_> {
         is_freed && fits && may_pass(&scene, &applicant, survey, asking).is_ok()
     }
 
-    /// Gives the driver at `spot`, who first asked in step `since`, the reservation that it needs next.
+    /// Grants the next reservation to the driver at `spot`, whose first request was in step `since`.
     pub(super) fn grant_surveyed(&mut self, spot: Spot, since: u32, survey: &mut Survey) {
         let scene = self.scene();
         surveyed(&scene, &Applicant::at(&scene, spot), survey);

@@ -4,7 +4,7 @@ use crate::junction::state::JunctionState;
 use crate::route::roads::Roads;
 use crate::state::traffic::Traffic;
 
-/// The lights show what they show from now on.
+/// Switches the lights to their states at this time.
 pub(crate) fn switch_lights(roads: &Roads, traffic: &Traffic, junctions: &mut JunctionState) {
     junctions.switch(roads.network(), traffic.lanes(), traffic.clock());
 }

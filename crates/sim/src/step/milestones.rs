@@ -1,4 +1,4 @@
-//! Lane changes come to their milestones.
+//! Milestones of lane changes.
 
 use crate::record::log::Log;
 use crate::route::roads::Roads;
@@ -7,7 +7,7 @@ use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 use laneweave_network::Position;
 
-/// Notes what lane changes have reached, in an order that depends on vehicles only.
+/// Notes the milestones of lane changes, in an order that depends on vehicles only.
 pub(crate) fn note_milestones(roads: &Roads, traffic: &mut Traffic, log: &mut Log, work: &mut Work) {
     let milestones = &mut work.outbox().milestones;
     milestones.sort_unstable_by_key(|it| (it.id, it.what));
@@ -19,7 +19,7 @@ pub(crate) fn note_milestones(roads: &Roads, traffic: &mut Traffic, log: &mut Lo
     }
 }
 
-/// After a change, or giving one up, there is no new voluntary one for a while.
+/// Begins the cooldown after a change, or after one was given up.
 fn begin_cooldown(roads: &Roads, traffic: &mut Traffic, milestone: &Milestone) {
     let (Position { chain, x }, clock) = (milestone.at, traffic.clock());
     let lane = traffic.lane_mut(chain);

@@ -1,4 +1,4 @@
-//! All look, then all move.
+//! The parallel part of a step: all drivers look, then all vehicles move.
 
 use laneweave_network::ChainIndex;
 
@@ -14,7 +14,7 @@ use crate::step::advance::{Ends, advance};
 use crate::step::work::{Work, pool_for};
 use crate::view::scene::Scene;
 
-/// Everybody perceives, decides and drives on what all see; then what was resolved is carried out.
+/// All drivers perceive, decide and drive on the same snapshot; then their plans are carried out.
 pub(crate) fn move_all(
     roads: &Roads,
     traffic: &mut Traffic,

@@ -1,5 +1,5 @@
-//! A small pool of workers that spin before they park. A motorway's step takes some ten microseconds, where
-//! work-stealing pools lose more than they gain.
+//! A small pool of workers that spin before they park. A motorway's step takes about ten microseconds; there,
+//! work-stealing pools lose more time than they gain.
 #![expect(unsafe_code, reason = "workers that outlive a step borrow that step's data; measured in bench/")]
 
 use std::cell::UnsafeCell;
@@ -7,12 +7,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::{self, JoinHandle, Thread};
 
-/// How often an idle worker looks for work before it parks.
+/// Number of times an idle worker looks for work before it parks.
 const SPINS: u32 = 20_000;
-/// Into how many portions per thread the items are cut, so that an uneven load evens out.
+/// Number of portions per thread into which the items are divided, so that an uneven load evens out.
 const PORTIONS: usize = 16;
 
-/// A pool of threads, of which the caller's is one.
+/// A pool of threads, including the caller's.
 pub(crate) struct Pool {
     shared: Arc<Shared>,
     workers: Vec<JoinHandle<()>>,
@@ -20,7 +20,7 @@ pub(crate) struct Pool {
 
 struct Shared {
     posted: Posted,
-    /// For each thread how much of its own range of items has been claimed.
+    /// For each thread, how much of its own range of items has been claimed.
     noted_on: Vec<Claimed>,
     progress: Progress,
     parked: Vec<AtomicBool>,
@@ -35,28 +35,28 @@ struct Posted {
     stop: AtomicBool,
 }
 
-// SAFETY: the task is written only by the caller's thread while no worker is busy, before the job's number is raised;
-// workers read it only between their seeing that number and their no longer being busy.
+// SAFETY: the caller's thread writes the task only while no worker is busy, before it raises the job's number.
+// Workers read it only after they see that number, and while they are busy.
 unsafe impl Sync for Posted {}
 
 /// What the workers write, on a cache line of its own.
 #[derive(Default)]
 #[repr(align(128))]
 struct Progress {
-    /// Workers that are not yet done.
+    /// Workers that have not finished.
     busy: AtomicUsize,
-    /// Threads that are done with looking.
+    /// Threads that have finished looking.
     looked: AtomicUsize,
     panicked: AtomicBool,
 }
 
-/// Counters on a cache line of their own: claimed for looking, and for acting.
+/// Counters of claimed items, for looking and for acting, on a cache line of their own.
 #[derive(Default)]
 #[repr(align(128))]
 struct Claimed([AtomicUsize; 2]);
 
-/// A job that lives only while [`Pool::look_then_act`] waits for it. The numbers that are passed are those of the
-/// phase, the thread and the item.
+/// A job that lives only while [`Pool::look_then_act`] waits for it. Its function takes the phase, the thread and the
+/// item.
 #[derive(Clone, Copy)]
 struct Task {
     work: *const (dyn Fn(Phase, usize, usize) + Sync),
@@ -64,8 +64,7 @@ struct Task {
     portion: usize,
 }
 
-// SAFETY: the pointer is used only while `Pool::look_then_act` keeps what it points to alive, and it points to
-// something `Sync`.
+// SAFETY: the pointer is used only while `Pool::look_then_act` keeps its target alive, and the target is `Sync`.
 unsafe impl Send for Task {}
 
 /// The two phases of a job.
@@ -75,7 +74,7 @@ enum Phase {
     Act,
 }
 
-/// An array whose items are handed to one thread each.
+/// An array of items; in each phase one thread alone accesses an item.
 struct Items<T>(*mut T);
 
 // SAFETY: every index is claimed by exactly one thread in each phase, see `Shared::work_on`.
@@ -88,7 +87,7 @@ impl<T> Items<T> {
 }
 
 impl Pool {
-    /// A pool of `threads` threads in all, at least one.
+    /// A pool of `threads` threads, at least one, including the caller's.
     pub(crate) fn new(threads: usize) -> Pool {
         let helpers = threads.max(1) - 1;
         let shared = Arc::new(Shared {
@@ -110,15 +109,19 @@ impl Pool {
         Pool { shared, workers }
     }
 
-    /// Number of threads, the caller's included.
+    /// Number of threads, including the caller's.
     pub(crate) fn threads(&self) -> usize {
         self.workers.len() + 1
     }
 
-    /// Calls `look` once for the plan of every `chosen` item, with all items to look at; when that is done, calls `act`
-    /// once for every chosen item with its plan; returns when all is done. Both are given the item's index and what
-    /// belongs to the thread alone, one of `own`. Which thread takes which item is not determined, so neither may let
-    /// it matter.
+    /// Calls `look` once for the plan of every `chosen` item, with all items to look at. When all calls have
+    /// finished, it calls `act` once for every chosen item with its plan. It returns when everything has finished.
+    /// Both functions get the item's index and the data of the thread, one of `own`. The distribution of items over
+    /// threads is not determined, so no result may depend on it.
+    ///
+    /// # Panics
+    /// If a worker panics, if items and plans differ in number, if `own` has fewer items than the pool has threads,
+    /// or if `chosen` is not in order or beyond the items.
     pub(crate) fn look_then_act<O: Send, T: Send + Sync, P: Send>(
         &self,
         own: &mut [O],
@@ -143,22 +146,23 @@ impl Pool {
             (Items(own.as_mut_ptr()), Items(items.as_mut_ptr()), Items(plans.as_mut_ptr()));
         let work = |phase: Phase, thread: usize, place: usize| {
             let index = chosen[place] as usize;
-            // SAFETY: no other thread has this number, and `index` is below the length, at this place of `chosen` only,
-            // and claimed by this thread alone in this phase; all are borrowed mutably until all threads are done.
+            // SAFETY: no other thread has this number. `index` is below the length, is at this place of `chosen`
+            // only, and is claimed by this thread alone in this phase. All are borrowed mutably until all threads
+            // have finished.
             let (own, plan) = unsafe { (&mut *own.at(thread), &mut *plans.at(index)) };
             match phase {
-                // SAFETY: nobody writes to the items before all threads are done with looking.
+                // SAFETY: no thread writes to the items before all threads have finished looking.
                 Phase::Look => {
                     look(unsafe { std::slice::from_raw_parts(items.at(0), count) }, own, index, plan)
                 }
-                // SAFETY: all threads are done with looking, and the item is claimed by this one.
+                // SAFETY: all threads have finished looking, and this thread has claimed the item.
                 Phase::Act => act(unsafe { &mut *items.at(index) }, own, index, plan),
             }
         };
         let portion = (chosen.len() / (self.threads() * PORTIONS)).max(1);
         let work: *const (dyn Fn(Phase, usize, usize) + Sync + '_) = &raw const work;
-        // SAFETY: only the lifetime changes; what it points to outlives every use, since this function returns only
-        // when all workers are done with it.
+        // SAFETY: only the lifetime changes. The target outlives every use, because this function returns only when
+        // all workers have finished.
         let work = unsafe {
             std::mem::transmute::<
                 *const (dyn Fn(Phase, usize, usize) + Sync + '_),
@@ -199,7 +203,7 @@ impl Drop for Finish<'_> {
     }
 }
 
-/// Says that a worker is done, also when it panics.
+/// Reports that a worker has finished, also when it panics.
 struct Done<'a>(&'a Progress);
 
 impl Drop for Done<'_> {
@@ -216,7 +220,7 @@ impl Progress {
         }
     }
 
-    /// Waits for all `threads` to be done with looking. Returns whether they are: not if one panicked.
+    /// Waits until all `threads` have finished looking. Returns false if one panicked.
     fn all_looked(&self, threads: usize) -> bool {
         self.looked.fetch_add(1, Ordering::AcqRel);
         let is_over = || self.panicked.load(Ordering::Acquire);
@@ -229,13 +233,13 @@ fn spin_until(is_so: impl Fn() -> bool) {
     let mut spins = 0;
     while !is_so() {
         spins += 1;
-        // A thread that has lost its core needs it back.
+        // A thread that has lost its core needs it again.
         if spins > SPINS { thread::yield_now() } else { std::hint::spin_loop() }
     }
 }
 
 impl Shared {
-    /// What a worker does all its life.
+    /// The loop of a worker, until the pool is dropped.
     fn serve(&self, number: usize) {
         let mut seen = 0;
         loop {
@@ -277,11 +281,11 @@ impl Shared {
         }
     }
 
-    /// Works on the range of items that is this thread's in every job, so that what it left in its cache is there; then
-    /// on what is left of the others' ranges, but for the last portion of each: to fetch that from another's cache
-    /// takes as long as to wait for it.
+    /// Works on the range of items that this thread has in every job, because they are still in its cache. Then it
+    /// works on what is left of the other ranges, except for the last portion of each. To fetch that from another
+    /// cache takes as long as to wait for it.
     fn work_in(&self, phase: Phase, task: Task, thread: usize) {
-        // SAFETY: `Pool::look_then_act` keeps the job alive until no thread is busy any more.
+        // SAFETY: `Pool::look_then_act` keeps the job alive until no thread is busy.
         let work = unsafe { &*task.work };
         let threads = self.noted_on.len();
         for owner in (thread..threads).chain(0..thread) {
@@ -303,7 +307,7 @@ impl Drop for Pool {
         self.shared.posted.job.fetch_add(1, Ordering::SeqCst);
         for worker in self.workers.drain(..) {
             worker.thread().unpark();
-            // A worker that panicked was reported when it did.
+            // A panic of a worker was reported when it happened.
             let _ = worker.join();
         }
     }

@@ -1,4 +1,4 @@
-//! Vehicles are put on the road.
+//! Vehicles are placed on the road.
 
 use crate::demand::error::WorldError;
 use crate::driver::turn::next_turn;
@@ -16,11 +16,11 @@ use crate::step::world::World;
 use laneweave_network::Position;
 
 impl World {
-    /// Puts a vehicle on the road outside of the demand, and names it. Its place must be free.
+    /// Places a vehicle on the road outside of the demand. Its place must be free. Returns its id.
     ///
     /// # Errors
-    /// If it is not on a chain of the network, its speed is no number from 0 on, or there are no such driver parameters
-    /// or destination.
+    /// If it is not on a chain of the network, its speed is negative or no number, or there are no such driver
+    /// parameters or destination.
     pub fn place(&mut self, vehicle: NewVehicle) -> Result<VehicleId, WorldError> {
         let World { roads, traffic, arrivals, log, .. } = self;
         check_new(roads, arrivals.demand().destinations.len(), &vehicle)?;
@@ -44,15 +44,15 @@ fn check_new(roads: &Roads, destinations: usize, vehicle: &NewVehicle) -> Result
     refused.into_iter().find(|it| it.0).map_or(Ok(()), |it| Err(WorldError::Vehicle(it.1)))
 }
 
-/// A vehicle that has come.
+/// The id and the arrival of a vehicle.
 #[derive(Clone, Copy)]
 pub(crate) struct Named {
     pub(crate) id: VehicleId,
-    /// When it came [s].
+    /// Time of its arrival [s].
     pub(crate) arrived: f64,
 }
 
-/// Puts a vehicle on the road.
+/// Places a vehicle on the road.
 pub(crate) fn put(
     roads: &Roads,
     traffic: &mut Traffic,

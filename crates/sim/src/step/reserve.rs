@@ -1,5 +1,5 @@
-//! Entrances that share ground with others: a vehicle comes onto the road there with a reservation of the zones in
-//! which it would stand.
+//! Entrances within conflict areas: a vehicle enters the road there with a reservation of the zones in which it would
+//! stand.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ZoneIndex, ZoneKind};
@@ -20,27 +20,26 @@ use crate::state::clock::Clock;
 use crate::state::traffic::Traffic;
 use crate::view::scene::{Scene, Viewpoint};
 
-/// How far before the road a vehicle waits for its reservation [m].
+/// A vehicle waits for its reservation this far before the road [m].
 const WAITS_BEFORE: f64 = STANDS_BEFORE_A_ZONE;
 
-/// What a vehicle needs to come onto the road beside a gap.
+/// What a vehicle needs to enter the road, besides a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Entry {
     /// Nothing: it would stand in no zone.
     Free,
-    /// The reservation that was surveyed; it reaches so far from the start of the lane, behind a vehicle from elsewhere
-    /// if there is one.
+    /// The surveyed reservation.
     Reserved {
-        /// How far it reaches [m].
+        /// End of the reservation, from the start of the lane [m].
         until: f64,
-        /// Who goes before it over the same ground, seen from its front as it comes.
+        /// The vehicle that goes first into the same merge, seen from the entering vehicle's front.
         ahead: Option<Ahead>,
     },
-    /// It cannot come now.
+    /// It cannot enter now, for this reason.
     Refused(Hindrance),
 }
 
-/// The vehicle `arrival` as it waits before the lane of `queue`.
+/// The vehicle of `arrival` as an applicant that waits before the lane of `queue`.
 pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival) -> Applicant<'a> {
     let Arrival { id, class, parameters, destination, .. } = *arrival;
     let style = &scene.driver_parameters[parameters as usize];
@@ -50,7 +49,7 @@ pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival)
     Applicant { from, length: class.body().length, speed: desired, desired, style, reservation: None }
 }
 
-/// What `arrival` needs to come onto the lane of `queue` now.
+/// What `arrival` needs to enter the lane of `queue` now.
 pub(crate) fn entry(
     scene: &Scene,
     queue: &Queue,
@@ -88,15 +87,15 @@ pub(crate) fn entry(
     }
 }
 
-/// Whether nobody else may pass the crossings that begin within `reach` [m]: who comes onto the road stands in them at
-/// once.
+/// Whether no other vehicle may pass the crossings that begin within `reach` [m]. The entering vehicle stands in them
+/// at once.
 fn is_free(scene: &Scene, surveyed: &Survey, reach: f64) -> bool {
     first_taken(scene, surveyed) > reach
 }
 
-/// Where what was surveyed leads into the first crossing that others pass first [m]; infinite if there is none.
+/// Position of the first surveyed crossing that others pass first [m]; infinite if there is none.
 fn first_taken(scene: &Scene, surveyed: &Survey) -> f64 {
-    /// Before the place where one stops for a crossing [m].
+    /// Distance before the place where vehicles stop for a crossing [m].
     const BEFORE: f64 = 0.01;
     let waits = |hold: &&ZoneReservation| {
         let is_crossing = scene.network.junctions.zones[hold.zone.at()].kind == ZoneKind::Crossing;
@@ -106,7 +105,7 @@ fn first_taken(scene: &Scene, surveyed: &Survey) -> f64 {
     taken.fold(f64::INFINITY, f64::min)
 }
 
-/// The turns that those claim who wait to come onto the road because of others.
+/// The turns of vehicles that wait to enter the road because of others.
 pub(crate) fn priorities_at_entrances(
     scene: &Scene,
     arrivals: &Arrivals,
@@ -127,7 +126,7 @@ pub(crate) fn priorities_at_entrances(
     }
 }
 
-/// Gives the vehicle that has just come onto the road the reservation that was surveyed before.
+/// Grants the surveyed reservation to the vehicle that has just entered the road.
 pub(crate) fn reserve(
     traffic: &mut Traffic,
     reservations: &mut Reservations,

@@ -1,5 +1,5 @@
-//! Requests that concern other lanes are granted one after the other, the most pressing first: of two drivers who
-//! want one gap exactly one goes, whoever asked first and on whichever thread.
+//! Requests that concern other lanes are granted one after the other, the most urgent first. Of two drivers who want
+//! one gap exactly one goes, in any order of requests and on any thread.
 
 use laneweave_models::Concentration;
 use laneweave_network::Position;
@@ -18,7 +18,7 @@ use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 use crate::view::scene::{Scene, Spot};
 
-/// Grants what can be granted.
+/// Grants the requests that can be granted.
 pub(crate) fn resolve(
     roads: &Roads,
     traffic: &mut Traffic,
@@ -67,28 +67,28 @@ impl Granting<'_> {
                 };
                 if let Some(index) = found.filter(sees_it) {
                     let (_, driver, lane_change) = self.traffic.lane_mut(chain).entry_mut(index);
-                    // Of two who want in before it the nearer comes first.
+                    // Of two drivers who want in before it, the nearer one comes first.
                     if driver.phase == Phase::Cruises && gap < lane_change.lets_in.0 {
                         lane_change.lets_in = (gap, speed);
                         driver.needs_full_update = true;
                     }
                 }
             }
-            // Who has crossed the line in the meantime goes on.
+            // A vehicle that has crossed the line in the meantime goes on.
             Ask::Abort if phase == Phase::Changes && progress < 0.5 => self.turn_back(spot),
             _ => {}
         }
     }
 
-    /// Whether the driver at `spot` has seen who signals since the step `since`: an inattentive one sees of the lane
-    /// beside what it saw when it last considered lanes.
+    /// Whether the driver at `spot` has seen a signal that was set in step `since`. An inattentive driver sees the
+    /// lane beside as it was when it last considered lanes.
     fn has_seen(&self, spot: Spot, since: u32) -> bool {
         let lane = self.traffic.lane(spot.chain);
         let (id, driver) = (lane.motions()[spot.index].id, &lane.drivers()[spot.index]);
         let attention = &self.roads.style(driver.parameters).attention;
         match concentration(attention, self.roads.random(), id, self.traffic.clock().time()) {
             Concentration::Concentrated => true,
-            // No longer than an epoch lies between its last consideration and the next, which is due.
+            // Its last consideration is at most one epoch before the next, which is due.
             Concentration::Inattentive => {
                 since + self.traffic.clock().steps(attention.inattentive.epoch) <= driver.due
             }
@@ -126,11 +126,11 @@ impl Granting<'_> {
         });
     }
 
-    /// Puts a shadow into the target lane, if the gap is still acceptable.
+    /// Inserts a shadow into the target lane, if the gap is still acceptable.
     fn begin_to_change(&mut self, spot: Spot) {
         let scene = self.scene();
         let lane_change = scene.lanes[spot.chain.at()].lane_change_states()[spot.index];
-        // Who has just been granted a reservation keeps its lane.
+        // A vehicle that has just been granted a reservation keeps its lane.
         if scene.has_reservation(spot, f64::NEG_INFINITY) {
             return;
         }
@@ -169,7 +169,7 @@ impl Granting<'_> {
         self.traffic.insert(gap.chain, shadow);
     }
 
-    /// Both entries of a vehicle go back.
+    /// Makes both entries of a vehicle go back.
     fn turn_back(&mut self, spot: Spot) {
         let (motion, driver, lane_change) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
         driver.phase = Phase::Aborts;

@@ -1,4 +1,4 @@
-//! Vehicles go on from chain to chain, and leave.
+//! Vehicles pass from chain to chain, and leave the map.
 
 use laneweave_network::{ChainIndex, Position};
 
@@ -10,7 +10,7 @@ use crate::state::lane::{Counterpart, Entry, Milestone, Phase, Reached};
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 
-/// Entries whose trips ended leave; those that passed the ends of their chains go on, or leave the map.
+/// Entries whose trips ended leave. Entries that passed the ends of their chains go on, or leave the map.
 pub(crate) fn transfer(
     roads: &Roads,
     traffic: &mut Traffic,
@@ -43,13 +43,13 @@ pub(crate) fn transfer(
     leaving.clear();
 }
 
-/// Where an entry that passed the end of its chain stands now.
+/// Position of an entry that passed the end of its chain.
 fn place_beyond(roads: &Roads, from: ChainIndex, entry: &Entry) -> Option<Position> {
     let next = roads.navigator().next(roads.network(), entry.driver.goal.destination(), from)?;
     Some(Position::new(next, entry.motion.x - roads.network().chain(from).length))
 }
 
-/// What a vehicle changes that passes the end of its chain.
+/// What a vehicle that passes the end of its chain changes.
 struct Transfer<'a> {
     roads: &'a Roads,
     traffic: &'a mut Traffic,
@@ -58,7 +58,8 @@ struct Transfer<'a> {
 }
 
 impl Transfer<'_> {
-    /// Entries whose trips ended leave, with their shadows, which may just have passed the ends of their own chains.
+    /// Entries whose trips ended leave, with their shadows. The shadows may just have passed the ends of their own
+    /// chains.
     fn end_trips(&mut self, arrived: &mut Vec<(ChainIndex, Entry)>, leaving: &mut Vec<(ChainIndex, Entry)>) {
         arrived.sort_unstable_by_key(|(_, it)| it.motion.id);
         if !arrived.is_empty() {
@@ -90,7 +91,7 @@ impl Transfer<'_> {
         self.traffic.insert(onto.chain, entry);
     }
 
-    /// A main entry leaves the map; a shadow on a lane that ends is no longer needed.
+    /// A main entry leaves the map. A shadow in a lane that ends is no longer needed.
     fn leave(&mut self, from: ChainIndex, entry: Entry) {
         let Entry { motion, driver, lane_change } = entry;
         if driver.is_shadow {
@@ -121,7 +122,7 @@ impl Transfer<'_> {
         self.log.end_trip(network, clock, from, &entry);
     }
 
-    /// Tells the other entry of a vehicle where this one stands now.
+    /// Tells the other entry of a vehicle the position of this one.
     fn tell_counterpart(&mut self, entry: &Entry, now: Option<Position>) {
         let Some(counterpart) = entry.lane_change.counterpart else { return };
         let lane = self.traffic.lane_mut(counterpart.chain);
@@ -132,7 +133,7 @@ impl Transfer<'_> {
     }
 }
 
-/// the counterpart at its new place, if it still has one.
+/// The counterpart at its new position, if it still has one.
 fn relocated(counterpart: Option<Counterpart>, place: Option<Position>) -> Option<Counterpart> {
     let Position { chain, x } = place?;
     counterpart.map(|old| Counterpart { chain, x, ..old })

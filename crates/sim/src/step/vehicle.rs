@@ -12,23 +12,23 @@ use crate::view::scene::Spot;
 #[derive(Clone, Copy)]
 pub struct Vehicle<'a> {
     pub(super) world: &'a World,
-    /// Where its main entry stands.
+    /// Position of its main entry.
     pub spot: Spot,
-    /// How it moves.
+    /// Its kinematics.
     pub motion: &'a Kinematics,
-    /// Its driver's hot part.
+    /// The state of its driver, needed at every step.
     pub driver: &'a DriverState,
-    /// Its driver's warm part.
+    /// Its lane-change state, needed less often.
     pub lane_change: &'a LaneChangeState,
 }
 
 impl Vehicle<'_> {
-    /// Who it is.
+    /// Its id.
     pub fn id(&self) -> VehicleId {
         self.motion.id
     }
 
-    /// Front bumper along its chain [m].
+    /// Position of the front bumper along its chain [m].
     pub fn x(&self) -> f64 {
         self.motion.x
     }
@@ -38,17 +38,17 @@ impl Vehicle<'_> {
         self.motion.speed
     }
 
-    /// Where its body is.
+    /// The pose of its body.
     pub fn pose(&self) -> Pose {
         pose(&self.world.scene(), self.spot)
     }
 
-    /// The middles of its front and its rear bumper.
+    /// The midpoints of its front and rear bumpers.
     pub fn bumpers(&self) -> [Point; 2] {
         bumpers(&self.world.scene(), self.spot)
     }
 
-    /// How far it is to the left of the centre of its lane [m].
+    /// Lateral offset to the left of the centre of its lane [m].
     pub fn lateral_offset(&self) -> f64 {
         lateral_offset(&self.world.scene(), self.spot)
     }

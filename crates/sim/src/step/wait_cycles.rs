@@ -1,6 +1,6 @@
-//! Wait cycles of drivers each of whom waits for the room that the next takes up: on a full roundabout, around a full
-//! block. None of them could ever go if each waited for the other's room to be free; so they go together, each into the
-//! room of the next.
+//! Wait cycles: drivers each of whom waits for the space of the next, as on a full roundabout or around a full block.
+//! None of them could go if each waited until the next one's space is free. Therefore they go together, each into the
+//! space of the next.
 
 use crate::driver::plan::ReservationRequest;
 use crate::junction::need::Survey;
@@ -11,13 +11,13 @@ use crate::state::standstill::STANDS;
 use crate::step::granting::Granting;
 use crate::view::scene::{Scene, Spot};
 
-/// No wait cycle of standing vehicles that leads from one waiting driver to the next is longer.
+/// Largest number of standing vehicles from one waiting driver to the next in a cycle.
 const LONGEST_QUEUE: usize = 100;
-/// Who stands with less room ahead than this [m] stands in a queue; others wait for something of their own (ours).
+/// A vehicle with a smaller gap ahead stands in a queue [m]; others wait for something else (ours).
 const QUEUES_WITHIN: f64 = 4.0;
 
-/// Grants reservations to those who wait for each other's room. `waiting` are those who wait for room, in the order of
-/// ids.
+/// Grants reservations to drivers who wait for each other's space. `waiting` are the drivers who wait for space, in
+/// the order of ids.
 pub(super) fn open_wait_cycles(granting: &mut Granting, waiting: &[ReservationRequest], survey: &mut Survey) {
     let scene = granting.scene();
     let spots: Vec<Option<Spot>> = waiting.iter().map(|it| spot(&scene, it)).collect();
@@ -30,8 +30,8 @@ pub(super) fn open_wait_cycles(granting: &mut Granting, waiting: &[ReservationRe
     }
 }
 
-/// Grants reservations to all `members` of a wait cycle, if only the room that the next frees is what each of them
-/// waits for. They go, whatever lights show then.
+/// Grants reservations to all `members` of a wait cycle, if each of them waits only for the space that the next one
+/// frees. They then go even if a light changes.
 fn let_go_together(granting: &mut Granting, members: &[(Spot, ReservationRequest)], survey: &mut Survey) {
     let mut holds: Vec<ZoneReservation> = Vec::new();
     let scene = granting.scene();
@@ -59,7 +59,7 @@ fn spot(scene: &Scene, request: &ReservationRequest) -> Option<Spot> {
     Some(Spot { chain: request.chain, index })
 }
 
-/// Which of those who wait stands at the head of the queue that the driver at `from` would join.
+/// The waiting driver at the head of the queue that the driver at `from` would join.
 fn waits_for(scene: &Scene, from: Spot, waiting: &[ReservationRequest]) -> Option<usize> {
     let mut at = from;
     for _ in 0..LONGEST_QUEUE {
@@ -76,7 +76,7 @@ fn waits_for(scene: &Scene, from: Spot, waiting: &[ReservationRequest]) -> Optio
     None
 }
 
-/// The wait cycles of a map from each place to the next, each from its first place on.
+/// The cycles of a map from each index to the next one, each from its first index on.
 fn wait_cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     const NEW: usize = usize::MAX;
     let mut seen = vec![NEW; next.len()];
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn rings_are_found_wherever_one_begins_to_look() {
-        // 0 → 1 → 2 → 1, 3 → 4 → 3, 5 → nobody, 6 → itself.
+        // 0 → 1 → 2 → 1, 3 → 4 → 3, 5 → none, 6 → itself.
         let next = [Some(1), Some(2), Some(1), Some(4), Some(3), None, Some(6)];
         assert_eq!(wait_cycles(&next), [vec![1, 2], vec![3, 4], vec![6]]);
         assert_eq!(wait_cycles(&[None, None]), Vec::<Vec<usize>>::new());

@@ -1,21 +1,21 @@
-//! What a step is worked out with.
+//! The buffers and threads of a step.
 
 use crate::driver::plan::{Outbox, Plan};
 use crate::record::counters::Counters;
 use crate::step::pool::Pool;
 
-/// Room for the work of a step, kept from one to the next.
+/// The buffers and threads of a step, kept from one step to the next.
 pub(crate) struct Work {
-    /// By chain.
+    /// The plans, by chain.
     pub(super) plans: Vec<Plan>,
-    /// One for each thread.
+    /// The outboxes, one for each thread.
     pub(super) outboxes: Vec<Outbox>,
-    /// All threads, and one alone for steps too short to share.
+    /// A pool of all threads, and one of a single thread for steps too short to share.
     pub(super) pools: [Pool; 2],
 }
 
 impl Work {
-    /// Room for the work of so many threads on so many chains.
+    /// The work of `threads` threads on `chains` chains.
     pub(crate) fn new(chains: usize, threads: usize) -> Work {
         Work {
             plans: (0..chains).map(|_| Plan::default()).collect(),
@@ -24,26 +24,26 @@ impl Work {
         }
     }
 
-    /// What all threads wrote down, once it is gathered.
+    /// The outbox of all threads, after it was gathered.
     pub(super) fn outbox(&mut self) -> &mut Outbox {
         &mut self.outboxes[0]
     }
 
-    /// What the drivers did so far, added up over threads, without distances.
+    /// The counters of drivers, added over threads, without distances.
     pub(super) fn counted(&self) -> Counters {
         let mut sum = Counters::default();
         self.outboxes.iter().for_each(|it| sum.add(&it.counters));
         sum
     }
 
-    /// Forgets what the drivers did so far, but for this, and for distances.
+    /// Resets the counters of drivers to `counters`, except for distances.
     pub(super) fn reset_counters(&mut self, counters: Counters) {
         self.outboxes.iter_mut().for_each(|it| it.counters = Counters::default());
         self.outbox().counters = counters;
     }
 }
 
-/// Which pool moves so many vehicles: a step of fewer is over before another thread has begun.
+/// Index of the pool that moves a `crowd` of vehicles. A step of few vehicles ends before another thread begins.
 pub(crate) fn pool_for(crowd: usize) -> usize {
     const WORTH_SHARING: usize = 300;
     usize::from(crowd < WORTH_SHARING)

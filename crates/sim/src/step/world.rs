@@ -28,7 +28,7 @@ use crate::step::watch::note_incidents;
 use crate::step::work::Work;
 use crate::view::scene::Scene;
 
-/// Traffic on a network, and all that moves it.
+/// A world: traffic on a network, and all that moves it.
 pub struct World {
     pub(super) roads: Roads,
     pub(super) traffic: Traffic,
@@ -42,8 +42,8 @@ impl World {
     /// An empty world on `network`, whose drivers come from `demand` with the given `driver_parameters`.
     ///
     /// # Errors
-    /// If the step is not between 0.01 and 1 s, there are no driver parameters, the demand is no demand, or has too
-    /// many destinations.
+    /// If the step is not between 0.01 and 1 s, there are no driver parameters, the demand is not valid, or it has
+    /// too many destinations.
     pub fn new(
         network: impl Into<Arc<Network>>,
         driver_parameters: Vec<Style>,
@@ -80,11 +80,11 @@ impl World {
         })
     }
 
-    /// The same world with drivers guided by travel times that are measured in it every `interval` [s]. Where nobody
-    /// has a choice of ways there is nothing to guide.
+    /// The same world, with drivers guided by travel times that are measured in it every `interval` [s]. Without a
+    /// choice of routes there is no guidance.
     ///
     /// # Errors
-    /// If there are more destinations than can be guided to, or their ways would not fit into memory.
+    /// If there are more destinations than guidance supports, or their routes would not fit into memory.
     pub fn guided(mut self, interval: f64) -> Result<World, WorldError> {
         let World { roads, traffic, arrivals, .. } = &mut self;
         if roads.navigator().offers_a_choice() {
@@ -99,24 +99,24 @@ impl World {
         Ok(self)
     }
 
-    /// The same world, which records every trip until it ends, and what vehicles do on every lanelet.
+    /// The same world, which records every trip until it ends, and lanelet aggregates.
     pub fn with_trip_log(mut self) -> World {
         self.log.record_trips(self.roads.network());
         self
     }
 
-    /// The same world, in which it is looked for overlaps at every step, not only once a second.
+    /// The same world, which checks for overlaps at every step, not only once a second.
     pub fn audited(mut self) -> World {
         self.log.audit();
         self
     }
 
-    /// One step: everybody perceives, decides and accelerates on one snapshot; then all move; what concerns two
-    /// lanes is resolved in order; vehicles enter; drivers are guided.
+    /// Simulates one step. All drivers perceive, decide and accelerate on one snapshot; then all vehicles move.
+    /// Requests between lanes are resolved in order, vehicles enter, and drivers are guided.
     pub fn step(&mut self) {
         let World { roads, traffic, junctions, arrivals, log, work } = self;
         log.begin_step();
-        // Overlaps are looked for once a second; in an audit at every step.
+        // Overlaps are checked once a second; in an audit at every step.
         let is_watched = log.is_audited() || traffic.clock().begins_a_second();
         move_all(roads, traffic, junctions, work, is_watched);
         traffic.tick();
@@ -135,7 +135,7 @@ impl World {
         }
     }
 
-    /// The current instant.
+    /// The current scene.
     pub fn scene(&self) -> Scene<'_> {
         Scene::of(&self.roads, &self.traffic, &self.junctions)
     }
