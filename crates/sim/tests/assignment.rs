@@ -1,4 +1,4 @@
-//! Where a demand leads: every vehicle is on the map from its origin to its destination, over the lanes of its way.
+//! Assignments: every vehicle is counted from its origin to its destination, on the lanes of its route.
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_network::{ChainIndex, Network};
@@ -12,7 +12,7 @@ fn chains(network: &Network) -> impl Iterator<Item = ChainIndex> + use<> {
     (0..network.chains.len() as u32).map(ChainIndex)
 }
 
-/// Flow over all lanes at a distance to the east [veh/h].
+/// Flow over all lanes at the distance `x` to the east [veh/h].
 fn flow_at(network: &Network, assignment: &Assignment, x: f64) -> f64 {
     let on = |chain: ChainIndex| {
         let it = network.chain(chain);
@@ -46,7 +46,7 @@ fn flows_grow_by_who_comes_and_shrink_by_who_leaves() {
     };
     let network = motorway(&plan).unwrap().build().unwrap().network;
     let assignment = assigned(&network, &Demand::even(&network, 3000.0, 0.0, Vec::new()));
-    // A third comes over the ramp, half leave over the other one.
+    // A third enters over the on-ramp; half leave over the off-ramp.
     for (x, expected) in [(500.0, 2000.0), (900.0, 3000.0), (2000.0, 3000.0), (3600.0, 1500.0)] {
         let flow = flow_at(&network, &assignment, x);
         assert!((flow - expected).abs() < 1e-6, "{flow} veh/h at {x} m");

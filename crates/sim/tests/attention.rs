@@ -1,4 +1,4 @@
-//! The inattentive consider lanes less often, see less far, and see beside what they saw when they last looked.
+//! Inattentive drivers consider lanes less often, see less far, and see the lane beside as it was at their last turn.
 
 mod roads;
 
@@ -12,7 +12,7 @@ use roads::{Road, drivers};
 /// Length of a car [m].
 const CAR: f64 = 4.5;
 
-/// The style, of a driver who never concentrates.
+/// The style, of a driver who is always inattentive.
 fn inattentive(style: Style, alertness: Alertness) -> Style {
     let attention =
         Attention { concentrated_for: 0.0, inattentive_for: 1.0, inattentive: alertness, ..style.attention };
@@ -28,7 +28,7 @@ fn put(world: &mut World, chain: u32, x: f64, speed: f64, parameters: u32) -> Ve
     world.place(NewVehicle { chain, x, speed, class, parameters, destination }).expect("it fits on the road")
 }
 
-/// What a test follows of a driver.
+/// The state of a driver that tests follow.
 fn driver(world: &World, id: VehicleId) -> (Phase, u32, bool) {
     let vehicle = world.vehicles().find(|it| it.id() == id).expect("it is on the road");
     (vehicle.driver.phase, vehicle.driver.due, vehicle.driver.needs_full_update)
@@ -52,7 +52,7 @@ fn the_inattentive_consider_lanes_every_two_seconds() {
     }
 }
 
-/// A driver who wants to change as soon as it sees anything to gain.
+/// A driver who wants to change as soon as it sees any gain.
 fn keen() -> Style {
     let change = LaneChangeModel::Mcdm(Mcdm {
         rule: Rule::Threshold,
@@ -65,7 +65,7 @@ fn keen() -> Style {
 
 #[test]
 fn a_slow_leader_beyond_its_sight_is_no_reason_for_an_inattentive_driver() {
-    /// Where a driver at 30 m/s first wants to leave its lane: its distance to a standing leader [m].
+    /// Distance to a standing leader at which a driver at 30 m/s first wants to leave its lane [m].
     fn wants_from(style: Style) -> f64 {
         const LEADER: f64 = 1000.0;
         let network = Road { lanes: 2, length: 2000.0, limit: 30.0, ..Road::default() }.network();
@@ -83,7 +83,7 @@ fn a_slow_leader_beyond_its_sight_is_no_reason_for_an_inattentive_driver() {
             world.step();
         }
     }
-    // Within the way of one epoch and the step in which it takes effect.
+    // Within the distance driven in one epoch and in the step in which the desire takes effect.
     let found = wants_from(keen());
     assert!((262.0..295.0).contains(&found), "{found}");
     for sight in [250.0, 150.0] {
@@ -120,8 +120,8 @@ fn a_wish_is_given_up_only_when_lanes_are_considered() {
 
 #[test]
 fn the_inattentive_let_in_whom_they_saw_when_they_last_looked() {
-    /// Steps from the wish of a driver at the end of its lane to the first in which the one behind beside makes room,
-    /// and whether that one considered lanes in between.
+    /// Steps from the desire of a driver at the end of its lane until the follower beside makes space, and whether
+    /// the follower considered lanes in between.
     fn let_in_after(follower: Style) -> (u32, bool) {
         let plan = Motorway { lanes: 2, lane_drop_at: Some(2500.0), length_m: 4000.0, ..Motorway::default() };
         let network = motorway(&plan).expect("a road").build().expect("a network").network;

@@ -1,4 +1,4 @@
-//! Whether drivers change lanes: without a reason never, for a reason soon, and not back and forth.
+//! Drivers change lanes never without a reason, soon with a reason, and not back and forth.
 
 mod roads;
 
@@ -25,7 +25,7 @@ fn with_change(style: Style, change: LaneChangeModel) -> Style {
     Style { change, ..style }
 }
 
-/// The style with no weight on anything.
+/// The style with no weight on any incentive.
 fn indifferent(style: Style) -> Style {
     let bare = Mcdm {
         speed: Speed { weight: 0.0, ..Speed::default() },
@@ -43,12 +43,13 @@ fn threshold(style: Style, theta: f64) -> Style {
     with_change(style, change)
 }
 
-/// A changer without a reason.
+/// The style with a null model, which changes lanes at random.
 fn coin(style: Style, hazard: f64) -> Style {
     with_change(style, LaneChangeModel::ConstantHazard(ConstantHazard { hazard }))
 }
 
-/// Ten minutes on a motorway of two lanes with 2,400 veh/h, trucks among them; the world at the end and the changes.
+/// Ten minutes on a motorway of two lanes with 2,400 veh/h, trucks included. Returns the world at the end, and the
+/// changes.
 fn motorway(styles: Vec<Style>, seed: u64) -> (World, Vec<LaneChange>) {
     let network = Road { lanes: 2, length: 4000.0, ..Road::default() }.network();
     let demand = drivers::demand(&network, 2400.0, 0.1, &[0.3, 0.7]);
@@ -139,7 +140,7 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
     const CARS: u32 = 10_000;
     const SPACING: f64 = 80.0;
     const HAZARD: f64 = 0.05;
-    // [s], and the epoch that is a whole number of steps.
+    // The step [s], and the epoch, which is a whole number of steps [s].
     for (step, epoch) in [(0.1, 1.0), (0.3, 0.9), (0.5, 1.0), (1.0, 1.0)] {
         let road =
             Road { lanes: 2, length: f64::from(CARS) * SPACING + 6000.0, limit: 20.0, ..Road::default() };
@@ -181,7 +182,7 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
     }
 }
 
-/// The chains of the slow lane and where along the road they start [m].
+/// The chains of the slow lane, each with its start along the road [m].
 fn chains_of_lane_0(network: &laneweave_network::Network) -> Vec<(ChainIndex, f64)> {
     let (mut chain, mut start, mut all) = (Some(ChainIndex(0)), 0.0, Vec::new());
     while let Some(index) = chain {
@@ -207,21 +208,21 @@ fn v48_nobody_changes_again_by_choice_while_calm() {
         }
         assert!(changes.len() > 50);
         assert!(shortest > calm - 1e-9, "{shortest} s");
-        // Nothing but the calm keeps the restless from changing again.
+        // Only the cooldown keeps these drivers from another change.
         assert!(!is_restless || shortest < calm + 0.5, "{shortest} s");
     }
 }
 
-/// Keeps its speed whatever it follows.
+/// A driver who keeps its speed behind any leader.
 fn unyielding() -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     threshold(indifferent(Style { follow: FollowingModel::Fvdm(follow), ..drivers::conservative() }), 1.0)
 }
 
-/// Speed of the one who is in the way [m/s].
+/// Speed of the slow leader [m/s].
 const SLOW: f64 = 8.0;
 
-/// A driver of `style`, number 0, in its equilibrium behind number 1, which drives 8 m/s, on a road of `lanes`.
+/// A driver of `style`, number 0, in equilibrium behind number 1, which drives 8 m/s, on a road of `lanes`.
 fn held_up(style: Style, lanes: usize, seed: u64) -> World {
     let network = Road { lanes, length: 2500.0, ..Road::default() }.network();
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
@@ -275,7 +276,7 @@ fn v49_a_driver_waits_while_the_gap_is_blocked_and_changes_when_it_opens() {
     const SEEDS: u64 = 200;
     const BLOCKERS: u32 = 12;
     const PASSING: f64 = 13.0;
-    /// From front to front, with no more than a metre around a car between two of them [m].
+    /// From front to front [m]: a car between two of them has no more than a metre in front and behind.
     const SPACING: f64 = 2.0 * LENGTH + 2.0;
     for style in both() {
         let (mut waited, mut changed) = (0, 0);
@@ -309,13 +310,12 @@ fn v49_a_driver_waits_while_the_gap_is_blocked_and_changes_when_it_opens() {
 
 /// Where the slow lane ends [m].
 const END: f64 = 2500.0;
-/// Limit before the end of the lane, and speed of those who pass [m/s].
+/// Limit before the end of the lane, and speed of the passing vehicles [m/s].
 const SPEED: f64 = 18.0;
-/// How many pass.
+/// Number of passing vehicles.
 const PASSING: usize = 60;
 
-/// A truck stands at the end of its lane, beside a row of `passing` drivers who follow each other closely, the first of
-/// whom is beside it.
+/// A truck stands at the end of its lane, beside a dense row of `passing` drivers. The first of them is beside it.
 fn truck_beside(passing: Style) -> World {
     let plan = Motorway {
         lanes: 2,
@@ -341,7 +341,7 @@ fn truck_beside(passing: Style) -> World {
     world
 }
 
-/// How long the truck waits [s], and how hard somebody braked meanwhile [m/s²]; it waits for two minutes at most.
+/// Waiting time of the truck, two minutes at most [s], and the hardest braking in that time [m/s²].
 fn wait(mut world: World) -> (f64, f64) {
     let mut hardest = 0.0_f64;
     while world.counts().route_changes == 0 && world.clock().time() < 120.0 {

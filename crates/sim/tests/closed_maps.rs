@@ -1,4 +1,4 @@
-//! Maps without gates: trips start and end at places inside the map.
+//! Closed maps: trips start and end inside the map.
 
 mod roads;
 
@@ -13,17 +13,17 @@ use laneweave_sim::{
 };
 use roads::{Road, drivers};
 
-/// A ring of 1,000 m of two lanelets a lane.
+/// A ring road of 1,000 m with two lanelets per lane.
 fn ring(lanes: usize) -> Network {
     Road { lanes, length: 1000.0, limit: 14.0, is_ring: true, ..Road::default() }.network()
 }
 
-/// The places inside the map of all lanelets.
+/// The trip ends of all lanelets.
 fn inner_places(network: &Network) -> Places {
     Places::along(network, (0..network.lanelets.len()).map(|it| LaneletIndex(it as u32)))
 }
 
-/// All classes.
+/// A fleet of all classes.
 const FLEET: Fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.1 };
 
 fn demand(network: &Network, places: Places, total: f64) -> Demand {
@@ -38,10 +38,10 @@ fn world(network: Network, places: Places, total: f64, seed: u64) -> World {
         .expect("the set-up makes sense")
 }
 
-/// Runs `world` and checks in every step that nobody is lost and that who left was at its place inside the map; returns
-/// how many left.
+/// Runs `world`. Checks in every step that no vehicle is lost, and that each completed trip ended at its place inside
+/// the map. Returns the number of completed trips.
 fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
-    /// Nobody drives faster [m/s].
+    /// Higher than any vehicle's speed [m/s].
     const FASTEST: f64 = 60.0;
     let mut before: BTreeMap<VehicleId, (ChainIndex, f64, Destination)> = BTreeMap::new();
     for _ in 0..steps {
@@ -86,7 +86,7 @@ fn every_lanelet_of_20_m_has_a_place_at_two_fifths_of_it() {
     assert_eq!(places.destinations, places.origins);
     let short = Road { length: 19.0, is_ring: true, ..Road::default() }.network();
     assert_eq!(inner_places(&short), Places { origins: vec![], destinations: vec![] });
-    // From a road that goes nowhere nobody starts.
+    // No trip starts on a road that leads nowhere.
     let dead_end = Road { length: 400.0, ..Road::default() }.network();
     assert_eq!((inner_places(&dead_end).origins.len(), inner_places(&dead_end).destinations.len()), (0, 1));
 }
@@ -164,7 +164,7 @@ fn the_way_to_a_place_inside_is_counted_from_where_the_driver_is() {
     };
     assert_eq!(way(0, 150.0), (0, f64::INFINITY, 200.0, 50.0));
     assert_eq!(way(0, 250.0), (0, f64::INFINITY, f64::INFINITY, 950.0));
-    // From the lane beside up to 40 m before it; from then on, once round.
+    // In the lane beside, up to 40 m before the trip end; after that, a full round.
     assert_eq!(way(1, 150.0), (1, 160.0, f64::INFINITY, 50.0));
     assert_eq!(way(1, 170.0), (1, 1160.0, f64::INFINITY, 1030.0));
 }
@@ -218,7 +218,7 @@ fn threads_and_the_storage_of_chains_change_nothing() {
     assert_eq!(hash(ring(3).with_chains_reversed(), 1), first);
 }
 
-/// A map of the shared data with its places inside the map, if it is there.
+/// A map of the shared data with its trip ends, if the file exists.
 fn real(file: &str) -> Option<(Network, Places)> {
     const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
     let path = Path::new(DATA).join(file);
@@ -258,7 +258,7 @@ fn a_town_in_which_far_more_start_than_it_can_bear_lets_them_wait_and_keeps_movi
         let before = world.counts().left;
         (0..1000).for_each(|_| world.step());
         let taken: f64 = world.vehicles().map(|it| f64::from(it.motion.length) + 2.0).sum();
-        // What it can bear, and one more from each place inside the map before that is noticed.
+        // The limit of perimeter control, and one more vehicle from each trip end before the limit takes effect.
         assert!(taken < 0.21 * roads, "{taken} m of {roads} m are taken up");
         assert!(
             world.counts().left > before || world.clock().time() < 200.0,
@@ -286,7 +286,7 @@ fn a_demand_loads_the_ways_between_its_places() {
     let assignment =
         Assignment::new(&network, &Navigator::towards(&network, &places.destinations), &demand, [0.0, 1.0]);
     assert!((3600.0 * assignment.total - 600.0).abs() < 1e-6);
-    // From each of the two places inside the map to the other one it is half of the ring.
+    // The distance from each of the two trip ends to the other one is half of the ring road.
     let chain = ChainIndex(0);
     let length = network.chain(chain).length;
     let parts = assignment.on(chain).iter();

@@ -1,4 +1,4 @@
-//! No vehicle appears or vanishes, and traffic is the same whatever the step.
+//! No vehicle appears or vanishes, and traffic does not depend on the step.
 
 mod roads;
 
@@ -23,7 +23,7 @@ fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_
         off_ramp_at: vec![2000.0],
         ..Motorway::default()
     };
-    // More than the road can take, so that queues grow.
+    // More demand than the road's capacity, so that queues grow.
     let mut world = world(motorway(&plan).unwrap().build().unwrap().network, 7500.0, 0.1, 3);
     let (mut entered, mut left, mut ids) = (0, 0, std::collections::BTreeSet::new());
     for _ in 0..6000 {
@@ -72,16 +72,16 @@ fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
     }
     let counters = world.counters();
     assert_eq!(counters.updates, updates);
-    // The last step of those who left ended beyond the road.
+    // The last step of a completed trip ends beyond the road.
     let last_steps = counters.distance - distance;
     assert!(last_steps > 0.0 && last_steps < 5.0 * world.counts().left as f64, "{last_steps} m");
     assert_eq!(world.counts().trip_time, durations);
 }
 
-/// Flows of one seed spread by 2 %: from so many, means that differ by 1 % are told apart.
+/// Number of seeds. Flows of single seeds spread by 2 %; this many distinguish means that differ by 1 %.
 const SEEDS: u64 = 60;
 
-/// Flow [veh/h] and the numbers of lane changes of saturated roads of two lanes, one for each seed.
+/// Flow [veh/h] of saturated roads of two lanes, and the numbers of lane changes, one for each seed.
 fn saturated(step: f64) -> (f64, Vec<f64>) {
     const WARM_UP: f64 = 300.0;
     const HOURS: f64 = 0.5;

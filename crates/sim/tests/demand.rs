@@ -1,4 +1,4 @@
-//! Who arrives, and when: arrivals of a Poisson process, drawn by shares, that nothing on the road delays.
+//! Arrivals: a Poisson process, with classes drawn by shares, that nothing on the road delays.
 
 mod roads;
 
@@ -34,7 +34,7 @@ fn v27_arrivals_within_ten_seconds_are_poisson() {
     let n = f64::from(BINS);
     let mean = counts.iter().sum::<u64>() as f64 / n;
     let variance = counts.iter().map(|it| (*it as f64 - mean).powi(2)).sum::<f64>() / (n - 1.0);
-    // Mean headway 4 s, within 1.96 standard errors.
+    // The mean headway is 4 s, within 1.96 standard errors.
     let headway = 10.0 / mean;
     assert!((headway - 4.0).abs() < 1.96 * 4.0 / (n * MEAN).sqrt(), "{headway} s");
     assert!((variance / mean - 1.0).abs() < 0.05, "dispersion {}", variance / mean);
@@ -43,7 +43,7 @@ fn v27_arrivals_within_ten_seconds_are_poisson() {
         let error = (probability * (1.0 - probability) / n).sqrt();
         assert!((share - probability).abs() < 3.0 * error, "{share} of the bins hold {count}");
     }
-    // The counts of neighbouring bins have nothing to do with each other.
+    // The counts of neighbouring bins are uncorrelated.
     let products = counts.windows(2).map(|it| (it[0] as f64 - mean) * (it[1] as f64 - mean)).sum::<f64>();
     let autocorrelation = products / ((n - 1.0) * variance);
     assert!(autocorrelation.abs() < 1.96 / n.sqrt(), "{autocorrelation}");
@@ -68,7 +68,7 @@ fn arrivals_in_each_lane_follow_the_law_of_headways() {
     let deviation = 2.5 * (2.0_f64 / 0.6 - 1.0).sqrt();
     let mean = 20_000.0 / n;
     assert!((mean - 2.0).abs() < 2.6 * 2.0 * deviation / 4.0 / n.sqrt(), "{mean} s");
-    // Never three in less than the shortest headway: they would be three lanes.
+    // There are never three in less than the minimum headway: that would take three lanes.
     assert!(times.windows(3).all(|it| it[2] - it[0] > 1.5 - 0.11));
 }
 

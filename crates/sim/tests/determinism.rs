@@ -1,5 +1,5 @@
-//! The order of vehicles, of chains and of threads changes nothing, bit for bit; nor does a mirror, nor what drivers
-//! leave unseen because a bound of the gain is enough.
+//! The order of vehicles, of chains and of threads changes nothing, bit for bit. The same holds for a mirrored road,
+//! and for drivers who look no further because of the gain bound.
 
 mod roads;
 
@@ -23,13 +23,14 @@ fn ramps() -> Network {
     motorway(&plan).expect("the motorway is possible").build().expect("the drawing is sound").network
 }
 
-/// Of whom the conservative are inattentive now and then.
+/// An aggressive style, and a conservative style that is inattentive at times.
 fn styles() -> Vec<Style> {
     let attention = Attention { concentrated_for: 20.0, inattentive_for: 20.0, ..Attention::default() };
     vec![drivers::aggressive(), Style { attention, ..drivers::conservative() }]
 }
 
-/// State after six minutes of dense traffic of both styles with trucks, enough of it to be shared among threads.
+/// Hash of the state after six minutes of dense traffic of both styles with trucks: enough to be shared among
+/// threads.
 fn hash(network: Network, seed: u64, threads: usize) -> u64 {
     hash_with(styles(), network, seed, threads)
 }
@@ -55,7 +56,8 @@ fn v29_neither_threads_nor_the_storage_of_chains_nor_a_second_run_changes_a_bit(
 
 #[test]
 fn who_looks_closely_at_every_lane_decides_as_those_for_whom_a_bound_of_the_gain_is_enough() {
-    // Who likes discomfort, be it ever so little, can tell nothing by the bound; so little changes no gain by a bit.
+    // With any weight on discomfort, however small, the bound is not valid. So small a weight changes no bit of a
+    // gain.
     let with_comfort = |weight: f64| {
         styles().into_iter().map(move |style| {
             let LaneChangeModel::Mcdm(mut mcdm) = style.change else { unreachable!() };
@@ -67,7 +69,8 @@ fn who_looks_closely_at_every_lane_decides_as_those_for_whom_a_bound_of_the_gain
     assert_eq!(hash_with(closely, ramps(), 1, 2), hash_with(by_the_bound, ramps(), 1, 2));
 }
 
-/// Cars and trucks on a ring of three lanes, who pass the ends of their chains again and again, also while they change.
+/// Hash of cars and trucks on a ring road of three lanes. They pass the ends of chains again and again, also during
+/// changes.
 fn hash_of_a_ring(is_reversed: bool, threads: usize) -> u64 {
     const CARS: u32 = 60;
     const STEPS: usize = 2000;
@@ -112,7 +115,7 @@ fn v29_another_seed_is_another_run() {
     assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[2] != hashes[0]);
 }
 
-/// A style without chance, that is easily moved: it wants to change when G > θ.
+/// The style without random choice and with a low threshold: it wants to change when G > θ.
 fn resolute(style: Style) -> Style {
     let LaneChangeModel::Mcdm(mcdm) = style.change else { unreachable!() };
     let change = LaneChangeModel::Mcdm(Mcdm { rule: Rule::Threshold, theta: 0.02, ..mcdm });
@@ -121,10 +124,11 @@ fn resolute(style: Style) -> Style {
 
 #[test]
 fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their_names() {
-    // So far apart that no two of them ever ask for one gap in the same step, which their names would decide.
+    // The spacing is so large that no two vehicles ever ask for one gap in the same step. Their ids would decide
+    // that.
     const VEHICLES: u32 = 90;
     const STEPS: usize = 70;
-    // With a step as long as an epoch, nothing is drawn when a driver begins.
+    // With a step as long as an epoch, no random number is drawn when a driver begins.
     let setup = Setup { step: 1.0, seed: 1, threads: 1 };
     let run = |order: &mut dyn Iterator<Item = u32>| {
         let network = Road { lanes: 2, length: 4000.0, ..Road::default() }.network();

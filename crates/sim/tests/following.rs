@@ -1,4 +1,4 @@
-//! Car-following through the simulator: the facts of the models hold when the world's step moves the vehicles.
+//! Car-following in the simulator: the facts of the models hold when the world's step moves the vehicles.
 
 mod roads;
 
@@ -10,7 +10,7 @@ use roads::{Road, drivers};
 
 /// Length of a car [m].
 const LENGTH: f64 = 4.5;
-/// A desired speed that is none [m/s].
+/// A negligible desired speed [m/s].
 const NEARLY_NOTHING: f64 = 1e-3;
 
 #[track_caller]
@@ -40,7 +40,7 @@ fn k2010() -> Published {
     idm(1.4, 2.0, 1.5, 120.0)
 }
 
-/// A town.
+/// A driver in a town.
 fn urban() -> Published {
     idm(1.0, 1.5, 1.0, 50.0)
 }
@@ -55,19 +55,19 @@ impl Published {
         Style { follow: self.follow, speed_factor: self.desired / limit, ..drivers::conservative() }
     }
 
-    /// The desired speed as a vehicle of the simulator keeps it [m/s].
+    /// The desired speed as a vehicle of the simulator stores it [m/s].
     fn stored_desired(&self) -> f64 {
         f64::from(self.desired as f32)
     }
 }
 
-/// Keeps its speed whatever it follows, as long as kinematics allows.
+/// A driver who keeps its speed behind any leader, as long as kinematics allows.
 fn unyielding() -> Published {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     Published { follow: FollowingModel::Fvdm(follow), desired: 1.0 }
 }
 
-/// Brakes as hard as a vehicle can until it stands.
+/// A driver who brakes as hard as its vehicle can until it stands.
 fn braker() -> Published {
     let follow = Fvdm { sensitivity: 100.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     Published { follow: FollowingModel::Fvdm(follow), desired: NEARLY_NOTHING }
@@ -82,7 +82,7 @@ fn one_lane(sets: &[Published], length: f64, is_ring: bool, step: f64) -> World 
     World::new(network, styles, nobody, Setup { step, seed: 1, threads: 1 }).expect("the set-up makes sense")
 }
 
-/// Puts a car that drives on as the road leads at `x` [m] of the whole road.
+/// Places a car at `x` [m] of the whole road. It follows the road.
 fn place(world: &mut World, x: f64, speed: f64, parameters: u32) {
     let (mut chain, mut x) = (ChainIndex(0), x);
     while x > world.network().chain(chain).length {
@@ -98,7 +98,7 @@ fn car(world: &World, id: u32) -> Kinematics {
     *world.vehicles().find(|vehicle| vehicle.id() == id).expect("it is on the road").motion
 }
 
-/// Time [s] and way [m] in which a car from rest reaches `share` of its desired speed.
+/// Time [s] and distance [m] in which a car from rest reaches `share` of its desired speed.
 fn from_rest(set: Published, share: f64, step: f64) -> (f64, f64) {
     let mut world = one_lane(&[set], 3000.0, false, step);
     place(&mut world, LENGTH, 0.0, 0);
@@ -116,8 +116,8 @@ fn from_rest(set: Published, share: f64, step: f64) -> (f64, f64) {
 
 #[test]
 fn v5_a_car_from_rest_takes_the_exact_time_and_way() {
-    // The ballistic step is of first order: it is early by dt/2·ln(1/(1 − x⁴)), 0.068 % at worst, when the town's
-    // driver reaches 0.99 of its desired speed; its way is then 0.091 % short.
+    // The ballistic step is of first order. It is early by dt/2·ln(1/(1 − x⁴)): 0.068 % at worst, when the driver in
+    // town reaches 0.99 of its desired speed. Its distance is then 0.091 % short.
     const STEP: f64 = 0.01;
     let early = |share: f64| -0.5 * STEP * (1.0 - share.powi(4)).ln();
     let tables = [
@@ -162,7 +162,7 @@ fn v7_a_follower_settles_at_the_equilibrium_gap() {
         (urban(), 5.0, 7.059538),
         (urban(), 10.0, 14.032819),
     ] {
-        // On a ring so long that the leader does not see the follower.
+        // The ring road is so long that the leader does not see the follower.
         let mut world = one_lane(&[set, unyielding()], 2000.0, true, 0.1);
         place(&mut world, 1000.0, 0.7 * speed, 0);
         place(&mut world, 1000.0 + 2.0 * gap + LENGTH, speed, 1);
@@ -174,7 +174,7 @@ fn v7_a_follower_settles_at_the_equilibrium_gap() {
     }
 }
 
-/// A ring of 100 cars at equal distances.
+/// A ring road with 100 cars at equal distances.
 fn ring(set: Published, gap: f64, speed: f64) -> World {
     const CARS: usize = 100;
     let spacing = gap + LENGTH;
@@ -215,7 +215,7 @@ fn v9_rings_of_ten_densities_flow_as_the_fundamental_diagram_says() {
         let rise = (0.13 * (gap - 1.5) * 14.66 / desired - 1.57).tanh() + 1.57_f64.tanh();
         desired * rise / (1.0 + 1.57_f64.tanh())
     };
-    // [veh/km]
+    // Density [veh/km].
     for density in [8.0, 12.0, 16.0, 20.0, 25.0, 30.0, 75.0, 85.0, 100.0, 120.0] {
         let gap = 1000.0 / density - LENGTH;
         for (set, speed) in [(k2010(), idm_speed(gap)), (fvdm(), fvdm_speed(gap))] {
@@ -240,7 +240,7 @@ fn v15_a_jam_moves_upstream_with_fifteen_kilometres_per_hour() {
         place(&mut world, (f64::from(number) + 0.5) * around / f64::from(CARS) + out_of_place, SPEED, 0);
     }
     (0..12_000).for_each(|_| world.step());
-    // When and where each car comes into a jam.
+    // Time and place at which each car enters a jam.
     let mut stops = vec![Vec::new(); CARS as usize];
     for _ in 0..3_000 {
         let before: Vec<_> = (0..CARS).map(|id| car(&world, id).speed).collect();
@@ -252,7 +252,7 @@ fn v15_a_jam_moves_upstream_with_fifteen_kilometres_per_hour() {
             }
         }
     }
-    // One jam, from car to car: those behind come into it later, and the way between them leads back.
+    // This follows one jam from car to car: cars behind enter it later, and it moves backwards.
     let (begin, mut time, mut back) = (stops[99][0], stops[99][0].0, 0.0);
     let mut place = begin.1;
     for stops in stops[40..99].iter().rev() {
@@ -263,7 +263,7 @@ fn v15_a_jam_moves_upstream_with_fifteen_kilometres_per_hour() {
     assert_near(3.6 * back / (time - begin.0), 15.0, 5.0);
 }
 
-/// What became of a follower.
+/// What happened to a follower.
 struct Stop {
     shortest_gap: f64,
     final_gap: f64,

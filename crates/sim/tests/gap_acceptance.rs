@@ -1,4 +1,4 @@
-//! Which gaps are accepted in a stream that comes at random: lags to followers, and those on a road with priority.
+//! Gap acceptance in a random stream: lags to followers, and lags on a road with priority.
 
 use laneweave_models::change::{GapPair, Safety};
 use laneweave_models::yielding::Yielding;
@@ -6,7 +6,7 @@ use laneweave_sim::{Purpose, Random};
 
 /// Flow of the stream [1/s].
 const FLOW: f64 = 0.25;
-/// Samples.
+/// Number of samples.
 const SAMPLES: u32 = 400_000;
 /// t_c and t_f of the published capacities [s].
 const CRITICAL_GAP: f64 = 5.0;
@@ -22,7 +22,7 @@ fn assert_within(value: f64, expected: f64, share: f64) {
     assert!((value / expected - 1.0).abs() <= share, "{value} is not {expected} within {share}");
 }
 
-/// A driver whose critical gap stays what it is, and who is out of the way at once.
+/// A driver whose critical gap does not change, and who clears the road at once.
 fn patient() -> Yielding {
     Yielding { critical_gap: CRITICAL_GAP, patience: f64::INFINITY }
 }
@@ -37,7 +37,8 @@ fn v42_of_a_poisson_stream_of_followers_the_share_with_a_longer_time_to_collisio
         safety.accept(GapPair { gap, follower, leader, demanded: 0.0 }, 0.1).is_ok()
     };
     let accepted = (0..SAMPLES).filter(is_accepted).count();
-    // 15 m at a closing speed of 5 m/s are 3 s; the next front is 20 m or more behind with e^(−(20/15)/4).
+    // 15 m at a closing speed of 5 m/s are 3 s. The next front is at least 20 m behind with probability
+    // e^(−(20/15)/4).
     assert_within(accepted as f64 / f64::from(SAMPLES), 0.716532, 0.02);
 }
 
@@ -48,7 +49,7 @@ fn v43_a_minor_road_has_the_capacity_of_harders() {
     for count in 0..SAMPLES {
         let gap = headway(&random, count);
         time += gap;
-        // Who waits first looks at the whole gap, who comes after it at what is left.
+        // The first waiting driver gets the whole gap, the next one the rest.
         let mut lag = gap;
         while driver.accepts(lag, 0.0, 0.0) {
             entered += 1;
@@ -65,7 +66,7 @@ fn v43_who_comes_to_a_road_with_priority_waits_as_long_as_adams_says() {
     let mut headways = (0..).map(|count| headway(&random, count));
     let mut delay = 0.0;
     for _ in 0..SAMPLES {
-        // The stream has no memory: the first lag is like any other.
+        // The stream has no memory: the first lag is distributed like the others.
         let mut waited = 0.0;
         while let Some(lag) = headways.next().filter(|it| !driver.accepts(*it, 0.0, waited)) {
             waited += lag;

@@ -1,4 +1,4 @@
-//! Laws of headways against their formulas, and samples of them against the laws.
+//! Headway distributions against their formulas, and samples of them against the distributions.
 
 use laneweave_sim::{HeadwayError, Headways, Purpose, Random};
 
@@ -6,7 +6,7 @@ use laneweave_sim::{HeadwayError, Headways, Purpose, Random};
 const RATE: f64 = 0.25;
 const MEAN: f64 = 4.0;
 
-/// Laws with a mean of 4 s, and their standard deviations [s].
+/// Distributions with a mean of 4 s, and their standard deviations [s].
 fn laws() -> [(Headways, f64); 6] {
     let free = 0.6_f64;
     [
@@ -74,7 +74,8 @@ fn v26_samples_have_the_mean_the_spread_and_the_law() {
         // Standard error of a standard deviation: √((m₄ − sd⁴)/n)/(2 sd).
         let error = ((central(4) - found.powi(4)) / n).sqrt() / (2.0 * found);
         assert!((found - deviation).abs() < 1.96 * error, "{law:?}: sd {found} s, not {deviation}");
-        // Kolmogorov and Smirnov, 95 %, on both sides of each step; a law may have an atom at its shortest headway.
+        // Kolmogorov-Smirnov test, 95 %, on both sides of each step. A distribution may have an atom at its minimum
+        // headway.
         let distance = sample
             .iter()
             .enumerate()

@@ -1,4 +1,4 @@
-//! Records of trips say what happened.
+//! Trip records agree with what happened.
 
 use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::{Map, regulations};
@@ -15,7 +15,7 @@ fn world(map: &Map, total: f64) -> World {
     World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense").with_trip_log()
 }
 
-/// The records of all trips, with the ways that were driven [m]; each that ended is checked.
+/// The records of all trips, with the distances driven [m]. Each completed trip is checked.
 fn records(world: &mut World, steps: u32) -> Vec<(TripRecord, f64)> {
     let mut records = Vec::new();
     for _ in 0..steps {
@@ -38,7 +38,7 @@ fn records(world: &mut World, steps: u32) -> Vec<(TripRecord, f64)> {
     records
 }
 
-/// Sums over all records are what the world counted.
+/// Checks that the sums over all records equal the counts of the world.
 fn add_up(mut world: World, steps: u32) {
     let records = records(&mut world, steps);
     let (counts, counters) = (*world.counts(), world.counters());
@@ -49,8 +49,8 @@ fn add_up(mut world: World, steps: u32) {
     assert_eq!(sum(|it| it.missed_turns), counters.missed_turns);
     assert!(sum(|it| it.stops) >= counts.stops && counts.left > 100, "{counts:?}");
     assert!(sum(|it| it.lane_changes) > 50);
-    // In a bend the lanes beside each other differ in length; who came to a halt within a step is a few centimetres
-    // off.
+    // In a bend, lanes beside each other differ in length. A vehicle that stops within a step is off by a few
+    // centimetres.
     let way: f64 = records.iter().map(|(_, way)| way).sum();
     assert!((way / counters.distance - 1.0).abs() < 1e-3, "{way} of {} m", counters.distance);
 }

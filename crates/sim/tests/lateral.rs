@@ -1,4 +1,4 @@
-//! How a lane change goes: along a smooth path, into one gap only once, and back where it must be called off.
+//! The path of a lane change: smooth, only one vehicle into one gap, and back if it must be aborted.
 
 mod roads;
 
@@ -10,21 +10,21 @@ use laneweave_network::{ChainIndex, Network, Pose, Side};
 use laneweave_sim::{Class, Destination, Event, LaneChange, NewVehicle, Phase, Setup, World};
 use roads::{Road, WIDTH, drivers};
 
-/// Length of a step, and of the epoch of those who are always ready to change [s].
+/// Length of a step, and of the epoch of drivers who are always ready to change [s].
 const STEP: f64 = 0.1;
 
-/// Wants to change wherever it may, at once.
+/// A driver who wants to change at once, wherever it may.
 fn eager(style: Style) -> Style {
     let change = LaneChangeModel::ConstantHazard(ConstantHazard { hazard: 1.0 });
     Style { change, attention: Attention { epoch: STEP, ..Attention::default() }, ..style }
 }
 
-/// Never wants to change.
+/// A driver who never wants to change.
 fn steadfast(style: Style) -> Style {
     Style { change: LaneChangeModel::ConstantHazard(ConstantHazard { hazard: 0.0 }), ..style }
 }
 
-/// Keeps its speed as long as kinematics allows.
+/// A driver who keeps its speed as long as kinematics allows.
 fn unyielding(style: Style) -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     Style { follow: FollowingModel::Fvdm(follow), ..style }
@@ -50,15 +50,15 @@ fn changes(world: &World) -> impl Iterator<Item = &LaneChange> {
     })
 }
 
-/// A lane change's way as seen from above, in steps.
+/// The path of a lane change seen from above, step by step.
 struct Way {
     poses: Vec<Pose>,
-    /// Offset of the centre from that of the first lane, by the vehicle's own account [m].
+    /// Lateral offset of the vehicle from the centre of the first lane, as the vehicle reports it [m].
     offsets: Vec<f64>,
     duration: f64,
 }
 
-/// One change of a lonely vehicle at `speed` [m/s] from `x` on lane `from` of two, up to a second after its end.
+/// One change of a single vehicle at `speed` [m/s] from `x` in lane `from` of two, up to a second after its end.
 fn lonely_change(road: Road, from: u32, x: f64, class: Class, speed: f64) -> Way {
     let style = unyielding(eager(drivers::conservative()));
     let mut world = world(road.network(), vec![style], 1);
@@ -85,7 +85,7 @@ fn v46_a_change_leads_smoothly_across_one_lane_and_back_to_its_heading() {
             for (is_mirrored, crosses_a_chain_end) in
                 [(false, false), (true, false), (false, true), (true, true)]
             {
-                // So long that its lanes are cut into several chains.
+                // The road is so long that its lanes are cut into several chains.
                 let road = Road { lanes: 2, length: 60_000.0, is_mirrored, ..Road::default() };
                 let chain_end = road.network().chains[0].length;
                 assert!(chain_end < road.length);
@@ -97,7 +97,7 @@ fn v46_a_change_leads_smoothly_across_one_lane_and_back_to_its_heading() {
                 assert_eq!((first.heading, last.heading), (0.0, 0.0));
                 for (pair, offsets) in way.poses.windows(2).zip(way.offsets.windows(2)) {
                     let aside = side * (pair[1].at.y - pair[0].at.y);
-                    // Never back, and nowhere faster than the quintic in the duration of this change allows.
+                    // It never moves back, and nowhere faster than the quintic in the duration of this change allows.
                     let fastest = 15.0 / 8.0 * WIDTH / way.duration * STEP;
                     assert!((-1e-9..1.35 * fastest).contains(&aside), "{aside} m in a step");
                     assert!((side * (offsets[1] - offsets[0]) - aside).abs() < 1e-6);
@@ -136,8 +136,8 @@ fn v46_in_a_curve_a_change_leads_just_as_smoothly_onto_a_shorter_or_longer_lane(
                     // A chord of 2 m deviates from the arc by 4 mm.
                     assert!(inwards * (radii[0] - radii[1]) > -0.02);
                     let step = pair[0].at.distance(&pair[1].at);
-                    // The front bumper goes on without a jump; the centre moves by half the vehicle's length as seen
-                    // from the centre of the curve.
+                    // The front bumper moves without a jump. The centre moves by half the vehicle's length, seen from
+                    // the centre of the curve.
                     assert!((step - 15.0 * STEP).abs() < 0.25, "{step} m in a step");
                 }
             }
@@ -169,7 +169,7 @@ fn v46_both_entries_of_a_vehicle_that_changes_drive_side_by_side() {
     }
 }
 
-/// Three lanes with a gap in the middle one, and at its height a vehicle on either side that wants into it.
+/// Three lanes with a gap in the middle one, and a vehicle on each side of it that wants to change into it.
 fn rivals(network: Network, first_lane: u32, threads: usize) -> World {
     let styles =
         vec![unyielding(eager(drivers::conservative())), steadfast(unyielding(drivers::aggressive()))];
@@ -195,12 +195,12 @@ fn v47_of_two_who_aim_at_one_gap_exactly_one_enters() {
         {
             let mut world = rivals(network, first_lane, threads);
             let (mut both_wanted, mut entered) = (false, 0);
-            // As long as the first is calm after its change.
+            // As long as the first vehicle is in its cooldown.
             for _ in 0..120 {
                 world.step();
                 let phase = |id| world.vehicles().find(|it| it.id() == id).map(|it| it.driver.phase);
                 both_wanted |= phase(0) == Some(Phase::Wants) && phase(1) == Some(Phase::Wants);
-                // They keep side by side, so that the gap never holds the second.
+                // They stay side by side, so the gap is never free for the second.
                 assert_ne!(phase(1), Some(Phase::Changes));
                 entered += changes(&world).filter(|it| it.vehicle == 0 && it.is_completed).count();
             }

@@ -1,4 +1,4 @@
-//! What is put down of the lanelets is what happened there, seen step by step.
+//! Lanelet aggregates agree with what happened there, observed step by step.
 
 use std::collections::HashMap;
 
@@ -19,7 +19,7 @@ fn world(map: &Map, total: f64) -> World {
     World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense").with_trip_log()
 }
 
-/// The lanelet of each vehicle, with its speed.
+/// The lanelet of each vehicle, and its speed.
 fn places(world: &World) -> HashMap<VehicleId, (usize, f64)> {
     let network = world.network();
     let place = |it: laneweave_sim::Vehicle| {
@@ -29,14 +29,14 @@ fn places(world: &World) -> HashMap<VehicleId, (usize, f64)> {
     world.vehicles().map(place).collect()
 }
 
-/// Drives for some steps and compares.
+/// Drives for some steps, and compares the aggregates with the observations.
 fn compare(mut world: World, [before, steps]: [u32; 2]) {
     (0..before).for_each(|_| world.step());
     world.reset_counts();
     let nothing = vec![LaneletAggregate::default(); world.network().lanelets.len()];
     assert_eq!(world.lanelet_aggregates(), nothing);
     let mut seen = nothing;
-    // Those who come onto a lanelet or leave it within a step are there for a part of it.
+    // Vehicles that enter or leave a lanelet within a step are on it for a part of the step.
     let mut passing = vec![0; seen.len()];
     let mut last = places(&world);
     for _ in 0..steps {
@@ -70,7 +70,8 @@ fn compare(mut world: World, [before, steps]: [u32; 2]) {
         assert!((noted / expected - 1.0).abs() < tolerance, "{noted} of {expected}");
     }
     for (lanelet, (noted, seen)) in stays.iter().zip(&seen).enumerate() {
-        // Within a second speed is taken for constant: who brakes hard is off by tenths of a second.
+        // Speed is taken as constant within a second: for a vehicle that brakes hard the error is some tenths of a
+        // second.
         let room = 0.2 * f64::from(passing[lanelet]) + 1e-6;
         assert!(
             (noted.time - seen.time).abs() <= room,

@@ -1,4 +1,4 @@
-//! MOBIL and LMRS on the road: what their rules ask of driving, beyond the decision.
+//! MOBIL and LMRS on the road: what their rules require of driving, besides the decision.
 
 mod roads;
 
@@ -13,14 +13,15 @@ use roads::{Road, drivers};
 /// Length of a car [m].
 const LENGTH: f64 = 4.5;
 
-/// Keeps its lane, and its speed whatever it follows.
+/// A driver who keeps its lane, and its speed behind any leader.
 fn unyielding() -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
     let stays = LaneChangeModel::Mobil(Mobil { threshold: f64::INFINITY, ..Mobil::default() });
     Style { follow: FollowingModel::Fvdm(follow), change: stays, ..drivers::conservative() }
 }
 
-/// A world without demand, with a driver of `style`, number 0, among unyielding ones; each as (lane, x, speed).
+/// A world without demand, with a driver of `style`, number 0, among drivers who keep lane and speed; `places` are
+/// (lane, x, speed).
 fn among_unyielding(network: Network, style: Style, places: &[(u32, f64, f64)]) -> World {
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
     let styles = vec![style, unyielding()];
@@ -49,8 +50,7 @@ fn mobil(style: Style, traffic: Traffic) -> Style {
     Style { change: LaneChangeModel::Mobil(Mobil { traffic, ..Mobil::default() }), ..style }
 }
 
-/// Whether a driver of MOBIL on the slow lane is ahead, after a minute, of one who drives `speed` [m/s] on the fast
-/// lane.
+/// Whether a MOBIL driver in the slow lane is ahead, after a minute, of a driver at `speed` [m/s] in the fast lane.
 fn passes(style: Style, speed: f64, is_mirrored: bool) -> bool {
     let network = Road { lanes: 2, length: 4000.0, is_mirrored, ..Road::default() }.network();
     let mut world = among_unyielding(network, style, &[(0, 300.0, speed), (1, 360.0, speed)]);
@@ -88,7 +88,8 @@ fn mobil_drivers_in_european_traffic_go_back_to_the_slow_lane_after_overtaking_a
 const END: f64 = 2500.0;
 const LIMIT: f64 = 18.0;
 
-/// A driver of `model` `before` the end of its lane [m], beside a close row on the other that drives 12 m/s.
+/// A driver of `model` at a distance `before` the end of its lane [m], beside a dense row in the other lane at 12
+/// m/s.
 fn beside_a_row(model: Lmrs, before: f64) -> World {
     let plan = Motorway {
         lanes: 2,
@@ -98,7 +99,7 @@ fn beside_a_row(model: Lmrs, before: f64) -> World {
         ..Motorway::default()
     };
     let network = motorway(&plan).expect("a road").build().expect("a network").network;
-    /// From front to front: no gap to change into [m].
+    /// From front to front [m]: there is no gap to change into.
     const SPACING: f64 = 2.0 * LENGTH;
     let row = (0..40).map(|number| (1, END - before + 200.0 - SPACING * f64::from(number), 12.0));
     let places: Vec<(u32, f64, f64)> = std::iter::once((0, END - before, LIMIT)).chain(row).collect();
@@ -126,7 +127,7 @@ fn lmrs_drivers_fall_in_with_the_target_lane_from_the_desire_to_synchronize_on()
 
 #[test]
 fn lmrs_drivers_are_let_in_from_the_desire_to_cooperate_on() {
-    // The others let in who signals, and 250 m before the end the desire is 0.68.
+    // The others let in a vehicle that signals; 250 m before the end the desire is 0.68.
     let is_let_in_soon = |cooperate| {
         let mut world = beside_a_row(Lmrs { synchronize: 0.6, cooperate, ..Lmrs::default() }, 250.0);
         let mut most = 0;

@@ -1,4 +1,4 @@
-//! What a driver perceives of a scene placed by hand is what one can compute by hand.
+//! What a driver perceives of a scene placed by hand equals what is computed by hand.
 
 mod roads;
 
@@ -23,7 +23,7 @@ fn assert_near(value: f64, expected: f64) {
     assert!((value - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{value} is not {expected}");
 }
 
-/// Drivers who want 30 m/s: number 0 as usual, number 1 wants to change wherever it may.
+/// Drivers with a desired speed of 30 m/s. Number 0 is a usual driver; number 1 wants to change wherever it may.
 fn world(network: Network) -> World {
     let eager = Style {
         change: LaneChangeModel::ConstantHazard(ConstantHazard { hazard: 1.0 }),
@@ -63,7 +63,7 @@ fn look<'a>(scene: &'a Scene, world: &World, id: u32, side: Side) -> Situation<'
     perceive(scene, spot(world, id), side).expect("there is a lane beside")
 }
 
-/// Speed anticipated behind one leader [m/s].
+/// Anticipated speed behind one leader [m/s].
 fn anticipated(gap: f64, speed: f64) -> f64 {
     (1.0 - gap / SIGHT) * speed + gap / SIGHT * 30.0
 }
@@ -84,7 +84,7 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     let scene = world.scene();
     let Situation { toward, me, here, there, section, band, merging } = look(&scene, &world, me, Side::Left);
     assert_eq!(toward, Toward::Offside);
-    // Who is recommended no other way keeps its own.
+    // A driver without a recommended route keeps its own.
     assert_eq!(band, f64::INFINITY);
     assert_eq!(
         (me.pace.speed, me.pace.desired, me.pace.headway_relaxation, me.length),
@@ -99,7 +99,7 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     assert_eq!((here.flow.spacing, here.flow.length), (100.0, CAR));
     assert_near(here.flow.speed, 50.0 / 3.0);
     assert_eq!((there.flow.spacing, there.flow.speed, there.flow.length), (150.0, 23.5, (CAR + TRUCK) / 2.0));
-    // The second leader holds up more than the first.
+    // The second leader limits the anticipated speed more than the first.
     assert_near(here.anticipated_speed, anticipated(150.0 - CAR, 10.0));
     assert_near(there.anticipated_speed, anticipated(200.0 - TRUCK, 22.0));
     assert_eq!((here.route.changes, there.route.changes), (0, 0));
@@ -130,7 +130,7 @@ fn an_empty_window_looks_like_a_free_road_and_is_clipped_where_the_lane_begins_a
 
 #[test]
 fn leaders_and_followers_are_seen_across_the_ends_of_chains() {
-    // So long that its lanes are cut into several chains.
+    // The road is so long that its lanes are cut into several chains.
     let mut world = straight(60_000.0);
     let chain_ends = world.network().chain(ChainIndex(0)).length;
     let [next, next_left] = [0, 1].map(|chain| world.network().chain(ChainIndex(chain)).following[0].0);
@@ -169,7 +169,7 @@ fn the_end_of_a_lane_stands_in_the_way_like_a_vehicle() {
     assert_eq!((here.route.changes, there.route.changes), (1, 0));
     assert_near(here.route.remaining, 100.0);
     assert_near(section, 100.0);
-    // The neighbour sees the end, too, behind the one who is nearer.
+    // The driver beside sees the end, too, behind the nearer vehicle.
     let view = look(&scene, &world, beside, Side::Right).there;
     assert_eq!(view.ahead, Some(Ahead::steady(100.0 - CAR, 20.0)));
     assert_near(view.anticipated_speed, anticipated(200.0, 0.0));
@@ -195,11 +195,11 @@ fn a_route_counts_the_changes_and_the_road_that_remains_for_them() {
         let Situation { here, there, .. } = look(&scene, &world, id, side);
         [here, there].map(|it| (it.route.changes, (1000.0 * it.route.remaining).round() / 1000.0))
     };
-    // Each further change takes 40 m of road from the one before.
+    // Each further change takes 40 m of road before the last place of the one after it.
     assert_eq!(route(0, 2000.0), [(1, 500.0), (2, 460.0)]);
     assert_eq!(route(1, 2100.0), [(2, 360.0), (3, 320.0)]);
     assert_eq!(route(2, 2200.0), [(3, 220.0), (2, 260.0)]);
-    // Beyond the last place there is no way any more.
+    // Beyond the last place there is no route any more.
     assert_eq!(route(0, 2470.0), [(1, 30.0), (Waypoint::NO_WAY, 0.0)]);
     assert_eq!(route(0, 2600.0), [(Waypoint::NO_WAY, 0.0), (Waypoint::NO_WAY, 0.0)]);
 }
@@ -229,7 +229,7 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
             seen_from.insert(at.chain);
             assert_eq!((from_slow.here.ahead, from_slow.there.ahead), (gap_to(own.0), gap_to(own.0)));
             assert_eq!((from_fast.here.ahead, from_fast.there.behind.is_some()), (gap_to(left.0), false));
-            // It is one vehicle in each lane's means, and never its own neighbour.
+            // It counts as one vehicle in the means of each lane, and never as its own neighbour.
             let itself = scene.viewpoint(spot(&world, changer));
             assert_eq!(scene.ahead(itself), None);
             assert_eq!(from_slow.there.flow.spacing, 150.0);
@@ -239,8 +239,8 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
     assert_eq!(seen_from.into_iter().collect::<Vec<_>>(), [ChainIndex(0), ChainIndex(1)]);
 }
 
-/// Drivers at 20 m/s on three lanes: one beside the middle, who waits to change there from where its front bumper is
-/// `forward` of that of the driver of the middle lane [m], and others, each by its lane and how far it is ahead.
+/// Drivers at 20 m/s on three lanes: one in the middle lane, and one beside it that waits to change there. The front
+/// bumper of the waiting one is `forward` of the other [m]. Other drivers are given by lane and by distance ahead.
 struct Waiting {
     world: World,
     me: u32,
@@ -259,14 +259,14 @@ impl Waiting {
         for (lane, ahead) in others {
             car(&mut world, *lane, 500.0 + ahead, 20.0);
         }
-        // It wants to change at once, and has no room to.
+        // It wants to change at once, and has no space to do so.
         world.step();
         let phase = world.vehicles().find(|it| it.id() == waiting).expect("it is on the road").driver.phase;
         assert_eq!(phase, Phase::Wants);
         Waiting { world, me, waiting }
     }
 
-    /// Whom the driver would make room for if it left to `side`: on the other side, and on this one.
+    /// What the driver sees of merging vehicles if it left to `side`: on the other side, and on this one.
     fn seen(&self, side: Side) -> [Option<[Option<Ahead>; 2]>; 2] {
         let scene = self.world.scene();
         let merging = look(&scene, &self.world, self.me, side).merging;
@@ -279,7 +279,7 @@ impl Waiting {
         })
     }
 
-    /// What is ahead from the one who waits to vehicle `id`, wherever both are.
+    /// What the waiting driver would have ahead if vehicle `id` were its leader, wherever both are.
     fn ahead(&self, id: u32) -> Option<Ahead> {
         let scene = self.world.scene();
         let [from, to] = [self.waiting, id].map(|it| scene.motion(spot(&self.world, it)));
@@ -325,10 +325,10 @@ fn on_the_side_that_one_would_leave_to_the_new_leader_may_merge_and_the_new_foll
 
 #[test]
 fn room_is_made_only_for_those_who_signal_into_the_own_lane_with_nobody_between() {
-    // Behind the own follower, and beside the own leader.
+    // Behind the driver's own follower, and beside its own leader.
     assert_eq!(Waiting::new(0, -12.0, &[(1, -10.0)]).seen(Side::Left), [None, None]);
     assert_eq!(Waiting::new(0, 12.0, &[(1, 10.0)]).seen(Side::Left), [None, None]);
-    // Who keeps its lane is no merging vehicle.
+    // A vehicle that keeps its lane does not merge.
     let mut world = world(Road { lanes: 3, length: 1000.0, limit: 30.0, ..Road::default() }.network());
     let me = car(&mut world, 1, 500.0, 20.0);
     car(&mut world, 0, 498.0, 20.0);
@@ -349,6 +349,6 @@ fn who_waits_at_the_end_of_its_lane_has_that_ahead_and_its_urgency() {
     let seen = look(&scene, &world, me, Side::Left).merging[0].expect("it is seen");
     let end = Ahead::steady(2500.0 - scene.motion(spot(&world, merging)).x, 0.0);
     assert_ahead(seen.blocked, Some(end));
-    // At once, 100 m before the end at 20 m/s.
+    // The desire arises at once, 100 m before the end at 20 m/s.
     assert!((seen.urgency - 0.883721).abs() < 1e-6, "{}", seen.urgency);
 }

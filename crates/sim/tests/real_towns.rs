@@ -1,4 +1,4 @@
-//! Traffic on real maps of towns, whose lanes are short, bent and not parallel.
+//! Traffic on real maps of towns with short, curved lanes that are not parallel.
 
 #[path = "roads/drivers.rs"]
 mod drivers;
@@ -13,7 +13,7 @@ use laneweave_sim::{Setup, VehicleId, World};
 /// Length of a step [s].
 const STEP: f64 = 0.1;
 
-/// A map of the shared data, if it is there.
+/// A map of the shared data, if the file exists.
 fn town(file: &str) -> Option<Network> {
     const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
     let path = Path::new(DATA).join(file);
@@ -48,7 +48,7 @@ fn few_drivers_miss_their_turns_where_lanes_begin_and_end_at_junctions() {
 
 #[test]
 fn bodies_move_no_further_than_their_vehicles_drive() {
-    /// A body that turns, or goes across to another lane, moves further than its front along the lane by this [m].
+    /// A body that turns or changes lanes moves farther than its front along the lane, by at most this [m].
     const TURNING: f64 = 0.3;
     const HARDEST_BRAKING: f64 = 8.0;
     for (file, total) in [("karlsruhe.osm", 1500.0), ("kashiwanoha.osm", 600.0)] {

@@ -1,4 +1,4 @@
-//! Nobody collides, overlaps, gets stuck or drives backwards, on random roads and at ramps.
+//! No vehicle collides, overlaps, gets stuck or drives backwards, on random roads and at ramps.
 
 mod roads;
 
@@ -22,7 +22,7 @@ fn world(network: Network, total: f64, trucks: f64, aggressive: f64, setup: Setu
         .expect("the set-up makes sense")
 }
 
-/// A random straight road, or a motorway with random ramps and an end of a lane.
+/// A random straight road, or a motorway with random ramps and a random end of a lane.
 fn any_road() -> impl Strategy<Value = Network> {
     let straight = (1_usize..5, 8.0..45.0_f64)
         .prop_map(|(lanes, limit)| Road { lanes, length: 1500.0, limit, ..Road::default() }.network());
@@ -85,7 +85,7 @@ proptest! {
     }
 }
 
-/// Ten minutes at a bottleneck: nothing bad happens, hardly anybody misses a turn or brakes in an emergency.
+/// Ten minutes at a bottleneck: no incidents, and hardly any missed turns or emergency braking.
 fn ten_minutes(plan: &Motorway, total: f64) {
     for aggressive in [0.12, 1.0] {
         let network =
@@ -110,7 +110,7 @@ fn ten_minutes(plan: &Motorway, total: f64) {
     }
 }
 
-/// Every car-following model, with its defaults, and in the literal reading where there is one.
+/// Every car-following model with its defaults, and in the literal reading where it has one.
 fn all_models() -> Vec<FollowingModel> {
     let reading = Reading::Literal;
     let jiang = Gfm { form: GfmForm::Jiang, ..Gfm::default() };

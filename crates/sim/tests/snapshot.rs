@@ -1,4 +1,4 @@
-//! A snapshot of a world's vehicles shows its drivers what the world shows them.
+//! A snapshot of a world's vehicles shows its drivers the same as the world does.
 
 #[path = "roads/drivers.rs"]
 mod drivers;
@@ -8,7 +8,7 @@ use laneweave_models::change::{LaneView, Situation};
 use laneweave_network::{Position, Side};
 use laneweave_sim::{Across, Navigator, Seen, Setup, Snapshot, Spot, Vehicle, World, perceive};
 
-/// Much traffic on three lanes with ramps, after two minutes.
+/// A world of dense traffic on three lanes with ramps, after two minutes.
 fn world() -> World {
     let (on_ramp_at, off_ramp_at) = (vec![500.0], vec![1500.0]);
     let road = Motorway { length_m: 2000.0, on_ramp_at, off_ramp_at, ..Motorway::default() };

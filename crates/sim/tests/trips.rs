@@ -1,5 +1,4 @@
-//! What is kept of trips: how long they took beyond the free travel time, how often vehicles stopped, and why they
-//! wait.
+//! Records of trips: delay against the free travel time, number of stops, and reasons for waiting.
 
 #[path = "roads/drivers.rs"]
 mod drivers;
@@ -22,8 +21,7 @@ fn motorway_with_ramps() -> Network {
     motorway(&plan).expect("it can be made").build().expect("it can be made").network
 }
 
-/// Streets with lights.
-/// So many rows of two streets with lights: without rings if there is one.
+/// A grid of two streets with lights and `rows` rows. With one row it has no loops.
 fn streets(rows: usize) -> Network {
     let drawing = grid(&Grid { rows, columns: 2, ..Grid::default() }).expect("it can be made");
     let map = drawing.build().expect("it can be made");
@@ -38,7 +36,7 @@ fn world(network: Network, per_hour: f64) -> World {
         .expect("it can be made")
 }
 
-/// One vehicle comes driving at the start of `chain`.
+/// Places one moving vehicle at the start of `chain`.
 fn place(world: &mut World, class: Class, chain: ChainIndex, destination: u16) {
     let style = drivers::conservative();
     let speed = class.desired_speed(&style, world.network().chain(chain).limit(0.0));
@@ -61,7 +59,7 @@ fn who_is_alone_on_a_motorway_is_not_delayed_wherever_it_goes() {
             let counts = *world.counts();
             assert_eq!((counts.left, counts.planned, counts.stops), (1, 1, 0));
             assert!(counts.trip_time > 50.0);
-            // The last step ends beyond the road; the ramp's limit is approached gently, which gains some seconds.
+            // The last step ends beyond the road. The ramp's limit is approached gently, which gains some seconds.
             let gained = if exit == 1 { 3.0 } else { STEP };
             assert!(
                 (-gained..1.0).contains(&counts.delay),
@@ -85,7 +83,7 @@ fn who_stands_at_a_red_light_has_stopped_once_and_is_delayed_for_as_long() {
         while world.on_road() > 0 {
             world.step();
             let speed = world.vehicles().next().map_or(f64::INFINITY, |it| it.speed());
-            // Who moves up a little has not driven on.
+            // A vehicle that only moves up has not driven on.
             halts += u64::from(speed < 0.1 && !stands);
             stands = speed < if stands { 1.0 } else { 0.1 };
             stood += if speed < 0.1 { STEP } else { 0.0 };
@@ -98,7 +96,7 @@ fn who_stands_at_a_red_light_has_stopped_once_and_is_delayed_for_as_long() {
     assert!(seen >= 4, "{seen} halts");
 }
 
-/// Seconds for which the first of all queues were held for each reason, in ten minutes.
+/// Times for which the first vehicles of all queues were blocked for each reason, in ten minutes [s].
 fn held(mut world: World) -> Vec<(Held, u32)> {
     let mut times: Vec<(Held, u32)> = Held::ALL.into_iter().map(|it| (it, 0)).collect();
     for step in 0..6000 {

@@ -1,9 +1,9 @@
-//! The wings of this crate: what each imports lies in wings below it, and only the step changes a world.
+//! The wings of this crate: each wing imports only from wings below it, and only the step changes a world.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The wings, each level above those that it may import from.
+/// The wings by level. Each level may import from the levels before it.
 const LEVELS: [&[&str]; 8] = [
     &["state"],
     &["route"],
@@ -23,7 +23,7 @@ fn level(wing: &str) -> Option<usize> {
     LEVELS.iter().position(|it| it.contains(&wing))
 }
 
-/// The wing of every file but that of the crate itself, with its path and its text.
+/// The wing of every file except the crate's own, with its path and its text.
 fn files() -> Vec<(String, PathBuf, String)> {
     let mut folders = vec![source()];
     let mut found = Vec::new();
@@ -45,7 +45,7 @@ fn files() -> Vec<(String, PathBuf, String)> {
     found
 }
 
-/// What comes after `crate::` wherever this stands in the code of a text.
+/// The names that follow `crate::` in the code of a text.
 fn imported(text: &str) -> impl Iterator<Item = &str> {
     let code = text.lines().filter(|it| !it.trim_start().starts_with("//"));
     let names = code.flat_map(|it| it.split("crate::").skip(1));

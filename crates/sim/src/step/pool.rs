@@ -120,7 +120,7 @@ impl Pool {
     /// threads is not determined, so no result may depend on it.
     ///
     /// # Panics
-    /// If a worker panics, if items and plans differ in number, if `own` has fewer items than the pool has threads,
+    /// If `look` or `act` panics, if items and plans differ in number, if `own` has fewer items than the pool has threads,
     /// or if `chosen` is not in order or beyond the items.
     pub(crate) fn look_then_act<O: Send, T: Send + Sync, P: Send>(
         &self,

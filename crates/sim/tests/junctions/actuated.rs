@@ -1,4 +1,4 @@
-//! Lights whose greens traffic extends.
+//! Traffic lights with actuated greens.
 
 use laneweave_maps::generate::{Grid, grid};
 use laneweave_maps::{Map, regulations};
@@ -8,10 +8,10 @@ use laneweave_sim::{Rate, Setup, World};
 use crate::drivers;
 use crate::town::{self, STEP, assert_sound};
 
-/// Longest green [s].
+/// Maximum green [s].
 const LONGEST: f64 = 40.0;
 
-/// A junction of two streets with lights.
+/// A junction of two streets with traffic lights.
 fn junction() -> Network {
     let drawing = grid(&Grid { rows: 1, columns: 1, ..Grid::default() }).expect("the numbers make sense");
     let map = drawing.build().expect("the drawing is sound");
@@ -20,12 +20,12 @@ fn junction() -> Network {
     network.regulated(&regulations)
 }
 
-/// Whether a lane begins on the street from east to west.
+/// Whether a lane starts on the street between east and west.
 fn is_east_or_west(network: &Network, chain: ChainIndex) -> bool {
     network.chain(chain).centre.heading(0.0).cos().abs() > 0.5
 }
 
-/// The lights of the street from east to west, and those of the other one.
+/// The lights of the street between east and west, and those of the other street.
 fn lights(network: &Network) -> [Vec<LightIndex>; 2] {
     let mut lights = [Vec::new(), Vec::new()];
     for index in (0..network.chains.len() as u32).map(ChainIndex) {
@@ -38,7 +38,7 @@ fn lights(network: &Network) -> [Vec<LightIndex>; 2] {
     lights
 }
 
-/// A green for each street, which traffic extends or not.
+/// A plan with one green for each street, actuated or not.
 fn plan(network: &Network, green: f64, extension: Option<Extension>) -> SignalPlan {
     let turn = |lights| Turn { lights, green, extension, yellow: 3.0, all_red: 2.0 };
     SignalPlan { offset: 0.0, turns: lights(network).map(turn).into() }
@@ -48,7 +48,7 @@ fn actuated(network: &Network) -> SignalPlan {
     plan(network, LONGEST, Some(Extension::default()))
 }
 
-/// So many vehicles an hour at each entrance of the one street, and of the other one.
+/// A world with a demand for each entrance of the first street, and of the other one [veh/h].
 fn world(network: Network, plan: &SignalPlan, rates: [f64; 2]) -> World {
     let mut demand = drivers::demand(&network, 0.0, 0.1, &[0.3, 0.7]);
     for origin in &mut demand.origins {
@@ -92,7 +92,7 @@ fn whoever_comes_alone_to_a_red_light_soon_has_green() {
         red_since = if stands && is_red { red_since.or(Some(world.clock().time())) } else { None };
         waited = waited.max(red_since.map_or(0.0, |since| world.clock().time() - since));
     });
-    // Yellow and red for all, after it was seen and before it stood.
+    // Yellow and all-red, and the time from detection until it stood.
     assert!(waited < 5.0, "{waited} s");
     assert!(world.counts().left > 40);
 }

@@ -1,4 +1,4 @@
-//! Turns and lights on the way, and drivers who mind them.
+//! Turns and lights on the route, and drivers who mind them.
 
 use laneweave_models::{Guidance, Style};
 use laneweave_network::{
@@ -10,7 +10,7 @@ use laneweave_sim::{Class, Disutility, Navigator, NewVehicle};
 use crate::drivers;
 use crate::town::{Arm, empty, exit_to, lane_from, network, run_until};
 
-/// What the way from arm to arm of the only junction asks for.
+/// The disutility of the route from arm to arm of the only junction.
 fn disutility(network: &Network, from: Arm, to: Arm) -> Disutility {
     let navigator = Navigator::new(network);
     navigator.waypoint(Some(exit_to(network, to)), lane_from(network, from)).disutility
@@ -52,8 +52,8 @@ fn lane(id: i64, points: &[(f64, f64)], following: &[u32]) -> Lanelet {
     lanelet
 }
 
-/// A road that forks into a straight one (2) and one round it, of two turns (3), which meet again. A light stands
-/// before the fork, and two that are obeyed together on the way round.
+/// A road that forks into a straight branch (2) and a detour of two turns (3), which meet again. A light stands
+/// before the fork, and two lights that count as one stand on the detour.
 fn fork() -> Network {
     let round = [(300.0, 0.0), (340.0, 60.0), (460.0, 60.0), (500.0, 0.0)];
     let lanelets = vec![
@@ -88,7 +88,7 @@ fn a_way_and_its_alternative_have_the_turns_and_lights_that_lie_on_them() {
     assert_eq!(navigator.waypoint(Some(0), chain_of(&network, 4)).disutility, Disutility::default());
 }
 
-/// The road that a driver takes who hears that some crawl along the straight one.
+/// The road that a driver takes with guidance about slow vehicles on the straight one.
 fn chosen(guidance: Guidance) -> i64 {
     let network = fork();
     let [first, straight, last] = [1, 2, 4].map(|it| chain_of(&network, it));
@@ -120,7 +120,7 @@ fn chosen(guidance: Guidance) -> i64 {
 fn a_driver_leaves_a_jam_but_not_for_turns_and_lights_that_it_minds_more() {
     let usual = Guidance::default();
     assert_eq!(chosen(usual), 3);
-    // A minute and a half is to be gained.
+    // The gain is a minute and a half.
     assert_eq!(chosen(Guidance { turn_s: 5.0, light_s: 5.0, ..usual }), 3);
     assert_eq!(chosen(Guidance { turn_s: 300.0, ..usual }), 2);
     assert_eq!(chosen(Guidance { light_s: 300.0, ..usual }), 2);

@@ -1,4 +1,4 @@
-//! Traffic that a junction can take flows.
+//! Traffic below the capacity of a junction flows.
 
 use laneweave_sim::{Setup, World};
 
@@ -28,7 +28,7 @@ fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {
     }
 }
 
-/// A map to which 4000 vehicles an hour come.
+/// A map with a demand of 4000 veh/h.
 fn crowded(name: &str) -> World {
     let network = network(name);
     let demand = drivers::demand(&network, 4000.0, 0.1, &[0.3, 0.7]);

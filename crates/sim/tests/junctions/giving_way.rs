@@ -1,4 +1,4 @@
-//! Signs, the right of way, and who comes from the right.
+//! Signs, the right of way, and priority to the right.
 
 use laneweave_models::Style;
 use laneweave_models::yielding::Yielding;
@@ -8,11 +8,11 @@ use laneweave_sim::{VehicleId, World};
 use crate::drivers;
 use crate::town::{Arm, Comer, assert_sound, empty, has_gone, lane_from, lane_to, network, put, run_until};
 
-/// Speed of who has the right of way [m/s].
+/// Speed of the driver with the right of way [m/s].
 const CRUISE: f64 = 25.0 / 3.6;
 
-/// A driver on the minor road stands at its line while another on the major road would arrive at the place where their
-/// ways cross `lag` [s] later: whether the driver on the minor road goes first.
+/// Whether the driver on the minor road goes first. It stands at its line; another driver on the major road would
+/// arrive at the place where their routes cross `lag` [s] later.
 fn goes_before(lag: f64, critical_gap: f64) -> bool {
     let yielding = Yielding { critical_gap, ..Yielding::default() };
     let minor = Style { yielding, ..drivers::conservative() };
@@ -50,7 +50,7 @@ fn way_across(network: &Network, from: Arm) -> ChainIndex {
     *across.next().expect("a lane leads across")
 }
 
-/// Where two lanes begin to be in each other's way [m].
+/// Where the conflict of two lanes begins [m].
 fn place_of_crossing(network: &Network, ways: [ChainIndex; 2]) -> [f64; 2] {
     let on = |way: ChainIndex| network.junctions.on(way).crossings.iter();
     let crossing = on(ways[0]).find(|it| network.junctions.other_side(**it).chain == ways[1]);
@@ -60,7 +60,7 @@ fn place_of_crossing(network: &Network, ways: [ChainIndex; 2]) -> [f64; 2] {
 
 #[test]
 fn who_is_on_the_minor_road_waits_for_who_comes_within_its_critical_gap_and_goes_before_who_is_far() {
-    // It is out of the way after some six seconds: a shorter critical gap makes no difference.
+    // The driver clears the crossing after about six seconds: a shorter critical gap makes no difference.
     let gaps = [8.0, 10.0, 12.0];
     for critical_gap in gaps {
         assert!(!goes_before(2.0, critical_gap));
@@ -93,7 +93,7 @@ fn at_an_all_way_stop_everybody_stops_and_they_go_in_the_order_of_arrival() {
         let mut world = empty(network("all_way_stop.osm"), vec![drivers::conservative()]);
         let comers: Vec<(u32, ChainIndex)> = (0..4)
             .map(|place| {
-                // Not side by side in a circle: nobody comes from the right of who came before it.
+                // The order is not around the circle: no driver comes from the right of the one before it.
                 let from = Arm::ALL[(first + [0, 2, 1, 3][place]) % 4];
                 let distance = 25.0 + 15.0 * place as f64;
                 let to = from.turned(2);
@@ -123,8 +123,8 @@ fn at_an_all_way_stop_everybody_stops_and_they_go_in_the_order_of_arrival() {
     }
 }
 
-/// The order in which three drivers of so much patience [s] go who come one after the other, from the north, west and
-/// south.
+/// The order in which three drivers with this `patience` [s] go. They come one after the other from the north, the
+/// west and the south.
 fn order_at_an_all_way_stop(patience: f64) -> Vec<Arm> {
     let yielding = Yielding { patience, ..Yielding::default() };
     let style = Style { yielding, ..drivers::conservative() };
@@ -158,7 +158,7 @@ fn those_from_opposite_sides_go_together_though_another_from_aside_came_between_
 #[test]
 fn four_who_come_from_four_sides_at_once_all_get_through_within_30_s() {
     for name in ["right_before_left.osm", "all_way_stop.osm", "priority.osm", "roundabout.osm"] {
-        // To the right, straight on, to the left.
+        // To the right, straight on, and to the left.
         for quarters in [1, 2, 3] {
             let mut world = empty(network(name), vec![drivers::conservative()]);
             for from in Arm::ALL {
@@ -179,7 +179,7 @@ fn four_who_come_from_four_sides_at_once_all_get_through_within_30_s() {
 fn who_comes_from_the_right_goes_first() {
     let mut world = empty(network("right_before_left.osm"), vec![drivers::conservative()]);
     let comer = |from: Arm| Comer { from, to: from.turned(2), distance: 30.0, speed: 8.0, parameters: 0 };
-    // Who comes from the south has the east on its right.
+    // A driver from the south has the east on its right.
     let [south, east] = [Arm::South, Arm::East].map(|it| (put(&mut world, comer(it)), it));
     let [from_south, from_east] = [south, east].map(|(id, arm)| (id, lane_from(world.network(), arm)));
     let first = run_until(&mut world, 30.0, |world| {

@@ -1,4 +1,4 @@
-//! Drivers guided by travel times that are measured on the way.
+//! Drivers who are guided by measured travel times.
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_network::Network;
@@ -9,7 +9,7 @@ use crate::town::{STEP, network};
 
 const INTERVAL: f64 = 30.0;
 
-/// Dense traffic, guided or not.
+/// A world with dense traffic, guided or not.
 fn world(network: Network, threads: usize, is_guided: bool) -> World {
     let demand = drivers::demand(&network, 16_000.0, 0.1, &[0.3, 0.7]);
     let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];

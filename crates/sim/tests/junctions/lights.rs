@@ -45,7 +45,7 @@ fn nobody_drives_over_the_line_of_a_red_light() {
     assert_sound(&world);
 }
 
-/// A grid whose lights are green for so long, then yellow, then red [s].
+/// A grid with lights that are green, then yellow, then red; the times of green and red are given [s].
 fn grid_of_lights(green: f64, red: f64) -> Network {
     let network = network("grid.osm");
     let lights = (0..network.junctions.lights.len() as u32).map(LightIndex).collect();
@@ -54,7 +54,7 @@ fn grid_of_lights(green: f64, red: f64) -> Network {
     network.with_signals(&[SignalPlan { offset: 0.0, turns }])
 }
 
-/// A driver who comes to its first light from a place of its lane [m] at a speed [m/s].
+/// A driver who comes to its first light from a position in its lane [m] at a speed [m/s].
 fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     let chain = network.entrances[0].chains[0];
     let mut world = empty(network.clone(), vec![drivers::conservative()]);
@@ -66,7 +66,8 @@ fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     world
 }
 
-/// How many are stuck of a driver at a light that is green for 5 s, then red for `red` [s], after ten minutes.
+/// Number of stuck vehicles after ten minutes: one driver is at a light that is green for 5 s, then red for `red`
+/// [s].
 fn stuck_before_a_red_of(red: f64) -> u64 {
     let mut world = comer_to_a_light(&grid_of_lights(5.0, red), [10.0, 10.0]);
     (0..6000).for_each(|_| world.step());

@@ -1,4 +1,4 @@
-//! Drivers at junctions: who waits, who goes, and that nobody waits for ever.
+//! Drivers at junctions: who waits, who goes, and that no driver waits for ever.
 
 mod actuated;
 mod disutility;

@@ -1,4 +1,5 @@
-//! Room beyond a junction: nobody stands in the way of others, and those who wait for each other's room go together.
+//! Storage space beyond a junction: no vehicle blocks others, and drivers who wait for each other's space go
+//! together.
 
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -13,7 +14,7 @@ use crate::town::{
     Arm, Comer, assert_sound, empty, exit_to, has_gone, lane_from, lane_to, network, put, run_until,
 };
 
-/// Who hardly moves in an hour.
+/// A driver who hardly moves in an hour.
 fn immobile() -> Style {
     let idm = Idm { acceleration: 1e-9, ..Idm::default() };
     Style { follow: FollowingModel::Idm(idm), ..drivers::conservative() }
@@ -44,7 +45,7 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
         let mut world = empty(network(name), vec![drivers::conservative(), immobile()]);
         let chain = lane_to(world.network(), Arm::North);
         let destination = Some(exit_to(world.network(), Arm::North));
-        // It leaves room for one.
+        // The blocker leaves space for one car.
         let blocker =
             NewVehicle { chain, x: 14.0, speed: 0.0, class: Class::Car, parameters: 1, destination };
         world.place(blocker).expect("it fits on the road");
@@ -69,19 +70,19 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
                     && is_in_the_way(world.network(), chain, vehicle.x(), length, way[0]);
                 let steps = standing.entry(id).or_default();
                 *steps = if stands { *steps + 1 } else { 0 };
-                // A moment to let another go first is no standing.
+                // A short stop that lets another go first does not count.
                 assert!(*steps < 50, "{name}: {id} stands at {:.1} m of {chain:?}", vehicle.x());
             }
             false
         });
-        // Those behind the first who wants to the north wait with it.
+        // Vehicles behind the first one to the north wait with it.
         let waiting = world.vehicles().filter(|it| it.speed() < 0.05 && it.driver.parameters == 0).count();
         assert!(waiting >= 3, "{name}: {waiting} wait");
         assert_sound(&world);
     }
 }
 
-/// The lanes of the ring, from one without a zone on.
+/// The lanes of the roundabout, from one without a zone on.
 fn ring(network: &Network) -> Vec<ChainIndex> {
     let is_in_ring = |first: ChainIndex| {
         let (mut open, mut seen) = (vec![first], Vec::new());
@@ -110,12 +111,12 @@ fn ring(network: &Network) -> Vec<ChainIndex> {
     ring
 }
 
-/// Places along the ring in which cars of `length` [m] stand in nobody's way.
+/// Places in the roundabout in which cars of `length` [m] block nobody.
 fn free_places(network: &Network, ring: &[ChainIndex], length: f64) -> Vec<(ChainIndex, f64)> {
     /// Distance between cars at rest, and before a zone [m].
     const GAP: f64 = 2.2;
     let mut places = Vec::new();
-    // From one zone to the next the ring has two chains.
+    // The roundabout has two chains from one zone to the next.
     for pair in ring.chunks(2) {
         let [before, at_zone] = pair else { continue };
         let zone = network.junctions.on(*at_zone).crossings[0];
@@ -136,7 +137,7 @@ fn a_full_ring_turns() {
     let places = free_places(world.network(), &lanes, Class::Car.body().length);
     assert_eq!(places.len(), 8);
     for (chain, x) in places {
-        // Everybody wants to leave where it has just passed.
+        // All vehicles want to leave at the exit that they have just passed.
         let at = world.network().chain(chain).centre.at(x);
         let quarter = at.y.atan2(at.x).div_euclid(FRAC_PI_2).rem_euclid(4.0) as usize;
         let destination = Some(exit_to(world.network(), Arm::ALL[quarter]));
@@ -152,7 +153,7 @@ fn a_full_ring_turns() {
 #[test]
 fn who_stands_behind_another_who_came_before_it_does_not_keep_a_junction_from_others() {
     let mut world = empty(network("priority.osm"), vec![drivers::conservative(), immobile()]);
-    // Far from the junction it has its reservation already, when another stops before it.
+    // It has its reservation, far from the junction, before another vehicle stops in front of it.
     let comer =
         |from: Arm, distance, speed| Comer { from, to: from.turned(2), distance, speed, parameters: 0 };
     put(&mut world, comer(Arm::East, 60.0, 12.0));

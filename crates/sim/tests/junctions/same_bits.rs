@@ -1,4 +1,4 @@
-//! Neither threads nor the order of chains changes a bit, at junctions either.
+//! Threads and the order of chains change no bit, also at junctions.
 
 use laneweave_network::Network;
 use laneweave_sim::{Setup, World};
@@ -6,7 +6,7 @@ use laneweave_sim::{Setup, World};
 use crate::drivers;
 use crate::town::{STEP, network};
 
-/// State after two minutes of dense traffic, enough of it to be shared among threads.
+/// Hash of the state after two minutes of dense traffic, which is enough to be shared among threads.
 fn hash(network: Network, threads: usize) -> u64 {
     let demand = drivers::demand(&network, 16_000.0, 0.1, &[0.3, 0.7]);
     let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];

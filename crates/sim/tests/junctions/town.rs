@@ -11,7 +11,7 @@ use crate::drivers;
 /// Length of a step [s].
 pub(crate) const STEP: f64 = 0.1;
 
-/// Where an arm of a single junction lies, seen from its middle.
+/// An arm of a single junction, seen from its centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arm {
     East,
@@ -21,15 +21,15 @@ pub(crate) enum Arm {
 }
 
 impl Arm {
-    /// Counter-clockwise.
+    /// All arms, counter-clockwise.
     pub(crate) const ALL: [Arm; 4] = [Arm::East, Arm::North, Arm::West, Arm::South];
 
-    /// The arm that follows counter-clockwise after so many quarters.
+    /// The arm that follows counter-clockwise after so many quarter turns.
     pub(crate) fn turned(self, quarters: usize) -> Arm {
         Arm::ALL[(self as usize + quarters) % 4]
     }
 
-    /// Which arm the end of the map at (`x`, `y`) belongs to.
+    /// The arm to which the end of the map at (`x`, `y`) belongs.
     fn at(x: f64, y: f64) -> Arm {
         match (x.abs() > y.abs(), x + y > 0.0) {
             (true, true) => Arm::East,
@@ -50,14 +50,14 @@ pub(crate) fn network(name: &str) -> Network {
     network.regulated(&regulations)
 }
 
-/// An empty world into which nobody comes.
+/// An empty world without demand.
 pub(crate) fn empty(network: Network, driver_parameters: Vec<Style>) -> World {
     let demand = drivers::demand(&network, 0.0, 0.0, &[1.0]);
     let setup = Setup { step: STEP, seed: 1, threads: 1 };
     World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense")
 }
 
-/// The lane that comes from an arm to the only junction.
+/// The lane that leads from an arm to the only junction.
 pub(crate) fn lane_from(network: &Network, arm: Arm) -> ChainIndex {
     let lanes = network.entrances.iter().flat_map(|it| it.chains.iter().copied());
     let mut from_there = lanes.filter(|it| {
@@ -82,18 +82,18 @@ pub(crate) fn exit_to(network: &Network, arm: Arm) -> u16 {
     network.exits.iter().position(|it| it.chains.iter().any(leads_there)).expect("a lane leads there") as u16
 }
 
-/// Somebody who comes from an arm.
+/// A vehicle that comes from an arm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Comer {
     pub(crate) from: Arm,
     pub(crate) to: Arm,
-    /// Way of the front to the end of the lane [m].
+    /// Distance from its front to the end of the lane [m].
     pub(crate) distance: f64,
     pub(crate) speed: f64,
     pub(crate) parameters: u32,
 }
 
-/// Puts somebody on the road.
+/// Places the vehicle on the road.
 pub(crate) fn put(world: &mut World, comer: Comer) -> VehicleId {
     let network = world.network();
     let chain = lane_from(network, comer.from);
@@ -105,7 +105,7 @@ pub(crate) fn put(world: &mut World, comer: Comer) -> VehicleId {
         .expect("it fits on the road")
 }
 
-/// Steps until `is_over` holds, at most so long [s]; the time that it took [s].
+/// Steps until `is_over` holds, for `longest` [s] at most. Returns the time that it took [s].
 pub(crate) fn run_until(
     world: &mut World,
     longest: f64,
@@ -125,7 +125,7 @@ pub(crate) fn has_gone(world: &World, id: VehicleId, lane: ChainIndex) -> bool {
     world.vehicles().all(|it| it.id() != id || it.spot.chain != lane)
 }
 
-/// Nothing bad has happened.
+/// Asserts that there were no collisions or overlaps, and that no vehicle is stuck.
 pub(crate) fn assert_sound(world: &World) {
     let counters = world.counters();
     assert_eq!((counters.collisions, counters.overlaps, counters.stuck), (0, 0, 0));

@@ -56,7 +56,7 @@ pub(crate) fn aggressive() -> Style {
     }
 }
 
-/// Demand `total` [veh/h], with a share of trucks and the given weights of the first drivers.
+/// A demand of `total` [veh/h], with a share of trucks and the given weights of the first drivers.
 pub(crate) fn demand(
     network: &laneweave_network::Network,
     total: f64,

@@ -7,19 +7,19 @@ use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Poly
 /// Width of a lane [m].
 pub(crate) const WIDTH: f64 = 3.5;
 
-/// Parallel lanes, of which lane 0 is the slow one, drawn in rows of 500 m at most.
+/// A road of parallel lanes, drawn in rows of at most 500 m. Lane 0 is the slow one.
 #[derive(Clone, Copy)]
 pub(crate) struct Road {
     pub(crate) lanes: usize,
-    /// Along its slow edge [m].
+    /// Length along the slow edge [m].
     pub(crate) length: f64,
     /// Speed limit [m/s].
     pub(crate) limit: f64,
-    /// Radius of the slow edge in a curve to the fast side [m]; infinite: a straight road to the east.
+    /// Radius of the slow edge in a curve to the fast side [m]; infinite for a straight road to the east.
     pub(crate) radius: f64,
-    /// Its lanes lead back to their starts, whatever the drawing says.
+    /// Whether its lanes lead back to their starts, whatever the drawing shows.
     pub(crate) is_ring: bool,
-    /// The mirror image, on which traffic drives on the left.
+    /// Whether it is the mirror image, with traffic on the left.
     pub(crate) is_mirrored: bool,
 }
 
@@ -82,7 +82,7 @@ impl Road {
             .expect("the line has a length")
     }
 
-    /// The point at `station`, `beside` [m] to the fast side of the slow edge.
+    /// The point at `station`, at the distance `beside` [m] from the slow edge to the fast side.
     fn point(&self, station: f64, beside: f64) -> Point {
         let (x, y) = if self.radius.is_finite() {
             let (sin, cos) = (station / self.radius).sin_cos();
