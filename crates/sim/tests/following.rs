@@ -1,4 +1,4 @@
-//! Car-following in the simulator: the facts of the models hold when the world's step moves the vehicles.
+//! Car-following in the simulator: the properties of the models hold when the world's step moves the vehicles.
 
 mod roads;
 

@@ -42,7 +42,7 @@ pub struct Account<'a> {
     pub epochs: f64,
     /// It comes to the last place for a necessary change, which it then wants whatever its appraisal.
     pub has_last_chance: bool,
-    /// The random number of this turn, uniform in [0, 1).
+    /// The random number of this turn, uniform in (0, 1).
     pub draw: f64,
     /// What it does in the next step.
     pub act: Act,

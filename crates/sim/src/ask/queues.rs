@@ -40,7 +40,7 @@ pub enum Held {
     /// They stand because there is no storage space beyond a junction, or the space at a trip end inside the map is
     /// kept for others.
     Space,
-    /// Perimeter control: the whole map is full, and no trip begins within it.
+    /// Perimeter control: the town core is full, and no trip through it begins.
     FullMap,
 }
 

@@ -34,7 +34,7 @@ pub enum StandsFor {
         areas: Vec<[Position; 2]>,
         /// Why the reservation is not granted.
         why: JunctionHindrance,
-        /// The vehicles that have a reservation of the area, or go first.
+        /// The vehicles that have a reservation of the area, or a waiting priority there.
         others: Vec<VehicleId>,
     },
     /// It has a reservation, and follows these vehicles.

@@ -219,7 +219,7 @@ impl Gap {
         scene.reservations.requested_before(section, priority) > 0.0
     }
 
-    /// The first follower that can make room by braking no harder than it does to let others in. Those nearer drive
+    /// The first follower that can open a gap by braking no harder than it does to let others in. Those nearer drive
     /// past.
     pub(crate) fn who_can_let_in(&self, scene: &Scene, spot: Spot) -> Option<Found> {
         /// This many followers see the signal.
@@ -230,7 +230,7 @@ impl Gap {
             let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
             let gentle = scene.style_of(driver).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
-            // A vehicle beside a standing one, or right behind it, cannot make room for it.
+            // A vehicle beside a standing one, or right behind it, cannot open a gap for it.
             let is_beside = gap < room && motion.speed <= STANDSTILL;
             let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
             // A driver with a reservation lets in nobody: no vehicle may come in front of it.

@@ -179,7 +179,7 @@ impl<'s, 'a> Perception<'s, 'a> {
         }
     }
 
-    /// The waypoint at a position beside. Only a driver who already takes another route would do so from there.
+    /// The waypoint at a position beside. Only a driver who already takes another route may take one from there.
     fn waypoint_beside(&self, there: Viewpoint) -> Cow<'a, Waypoint> {
         let Scene { network, navigator, .. } = self.scene;
         let Viewpoint { destination, chain, x, .. } = there;

@@ -41,7 +41,7 @@ pub(crate) fn request_reservations(
             what,
         });
     }
-    // A driver at a red light has nothing to request, unless it has waited too long.
+    // A driver who waits at a light has nothing to request, unless it has waited too long.
     let has_to_ask = |it: &&Waiting| !it.is_held || clock.since(it.since) > STARVES;
     for waiting in plan.waiting.iter().filter(has_to_ask) {
         let spot = Spot { chain, index: waiting.index as usize };

@@ -54,7 +54,7 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
         None if is_let_go() => Blocker::Nothing,
         None => Blocker::Other,
     };
-    // A vehicle at the head waits for no leader, and for none into a merge.
+    // It waits behind a leader, or for a vehicle that goes first into a merge, or it is itself the head.
     let is_head = surveyed(scene, &Applicant::at(scene, at), survey)
         && scene.ahead(from).is_none_or(|it| it.gap > survey.stop);
     if !is_head {

@@ -9,8 +9,8 @@ use crate::view::scene::{Scene, Spot};
 const SIGHT: f64 = 130.0;
 /// Largest number of chains that are searched.
 const MOST_CHAINS: usize = 24;
-/// A vehicle slower than this stands [m/s]. It has a waiting priority if it may go first; others need not wait for it
-/// to start.
+/// A vehicle slower than this stands [m/s]. If it waits for its turn, that turn counts; others need not wait for it to
+/// start.
 const STANDS: f64 = 0.5;
 
 /// Shortest time [s] in which a vehicle without a reservation for `zone` arrives at its side `reach`; infinite if no

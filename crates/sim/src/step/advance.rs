@@ -1,4 +1,4 @@
-//! Vehicles move, and drivers store what they decided. Only here do a lane's own entries change.
+//! Vehicles move, and drivers store what they decided. A lane's own entries change only here.
 
 use laneweave_models::Style;
 

@@ -120,8 +120,8 @@ impl Pool {
     /// threads is not determined, so no result may depend on it.
     ///
     /// # Panics
-    /// If `look` or `act` panics, if items and plans differ in number, if `own` has fewer items than the pool has threads,
-    /// or if `chosen` is not in order or beyond the items.
+    /// If `look` or `act` panics, if items and plans differ in number, if `own` has fewer items than the pool has
+    /// threads, or if `chosen` is not in order or beyond the items.
     pub(crate) fn look_then_act<O: Send, T: Send + Sync, P: Send>(
         &self,
         own: &mut [O],
