@@ -166,7 +166,7 @@ fn because(hindrance: &Hindrance) -> String {
             "the change would not be completed before a junction, or would take storage space that others need".into()
         }
         Hindrance::InReservation => "it is driving through a junction".into(),
-        Hindrance::WantedBefore => "a vehicle at a junction has waited longer for the storage space there".into(),
+        Hindrance::RequestedBefore => "a vehicle at a junction has waited longer for the storage space there".into(),
         Hindrance::Ahead(refusal, pair) => format!("the gap to the new leader {}", refused(*refusal, pair)),
         Hindrance::Behind(refusal, pair) => {
             format!("the gap to the new follower {}", refused(*refusal, pair))

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::names::Names;
 
-/// Vehicles in a page, or a few more: those of one instant are not parted. Few, so that little is left to write when
+/// Vehicles in a batch, or a few more: those of one instant are not parted. Few, so that little is left to write when
 /// the run ends.
-const PAGE: usize = 1 << 11;
+const BATCH: usize = 1 << 11;
 
 /// Vehicles at some instants.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ impl Frame {
     /// Adds all vehicles of `world`.
     pub(super) fn sample(&mut self, world: &World) {
         if self.seen.capacity() == 0 {
-            self.seen.reserve_exact(PAGE + world.on_road());
+            self.seen.reserve_exact(BATCH + world.on_road());
         }
         let Frame { instants, seen, across, .. } = self;
         world.vehicles().for_each(|vehicle| {
@@ -122,9 +122,9 @@ impl Frame {
         self.instants.is_empty()
     }
 
-    /// It is a page.
+    /// It is a batch.
     pub(super) fn is_full(&self) -> bool {
-        self.seen.len() >= PAGE
+        self.seen.len() >= BATCH
     }
 
     /// Empties it.

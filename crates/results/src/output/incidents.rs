@@ -7,9 +7,9 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Event, Incident, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
+use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{BatchSender, Page, Writer};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
@@ -33,8 +33,8 @@ const COLUMNS: [Column; 17] = [
     Column::real("depth_m"),
 ];
 
-/// Incidents in a page, at most those of one step more.
-const PAGE: usize = 256;
+/// Incidents in a batch, at most those of one step more.
+const BATCH: usize = 256;
 
 /// Collects incidents.
 pub(super) struct Incidents {
@@ -53,7 +53,7 @@ impl Incidents {
 
 impl Observer for Incidents {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        self.sender.hand_over(Page::Incidents(std::mem::take(&mut self.seen)))?;
+        self.sender.hand_over(Batch::Incidents(std::mem::take(&mut self.seen)))?;
         Ok(Vec::new())
     }
 
@@ -69,14 +69,14 @@ impl Observer for Incidents {
                 self.seen.push(*incident);
             }
         }
-        if self.seen.len() < PAGE {
+        if self.seen.len() < BATCH {
             return Ok(());
         }
-        self.sender.hand_over(Page::Incidents(std::mem::take(&mut self.seen)))
+        self.sender.hand_over(Batch::Incidents(std::mem::take(&mut self.seen)))
     }
 
     fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        self.sender.hand_over(Page::Incidents(self.seen))?;
+        self.sender.hand_over(Batch::Incidents(self.seen))?;
         Ok(Vec::new())
     }
 }
@@ -96,8 +96,8 @@ impl IncidentTable {
 }
 
 impl Writer for IncidentTable {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        if let Page::Incidents(incidents) = page {
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        if let Batch::Incidents(incidents) = batch {
             for incident in incidents {
                 self.table.row(&row(names, incident))?;
             }

@@ -8,8 +8,8 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
+use super::batch::{Batch, BatchSender, Writer};
 use super::names::Names;
-use super::page::{BatchSender, Page, Writer};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
@@ -51,8 +51,8 @@ const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
     ["urgency_yield", "urgency_weight"],
 ];
 
-/// Lane changes in a page, at most those of one step more.
-const PAGE: usize = 256;
+/// Lane changes in a batch, at most those of one step more.
+const BATCH: usize = 256;
 
 /// Collects the lane changes that are completed or aborted.
 pub(super) struct LaneChanges {
@@ -71,7 +71,7 @@ impl LaneChanges {
 
 impl Observer for LaneChanges {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        self.sender.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))?;
+        self.sender.hand_over(Batch::LaneChanges(std::mem::take(&mut self.ended)))?;
         Ok(Vec::new())
     }
 
@@ -87,14 +87,14 @@ impl Observer for LaneChanges {
                 self.ended.push(*change);
             }
         }
-        if self.ended.len() < PAGE {
+        if self.ended.len() < BATCH {
             return Ok(());
         }
-        self.sender.hand_over(Page::LaneChanges(std::mem::take(&mut self.ended)))
+        self.sender.hand_over(Batch::LaneChanges(std::mem::take(&mut self.ended)))
     }
 
     fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        self.sender.hand_over(Page::LaneChanges(self.ended))?;
+        self.sender.hand_over(Batch::LaneChanges(self.ended))?;
         Ok(Vec::new())
     }
 }
@@ -116,8 +116,8 @@ impl LaneChangeTable {
 }
 
 impl Writer for LaneChangeTable {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        if let Page::LaneChanges(changes) = page {
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        if let Batch::LaneChanges(changes) = batch {
             for change in changes {
                 self.table.row(&row(names, change))?;
             }

@@ -7,9 +7,9 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Clock, LaneletAggregate, World};
 use laneweave_study::{Column, TableWriter, seconds};
 
+use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{BatchSender, Page, Writer};
 use super::traffic::Traffic;
 use crate::observer::Observer;
 use crate::outcome::Summary;
@@ -67,7 +67,7 @@ impl Observer for Lanelets {
             interval.close(world, before);
             past.add(interval);
             let next = Traffic::of(world.network(), world.clock().time());
-            sender.hand_over(Page::Flows(std::mem::replace(interval, next)))?;
+            sender.hand_over(Batch::Flows(std::mem::replace(interval, next)))?;
             *end = (step + every).min(*last);
         }
         Ok(())
@@ -76,7 +76,7 @@ impl Observer for Lanelets {
     fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         self.interval.close(world, &mut self.before);
         self.past.add(&self.interval);
-        self.sender.hand_over(Page::Lanelets(self.past))?;
+        self.sender.hand_over(Batch::Lanelets(self.past))?;
         Ok(Vec::new())
     }
 }
@@ -105,8 +105,8 @@ impl FlowTable {
 }
 
 impl Writer for FlowTable {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        let Page::Flows(traffic) = page else { return Ok(()) };
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        let Batch::Flows(traffic) = batch else { return Ok(()) };
         let [from, to] = traffic.during;
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
             let id = names.network.lanelets[place].id;
@@ -162,8 +162,8 @@ impl LaneletTable {
 }
 
 impl Writer for LaneletTable {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        let Page::Lanelets(traffic) = page else { return Ok(()) };
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        let Batch::Lanelets(traffic) = batch else { return Ok(()) };
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
             let (lanelet, counts) = (&names.network.lanelets[place], &traffic.counts[place]);
             // Who changes to the left comes from the right.

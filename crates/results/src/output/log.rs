@@ -1,10 +1,10 @@
-//! The pages of a run in one file, so that a run that is resumed can have its tables and XML files written anew from
+//! The batches of a run in one file, so that a run that is resumed can have its tables and XML files written anew from
 //! the beginning.
 //!
-//! Until the first mark the file has a provisional name; a log that is already there, and that pages come from again,
+//! Until the first mark the file has a provisional name; a log that is already there, and that batches come from again,
 //! stays until then. Pages that come again are the same bytes, so that a former mark holds in the new log as well.
 //!
-//! Each page stands after its head: its length and its hash.
+//! Each batch stands after its head: its length and its hash.
 
 use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
@@ -14,14 +14,14 @@ use laneweave_scenario::Fault;
 use laneweave_study::PartialFile;
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::page::Page;
+use super::batch::Batch;
 
 /// Text that is collected before it is written [bytes].
 const BUFFER: usize = 1 << 18;
-/// No page is longer [bytes].
+/// No batch is longer [bytes].
 const LONGEST: u32 = 1 << 30;
 
-/// Writes pages one after the other.
+/// Writes batches one after the other.
 pub(super) struct PageLog {
     path: PathBuf,
     file: File,
@@ -39,9 +39,9 @@ impl PageLog {
         Ok(PageLog { path: path.to_owned(), file, partial: Some(partial), buffer: Vec::new(), length: 0 })
     }
 
-    /// Appends a page.
-    pub(super) fn write(&mut self, page: &Page) -> Result<(), Fault> {
-        let bytes = postcard::to_allocvec(page)
+    /// Appends a batch.
+    pub(super) fn write(&mut self, batch: &Batch) -> Result<(), Fault> {
+        let bytes = postcard::to_allocvec(batch)
             .map_err(|error| Fault::new(self.path.display(), error, "report this as a bug"))?;
         self.buffer.extend((bytes.len() as u32).to_le_bytes());
         self.buffer.extend(xxh3_64(&bytes).to_le_bytes());
@@ -71,8 +71,8 @@ impl PageLog {
     }
 }
 
-/// The pages of the log at `path`, up to `length` [bytes].
-pub(super) fn pages(path: &Path, length: u64) -> Result<impl Iterator<Item = Result<Page, Fault>>, Fault> {
+/// The batches of the log at `path`, up to `length` [bytes].
+pub(super) fn batches(path: &Path, length: u64) -> Result<impl Iterator<Item = Result<Batch, Fault>>, Fault> {
     let place = path.to_owned();
     let damaged = move |what: String| {
         Fault::new(place.display(), what, "run again from the beginning, without --resume")
@@ -85,12 +85,12 @@ pub(super) fn pages(path: &Path, length: u64) -> Result<impl Iterator<Item = Res
     let mut reader = io::BufReader::new(file.take(length));
     Ok(std::iter::from_fn(move || match reader.fill_buf() {
         Ok([]) => None,
-        _ => Some(page(&mut reader).map_err(|error| damaged(error.to_string()))),
+        _ => Some(batch(&mut reader).map_err(|error| damaged(error.to_string()))),
     }))
 }
 
-/// The next page.
-fn page(reader: &mut impl Read) -> io::Result<Page> {
+/// The next batch.
+fn batch(reader: &mut impl Read) -> io::Result<Batch> {
     let (mut size, mut hash) = ([0; 4], [0; 8]);
     reader.read_exact(&mut size)?;
     reader.read_exact(&mut hash)?;
@@ -116,17 +116,17 @@ mod tests {
     fn pages_come_again_as_they_were_and_a_damaged_one_is_refused() {
         let folder = std::env::temp_dir().join(format!("laneweave-log-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("pages");
+        let path = folder.join("batches");
         let mut log = PageLog::create(&path).unwrap();
-        (0..3).for_each(|_| log.write(&Page::Trips(Vec::new())).unwrap());
+        (0..3).for_each(|_| log.write(&Batch::Trips(Vec::new())).unwrap());
         assert!(!path.exists());
         let length = log.mark().unwrap();
-        log.write(&Page::LaneChanges(Vec::new())).unwrap();
+        log.write(&Batch::LaneChanges(Vec::new())).unwrap();
         log.mark().unwrap();
-        let read = || pages(&path, length).unwrap().collect::<Result<Vec<Page>, Fault>>();
+        let read = || batches(&path, length).unwrap().collect::<Result<Vec<Batch>, Fault>>();
         let again = read().unwrap();
         assert!(
-            again.len() == 3 && again.iter().all(|it| matches!(it, Page::Trips(trips) if trips.is_empty()))
+            again.len() == 3 && again.iter().all(|it| matches!(it, Batch::Trips(trips) if trips.is_empty()))
         );
 
         let whole = fs::read(&path).unwrap();
@@ -138,7 +138,7 @@ mod tests {
             assert_eq!(fault.remedy, "run again from the beginning, without --resume");
         }
         fs::write(&path, &whole[..length as usize - 1]).unwrap();
-        assert!(pages(&path, length).is_err());
+        assert!(batches(&path, length).is_err());
         drop(log);
         fs::remove_dir_all(folder).unwrap();
     }

@@ -1,6 +1,7 @@
 //! What a run leaves behind: tables, figures, a report and a summary, each made by an observer that reads the world and
 //! never writes it.
 
+mod batch;
 mod folder;
 mod frame;
 mod incidents;
@@ -9,7 +10,6 @@ mod lanelets;
 mod log;
 mod names;
 mod observers;
-mod page;
 #[cfg(feature = "reports")]
 mod report;
 mod samples;

@@ -1,4 +1,4 @@
-//! What the numbers in pages stand for: lanelets, styles, origins and destinations, and lanes as SUMO names them.
+//! What the numbers in batches stand for: lanelets, styles, origins and destinations, and lanes as SUMO names them.
 
 use std::sync::Arc;
 

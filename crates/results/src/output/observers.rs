@@ -6,12 +6,12 @@ use std::thread::available_parallelism;
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Prepared, Scenario, SumoFile};
 
+use super::batch::Writer;
 use super::folder::Folder;
 use super::incidents::{IncidentTable, Incidents};
 use super::lane_changes::{LaneChangeTable, LaneChanges};
 use super::lanelets::{FlowTable, LaneletTable, Lanelets};
 use super::names::Names;
-use super::page::Writer;
 #[cfg(feature = "reports")]
 use super::report::Report;
 use super::samples::Samples;

@@ -7,8 +7,8 @@ use std::sync::mpsc::Receiver;
 use laneweave_scenario::Fault;
 use laneweave_sim::World;
 
+use super::batch::{Batch, BatchSender};
 use super::frame::Frame;
-use super::page::{BatchSender, Page};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
@@ -41,7 +41,7 @@ impl Samples {
     /// take the core of one of them, it is better to wait until they have written.
     fn hand_over(&mut self, world: &World) -> Result<(), Fault> {
         let full = mem::replace(&mut self.frame, mem::take(&mut self.spare));
-        self.sender.hand_over(Page::Frame(full))?;
+        self.sender.hand_over(Batch::Frame(full))?;
         self.under_way += 1;
         let must_wait = self.is_machine_full && world.moves_on_all_threads();
         while self.under_way > 0 {

@@ -6,9 +6,9 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Class, Phase};
 use laneweave_study::{Cells, Column, TableWriter, seconds};
 
+use super::batch::{Batch, Writer};
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{Page, Writer};
 
 /// Columns of the table.
 const COLUMNS: [Column; 16] = [
@@ -56,8 +56,8 @@ impl Trajectories {
 }
 
 impl Writer for Trajectories {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        let Page::Frame(frame) = page else { return Ok(()) };
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        let Batch::Frame(frame) = batch else { return Ok(()) };
         let (seen, bodies) = (frame.seen(), frame.bodies());
         let Trajectories { table, numbers, integers, places, .. } = self;
         numbers.iter_mut().for_each(|it| empty(it, seen.len()));

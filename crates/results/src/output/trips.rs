@@ -7,15 +7,15 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Event, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
+use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
-use super::page::{BatchSender, Page, Writer};
 use super::trip::{End, Trip};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
-/// Trips in a page, at most those of one step more.
-const PAGE: usize = 256;
+/// Trips in a batch, at most those of one step more.
+const BATCH: usize = 256;
 
 /// Collects trips when they end.
 pub(super) struct Trips {
@@ -31,7 +31,7 @@ impl Trips {
 
 impl Observer for Trips {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
-        self.sender.hand_over(Page::Trips(std::mem::take(&mut self.ended)))?;
+        self.sender.hand_over(Batch::Trips(std::mem::take(&mut self.ended)))?;
         Ok(Vec::new())
     }
 
@@ -49,10 +49,10 @@ impl Observer for Trips {
                 self.ended.push(Trip { record: *record, way: record.way(x), end: Some(end) });
             }
         }
-        if self.ended.len() < PAGE {
+        if self.ended.len() < BATCH {
             return Ok(());
         }
-        self.sender.hand_over(Page::Trips(std::mem::take(&mut self.ended)))
+        self.sender.hand_over(Batch::Trips(std::mem::take(&mut self.ended)))
     }
 
     /// Those on the road come last, in the order of their ids.
@@ -65,7 +65,7 @@ impl Observer for Trips {
         let mut on_road: Vec<Trip> = on_road.collect();
         on_road.sort_unstable_by_key(|it| it.record.vehicle);
         self.ended.append(&mut on_road);
-        self.sender.hand_over(Page::Trips(self.ended))?;
+        self.sender.hand_over(Batch::Trips(self.ended))?;
         Ok(Vec::new())
     }
 }
@@ -111,8 +111,8 @@ impl TripTable {
 }
 
 impl Writer for TripTable {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        if let Page::Trips(trips) = page {
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        if let Batch::Trips(trips) = batch {
             for trip in trips {
                 self.table.row(&row(trip, names))?;
             }

@@ -1,7 +1,7 @@
-//! Tables and XML files are written by threads of their own. What observers see reaches them in pages of plain numbers,
-//! through channels that hold few of them: an observer that is too fast waits, so that memory is bounded.
+//! Tables and XML files are written by threads of their own. What observers see reaches them in batches of plain
+//! numbers, through channels that hold few of them: an observer that is too fast waits, so that memory is bounded.
 //!
-//! Each kind of page comes from one observer, in the order in which it was seen, and each file is made from one kind:
+//! Each kind of batch comes from one observer, in the order in which it was seen, and each file is made from one kind:
 //! what is in a file does not depend on when it is written.
 
 use std::path::PathBuf;
@@ -12,17 +12,17 @@ use std::thread::{self, JoinHandle};
 use laneweave_scenario::Fault;
 use laneweave_sim::World;
 
+use super::batch::{Batch, BatchSender, Writer, broke_off};
 use super::frame::Frame;
-use super::log::{PageLog, pages};
+use super::log::{PageLog, batches};
 use super::names::Names;
-use super::page::{BatchSender, Page, Writer, broke_off};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
 
 /// Pages that wait for a thread: as many as are filled while a row group of a table is encoded.
 const WAITING: usize = 16;
-/// Frames that wait to be filled again, at most: of pages that come again there are more.
+/// Frames that wait to be filled again, at most: of batches that come again there are more.
 const SPARES: usize = 24;
 /// The thread for the tables, which keeps the log too, and that for the XML files.
 const TABLES: &str = "tables";
@@ -33,13 +33,13 @@ const XML: &str = "xml";
 pub(super) struct WriterThreads {
     sender: BatchSender,
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
-    /// The log of pages, if there is one.
+    /// The log of batches, if there is one.
     log: Option<PathBuf>,
 }
 
 impl WriterThreads {
     /// Begins to write with `xml` and `tables`: on two threads if so many `cores` are free, of which that for the
-    /// tables passes all pages on to that for the XML files, and else on one. The receiver gives frames back that are
+    /// tables passes all batches on to that for the XML files, and else on one. The receiver gives frames back that are
     /// written, to be used again.
     pub(super) fn begin(
         mut xml: Vec<Box<dyn Writer>>,
@@ -57,12 +57,12 @@ impl WriterThreads {
         let (mut threads, mut next) = (Vec::new(), None);
         let stages = [(XML, xml), (TABLES, tables)];
         for (name, writers) in stages.into_iter().filter(|(_, writers)| !writers.is_empty()) {
-            let (pages, received) = sync_channel(WAITING);
-            let sender = BatchSender::new(pages, Arc::clone(&fault));
+            let (batches, received) = sync_channel(WAITING);
+            let sender = BatchSender::new(batches, Arc::clone(&fault));
             let stage =
                 Stage { next: next.replace(sender), names: Arc::clone(&names), written: written.clone() };
             let fault = Arc::clone(&fault);
-            // The first to get the pages logs them.
+            // The first to get the batches logs them.
             let log = if name == TABLES { log.take() } else { None };
             let work = move || {
                 let outcome = stage.write(&received, writers, log);
@@ -86,7 +86,7 @@ impl WriterThreads {
         self.threads.len()
     }
 
-    /// What hands pages over to it.
+    /// What hands batches over to it.
     pub(super) fn sender(&self) -> BatchSender {
         self.sender.clone()
     }
@@ -102,10 +102,10 @@ impl WriterThreads {
 }
 
 impl Observer for WriterThreads {
-    /// All pages up to now are in the log, whose length is kept.
+    /// All batches up to now are in the log, whose length is kept.
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         let (told, length) = channel();
-        self.sender.hand_over(Page::Mark(told))?;
+        self.sender.hand_over(Batch::Mark(told))?;
         let length = length.recv().map_err(|_| self.sender.fault())?;
         pack(&length?)
     }
@@ -113,8 +113,8 @@ impl Observer for WriterThreads {
     /// Pages that were logged come again.
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
         let Some(log) = &self.log else { return Ok(()) };
-        for page in pages(log, unpack(saved)?)? {
-            self.sender.hand_over(page?)?;
+        for batch in batches(log, unpack(saved)?)? {
+            self.sender.hand_over(batch?)?;
         }
         Ok(())
     }
@@ -124,7 +124,7 @@ impl Observer for WriterThreads {
     }
 
     fn finish(mut self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        let ended = self.sender.hand_over(Page::End);
+        let ended = self.sender.hand_over(Batch::End);
         let files = WriterThreads::join(std::mem::take(&mut self.threads));
         ended.and(files)
     }
@@ -140,7 +140,7 @@ impl Drop for WriterThreads {
 
 /// What a thread works with, beside its writers.
 struct Stage {
-    /// To whom it passes pages on.
+    /// To whom it passes batches on.
     next: Option<BatchSender>,
     names: Arc<Names>,
     /// Where frames go back that all have written.
@@ -148,40 +148,40 @@ struct Stage {
 }
 
 impl Stage {
-    /// Writes pages until the end, or until nobody is left to hand one over.
+    /// Writes batches until the end, or until nobody is left to hand one over.
     fn write(
         &self,
-        pages: &Receiver<Arc<Page>>,
+        batches: &Receiver<Arc<Batch>>,
         mut writers: Vec<Box<dyn Writer>>,
         mut log: Option<PageLog>,
     ) -> Result<Vec<PathBuf>, Fault> {
-        for mut page in pages {
-            // Only the first thread has the page for itself.
-            if let Some(Page::Frame(frame)) = Arc::get_mut(&mut page) {
+        for mut batch in batches {
+            // Only the first thread has the batch for itself.
+            if let Some(Batch::Frame(frame)) = Arc::get_mut(&mut batch) {
                 frame.locate(&self.names);
             }
             if let Some(next) = &self.next {
-                next.hand_over(Arc::clone(&page))?;
+                next.hand_over(Arc::clone(&batch))?;
             }
             if let Some(log) = &mut log {
-                match &*page {
-                    Page::Mark(told) => {
+                match &*batch {
+                    Batch::Mark(told) => {
                         let marked = log.mark();
                         // Who asked has gone if nobody hears it.
                         let _ = told.send(marked.clone());
                         marked?;
                     }
-                    Page::End => {}
-                    page => log.write(page)?,
+                    Batch::End => {}
+                    batch => log.write(batch)?,
                 }
             }
-            if matches!(*page, Page::End) {
+            if matches!(*batch, Batch::End) {
                 return writers.into_iter().map(Writer::finish).collect();
             }
             for writer in &mut writers {
-                writer.write(&page, &self.names)?;
+                writer.write(&batch, &self.names)?;
             }
-            if let Some(Page::Frame(mut frame)) = Arc::into_inner(page) {
+            if let Some(Batch::Frame(mut frame)) = Arc::into_inner(batch) {
                 frame.clear();
                 // Nobody takes it when the run is over.
                 let _ = self.written.try_send(frame);

@@ -15,7 +15,7 @@ pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<L
     const HALVINGS: u32 = 40;
     let perimeter = PerimeterControl::new(roads.network)?;
     let town = Town::new(roads, &perimeter, movements);
-    let is_full = |growth: f64| town.taken(growth) > perimeter.bearable();
+    let is_full = |growth: f64| town.taken(growth) > perimeter.most_taken();
     let (mut low, mut high) = (0.0, most);
     if !is_full(high) {
         return None;

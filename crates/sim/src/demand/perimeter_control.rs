@@ -14,7 +14,7 @@ use crate::state::lane::Lane;
 
 /// Share of the core's roads that vehicles and the minimum gaps in front of them may occupy (ours, from trials on
 /// closed maps: at twice this value fewer vehicles reach their destinations).
-const BEARABLE: f64 = 0.10;
+const MOST_TAKEN: f64 = 0.10;
 /// Minimum gap in front of a vehicle [m].
 const LEAST_GAP: f64 = 2.0;
 /// Roads in loops with less total length than this are a junction, not a town [m] (ours).
@@ -50,8 +50,8 @@ impl PerimeterControl {
     }
 
     /// Length that vehicles with the minimum gaps in front of them may occupy in the core [m].
-    pub fn bearable(&self) -> f64 {
-        BEARABLE * self.length
+    pub fn most_taken(&self) -> f64 {
+        MOST_TAKEN * self.length
     }
 
     /// Length that a vehicle of `length` [m] occupies [m].
@@ -64,7 +64,7 @@ impl PerimeterControl {
         let town = lanes.iter().zip(&self.is_core).filter(|(_, is_core)| **is_core);
         let motions = town.flat_map(|(lane, _)| lane.motions());
         let taken: f64 = motions.map(|it| PerimeterControl::taken_by(f64::from(it.length))).sum();
-        self.is_full = taken > self.bearable();
+        self.is_full = taken > self.most_taken();
     }
 
     /// Whether a vehicle whose trip leads through the core has to wait.

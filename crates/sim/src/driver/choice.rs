@@ -38,7 +38,7 @@ impl Choice {
     /// route.
     fn of(perception: &Perception, moment: Moment, change: &LaneChangeModel, side: Side) -> Option<Choice> {
         let from = perception.beside(side)?;
-        if is_calm(perception.driver(), moment) && perception.here().route.changes == 0 {
+        if is_in_cooldown(perception.driver(), moment) && perception.here().route.changes == 0 {
             return None;
         }
         let situation = perception.situation(side, from);
@@ -67,13 +67,13 @@ impl Choice {
 }
 
 /// Whether the driver is in the cooldown, in which it makes no other discretionary change.
-fn is_calm(driver: &DriverState, moment: Moment) -> bool {
+fn is_in_cooldown(driver: &DriverState, moment: Moment) -> bool {
     moment.clock.step < driver.cooldown_until
 }
 
 /// Whether the driver does not consider a side, because it is in the cooldown and the side does not help its route.
 pub(crate) fn is_out_of_question(driver: &DriverState, moment: Moment, situation: &Situation) -> bool {
-    is_calm(driver, moment) && situation.there.route.changes >= situation.here.route.changes
+    is_in_cooldown(driver, moment) && situation.there.route.changes >= situation.here.route.changes
 }
 
 /// The side to which a driver who keeps its lane desires to change. `None` if the desire does not arise within
@@ -90,11 +90,12 @@ pub(crate) fn desire(
     let (desired, here) = (f64::from(perception.driver().desired), perception.here().anticipated_speed);
     if let LaneChangeModel::Mcdm(model) = change
         && moment.clock.step >= perception.driver().cooldown_until
-        && let Some(Dismissed { best_prospect }) = perception.dismisses(model, change.reach(epochs, draw))
+        && let Some(Dismissed { best_anticipated_speed }) =
+            perception.dismisses(model, change.reach(epochs, draw))
     {
         // It takes a full look to see whether the lane beside is free: the bound knows only its next leader, far
         // ahead.
-        let situation = DesireSituation::of(desired, here, best_prospect);
+        let situation = DesireSituation::of(desired, here, best_anticipated_speed);
         if situation != Some(DesireSituation::HeldUp) {
             counters.count_desire(situation, false);
             return None;

@@ -54,7 +54,7 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
     let Some(gap) = gap(scene, spot, lane_change.side) else { return };
     match gap.taken(scene, spot, moment.clock) {
         Ok(()) => outbox.requests.push(request(Ask::Change)),
-        Err(Hindrance::InReservation | Hindrance::WantedBefore | Hindrance::NotAllowed) => {}
+        Err(Hindrance::InReservation | Hindrance::RequestedBefore | Hindrance::NotAllowed) => {}
         Err(_) if f64::from(lane_change.urgency) < asks_from => {}
         Err(_) => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {

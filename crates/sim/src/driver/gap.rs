@@ -34,7 +34,7 @@ pub enum Hindrance {
     /// The driver has a reservation for a junction, and keeps its lane.
     InReservation,
     /// Another driver has waited longer for the space in that lane.
-    WantedBefore,
+    RequestedBefore,
     /// The gap to the new leader is not accepted.
     Ahead(Refusal, GapPair),
     /// The gap to the new follower is not accepted.
@@ -206,7 +206,7 @@ impl Gap {
             return Err(Hindrance::InReservation);
         }
         if self.is_requested_before(scene, spot, clock) {
-            return Err(Hindrance::WantedBefore);
+            return Err(Hindrance::RequestedBefore);
         }
         self.accepted(scene, spot, clock.dt)?;
         if self.is_coming { Err(Hindrance::NotAllowed) } else { Ok(()) }

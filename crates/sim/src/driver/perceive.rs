@@ -63,7 +63,7 @@ pub(crate) struct Perception<'s, 'a> {
     sight: LaneSight,
     here: LaneView<'a>,
     /// It can no longer follow its usual route, and takes another one.
-    goes_round: bool,
+    takes_another_route: bool,
     /// Its positions in the lanes on the left and on the right, where it may change to them.
     beside: [Option<Viewpoint>; 2],
 }
@@ -95,7 +95,7 @@ impl<'s, 'a> Perception<'s, 'a> {
             *hint = scene.lanes[beside.chain.at()].ahead_of_near(x, *hint);
             Some(Viewpoint { chain: beside.chain, x, ahead: *hint, ..from })
         });
-        let goes_round = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
+        let takes_another_route = !scene.navigator.waypoint(from.destination, from.chain).leads_on(from.x);
         Perception {
             scene,
             driver: scene.driver(spot),
@@ -105,7 +105,7 @@ impl<'s, 'a> Perception<'s, 'a> {
             beliefs,
             sight,
             here,
-            goes_round,
+            takes_another_route,
             beside,
         }
     }
@@ -183,7 +183,7 @@ impl<'s, 'a> Perception<'s, 'a> {
     fn waypoint_beside(&self, there: Viewpoint) -> Cow<'a, Waypoint> {
         let Scene { network, navigator, .. } = self.scene;
         let Viewpoint { destination, chain, x, .. } = there;
-        if self.goes_round {
+        if self.takes_another_route {
             navigator.waypoint_from(network, destination, chain, x)
         } else {
             Cow::Borrowed(navigator.waypoint(destination, chain))
@@ -265,7 +265,7 @@ fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beli
     }
     let behind = scene.navigator.time_to(scene.network, from.chain, from.x);
     let alternative = Some(waypoint.alternative).filter(|it| it.is_finite());
-    let ways = [waypoint.disutility, waypoint.alternative_effort];
+    let ways = [waypoint.disutility, waypoint.alternative_disutility];
     let [added, added_beside] = beliefs.added(scene.network, from.chain, from.x, ways);
     RouteView {
         changes: waypoint.changes,

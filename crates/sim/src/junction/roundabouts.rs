@@ -15,7 +15,7 @@ use crate::state::lane::Lane;
 const LONGEST: f64 = 200.0;
 /// Share of its length that vehicles and the gaps between them may occupy (ours: on a small roundabout space for two
 /// vehicles remains, so that a truck can move up, too).
-const BEARABLE: f64 = 0.4;
+const MOST_TAKEN: f64 = 0.4;
 
 /// The roundabouts of a network.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -115,7 +115,7 @@ impl Roundabouts {
             return true;
         }
         let taken = roundabout.taken(reservations, lanes);
-        taken > 0.0 && taken + needed > BEARABLE * roundabout.length
+        taken > 0.0 && taken + needed > MOST_TAKEN * roundabout.length
     }
 }
 

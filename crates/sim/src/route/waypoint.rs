@@ -29,7 +29,7 @@ pub struct Waypoint {
     /// Disutility of the route from its start.
     pub disutility: Disutility,
     /// Disutility of the alternative.
-    pub alternative_effort: Disutility,
+    pub alternative_disutility: Disutility,
 }
 
 impl Waypoint {
@@ -53,7 +53,7 @@ impl Waypoint {
         distance: f64::INFINITY,
         end: f64::INFINITY,
         disutility: Disutility { turns: 0, lights: 0 },
-        alternative_effort: Disutility { turns: 0, lights: 0 },
+        alternative_disutility: Disutility { turns: 0, lights: 0 },
     };
 
     /// Whether there is a route.

@@ -216,7 +216,7 @@ impl Planner<'_> {
             }
         }
         for (waypoint, (time, disutility)) in table.iter_mut().zip(alternatives) {
-            (waypoint.alternative, waypoint.alternative_effort) = (time, disutility);
+            (waypoint.alternative, waypoint.alternative_disutility) = (time, disutility);
         }
     }
 }

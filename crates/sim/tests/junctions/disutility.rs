@@ -84,7 +84,7 @@ fn a_way_and_its_alternative_have_the_turns_and_lights_that_lie_on_them() {
     let navigator = Navigator::new(&network);
     let waypoint = *navigator.waypoint(Some(0), chain_of(&network, 1));
     assert_eq!(waypoint.disutility, Disutility { turns: 0, lights: 1 });
-    assert_eq!(waypoint.alternative_effort, Disutility { turns: 2, lights: 2 });
+    assert_eq!(waypoint.alternative_disutility, Disutility { turns: 2, lights: 2 });
     assert_eq!(navigator.waypoint(Some(0), chain_of(&network, 4)).disutility, Disutility::default());
 }
 

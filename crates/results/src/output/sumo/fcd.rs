@@ -6,10 +6,10 @@ use laneweave_network::{Network, Point};
 use laneweave_scenario::Fault;
 
 use super::xml::XmlFile;
+use crate::output::batch::{Batch, Writer};
 use crate::output::folder::Folder;
 use crate::output::frame::{Body, Seen};
 use crate::output::names::Names;
-use crate::output::page::{Page, Writer};
 
 const ROOT: &str = "<fcd-export xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
     xsi:noNamespaceSchemaLocation=\"http://sumo.dlr.de/xsd/fcd_file.xsd\">";
@@ -51,8 +51,8 @@ impl Fcd {
 }
 
 impl Writer for Fcd {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        let Page::Frame(frame) = page else { return Ok(()) };
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        let Batch::Frame(frame) = batch else { return Ok(()) };
         for (step, seen, bodies) in frame.instants() {
             let file = self.file.raw("    <timestep time=\"").time(f64::from(step) * names.step_s);
             if seen.is_empty() {

@@ -7,9 +7,9 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Kind, LaneChange};
 
 use super::xml::XmlFile;
+use crate::output::batch::{Batch, Writer};
 use crate::output::folder::Folder;
 use crate::output::names::Names;
-use crate::output::page::{Page, Writer};
 
 /// Writes an element for each lane change that was completed.
 pub(in crate::output) struct LaneChangeOutput {
@@ -68,8 +68,8 @@ fn reason(kind: Kind) -> &'static str {
 }
 
 impl Writer for LaneChangeOutput {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        let Page::LaneChanges(changes) = page else { return Ok(()) };
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        let Batch::LaneChanges(changes) = batch else { return Ok(()) };
         changes.iter().filter(|it| it.is_completed).try_for_each(|it| self.change(it, names))
     }
 

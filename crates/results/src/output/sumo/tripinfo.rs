@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use laneweave_scenario::Fault;
 
 use super::xml::XmlFile;
+use crate::output::batch::{Batch, Writer};
 use crate::output::folder::Folder;
 use crate::output::names::Names;
-use crate::output::page::{Page, Writer};
 use crate::output::trip::{End, Trip};
 
 const ROOT: &str = "<tripinfos xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
@@ -56,8 +56,8 @@ impl TripInfo {
 }
 
 impl Writer for TripInfo {
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault> {
-        let Page::Trips(trips) = page else { return Ok(()) };
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
+        let Batch::Trips(trips) = batch else { return Ok(()) };
         for trip in trips {
             if let Some(end) = &trip.end {
                 self.trip(trip, end, names)?;

@@ -14,7 +14,7 @@ use crate::view::scene::{Found, REAR_SIGHT, Spot, Viewpoint};
 pub(crate) struct Dismissed {
     /// Highest anticipated speed in a lane beside that leads to the same place [m/s]; `None` if there is no such
     /// lane.
-    pub(crate) best_prospect: Option<f64>,
+    pub(crate) best_anticipated_speed: Option<f64>,
 }
 
 impl Perception<'_, '_> {
@@ -22,14 +22,14 @@ impl Perception<'_, '_> {
     #[inline]
     pub(crate) fn dismisses(&self, model: &Mcdm, reach: f64) -> Option<Dismissed> {
         if self.here.route.changes != 0
-            || self.goes_round
+            || self.takes_another_route
             || Side::BOTH.into_iter().any(|it| self.signals(it))
         {
             return None;
         }
         let is_courteous = model.courtesy.weight != 0.0;
         let relief = if is_courteous { model.courtesy.relief(&self.me, &self.here) } else { 0.0 };
-        let mut best_prospect = None;
+        let mut best_anticipated_speed = None;
         for from in self.beside.into_iter().flatten() {
             let (section, routes) = self.routes(from);
             if routes[1].changes != 0 {
@@ -54,10 +54,10 @@ impl Perception<'_, '_> {
             if model.gain_at_most(&bound) >= reach {
                 return None;
             }
-            best_prospect =
-                Some(best_prospect.map_or(anticipated_speed, |it: f64| it.max(anticipated_speed)));
+            best_anticipated_speed =
+                Some(best_anticipated_speed.map_or(anticipated_speed, |it: f64| it.max(anticipated_speed)));
         }
-        Some(Dismissed { best_prospect })
+        Some(Dismissed { best_anticipated_speed })
     }
 
     /// Whether one of the next vehicles on `side` signals a change, perhaps into the driver's lane.

@@ -4,7 +4,7 @@ use super::*;
 
 const LENGTH: f64 = 4.5;
 const ZONE: ZoneIndex = ZoneIndex(0);
-const REFUGE: StorageSection = StorageSection::first_of(ChainIndex(0));
+const SECTION: StorageSection = StorageSection::first_of(ChainIndex(0));
 
 /// Reservations of a network with one zone, and one chain beyond it.
 fn of_one_zone() -> Reservations {
@@ -50,9 +50,9 @@ fn room_is_kept_beyond_the_zone_until_the_vehicle_is_there() {
     let mut reservations = of_one_zone();
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
     reservations.grant(NO_RESERVATION, 3, LENGTH, &over_the_zone(0));
-    assert_eq!(reservations.kept_on(REFUGE), 13.0);
+    assert_eq!(reservations.kept_on(SECTION), 13.0);
     reservations.advance(slot, 19.5, 10.0, 14.0);
-    assert_eq!(reservations.kept_on(REFUGE), 6.5);
+    assert_eq!(reservations.kept_on(SECTION), 6.5);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn a_reservation_can_be_given_back_from_a_place_on() {
     reservations.revoke(slot, 12.0);
     assert_eq!(order(&reservations), [7]);
     assert_eq!(reservations.of(slot, 7).map(Reservation::left), Some(10.0));
-    assert_eq!(reservations.kept_on(REFUGE), 0.0);
+    assert_eq!(reservations.kept_on(SECTION), 0.0);
     reservations.revoke(slot, 8.0);
     assert!(order(&reservations).is_empty() && reservations.of(slot, 7).is_none());
 }
@@ -100,7 +100,7 @@ fn the_reservation_of_who_leaves_the_road_ends_and_its_slot_is_used_again() {
     assert_eq!(order(&reservations), [7]);
     reservations.end(slot, 7);
     assert!(order(&reservations).is_empty());
-    assert_eq!(reservations.kept_on(REFUGE), 0.0);
+    assert_eq!(reservations.kept_on(SECTION), 0.0);
     assert_eq!(reservations.grant(slot, 9, LENGTH, &over_the_zone(1)), slot);
     assert!(reservations.of(slot, 7).is_none() && reservations.of(slot, 9).is_some());
 }
@@ -109,13 +109,13 @@ fn the_reservation_of_who_leaves_the_road_ends_and_its_slot_is_used_again() {
 fn room_comes_first_to_who_has_waited_for_it_longest() {
     let priority = |since, id| WaitingPriority { is_patient: false, since, id, is_long: false };
     let mut reservations = Reservations { requested: vec![None], ..of_one_zone() };
-    reservations.note_space_request(REFUGE, priority(20, 1), 6.5);
-    reservations.note_space_request(REFUGE, priority(10, 2), 14.0);
-    reservations.note_space_request(REFUGE, priority(30, 3), 6.5);
-    assert_eq!(reservations.requested_before(REFUGE, priority(20, 1)), 14.0);
-    assert_eq!(reservations.requested_before(REFUGE, priority(10, 2)), 0.0);
+    reservations.note_space_request(SECTION, priority(20, 1), 6.5);
+    reservations.note_space_request(SECTION, priority(10, 2), 14.0);
+    reservations.note_space_request(SECTION, priority(30, 3), 6.5);
+    assert_eq!(reservations.requested_before(SECTION, priority(20, 1)), 14.0);
+    assert_eq!(reservations.requested_before(SECTION, priority(10, 2)), 0.0);
     reservations.clear_priorities();
-    assert_eq!(reservations.requested_before(REFUGE, priority(20, 1)), 0.0);
+    assert_eq!(reservations.requested_before(SECTION, priority(20, 1)), 0.0);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What was seen, in pages of plain numbers: who fills them hands them over with a pen, who makes files of them is a
+//! What was seen, in batches of plain numbers: who fills them hands them over by a sender, who makes files of them is a
 //! writer.
 
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use super::trip::Trip;
 
 /// What was seen, in plain numbers.
 #[derive(Serialize, Deserialize)]
-pub(super) enum Page {
+pub(super) enum Batch {
     /// All vehicles at some instants.
     Frame(Frame),
     /// Lane changes that ended.
@@ -29,7 +29,7 @@ pub(super) enum Page {
     Flows(Traffic),
     /// What happened on all lanelets in the whole run.
     Lanelets(Traffic),
-    /// The log of pages is to be complete up to here; its length is told, or why it is not.
+    /// The log of batches is to be complete up to here; its length is told, or why it is not.
     #[serde(skip)]
     Mark(Sender<Result<u64, Fault>>),
     /// The run is over, and files are to be completed.
@@ -37,41 +37,41 @@ pub(super) enum Page {
     End,
 }
 
-/// Makes one file of those pages that concern it.
+/// Makes one file of those batches that concern it.
 pub(super) trait Writer: Send {
     /// Writes what concerns it.
-    fn write(&mut self, page: &Page, names: &Names) -> Result<(), Fault>;
+    fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault>;
 
     /// Completes its file, and names it.
     fn finish(self: Box<Self>) -> Result<PathBuf, Fault>;
 }
 
-/// Hands pages to a thread that writes.
+/// Hands batches to a thread that writes.
 #[derive(Clone)]
 pub(super) struct BatchSender {
-    pages: SyncSender<Arc<Page>>,
+    batches: SyncSender<Arc<Batch>>,
     fault: Arc<OnceLock<Fault>>,
 }
 
 impl BatchSender {
-    /// Hands them over by `pages`; when that is closed, `fault` says why.
-    pub(super) fn new(pages: SyncSender<Arc<Page>>, fault: Arc<OnceLock<Fault>>) -> BatchSender {
-        BatchSender { pages, fault }
+    /// Hands them over by `batches`; when that is closed, `fault` says why.
+    pub(super) fn new(batches: SyncSender<Arc<Batch>>, fault: Arc<OnceLock<Fault>>) -> BatchSender {
+        BatchSender { batches, fault }
     }
 
-    /// Hands `page` over, as soon as there is room for it.
-    pub(super) fn hand_over(&self, page: impl Into<Arc<Page>>) -> Result<(), Fault> {
-        self.pages.send(page.into()).map_err(|_| self.fault())
+    /// Hands `batch` over, as soon as there is room for it.
+    pub(super) fn hand_over(&self, batch: impl Into<Arc<Batch>>) -> Result<(), Fault> {
+        self.batches.send(batch.into()).map_err(|_| self.fault())
     }
 
-    /// Why nobody takes pages any more.
+    /// Why nobody takes batches any more.
     pub(super) fn fault(&self) -> Fault {
         self.fault.get().cloned().unwrap_or_else(broke_off)
     }
 
-    /// Hands no more pages over.
+    /// Hands no more batches over.
     pub(super) fn close(&mut self) {
-        self.pages = sync_channel(0).0;
+        self.batches = sync_channel(0).0;
     }
 }
 
