@@ -2,7 +2,8 @@
 
 use laneweave_network::Position;
 
-use crate::driver::accelerate::{lane_end, place_to_wait};
+use crate::driver::lane_end::lane_end;
+use crate::driver::last_place::place_to_wait;
 use crate::driver::request_reservation::surveyed;
 use crate::driver::window::Window;
 use crate::junction::need::Survey;

@@ -2,30 +2,18 @@
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
-use laneweave_network::{Chain, ChainIndex, Side};
+use laneweave_network::ChainIndex;
 
-use crate::driver::gap::gap;
-use crate::driver::window::{self, Window};
+use crate::driver::lane_end::{self, LaneEnd, is_leaving};
+use crate::driver::last_place::{HARDLY_MOVES, before_the_last_place, kept_room, within_window};
+use crate::driver::stopping::{stopping_way, to_stop_at};
+use crate::driver::window::leader_beside;
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::Junction;
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics, Phase};
-use crate::state::standstill::ROOM_AT_A_STOP;
-use crate::state::standstill::STANDS;
+use crate::state::standstill::{ROOM_AT_A_STOP, STANDS};
 use crate::view::scene::{Scene, Spot};
-
-/// Drivers brake for the end of a lane, or the last place for a change, when they need this to stop there [m/s²].
-const COMFORTABLE_BRAKING: f64 = 2.0;
-/// Road kept before the end of a lane and the last place for a change [m]: a truck needs it to steer past a vehicle.
-const ROOM_AT_THE_END: f64 = 16.0;
-/// What is left of that road when it is used [m].
-const LEAST_ROOM: f64 = 1.0;
-/// A driver who has waited this long for a gap [s], and hardly moves [m/s], uses that road.
-const WAITS: f64 = 8.0;
-const HARDLY_MOVES: f64 = 3.0;
-/// Drivers with a desired speed up to this stop at the last place for a change [m/s]. Faster drivers slow down to
-/// half of the excess (ours: in towns drivers wait for a gap, on motorways they do not stop).
-const WAITS_BELOW: f64 = 17.0;
 
 /// The acceleration that a driver chose.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +87,7 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     let Some(counterpart) = scene.lane_change(spot).counterpart else { return chosen };
     let id = scene.motion(spot).id;
     let Some(index) = scene.lanes[counterpart.chain.at()].find(id, counterpart.x) else { return chosen };
-    let lane_end = self::lane_end(scene, counterpart.chain);
+    let lane_end = lane_end::lane_end(scene, counterpart.chain);
     let other = in_lane(scene, clock, Spot { chain: counterpart.chain, index }, lane_end);
     Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
 }
@@ -156,31 +144,6 @@ fn at_junction(
     (wish, Some(Ahead::standing(stop)))
 }
 
-/// Acceleration that keeps to the speed from which comfortable braking stops `room` metres ahead.
-fn to_stop_at(speed: f64, room: f64, dt: f64) -> f64 {
-    let next = stopping_speed(room - speed * dt);
-    ((next - speed) / dt).max(-2.0 * COMFORTABLE_BRAKING)
-}
-
-/// Speed from which comfortable braking stops within `room` [m/s].
-fn stopping_speed(room: f64) -> f64 {
-    (2.0 * COMFORTABLE_BRAKING * room.max(0.0)).sqrt()
-}
-
-/// Distance in which a driver at `speed` [m/s] stops comfortably, with a margin [m].
-#[inline]
-pub(crate) fn stopping_way(speed: f64) -> f64 {
-    /// Margin in time [s] and in distance [m].
-    const MOMENT: f64 = 1.0;
-    const ROOM: f64 = 5.0;
-    speed * speed / (2.0 * COMFORTABLE_BRAKING) + MOMENT * speed + ROOM
-}
-
-/// Entry speed of a driver who may have to stop `distance` ahead [m/s].
-pub(crate) fn speed_before_a_stop(distance: f64) -> f64 {
-    stopping_speed(distance - ROOM_AT_A_STOP)
-}
-
 fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
     Pace {
         speed: motion.speed,
@@ -218,90 +181,6 @@ fn reacting_to_more(
     (wish, obstacle)
 }
 
-/// Where a lane ends beside another one, along a chain [m].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LaneEnd {
-    /// Its end as drawn. A vehicle that changes lanes has to have crossed by then.
-    drawn: f64,
-    /// Where it becomes too narrow for a car, and for a long vehicle. A vehicle that does not change lanes stops
-    /// before.
-    open: [f64; 2],
-    /// Start of the last window in which vehicles may leave it.
-    window: f64,
-}
-
-impl LaneEnd {
-    /// The end of the lane `next`, which begins at `start`.
-    #[inline(never)]
-    fn of(next: &Chain, start: f64) -> LaneEnd {
-        let open = [false, true].map(|is_long| start + next.driven_until(is_long));
-        let window = next.last_window().map_or(f64::NEG_INFINITY, |it| start + it);
-        LaneEnd { drawn: start + next.length, open, window }
-    }
-
-    /// Where the lane ends for the entry at `spot`.
-    pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
-        let (driver, has_crossed) = (scene.driver(spot), scene.lane_change(spot).progress >= 0.5);
-        let is_leaving = match driver.phase {
-            Phase::Changes => driver.is_shadow == has_crossed,
-            Phase::Aborts => driver.is_shadow,
-            Phase::Cruises | Phase::Wants => false,
-        };
-        if is_leaving { self.drawn } else { self.open_for(driver.class.is_long()) }
-    }
-
-    /// Where it becomes too narrow for a car, or for a long vehicle [m].
-    pub(crate) fn open_for(&self, is_long: bool) -> f64 {
-        self.open[usize::from(is_long)]
-    }
-}
-
-/// Where the lane ends, if it does.
-#[inline]
-pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
-    let here = scene.network.chain(chain);
-    match here.following[..] {
-        [] => here.is_lane_drop.then(|| LaneEnd::of(here, 0.0)),
-        [only] => {
-            let next = scene.network.chain(only);
-            next.is_lane_drop.then(|| LaneEnd::of(next, here.length))
-        }
-        _ => None,
-    }
-}
-
-/// Whether the vehicle's centre has left the lane: then it need not react to its end.
-fn is_leaving(scene: &Scene, spot: Spot) -> bool {
-    let driver = scene.driver(spot);
-    driver.is_shadow && driver.phase == Phase::Changes && scene.lane_change(spot).progress >= 0.5
-}
-
-/// Road that a driver keeps before the place where it has to have left its lane [m]. A driver who changes uses it. So
-/// does one who waited there in vain, if only the vehicle behind blocks it: of two drivers side by side who want each
-/// other's lane, the one ahead moves on, and both can go.
-fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (driver, lane_change) = (scene.driver(spot), scene.lane_change(spot));
-    let moves_up = match driver.phase {
-        Phase::Changes => true,
-        Phase::Wants => {
-            let waited = clock.since(lane_change.since);
-            let least = scene.style_of(driver).safety.min_gap;
-            waited > WAITS
-                && scene.motion(spot).speed < HARDLY_MOVES
-                && leader_beside(scene, spot, lane_change.side).is_none_or(|it| it.gap >= least)
-        }
-        Phase::Cruises | Phase::Aborts => false,
-    };
-    if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
-}
-
-/// The part of the `kept` road that leaves a driver in the `window` [m]. In a short one it waits at the start.
-fn within_window(kept: f64, window: f64) -> f64 {
-    /// It waits this far behind the start of the window [m].
-    const INTO: f64 = 3.0;
-    kept.min((window - INTO).max(LEAST_ROOM))
-}
-
 /// The acceleration for all that a driver reacts to besides its leader.
 fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
@@ -337,52 +216,6 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
     }
     acceleration
-}
-
-/// How far ahead the driver at `spot` waits for its last chance to change lanes, in this `window` [m].
-pub(crate) fn place_to_wait(scene: &Scene, clock: Clock, spot: Spot, window: Option<Window>) -> f64 {
-    let length = window.map_or(f64::INFINITY, |it| it.length());
-    scene.lane_change(spot).last_place
-        - within_window(kept_room(scene, clock, spot), length)
-        - scene.motion(spot).x
-}
-
-/// The acceleration before the last place for a change. A driver with a gap drives into a short window slowly enough
-/// to change there. A driver without one stops within it, or slows down on a motorway.
-fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
-    let manner = &scene.style_of(driver).manner;
-    let window = Window::of(scene, spot);
-    if let Some(window) = window.filter(|it| driver.phase == Phase::Wants && it.is_near_and_short())
-        && gap(scene, spot, lane_change.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())
-    {
-        let passing = window.speed_for(manner.duration(f64::from(lane_change.urgency)));
-        return approach(motion.speed, window.start.max(0.0), passing);
-    }
-    let room = place_to_wait(scene, clock, spot, window);
-    let passing = 0.5 * (f64::from(driver.desired) - WAITS_BELOW).max(0.0);
-    let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.change_duration)));
-    if passing > 0.0 && driver.desired > WAITS_BELOW as f32 {
-        approach(motion.speed, room, passing)
-    } else {
-        to_stop_at(motion.speed, room, clock.dt)
-    }
-}
-
-/// The leader in the lane on `side`.
-fn leader_beside(scene: &Scene, spot: Spot, side: Side) -> Option<Ahead> {
-    let from = scene.viewpoint(spot);
-    let beside = window::beside(scene, spot, side)?;
-    scene.ahead(scene.viewpoint_at(from, beside.chain, beside.across(from.x)))
-}
-
-/// Braking to pass a place `room` metres ahead at `passing` [m/s]. It begins when gentle braking is no longer enough.
-fn approach(speed: f64, room: f64, passing: f64) -> f64 {
-    if speed <= passing {
-        return f64::INFINITY;
-    }
-    let needed = (speed * speed - passing * passing) / (2.0 * room.max(0.1));
-    if needed > COMFORTABLE_BRAKING { -needed.min(2.0 * COMFORTABLE_BRAKING) } else { f64::INFINITY }
 }
 
 /// The acceleration, limited by kinematics behind `obstacle`.

@@ -2,7 +2,8 @@
 
 use laneweave_network::ChainIndex;
 
-use crate::driver::accelerate::{Chosen, LaneEnd, OpenRoad, behind, lane_end, with_care};
+use crate::driver::accelerate::{Chosen, OpenRoad, behind, with_care};
+use crate::driver::lane_end::{LaneEnd, lane_end};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
 use crate::junction::reservations::NO_RESERVATION;
 use crate::record::events::DrivingEventKind;

@@ -4,8 +4,9 @@ use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Side};
 
-use crate::driver::accelerate::{lane_end, stopping_way};
+use crate::driver::lane_end::lane_end;
 use crate::driver::perceive::driver_of;
+use crate::driver::stopping::stopping_way;
 use crate::driver::window;
 use crate::junction::storage_section::StorageSection;
 use crate::right_of_way::applicant::Applicant;

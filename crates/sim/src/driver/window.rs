@@ -1,6 +1,7 @@
 //! Windows: the stretches on which a lane may be changed. A driver who has to change lanes in a short window looks at
 //! the lane beside before it may change. So it reaches the window with a gap, and slowly enough to use it.
 
+use laneweave_models::follow::Ahead;
 use laneweave_network::{Beside, Side};
 
 use crate::route::walk::Leg;
@@ -27,6 +28,13 @@ pub(crate) fn beside<'a>(scene: &Scene<'a>, spot: Spot, side: Side) -> Option<&'
         None if scene.driver(spot).needs_full_update => coming(scene, spot, stretches),
         found => found,
     }
+}
+
+/// The leader in the lane on `side`.
+pub(super) fn leader_beside(scene: &Scene, spot: Spot, side: Side) -> Option<Ahead> {
+    let from = scene.viewpoint(spot);
+    let beside = beside(scene, spot, side)?;
+    scene.ahead(scene.viewpoint_at(from, beside.chain, beside.across(from.x)))
 }
 
 /// The next of `stretches` ahead of the driver at `spot`, if the short window in which it has to change begins with

@@ -8,8 +8,8 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
 use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
-use crate::driver::accelerate::speed_before_a_stop;
 use crate::driver::perceive::driver_of;
+use crate::driver::stopping::speed_before_a_stop;
 use crate::junction::need::Survey;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;

@@ -1,0 +1,64 @@
+//! Where a lane ends beside one that goes on.
+
+use laneweave_network::{Chain, ChainIndex};
+
+use crate::state::lane::Phase;
+use crate::view::scene::{Scene, Spot};
+
+/// Where a lane ends beside another one, along a chain [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LaneEnd {
+    /// Its end as drawn. A vehicle that changes lanes has to have crossed by then.
+    drawn: f64,
+    /// Where it becomes too narrow for a car, and for a long vehicle. A vehicle that does not change lanes stops
+    /// before.
+    open: [f64; 2],
+    /// Start of the last window in which vehicles may leave it.
+    pub(super) window: f64,
+}
+
+impl LaneEnd {
+    /// The end of the lane `next`, which begins at `start`.
+    #[inline(never)]
+    fn of(next: &Chain, start: f64) -> LaneEnd {
+        let open = [false, true].map(|is_long| start + next.driven_until(is_long));
+        let window = next.last_window().map_or(f64::NEG_INFINITY, |it| start + it);
+        LaneEnd { drawn: start + next.length, open, window }
+    }
+
+    /// Where the lane ends for the entry at `spot`.
+    pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
+        let (driver, has_crossed) = (scene.driver(spot), scene.lane_change(spot).progress >= 0.5);
+        let is_leaving = match driver.phase {
+            Phase::Changes => driver.is_shadow == has_crossed,
+            Phase::Aborts => driver.is_shadow,
+            Phase::Cruises | Phase::Wants => false,
+        };
+        if is_leaving { self.drawn } else { self.open_for(driver.class.is_long()) }
+    }
+
+    /// Where it becomes too narrow for a car, or for a long vehicle [m].
+    pub(crate) fn open_for(&self, is_long: bool) -> f64 {
+        self.open[usize::from(is_long)]
+    }
+}
+
+/// Where the lane ends, if it does.
+#[inline]
+pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
+    let here = scene.network.chain(chain);
+    match here.following[..] {
+        [] => here.is_lane_drop.then(|| LaneEnd::of(here, 0.0)),
+        [only] => {
+            let next = scene.network.chain(only);
+            next.is_lane_drop.then(|| LaneEnd::of(next, here.length))
+        }
+        _ => None,
+    }
+}
+
+/// Whether the vehicle's centre has left the lane: then it need not react to its end.
+pub(super) fn is_leaving(scene: &Scene, spot: Spot) -> bool {
+    let driver = scene.driver(spot);
+    driver.is_shadow && driver.phase == Phase::Changes && scene.lane_change(spot).progress >= 0.5
+}
