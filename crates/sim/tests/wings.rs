@@ -91,3 +91,19 @@ fn nothing_but_the_step_has_methods_of_the_world() {
         assert!(!is_there || wing == "step", "{} has methods of the world", path.display());
     }
 }
+
+#[test]
+fn the_parts_of_the_world_keep_their_fields_to_themselves() {
+    const PARTS: [&str; 5] = ["Roads", "Traffic", "JunctionState", "Arrivals", "Log"];
+    let files = files();
+    for part in PARTS {
+        let start = format!("pub(crate) struct {part} {{\n");
+        let body = files.iter().find_map(|(_, _, text)| text.split(start.as_str()).nth(1));
+        let (fields, _) = body.and_then(|it| it.split_once("\n}")).expect(part);
+        assert!(!fields.contains("pub"), "a field of {part} can be reached from outside: {fields}");
+    }
+    let world = files.iter().find_map(|(_, _, text)| text.split("pub struct World {\n").nth(1));
+    let (fields, _) = world.and_then(|it| it.split_once("\n}")).expect("World");
+    assert!(PARTS.iter().all(|it| fields.contains(&format!(": {it},"))), "{fields}");
+    assert!(!fields.contains("pub(crate)") && !fields.contains("pub "), "{fields}");
+}
