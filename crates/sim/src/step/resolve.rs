@@ -26,27 +26,27 @@ pub(crate) fn resolve(
     log: &mut Log,
     work: &mut Work,
 ) {
-    let mut granting = Granting { roads, traffic, junctions, log };
+    let mut resolving = Resolving { roads, traffic, junctions, log };
     let requests = &mut work.outbox().requests;
     requests.sort_unstable_by(|a, b| {
         b.urgency.total_cmp(&a.urgency).then(a.id.cmp(&b.id)).then(a.ask.rank().cmp(&b.ask.rank()))
     });
     for request in requests.drain(..) {
-        if let Some(index) = granting.traffic.lane(request.chain).find(request.id, request.x) {
-            granting.grant(Spot { chain: request.chain, index }, &request);
+        if let Some(index) = resolving.traffic.lane(request.chain).find(request.id, request.x) {
+            resolving.grant(Spot { chain: request.chain, index }, &request);
         }
     }
 }
 
-/// What granting a request changes, and what it depends on.
-struct Granting<'a> {
+/// What resolving a request changes, and what it depends on.
+struct Resolving<'a> {
     roads: &'a Roads,
     traffic: &'a mut Traffic,
     junctions: &'a JunctionState,
     log: &'a mut Log,
 }
 
-impl Granting<'_> {
+impl Resolving<'_> {
     fn scene(&self) -> Scene<'_> {
         Scene::of(self.roads, self.traffic, self.junctions)
     }
