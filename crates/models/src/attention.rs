@@ -1,22 +1,22 @@
-//! Attention: a driver is concentrated or inattentive, and changes between the two.
+//! Attention: a driver is concentrated or inattentive, and changes between these two states.
 //!
-//! The paper has it in words ("regular inattention", "fatigue and driver distraction"): the inattentive consider lanes
-//! every 2 s instead of 1 s, see what they saw then, and mind comfort more. The form is ours: a Markov process of two
-//! states, in each of which a driver stays for an exponentially distributed time.
+//! The paper has it in words ("regular inattention", "fatigue and driver distraction"): inattentive drivers consider
+//! lanes every 2 s instead of 1 s, use what they saw then, and give comfort more weight. The form is ours: a Markov
+//! process of two states. A driver stays in each state for an exponentially distributed time.
 
 use serde::{Deserialize, Serialize};
 
 use crate::change::SIGHT;
 
-/// What a driver attends to, and how steadily.
+/// How a driver attends to the lanes, and how long it stays concentrated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Attention {
     /// τ_d: time between two considerations of a concentrated driver [s].
     pub epoch: f64,
-    /// Mean time that it stays concentrated [s]; 0: it never is, if it is ever inattentive.
+    /// Mean time that it stays concentrated [s]; 0: it is always inattentive, if it is ever inattentive.
     pub concentrated_for: f64,
-    /// Mean time that it stays inattentive [s]; 0: it never is.
+    /// Mean time that it stays inattentive [s]; 0: it is never inattentive.
     pub inattentive_for: f64,
     /// How it attends while inattentive.
     pub inattentive: Alertness,
@@ -37,9 +37,9 @@ pub struct Alertness {
 /// Which of the two states a driver is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Concentration {
-    /// Its mind is on the road.
+    /// It attends to the road.
     Concentrated,
-    /// Its mind is elsewhere.
+    /// It attends to something else.
     Inattentive,
 }
 
@@ -72,8 +72,8 @@ impl Attention {
         self.inattentive_for / (self.concentrated_for + self.inattentive_for)
     }
 
-    /// Time in which the present state is forgotten [s], 1/(1/τ_c + 1/τ_i): after it, what the state was tells e times
-    /// less of what it is. 0 for a driver who is always in the same state.
+    /// Correlation time of the state [s], 1/(1/τ_c + 1/τ_i): after it, knowledge of the earlier state tells e times
+    /// less about the present one. 0 for a driver who is always in the same state.
     pub fn memory(&self) -> f64 {
         self.concentrated_for * self.inattentive_share()
     }

@@ -1,8 +1,8 @@
 //! Emergency braking: the kinematic bound above every car-following model.
 //!
-//! A follower at gap s is *secure* when s ≥ v²/2b − v_l²/2b + v·dt: should the leader brake as hard as vehicles
-//! can, the follower, a step late, still stops behind it. b is the same for all classes: with unequal braking
-//! the argument would not hold. Behind a faster leader s ≥ v·dt is asked for all the same.
+//! A follower at gap s is *secure* when s ≥ v²/2b − v_l²/2b + v·dt: even if the leader brakes as hard as vehicles
+//! can, the follower, one step later, still stops behind it. b is the same for all classes: with unequal braking the
+//! argument would not hold. Behind a faster leader, too, s ≥ v·dt is required.
 
 use crate::follow::Ahead;
 
@@ -16,7 +16,7 @@ pub fn is_secure(speed: f64, ahead: Ahead, dt: f64) -> bool {
     ahead.gap >= lead.max(0.0) + speed * dt
 }
 
-/// What of the gap is left for the next step: `s + v_l²/2b − v·dt/2` [m].
+/// The part of the gap that is left for the next step: `s + v_l²/2b − v·dt/2` [m].
 #[inline]
 fn room(speed: f64, ahead: Ahead, dt: f64) -> f64 {
     ahead.gap + ahead.speed * ahead.speed / (2.0 * HARDEST_BRAKING) - 0.5 * speed * dt
@@ -30,8 +30,8 @@ pub fn stays_secure(speed: f64, next_speed: f64, ahead: Ahead, dt: f64) -> bool 
     needed <= room(speed, ahead, dt)
 }
 
-/// The highest speed [m/s] of the next step that [`stays_secure`]; never below what braking at
-/// [`HARDEST_BRAKING`] gives.
+/// The highest speed [m/s] of the next step that satisfies [`stays_secure`]; never below the speed after braking at
+/// [`HARDEST_BRAKING`].
 pub fn secure_speed(speed: f64, ahead: Ahead, dt: f64) -> f64 {
     let reaction = 1.5 * dt;
     let under_root = reaction * reaction + 2.0 * room(speed, ahead, dt).max(0.0) / HARDEST_BRAKING;
@@ -55,7 +55,7 @@ mod tests {
             prop_assert!(is_secure(speed, ahead, dt));
             let next = secure_speed(speed, ahead, dt);
             let leader_next = (leader - harshness * HARDEST_BRAKING * dt).max(0.0);
-            // Both move with linearly changing speeds; a leader that stops within the step stops where it must.
+            // Both move with linearly changing speeds. A leader that stops within the step stays where it stops.
             let leader_moved = if harshness == 0.0 {
                 leader * dt
             } else {

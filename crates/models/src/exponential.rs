@@ -1,5 +1,5 @@
-//! The exponential function, as a power of two: that needs no division, and so half the time, which counts at every
-//! step of every driver.
+//! The exponential function, computed as a power of two. This needs no division and takes half the time, which counts
+//! at every step of every driver.
 
 /// e^x; of |x| up to 700 the relative error stays below 10⁻¹³, of |x| up to 7 below 10⁻¹⁵.
 #[inline]

@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 pub enum Reading {
     /// As printed, with the smallest guard that keeps it finite.
     Literal,
-    /// The same form, mended where the paper's own text says that the formula misses its intent.
+    /// The same form, corrected where the paper's own text says that the formula misses its intent.
     #[default]
     Repaired,
 }

@@ -1,4 +1,4 @@
-//! A style: who drives. Plain data; any car-following model with any lane-change model.
+//! A style: a type of driver. Plain data; any car-following model with any lane-change model.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,23 +21,23 @@ pub struct Style {
     /// Desired speed as a multiple of the speed limit.
     #[serde(default = "as_the_limit")]
     pub speed_factor: f64,
-    /// How it follows.
+    /// Its car-following model.
     pub follow: FollowingModel,
-    /// Why it changes lanes.
+    /// Its lane-change model.
     pub change: LaneChangeModel,
     /// Which gaps it accepts.
     #[serde(default)]
     pub safety: Safety,
-    /// How it attends to lanes, and how steadily.
+    /// How it attends to lanes, and how long it stays concentrated.
     #[serde(default)]
     pub attention: Attention,
-    /// How it goes about a change.
+    /// How it carries out a lane change.
     #[serde(default)]
     pub manner: Manner,
     /// How it gives way at junctions.
     #[serde(default)]
     pub yielding: Yielding,
-    /// How it takes what it is told of travel times.
+    /// How it uses the travel times that it gets.
     #[serde(default)]
     pub guidance: Guidance,
 }
@@ -51,19 +51,19 @@ fn as_the_limit() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Manner {
-    /// How a change moves sideways.
+    /// The lateral motion of a change.
     pub lateral: LateralModel,
     /// Time that a lane change takes [s].
     pub change_duration: f64,
-    /// Time that it takes when it presses most [s].
+    /// Time that it takes at full urgency [s].
     pub pressed_duration: f64,
     /// Time after which a driver gives up waiting for a gap [s].
     pub patience: f64,
-    /// Time after a change without a new voluntary one [s].
+    /// Time after a change without a new discretionary one [s].
     pub calm: f64,
-    /// Hardest braking to fall in with the target lane [m/s²].
+    /// Hardest braking to adapt the speed to the target lane [m/s²].
     pub adjust_deceleration: f64,
-    /// Hardest braking to let another in [m/s²]; 0: does not.
+    /// Hardest braking to let another vehicle in [m/s²]; 0: does not.
     pub yield_deceleration: f64,
     /// Shortest share of the usual time gap accepted around a change.
     pub tightest: f64,

@@ -1,8 +1,8 @@
 //! Giving way at junctions: which lag to the next vehicle with priority a driver accepts.
 //!
-//! Gap acceptance as in Harders (1968) and Siegloch (1973): a driver goes if the next vehicle on the other way arrives
-//! no sooner than its critical gap t_c. Who has waited accepts less, down to a floor, and after its patience takes
-//! its turn (both ours); it never goes before it can be out of the way.
+//! Gap acceptance as in Harders (1968) and Siegloch (1973): a driver goes if the next vehicle on the other path
+//! arrives no sooner than its critical gap t_c. A driver who has waited accepts less, down to a floor. After its
+//! patience it takes its turn (both ours). It never goes before it can be out of the way.
 
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +37,7 @@ impl Yielding {
     }
 }
 
-/// How fast a vehicle gains speed where it is free to [m/s²] (ours).
+/// Acceleration of a vehicle without a leader [m/s²] (ours).
 const GAINS: f64 = 1.5;
 
 /// Time [s] in which a vehicle at `speed` that accelerates evenly up to `desired` [m/s] covers `distance` [m].
@@ -63,7 +63,7 @@ mod tests {
         let driver = Yielding::default();
         assert!(driver.accepts(5.0, 3.0, 0.0));
         assert!(!driver.accepts(4.99, 3.0, 0.0));
-        // Who has waited for all of its patience accepts 3 s, but not before it can be away.
+        // A driver who has waited for all of its patience accepts 3 s, but not before it can be out of the way.
         assert!(driver.accepts(3.0, 2.5, 45.0));
         assert!(!driver.accepts(3.0, 2.6, 45.0));
     }

@@ -1,4 +1,4 @@
-//! What must hold of every decision, on random situations.
+//! Properties of every decision, on random situations.
 
 mod situations;
 mod weights;
@@ -16,7 +16,7 @@ use weights::mcdm;
 
 /// Random cases of the three signs.
 const CASES: u32 = 100_000;
-/// What rounding may move a gain by.
+/// Largest change of a gain by rounding.
 const ROUNDING: f64 = 1e-9;
 
 fn cases(cases: u32) -> ProptestConfig {
@@ -131,7 +131,7 @@ proptest! {
     fn v34_a_faster_target_never_lowers_the_gain(
         model in any_model(), mut situation in any_situation(), faster in 0.0..20.0_f64,
     ) {
-        // A new follower would lose the faster leader, which is a harm to it and another matter.
+        // A new follower would lose the faster leader; this is a harm to it, and another case.
         situation.there.behind = None;
         let before = model.appraise(&situation).gain;
         situation.there.anticipated_speed += faster;
@@ -147,8 +147,8 @@ proptest! {
         model in any_model(), mut situation in any_situation(), follower in any_driver(), gap in 0.5..30.0_f64,
         share in 0.0..1.0_f64,
     ) {
-        // The follower loses a free road, so that only the gap to the driver counts; short of the range of FVDM,
-        // beyond which a faster leader would not draw it on.
+        // The follower loses a free road, so that only the gap to the driver counts. It is short of the range of
+        // FVDM; beyond it, a faster leader would not make it accelerate.
         situation.there.ahead = None;
         situation.there.behind = behind(gap, follower);
         let before = model.appraise(&situation).gain;
@@ -188,7 +188,7 @@ proptest! {
             courtesy: model.courtesy.relief(&me, &here) + harm,
         };
         prop_assert!(model.gain_at_most(&bound(hidden)) >= model.appraise(&situation).gain);
-        // Nothing but the comfort is left out where the longer look finds the same prospect.
+        // Only the comfort is left out where the longer look finds the same anticipated speed.
         if model.speed.reading == Repaired {
             let without_comfort = Mcdm { comfort: Comfort { weight: 0.0, ..model.comfort }, ..model };
             let exact = without_comfort.appraise(&situation).gain;

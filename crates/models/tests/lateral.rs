@@ -1,4 +1,4 @@
-//! The way across, and how tight a driver is for a change's sake.
+//! The lateral motion, and headway relaxation around a lane change.
 
 use laneweave_models::lateral::{
     Crossing, LateralModel, moved_share, peak_lateral_acceleration, peak_lateral_speed,
@@ -102,7 +102,7 @@ fn an_accepted_short_gap_relaxes_exponentially() {
     for pair in errors.windows(2) {
         assert_near(pair[0] / pair[1], 2.0, 0.1);
     }
-    // A step longer than the relaxation time ends relaxed and not beyond.
+    // A step longer than the relaxation time ends at the usual time gap, not beyond.
     assert_eq!(Manner::default().relaxed(0.5, 100.0), 1.0);
 }
 

@@ -1,4 +1,4 @@
-//! LMRS: its points with exact numbers, and what the desire does.
+//! LMRS: points with exact reference values, and the effects of the desire.
 
 mod situations;
 
@@ -27,7 +27,8 @@ fn desire(model: Lmrs, situation: &Situation) -> f64 {
     model.appraise(situation).gain
 }
 
-/// A driver at 25 m/s who desires 30 m/s, in lanes with these anticipated speeds; where it does not accelerate at all.
+/// A driver at 25 m/s who desires 30 m/s, in lanes with these anticipated speeds, where it does not accelerate at
+/// all.
 fn between(toward: Toward, here: f64, there: f64) -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 25.0, 30.0));
     situation.toward = toward;
@@ -48,7 +49,7 @@ fn v45_the_route_desire_grows_towards_the_last_place() {
     let mut situation = between(Toward::Nearside, 15.0, 15.0);
     situation.here.route = in_a_wrong_lane(100.0);
     situation.me.pace.speed = 20.0;
-    // Below v_cong, with equal speeds, there is nothing else but the bias.
+    // Below v_cong, with equal speeds, only the bias remains.
     let model = Lmrs::default();
     assert_near(desire(model, &situation), 0.883721 + 0.365, 1e-6);
     situation.toward = Toward::Offside;

@@ -1,4 +1,5 @@
-//! MOBIL: its criterion with exact numbers, in symmetric and in European traffic, and the two ways to follow a route.
+//! MOBIL: its criterion with exact reference values, in symmetric and in European traffic, and the two ways to follow
+//! a route.
 
 mod situations;
 
@@ -92,7 +93,7 @@ fn v44_above_60_kmh_nobody_gains_by_passing_on_the_slow_side() {
     assert_eq!(gain(european(), Toward::Nearside, slower(25.0), None), 0.0);
     assert!(gain(european(), Toward::Nearside, slower(16.0), None) > 1.0, "congested");
     assert!(gain(Mobil::default(), Toward::Nearside, slower(25.0), None) > 1.0);
-    // Behind the leader on the fast lane one is no slower than beside it.
+    // Behind the leader in the fast lane a driver is no slower than beside it.
     assert_eq!(gain(european(), Toward::Offside, None, slower(25.0)), 0.0);
     assert!(gain(european(), Toward::Offside, None, slower(16.0)) < -1.0);
     let me = |speed, leader| european().stays_behind(speed, Ahead::steady(40.0, leader));
@@ -127,7 +128,7 @@ fn a_change_that_would_make_the_new_follower_brake_too_hard_is_not_desired() {
     let selfish = Mobil { politeness: 0.0, ..Mobil::default() };
     assert!(!wants(selfish, &situation));
     assert!(wants(Mobil { safe_deceleration: -forced + 0.1, ..selfish }, &situation));
-    // Who has to change waits for the gap instead.
+    // A driver who has to change waits for the gap instead.
     situation.here.route = RouteView { changes: 1, remaining: 10.0, ..ON_ROUTE };
     assert!(wants(selfish, &situation));
 }

@@ -11,7 +11,7 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
 }
 
-/// A pair whose follower's model demands nothing.
+/// A pair whose follower's model demands no braking.
 fn pair(gap: f64, follower: f64, leader: f64) -> GapPair {
     GapPair { gap, follower, leader, demanded: 0.0 }
 }

@@ -1,7 +1,7 @@
 //! Comfort incentive: a lane change costs attention, the more so the shorter the headways.
 //!
-//! J = −K T_h^(−β), K = 1: it is folded into the weight. Keeping the lane costs nothing, so a relative gain is
-//! undefined and the yield is not divided. Who will have to come back pays for both changes.
+//! J = −K T_h^(−β), K = 1: K is part of the weight. Keeping the lane costs nothing, so a relative gain is undefined
+//! and the yield is not divided. A driver who will have to come back pays for both changes.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ impl Default for Comfort {
     }
 }
 
-/// Shortest headway that is told apart [s].
+/// Shortest headway that is distinguished [s].
 const SHORTEST: f64 = 0.3;
 
 /// −T^(−β): the discomfort of a change into a lane with the mean headway `headway` [s].

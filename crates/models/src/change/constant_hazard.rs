@@ -1,14 +1,15 @@
-//! The control that every claim is held against: a changer without a reason.
+//! The null-model control: a driver who changes lanes without a reason.
 //!
-//! Wherever a lane of equal worth for the route lies beside, a change is desired at a constant rate, whatever the
-//! traffic. Only the route is kept: a driver in a wrong lane wants to leave it, one in a right lane never does.
+//! Where a lane of equal worth for the route lies beside, a change is desired at a constant rate, whatever the
+//! traffic. Only the route is followed: a driver in a wrong lane wants to leave it, a driver in a right lane never
+//! does.
 
 use serde::{Deserialize, Serialize};
 
 use super::Situation;
 use super::mcdm::{Appraisal, INCENTIVES, Row};
 
-/// A changer without a reason.
+/// A driver who changes lanes without a reason.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ConstantHazard {
@@ -23,7 +24,7 @@ impl Default for ConstantHazard {
 }
 
 impl ConstantHazard {
-    /// The changes that the side takes off the route's, as the only gain there is.
+    /// The changes that the side takes off the route's: the only gain of this model.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let gain = f64::from(situation.here.route.changes) - f64::from(situation.there.route.changes);
         Appraisal { rows: [Row::default(); INCENTIVES], gain, theta: 0.0 }

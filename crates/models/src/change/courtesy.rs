@@ -1,4 +1,4 @@
-//! Courtesy incentive: how much closer the vehicles concerned come to the speeds they desire.
+//! Courtesy incentive: how much closer the vehicles concerned come to their desired speeds.
 //!
 //! A = Σ_r (|v_r − v_r,des| − |ṽ_r − v_r,des|) / |v_r − v_r,des|
 //!
@@ -8,9 +8,9 @@
 //! * literal: the denominator, which vanishes for a follower at its desired speed, is floored at 1 m/s.
 //! * repaired: divided by v_r,des.
 //!
-//! Giving way to the one behind counts only while the driver is slower than its lane's mean (the paper's first
+//! Giving way to the vehicle behind counts only while the driver is slower than its lane's mean (the paper's first
 //! case); a merging vehicle counts with 1 + d, d its urgency ("closer to the merging intersection, the greater the
-//! probability"). Nobody gives way whose own route is bound to its lane.
+//! probability"). A driver whose own route needs its lane gives way to nobody.
 
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +39,7 @@ impl Default for Courtesy {
 const LITERAL_FLOOR: f64 = 1.0;
 
 impl Courtesy {
-    /// One vehicle's share: its expected speed goes from `now` to `then`, where it would like `desired` [m/s].
+    /// The share of one vehicle: its expected speed changes from `now` to `then`; it desires `desired` [m/s].
     pub fn share(&self, now: f64, then: f64, desired: f64) -> f64 {
         let short_of = (now - desired).abs();
         let scale = match self.reading {
@@ -54,7 +54,7 @@ impl Courtesy {
         self.share(expected(now), expected(then), driver.pace.desired)
     }
 
-    /// Its share of A for the old follower, who would follow the driver's leader instead of the driver, if the driver
+    /// The share of A of the old follower: it would follow the driver's leader instead of the driver, if the driver
     /// leaves the lane `here`.
     #[inline]
     pub fn relief(&self, me: &Driver, here: &LaneView) -> f64 {
@@ -65,7 +65,7 @@ impl Courtesy {
         })
     }
 
-    /// Its share of A for the new follower, who would follow the driver instead of the leader `ahead` of it.
+    /// The share of A of the new follower: it would follow the driver instead of the leader `ahead` of it.
     #[inline]
     pub fn harm(&self, me: &Driver, ahead: Option<Ahead>, behind: &Behind) -> f64 {
         let [with, without] = behind.leaders(me, ahead);
@@ -98,7 +98,7 @@ impl Incentive for Courtesy {
         Outcomes { keep: 0.0, back: gain, away: gain }
     }
 
-    /// A is a yield already.
+    /// A is already a yield.
     fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
         1.0
     }

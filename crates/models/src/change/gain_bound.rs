@@ -1,18 +1,18 @@
-//! What a driver can make of a side at most, told from the next vehicles there.
+//! Gain bound: the largest gain that a side can bring, computed from the next vehicles there.
 //!
-//! Between lanes that lead to the same place nothing that a longer look finds makes a side better: leaders further on
-//! only lower its prospect, and a change is never comfortable. Who finds even this gain out of reach need not look.
-//! Ours.
+//! Between lanes that lead to the same place, a longer look never makes a side better: leaders further ahead only
+//! lower its anticipated speed, and the comfort of a change is never positive. A driver that cannot reach even this
+//! gain need not look. Ours.
 
 use super::situation::RouteView;
 
 /// What bounds the gain of a change between two lanes that lead to the same place for a driver's route.
 #[derive(Clone, Copy, Debug)]
 pub struct GainBound {
-    /// v₀: what the driver desires [m/s].
+    /// v₀: the desired speed [m/s].
     pub desired: f64,
-    /// Anticipated speeds of the own lane and of the other one, the latter at least as high as a longer look would find
-    /// it [m/s].
+    /// Anticipated speeds of the own lane and of the other lane [m/s]; the latter is at least as high as a longer
+    /// look would find it.
     pub anticipated_speeds: [f64; 2],
     /// What the two lanes mean for the route.
     pub routes: [RouteView; 2],

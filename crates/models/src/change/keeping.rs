@@ -6,20 +6,20 @@ use super::mcdm::Row;
 use super::situation::{LaneView, Situation};
 use super::urgency::urgency;
 
-/// How the driver of a model that knows no route follows one.
+/// How the driver follows a route, in a model that knows no route.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RouteKeeping {
-    /// It never leaves the lanes that lead on, and wants into one of them as long as it is in none.
+    /// It never leaves the lanes that lead on. While it is in none of them, it wants to change to one.
     Lanes,
-    /// It changes as it likes until the urgency to be in a lane that leads on, of the same form as in [`super::Mcdm`],
-    /// is felt.
+    /// It changes lanes freely until it feels the urgency to be in a lane that leads on; the urgency has the same
+    /// form as in [`super::Mcdm`].
     #[default]
     Urgency,
 }
 
 impl RouteKeeping {
-    /// Changes that the side takes off the route's: what counts for drivers who keep to the lanes that lead on.
+    /// Changes that the side takes off the route's. It counts for drivers who stay in the lanes that lead on.
     pub(crate) fn changes_saved(situation: &Situation) -> f64 {
         f64::from(situation.here.route.changes) - f64::from(situation.there.route.changes)
     }
@@ -30,8 +30,8 @@ impl RouteKeeping {
         of(&situation.here) - of(&situation.there)
     }
 
-    /// The rows of route and urgency: one of them counts, with its weight `decisive`, which no other gain outweighs, or
-    /// `weight`.
+    /// The rows of route and urgency. One of them counts: either with its weight `decisive`, which no other gain
+    /// outweighs, or with `weight`.
     pub(crate) fn rows(self, situation: &Situation, decisive: f64, weight: f64) -> [Row; 2] {
         match self {
             RouteKeeping::Lanes => {

@@ -2,17 +2,18 @@
 //!
 //! Schakel, Knoop, van Arem (2012), Transp. Res. Rec. 2316, 47–57 (from memory). The desire for a side is
 //!
-//! d = d_r + θ_v (d_s + d_b)
+//!     d = d_r + θ_v (d_s + d_b)
 //!
-//! * d_r, the route: the urgency of the own lane if the side takes a change off the route, minus that of the side if it
-//!   adds one.
-//! * d_s, the speed: a_gain (v_ant − v_ant,here)/v_gain, a_gain = (a − max(a_now, 0))/a: who accelerates is content. To
-//!   the slow side only a loss counts while the own lane is faster than v_cong.
+//! * d_r, the route: the urgency of the own lane if the side takes a change off the route, minus that of the side if
+//!   it adds one.
+//! * d_s, the speed: a_gain (v_ant − v_ant,here)/v_gain, a_gain = (a − max(a_now, 0))/a: a driver who accelerates is
+//!   content. To the slow side, only a loss counts while the own lane is faster than v_cong.
 //! * d_b, the bias: d_free to the slow side where no speed is lost there.
 //! * θ_v: 1 where d_r is at most d_sync or of the same sign, falling to 0 at d_coop.
 //!
-//! At d_free the driver takes a gap that is there, at d_sync it also falls in with the target lane, at d_coop others
-//! also let it in. It accepts a shorter time gap the stronger the desire, and relaxes again ([`crate::Manner`]).
+//! At d_free the driver takes a gap that is there. At d_sync it also adapts its speed to the target lane. At d_coop
+//! others also let it in. The stronger the desire, the shorter the time gap that it accepts; the gap relaxes again
+//! ([`crate::Manner`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -28,15 +29,15 @@ use crate::follow::CarFollowing;
 pub struct Lmrs {
     /// d_free: desire from which a gap that is there is taken.
     pub free: f64,
-    /// d_sync: desire from which the driver falls in with the target lane.
+    /// d_sync: desire from which the driver adapts its speed to the target lane.
     pub synchronize: f64,
     /// d_coop: desire from which others let it in.
     pub cooperate: f64,
-    /// v_gain: gain of speed that makes a full desire [m/s].
+    /// v_gain: gain of speed that gives a full desire [m/s].
     pub speed_gain: f64,
     /// v_cong: speed below which traffic is congested [m/s].
     pub congested_speed: f64,
-    /// a: acceleration of who is not held up at all [m/s²].
+    /// a: acceleration of a driver that nothing holds up [m/s²].
     pub acceleration: f64,
     /// How the driver follows its route; by urgency is the model's own.
     pub route: RouteKeeping,
@@ -84,14 +85,14 @@ impl Lmrs {
         match self.route {
             RouteKeeping::Urgency if saved > 0.0 => here,
             RouteKeeping::Urgency if saved < 0.0 => -there,
-            // Who keeps to the lanes that lead on seeks one from the beginning.
+            // A driver who stays in the lanes that lead on looks for one from the beginning.
             RouteKeeping::Lanes if saved > 0.0 => here.max(self.synchronize),
             RouteKeeping::Lanes if saved < 0.0 => -1.0,
             RouteKeeping::Urgency | RouteKeeping::Lanes => 0.0,
         }
     }
 
-    /// Chances within one epoch of the desire for either side: certain for the stronger one from d_free on.
+    /// Chances within one epoch of the desire for either side: from d_free on, the stronger one is certain.
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
         by_threshold(sides, |excess| excess >= 0.0)
     }
@@ -108,8 +109,8 @@ impl Lmrs {
         }
     }
 
-    /// What the driver makes of the side in `situation`: d_s stands in the row of speed, d_b in that of comfort, d_r in
-    /// that of urgency.
+    /// The driver's appraisal of the side in `situation`: d_s stands in the row of speed, d_b in that of comfort, d_r
+    /// in that of urgency.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let Situation { me, here, there, toward, .. } = situation;
         let acceleration = me.follow.acceleration(me.pace, here.ahead);

@@ -1,8 +1,8 @@
 //! Multi-criteria decision-making: the rows of the table, weighted and combined, and the decision.
 //!
-//! G = Σ μᵢ Yᵢ. Threshold rule (the paper's): a change is desired iff G > θ. Stochastic rule: in one epoch of
-//! τ_d = 1 s the desire comes with h = 1/(1 + exp(−(G − θ)/σ)), of which the threshold rule is the limit σ → 0.
-//! Left and right compete in a multinomial logit of {stay, left, right}, which with one side is the same rule.
+//! G = Σ μᵢ Yᵢ. Threshold rule (the paper's): a change is desired iff G > θ. Stochastic rule: in one epoch of τ_d = 1
+//! s the desire comes with probability h = 1/(1 + exp(−(G − θ)/σ)); the threshold rule is its limit σ → 0. Left and
+//! right compete in a multinomial logit of {stay, left, right}, which is the same rule where there is only one side.
 
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +52,7 @@ pub enum Rule {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Combination {
-    /// Σ μ Y, as the paper chooses.
+    /// Σ μ Y, which the paper chooses.
     #[default]
     Linear,
     /// Σ μ (1 − e^(−Y)): losses weigh more than gains. The paper names an exponential combination as the
@@ -70,7 +70,7 @@ pub(super) fn padded<T: Copy + Default, const N: usize>(rows: [T; N]) -> [T; INC
     all
 }
 
-/// One row of the table as it came out.
+/// One row of the table, evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Y.
@@ -79,7 +79,7 @@ pub struct Row {
     pub weight: f64,
 }
 
-/// What a driver makes of one side.
+/// A driver's appraisal of one side.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Appraisal {
     /// The rows in the order of [`Mcdm::NAMES`].
@@ -91,8 +91,8 @@ pub struct Appraisal {
 }
 
 impl Appraisal {
-    /// The place of the row that speaks most for the change, the one with the largest μY, if any is above 0; of equal
-    /// ones the first.
+    /// The index of the row with the largest μY, which speaks most for the change, if any is above 0; of equal ones
+    /// the first.
     pub fn leading(&self) -> Option<usize> {
         let products = self.rows.iter().map(|it| it.weight * it.earning).enumerate();
         products.filter(|(_, it)| *it > 0.0).reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(row, _)| row)
@@ -106,7 +106,7 @@ impl Mcdm {
     fn rows(&self, situation: &Situation, chances: Chances) -> [Row; INCENTIVES] {
         fn row(incentive: &impl Incentive, situation: &Situation, chances: Chances) -> Row {
             let weight = incentive.weight();
-            // A criterion that the style does not weigh is not looked at.
+            // A criterion without weight in the style is not computed.
             let earning = if weight == 0.0 { 0.0 } else { incentive.earning(situation, chances) };
             Row { earning, weight }
         }
@@ -119,14 +119,14 @@ impl Mcdm {
         ]
     }
 
-    /// What the driver makes of the side in `situation`.
+    /// The driver's appraisal of the side in `situation`.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let rows = self.rows(situation, self.returning.chances(situation));
         Appraisal { rows, gain: self.combine(&rows), theta: self.theta }
     }
 
-    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference
-    /// `band` [s], by the route incentive alone; `None` where it does not think of it.
+    /// The driver's appraisal of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference
+    /// `band` [s], by the route incentive alone; `None` where it does not consider it.
     pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
         let Route { weight, .. } = self.route;
         let earning = self.route.leaving(on_route, alternative, band).filter(|_| weight != 0.0)?;
@@ -146,10 +146,10 @@ impl Mcdm {
         rows.iter().map(|row| row.weight * utility(row.earning)).sum()
     }
 
-    /// The most that G can be on a side where the driver knows `bound`; infinite where that does not tell.
+    /// An upper bound of G on a side with the gain bound `bound`; infinite where there is no bound.
     #[inline]
     pub fn gain_at_most(&self, bound: &GainBound) -> f64 {
-        // All fields are named, so that no incentive is forgotten here. Urgency plays no part between such lanes.
+        // All fields are named, so that no incentive is forgotten here. Urgency does not count between such lanes.
         let Mcdm {
             speed,
             route,
@@ -179,9 +179,9 @@ impl Mcdm {
         ])
     }
 
-    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was
-    /// drawn, told without an exponential: the chance of either is at most `epochs` (or 1) times e^((G − θ)/σ), which
-    /// for most drivers on most occasions is far below any draw.
+    /// A gain below which the desire certainly does not come, if both sides have less: within `epochs` epochs, for
+    /// the random number `draw`. It is computed without an exponential. The chance of either side is at most `epochs`
+    /// (or 1) times e^((G − θ)/σ); for most drivers this is nearly always far below any random number.
     #[inline]
     pub(crate) fn reach(&self, epochs: f64, draw: f64) -> f64 {
         match self.rule {
@@ -210,13 +210,13 @@ impl Mcdm {
     }
 }
 
-/// By how much G is above θ on either side.
+/// How far G is above θ on either side.
 #[inline]
 fn excess(sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
     sides.map(|side| side.map_or(f64::NEG_INFINITY, |it| it.gain - it.theta))
 }
 
-/// The threshold rule: the desire comes for the side that is more above its threshold, if that is `enough`.
+/// The threshold rule: the desire comes for the side that is further above its threshold, if that is `enough`.
 #[inline]
 pub(super) fn by_threshold(sides: [Option<&Appraisal>; 2], enough: impl Fn(f64) -> bool) -> [f64; 2] {
     match excess(sides) {
@@ -232,7 +232,7 @@ fn ln_at_least(x: f64) -> f64 {
     if x < f64::MIN_POSITIVE {
         return f64::NEG_INFINITY;
     }
-    /// Bits of a number's fraction, and what is added to its exponent.
+    /// Number of bits of the fraction, and the bias of the exponent.
     const FRACTION: u32 = f64::MANTISSA_DIGITS - 1;
     const BIAS: i32 = f64::MAX_EXP - 1;
     f64::from((x.to_bits() >> FRACTION) as i32 - BIAS) * std::f64::consts::LN_2

@@ -5,12 +5,12 @@
 //!
 //! * safety: ã_n ≥ −b_safe;
 //! * symmetric: ã_c − a_c + p [(ã_n − a_n) + (ã_o − a_o)] > a_thr;
-//! * European: to the slow side ã_c^eur − a_c + p (ã_o − a_o) > a_thr − a_bias, to the fast side ã_c − a_c^eur + p (ã_n
-//!   − a_n) > a_thr + a_bias. On the slow side of a leader slower than oneself, but faster than v_crit, a^eur is not
-//!   above what one would accelerate behind it: nobody passes on that side in free traffic.
+//! * European: to the slow side ã_c^eur − a_c + p (ã_o − a_o) > a_thr − a_bias, to the fast side ã_c − a_c^eur + p
+//!   (ã_n − a_n) > a_thr + a_bias. On the slow side of a leader slower than the driver, but faster than v_crit, a^eur
+//!   is at most the acceleration behind that leader: nobody passes on that side in free traffic.
 //!
-//! The model has no route. It is given one by [`RouteKeeping`] (ours). Its safety criterion binds those who change by
-//! choice; for others, whom urgency presses, the gap test stands in, which all models share.
+//! The model has no route. [`RouteKeeping`] gives it one (ours). Its safety criterion applies to discretionary
+//! changes. For route-driven changes the gap test, which all models share, replaces it.
 
 use serde::{Deserialize, Serialize};
 
@@ -27,17 +27,17 @@ pub struct Mobil {
     pub traffic: Traffic,
     /// p: weight of the others' gains.
     pub politeness: f64,
-    /// a_thr: gain that makes a change worth it [m/s²].
+    /// a_thr: gain from which a change is worthwhile [m/s²].
     pub threshold: f64,
     /// a_bias: preference for the slow side, in European traffic [m/s²].
     pub bias: f64,
-    /// b_safe: braking that a change may ask of the new follower [m/s²].
+    /// b_safe: hardest braking that a change may cause for the new follower [m/s²].
     pub safe_deceleration: f64,
     /// v_crit: speed above which nobody passes on the slow side, in European traffic [m/s].
     pub critical_speed: f64,
     /// How the driver follows its route.
     pub route: RouteKeeping,
-    /// What full urgency is worth, where it keeps its route by urgency [m/s²].
+    /// Weight of full urgency, where the driver keeps its route by urgency [m/s²].
     pub urgency: f64,
 }
 
@@ -45,10 +45,10 @@ pub struct Mobil {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Traffic {
-    /// One overtakes on either side.
+    /// Drivers overtake on either side.
     #[default]
     Symmetric,
-    /// One keeps to the slow side, and overtakes on the other.
+    /// Drivers keep to the slow side, and overtake on the other.
     European,
 }
 
@@ -80,16 +80,16 @@ pub struct Accelerations {
     pub old_follower: [f64; 2],
 }
 
-/// Weight [m/s²] of a change of lanes that the route needs, for those who keep to the lanes that lead on: above every
+/// Weight [m/s²] of a lane change that the route needs, for drivers who stay in the lanes that lead on: above every
 /// gain.
 const DECISIVE: f64 = 1000.0;
 
 impl Accelerations {
-    /// Those in `situation`, by everybody's own car-following model.
+    /// The accelerations in `situation`, by every driver's own car-following model.
     pub fn of(situation: &Situation) -> Accelerations {
         let Situation { me, here, there, .. } = situation;
         let own = |lane: &LaneView| me.follow.acceleration(me.pace, lane.ahead);
-        // What the vehicle behind in a lane accelerates with the driver in it, and without.
+        // Acceleration of the vehicle behind in a lane, with the driver in that lane and without.
         let behind = |lane: &LaneView| {
             lane.behind.map_or([0.0; 2], |it| {
                 it.leaders(me, lane.ahead).map(|ahead| it.driver.follow.acceleration(it.driver.pace, ahead))
@@ -109,7 +109,7 @@ fn gain([now, then]: [f64; 2]) -> f64 {
 }
 
 impl Mobil {
-    /// The own gain and that of the others who count [m/s²] in a change `toward` a side.
+    /// The own gain, and the gain of the other vehicles that count [m/s²], in a change `toward` a side.
     pub fn gains(&self, toward: Toward, accelerations: &Accelerations) -> [f64; 2] {
         let Accelerations { own, new_follower, old_follower } = accelerations;
         let others = match (self.traffic, toward) {
@@ -120,7 +120,7 @@ impl Mobil {
         [gain(*own), others]
     }
 
-    /// θ: gain [m/s²] that makes a change `toward` a side worth it.
+    /// θ: gain [m/s²] from which a change `toward` a side is worthwhile.
     pub fn threshold(&self, toward: Toward) -> f64 {
         match (self.traffic, toward) {
             (Traffic::Symmetric, _) => self.threshold,
@@ -129,13 +129,14 @@ impl Mobil {
         }
     }
 
-    /// Whether a driver of `speed` [m/s] on the slow side of `offside`, the leader on the lane beside, may not pass it.
+    /// Whether a driver at `speed` [m/s] on the slow side of `offside`, the leader in the lane beside, may not pass
+    /// it.
     #[inline]
     pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
         self.traffic == Traffic::European && speed > offside.speed && offside.speed > self.critical_speed
     }
 
-    /// The same accelerations where the lane on the slow side is no faster than passing there allows: a^eur.
+    /// The same accelerations where the lane on the slow side counts as no faster than passing there allows: a^eur.
     fn without_passing(&self, situation: &Situation, accelerations: Accelerations) -> Accelerations {
         let Accelerations { own: [now, then], .. } = accelerations;
         let Situation { me, here, there, toward, .. } = situation;
@@ -153,13 +154,13 @@ impl Mobil {
         Accelerations { own, ..accelerations }
     }
 
-    /// Chances within one epoch of the desire for either side: certain for the better one above its threshold.
+    /// Chances within one epoch of the desire for either side: the better one above its threshold is certain.
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
         by_threshold(sides, |excess| excess > 0.0)
     }
 
-    /// What the driver makes of the side in `situation`: its own gain stands in the row of speed, the others' in that
-    /// of courtesy. Where the change is neither safe nor for the route, the gain is −∞.
+    /// The driver's appraisal of the side in `situation`: its own gain stands in the row of speed, the others' in
+    /// that of courtesy. Where the change is neither safe nor for the route, the gain is −∞.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let accelerations = self.without_passing(situation, Accelerations::of(situation));
         let [own, others] = self.gains(situation.toward, &accelerations);

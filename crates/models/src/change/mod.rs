@@ -1,5 +1,5 @@
-//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], its rows one file each. Beside it stand the
-//! models that it is compared with.
+//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], each row is a file. The models for comparison
+//! stand beside it.
 
 mod comfort;
 mod constant_hazard;
@@ -42,7 +42,7 @@ pub use urgency::{Urgency, urgency};
 pub struct Outcomes {
     /// C_o: keep the lane.
     pub keep: f64,
-    /// C_cl: change, and be on the own route all the same.
+    /// C_cl: change, and still be on the own route.
     pub back: f64,
     /// C_cr: change, and lose the route with it.
     pub away: f64,

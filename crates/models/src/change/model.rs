@@ -1,4 +1,4 @@
-//! The lane-change models a style can name, and what the simulation asks of each.
+//! The lane-change models that a style can name, and the interface that the simulation uses.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
 use crate::follow::Ahead;
 
-/// The lane-change models a style can name.
+/// The lane-change models that a style can name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "model", rename_all = "kebab-case")]
 pub enum LaneChangeModel {
@@ -18,7 +18,7 @@ pub enum LaneChangeModel {
     Mobil(Mobil),
     /// Lane changes with relaxation and synchronization.
     Lmrs(Lmrs),
-    /// The control that every claim is held against.
+    /// The null-model control.
     ConstantHazard(ConstantHazard),
 }
 
@@ -44,7 +44,7 @@ impl LaneChangeModel {
         }
     }
 
-    /// What the driver makes of one side.
+    /// The driver's appraisal of one side.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         match self {
             LaneChangeModel::Mcdm(model) => model.appraise(situation),
@@ -54,8 +54,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// How much a driver is pressed to the side of `situation`, which it made `appraisal` of, 0…1: by its route, or in
-    /// LMRS by all that it desires.
+    /// How strongly a driver is pressed to the side of `situation`, with its `appraisal`, 0…1: by its route, or in
+    /// LMRS by its whole desire.
     pub fn pressure(&self, situation: &Situation, appraisal: &Appraisal) -> f64 {
         let route = &situation.here.route;
         match self {
@@ -77,7 +77,7 @@ impl LaneChangeModel {
         }
     }
 
-    /// Pressure from which a driver who waits for a gap falls in with the target lane.
+    /// Pressure from which a driver who waits for a gap adapts its speed to the target lane.
     #[inline]
     pub fn synchronizes_from(&self) -> f64 {
         match self {
@@ -94,8 +94,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// Whether a driver who waits for a gap, and makes `appraisal` of the side now, would rather stay. In MOBIL and
-    /// LMRS the desire has no memory.
+    /// Whether a driver who waits for a gap would now rather stay, given its new `appraisal` of the side. In MOBIL
+    /// and LMRS the desire has no memory.
     pub fn would_rather_stay(&self, appraisal: &Appraisal) -> bool {
         match self {
             LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_) => appraisal.gain < 0.0,
@@ -103,20 +103,20 @@ impl LaneChangeModel {
         }
     }
 
-    /// Whether drivers may have to stay behind slower ones on the lane for overtaking.
+    /// Whether drivers may have to stay behind slower ones in the overtaking lane.
     #[inline]
     pub fn minds_offside(&self) -> bool {
         matches!(self, LaneChangeModel::Mobil(model) if model.traffic == super::Traffic::European)
     }
 
-    /// Whether a driver of `speed` [m/s] may not pass `offside`, its leader on the lane for overtaking.
+    /// Whether a driver at `speed` [m/s] may not pass `offside`, its leader in the overtaking lane.
     #[inline]
     pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
         matches!(self, LaneChangeModel::Mobil(model) if model.stays_behind(speed, offside))
     }
 
-    /// What the driver makes of leaving a route of `on_route` [s] for one of `alternative` [s], if it is better by more
-    /// than `band` [s]; `None` where it does not think of it.
+    /// The driver's appraisal of leaving a route of `on_route` [s] for one of `alternative` [s], if that is better by
+    /// more than `band` [s]; `None` where it does not consider it.
     pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
         match self {
             LaneChangeModel::Mcdm(model) => model.appraise_leaving(on_route, alternative, band),
@@ -124,7 +124,7 @@ impl LaneChangeModel {
         }
     }
 
-    /// The same model where comfort weighs `factor` times as much.
+    /// The same model with the weight of comfort multiplied by `factor`.
     pub fn with_comfort(&self, factor: f64) -> LaneChangeModel {
         match self {
             LaneChangeModel::Mcdm(model) => {
@@ -135,8 +135,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// Chances [first, second] that within one epoch the desire for either side comes, given the appraisals of
-    /// the sides that there are. With one side only this is the paper's rule.
+    /// Chances [first, second] that within one epoch the desire for either side comes, given the appraisals of the
+    /// existing sides. With only one side this is the paper's rule.
     pub fn choose(&self, sides: [Option<&Appraisal>; 2]) -> [f64; 2] {
         match self {
             LaneChangeModel::Mcdm(model) => model.choose(sides),
@@ -146,8 +146,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// A gain below which, on both sides, the desire certainly does not come within `epochs` epochs where `draw` was
-    /// drawn evenly from [0, 1).
+    /// A gain below which the desire certainly does not come within `epochs` epochs, if both sides have less; `draw`
+    /// is a random number, uniform in [0, 1).
     #[inline]
     pub fn reach(&self, epochs: f64, draw: f64) -> f64 {
         match self {
@@ -156,7 +156,8 @@ impl LaneChangeModel {
         }
     }
 
-    /// The side, 0 or 1, for which the desire comes within `epochs` epochs where `draw` was drawn evenly from [0, 1).
+    /// The side, 0 or 1, for which the desire comes within `epochs` epochs; `draw` is a random number, uniform in [0,
+    /// 1).
     #[inline(always)]
     pub fn drawn(&self, sides: [Option<&Appraisal>; 2], epochs: f64, draw: f64) -> Option<usize> {
         let reach = self.reach(epochs, draw);

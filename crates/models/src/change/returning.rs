@@ -45,14 +45,14 @@ impl Default for Returning {
     }
 }
 
-/// Slowest speed at which a driver is taken to cover the remaining distance [m/s].
+/// Slowest speed that is assumed when a driver covers the remaining distance [m/s].
 const SLOWEST: f64 = 2.0;
 
 impl Returning {
     /// Chances that the driver still makes its route from its lane and from the target lane.
     pub fn chances(&self, situation: &Situation) -> Chances {
         let Situation { here, there, .. } = situation;
-        // The lane returned to is the own one for a driver who leaves its route, else the one ahead of it.
+        // The lane to return to is the own lane for a driver who leaves its route, else the lane ahead of it.
         let returned_to = if situation.is_bound() { here } else { there };
         let speed = situation.me.pace.speed;
         let of = |lane: &LaneView| {

@@ -1,18 +1,18 @@
-//! Route incentive: a lane that leads elsewhere costs the time of the detour, with the chance of missing the turn.
+//! Route incentive: a lane that leads elsewhere costs the time of the detour, and the chance of missing the turn
+//! counts.
 //!
 //! E_i[T] = P_{n_i} T(S, V_i) + (1 − P_{n_i}) T_alt(i),  T(S, V) = S/max(V, 1 m/s) + time downstream
 //!
 //! * literal: Y = (E_here − E_there)/E_here: divided by the whole remaining trip; 0 between symmetric lanes.
-//! * repaired: Y = (E_here − E_there)/T_ref, T_ref = 60 s, within ±10: a minute lost counts the same wherever it
-//!   is lost. And who finds the other route faster does not come back:
-//!   E_there = P_n min(T, T_alt) + (1 − P_n) T_alt, the minimum where T_alt is less by more than the driver's
-//!   indifference band. Between symmetric lanes the speeds count, and whether a better way forks off from either
-//!   (ours): E = min(T, T_alt) in both.
+//! * repaired: Y = (E_here − E_there)/T_ref, T_ref = 60 s, within ±10: a lost minute counts the same wherever it is
+//!   lost. A driver who finds the other route faster does not come back: E_there = P_n min(T, T_alt) + (1 − P_n)
+//!   T_alt. The minimum applies where T_alt is less by more than the driver's indifference band. Between symmetric
+//!   lanes the speeds count, and whether a better route forks off from either (ours): E = min(T, T_alt) in both.
 //!
 //! The speeds of the lanes count over the section, at most as far as a driver sees (ours).
 //!
-//! A route is left in the repaired reading as a lane is (ours): Y = (T − T_alt − band)/T_ref, alone and weighed with
-//! μ₂, is held against the driver's rule.
+//! In the repaired reading a driver leaves a route in the same way as a lane (ours): Y = (T − T_alt − band)/T_ref,
+//! alone and weighed with μ₂, is compared with the threshold of the driver's rule.
 
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ impl Default for Route {
 
 /// Largest yield, either way, of the repaired reading.
 const LARGEST_YIELD: f64 = 10.0;
-/// Floor of the time that a literal gain is divided by [s].
+/// Floor of the time by which a literal gain is divided [s].
 const LITERAL_FLOOR: f64 = 1.0;
 /// Slowest speed of a lane in a travel time [m/s].
 const SLOWEST: f64 = 1.0;
@@ -68,7 +68,8 @@ impl Route {
         (on_route, alternative)
     }
 
-    /// Y of the repaired reading between lanes that lead to the same place, in which `prospects` [m/s] are anticipated.
+    /// Y of the repaired reading between lanes that lead to the same place, with the anticipated speeds `prospects`
+    /// [m/s].
     #[inline]
     pub(crate) fn between(
         &self,
@@ -85,7 +86,7 @@ impl Route {
     }
 
     /// Y of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference `band` [s]; `None`
-    /// where it is not worth it, or the reading knows of no such thing.
+    /// where it is not worthwhile, or where the reading has no such term.
     pub fn leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<f64> {
         let gain = on_route - alternative - band;
         (self.reading == Reading::Repaired && gain > 0.0).then(|| (gain / self.reference).min(LARGEST_YIELD))

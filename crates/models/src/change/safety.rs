@@ -1,10 +1,11 @@
 //! Safety: not an incentive but a temporary condition. A driver who wants to change waits until the gap is
 //! acceptable.
 //!
-//! Accepted iff for both pairs, ego behind the new leader and the new follower behind ego: the gap is at least
-//! s_min; the time to collision at least T_th; the deceleration it forces, Δv²/(2s), at most b_safe; the follower's
-//! own model demands no more than b_safe; and the follower is secure in the sense of [`crate::braking`]. Time to
-//! collision alone, the paper's condition, is not enough: FVDM drivers collide from gaps that it accepts.
+//! There are two pairs: ego behind the new leader, and the new follower behind ego. The gap is accepted iff for both
+//! pairs: the gap is at least s_min; the time to collision is at least T_th; the deceleration that it forces,
+//! Δv²/(2s), is at most b_safe; the follower's own model demands no more than b_safe; and the follower is secure in
+//! the sense of [`crate::braking`]. The time to collision alone, the paper's condition, is not enough: FVDM drivers
+//! collide from gaps that it accepts.
 //!
 //! A critical gap per driver that depends on the speed difference (Toledo 2003) is a lognormal `min_gap` together
 //! with `closing_growth`: G_cr = exp(μ + κ Δv + σz).
@@ -59,7 +60,7 @@ pub enum Refusal {
     Forced,
     /// The follower's model would brake too hard.
     Demanded,
-    /// Should the leader brake as hard as it can, the follower could not stop behind it.
+    /// If the leader brakes as hard as it can, the follower cannot stop behind it.
     Insecure,
 }
 
@@ -74,13 +75,13 @@ pub fn deceleration_to_avoid(gap: f64, follower: f64, leader: f64) -> f64 {
     if closing == 0.0 { 0.0 } else { closing * closing / (2.0 * gap) }
 }
 
-/// Speed [m/s] at which the gap closes; 0 where it does not. No number stays no number.
+/// Speed [m/s] at which the gap closes; 0 where it does not. NaN stays NaN.
 fn closing_speed(follower: f64, leader: f64) -> f64 {
     if follower <= leader { 0.0 } else { follower - leader }
 }
 
 impl Safety {
-    /// Whether `pair` may come to be, with time step `dt` [s].
+    /// Checks whether `pair` is acceptable, with time step `dt` [s].
     ///
     /// # Errors
     /// The first condition that it does not meet.

@@ -1,4 +1,4 @@
-//! What a driver knows when it considers one side. A test can write it down.
+//! What a driver knows when it considers one side. It is plain data, which a test can construct.
 
 use super::headway::Flow;
 use crate::follow::{Ahead, FollowingModel, Pace};
@@ -9,7 +9,7 @@ pub const SIGHT: f64 = 295.0;
 /// Where a lane beside lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Toward {
-    /// On the side on which one overtakes.
+    /// On the overtaking side.
     Offside,
     /// On the side of the kerb.
     Nearside,
@@ -29,9 +29,9 @@ pub struct Situation<'a> {
     /// Length over which the lanes' speeds differ for this driver [m]: to the end of the section, at most
     /// as far as it sees.
     pub section: f64,
-    /// Gain for which the driver leaves its route [s]; infinite: it keeps it whatever it finds.
+    /// Gain for which the driver leaves its route [s]; infinite: it always keeps its route.
     pub band: f64,
-    /// Vehicles that signal a change into the driver's lane and that it would make room for.
+    /// Vehicles that signal a change into the driver's lane and for which it would give way.
     pub merging: [Option<Merging<'a>>; 2],
 }
 
@@ -41,7 +41,7 @@ impl Situation<'_> {
         self.here.route.changes == 0 && self.there.route.changes == 0
     }
 
-    /// The driver's route is bound to its lane: from the other one it would have to come back.
+    /// The driver's route needs its lane: from the other lane it would have to come back.
     pub fn is_bound(&self) -> bool {
         self.there.route.changes > self.here.route.changes
     }
@@ -85,7 +85,8 @@ pub struct Behind<'a> {
 }
 
 impl Behind<'_> {
-    /// What it follows with `me` in its lane, and without, where the leader there is `ahead` of me.
+    /// Accelerations of the vehicle behind with `me` in its lane and without, where the leader there is `ahead` of
+    /// me.
     #[inline]
     pub(crate) fn leaders(&self, me: &Driver, ahead: Option<Ahead>) -> [Option<Ahead>; 2] {
         let with = Ahead { gap: self.gap, speed: me.pace.speed, acceleration: me.acceleration };

@@ -1,9 +1,9 @@
-//! Speed incentive: the speed expected in the other lane against that in the own one.
+//! Speed incentive: compares the speed expected in the other lane with that in the own lane.
 //!
-//! * literal: the car-following model's own prospect (1 s ahead for IDM, the optimal velocity for FVDM), and
-//!   Y = (Ṽ − V)/max(V, 1 m/s).
-//! * repaired: one prospect for every driver, the anticipated lane speed, and Y = (Ṽ − V)/v₀: the two literal
-//!   prospects are on different scales.
+//! * literal: the expected speed of the car-following model itself (1 s ahead for IDM, the optimal velocity for
+//!   FVDM), and Y = (Ṽ − V)/max(V, 1 m/s).
+//! * repaired: one expected speed for every driver, the anticipated lane speed, and Y = (Ṽ − V)/v₀: the two literal
+//!   speeds are on different scales.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ impl Default for Speed {
     }
 }
 
-/// Floor of the speed that a literal gain is divided by [m/s].
+/// Floor of the speed by which a literal gain is divided [m/s].
 const LITERAL_FLOOR: f64 = 1.0;
 
 /// The speed [m/s] that a driver who wants `desired` [m/s] anticipates behind one leader:

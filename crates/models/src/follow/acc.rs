@@ -24,9 +24,9 @@ pub struct Acc {
     pub time_gap: f64,
     /// s₀: gap kept at standstill [m].
     pub jam_gap: f64,
-    /// δ: how late the acceleration fades on the way to the desired speed.
+    /// δ: how late the acceleration fades as the speed approaches the desired speed.
     pub exponent: f64,
-    /// c: how far the driver trusts that nobody changes its acceleration, 0 to 1; 0 is IDM.
+    /// c: how far the driver assumes that nobody changes its acceleration, 0 to 1; 0 is IDM.
     pub coolness: f64,
 }
 
@@ -50,14 +50,14 @@ impl Acc {
         Idm { acceleration, deceleration, time_gap, jam_gap, exponent }
     }
 
-    /// a_CAH: the hardest braking-free acceleration [m/s²] with which the driver does not hit `ahead`, should nobody
-    /// change its acceleration.
+    /// a_CAH: the largest acceleration [m/s²] with which the driver does not hit `ahead`, if nobody changes its
+    /// acceleration.
     pub fn heuristic(&self, pace: Pace, ahead: Ahead) -> f64 {
         let gap = ahead.gap.max(Idm::SHORTEST);
         let leader = ahead.acceleration.min(self.acceleration);
         let closing = pace.speed - ahead.speed;
         let reach = ahead.speed * ahead.speed - 2.0 * gap * leader;
-        // The reach is 0 with a leader who stands and stays: there the second line is the limit of the first.
+        // The reach is 0 behind a leader that stands and stays: there the second line is the limit of the first.
         if ahead.speed * closing <= -2.0 * gap * leader && reach > 0.0 {
             pace.speed * pace.speed * leader / reach
         } else {

@@ -58,7 +58,7 @@ impl CarFollowing for Fvdm {
             + self.relative_sensitivity * relative
     }
 
-    /// The paper takes the optimal velocity itself for the speed a driver expects.
+    /// The paper takes the optimal velocity itself as the speed that a driver expects.
     fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         self.optimal_velocity().expected(pace, gap_of(ahead))
     }

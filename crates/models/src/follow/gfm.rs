@@ -1,10 +1,11 @@
-//! Generalized Force Model: who closes in on the leader brakes for it beside steering towards a speed.
+//! Generalized Force Model: beside steering towards a speed, a driver that closes in on its leader brakes.
 //!
 //! Δv = v − v_l is positive when closing, Θ is 1 then and 0 otherwise.
 //!
 //! * original: Helbing and Tilch (1998), Phys. Rev. E 58, 133, constants from memory.
 //!   [V(s, v) − v] / τ − Δv Θ(Δv) e^(−(s − s(v))/R') / τ',  V = v₀ [1 − e^(−(s − s(v))/R)],  s(v) = d + vT
-//! * jiang: as Jiang, Wu, Zhu (2001), Phys. Rev. E 64, 017101, write it when they compare it with theirs (from memory):
+//! * jiang: as Jiang, Wu, Zhu (2001), Phys. Rev. E 64, 017101, write it when they compare it with theirs (from
+//!   memory):
 //!   κ [V(s) − v] − λ Δv Θ(Δv), with the [`OptimalVelocity`] and the range of FVDM.
 
 use serde::{Deserialize, Serialize};
@@ -26,11 +27,11 @@ pub struct Gfm {
     pub time_gap: f64,
     /// τ, of the original: time in which the speed is adjusted [s].
     pub adjustment_time: f64,
-    /// R, of the original: further gap in which the speed rises to that desired [m].
+    /// R, of the original: further gap over which the speed rises to the desired speed [m].
     pub acceleration_range: f64,
-    /// τ', of the original: time in which a closing speed is braked away [s].
+    /// τ', of the original: time in which braking removes a closing speed [s].
     pub braking_time: f64,
-    /// R', of the original: further gap in which that fades [m].
+    /// R', of the original: further gap over which that braking fades [m].
     pub braking_range: f64,
     /// κ, of Jiang et al.: sensitivity to the difference from the optimal velocity [1/s].
     pub sensitivity: f64,
@@ -120,7 +121,7 @@ impl CarFollowing for Gfm {
         }
     }
 
-    /// The speed that is steered towards, as the paper has it for FVDM.
+    /// The speed towards which the model steers, as the paper has it for FVDM.
     fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         match self.form {
             GfmForm::Original => self.wanted(pace, ahead).max(0.0),

@@ -19,16 +19,16 @@ pub struct Gipps {
     pub acceleration: f64,
     /// b: hardest braking that the driver wishes to undertake [m/s²].
     pub deceleration: f64,
-    /// b̂: that which it expects of its leader [m/s²].
+    /// b̂: hardest braking that it expects of its leader [m/s²].
     pub leader_deceleration: f64,
-    /// τ: reaction time; the driver leaves itself half as much again [s].
+    /// τ: reaction time; the driver adds a margin of half of it [s].
     pub reaction_time: f64,
     /// s₀: gap kept at standstill [m].
     pub jam_gap: f64,
 }
 
 impl Default for Gipps {
-    /// Gipps has vehicles and gap together, 6.5 m: 2 m with a car of 4.5 m.
+    /// Gipps gives vehicle and gap together, 6.5 m: 2 m with a car of 4.5 m.
     fn default() -> Gipps {
         Gipps {
             acceleration: 1.7,
@@ -41,14 +41,14 @@ impl Default for Gipps {
 }
 
 impl Gipps {
-    /// The speed [m/s] that a driver would like to reach within τ on a free road.
+    /// The speed [m/s] that a driver would reach within τ on a free road.
     fn free(&self, pace: Pace) -> f64 {
         let share = pace.speed / pace.desired;
         let gained = 2.5 * self.acceleration * self.reaction_time * (1.0 - share) * (0.025 + share).sqrt();
         pace.speed + gained
     }
 
-    /// The speed [m/s] after τ from which the driver can stop behind `ahead`; negative where it should stand before.
+    /// The speed [m/s] after τ from which the driver can stop behind `ahead`; negative where it should already stand.
     fn safe(&self, pace: Pace, ahead: Ahead) -> f64 {
         let time = pace.time_gap(self.reaction_time);
         let reaction = self.deceleration * time;

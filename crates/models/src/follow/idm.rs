@@ -21,12 +21,12 @@ pub struct Idm {
     pub time_gap: f64,
     /// s₀: gap kept at standstill [m].
     pub jam_gap: f64,
-    /// δ: how late the acceleration fades on the way to the desired speed.
+    /// δ: how late the acceleration fades as the speed approaches the desired speed.
     pub exponent: f64,
 }
 
 impl Default for Idm {
-    /// Table I of Treiber et al. (from memory), with its v₀ left to the driver.
+    /// Table I of Treiber et al. (from memory); the driver has its own v₀.
     fn default() -> Idm {
         Idm { acceleration: 0.73, deceleration: 1.67, time_gap: 1.6, jam_gap: 2.0, exponent: 4.0 }
     }
@@ -35,7 +35,7 @@ impl Default for Idm {
 impl Idm {
     /// Gaps are not taken below this, so that the interaction stays finite [m].
     pub(super) const SHORTEST: f64 = 0.1;
-    /// The usual δ, for which two products serve as the power.
+    /// The usual δ, for which two products compute the power.
     const USUAL_EXPONENT: f64 = 4.0;
 
     #[inline]
@@ -55,7 +55,7 @@ impl CarFollowing for Idm {
         let interaction = ahead.map_or(0.0, |ahead| {
             let approach = pace.speed - ahead.speed;
             let braking = pace.speed * approach / (2.0 * (self.acceleration * self.deceleration).sqrt());
-            // Plain comparisons: f64::max costs five times as much here.
+            // Plain comparisons: f64::max takes five times as long here.
             let dynamic = pace.speed * pace.time_gap(self.time_gap) + braking;
             let desired_gap = self.jam_gap + if dynamic > 0.0 { dynamic } else { 0.0 };
             let ratio = desired_gap / if ahead.gap > Idm::SHORTEST { ahead.gap } else { Idm::SHORTEST };

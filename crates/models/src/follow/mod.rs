@@ -22,7 +22,7 @@ pub use ovm::Ovm;
 
 use serde::{Deserialize, Serialize};
 
-/// τ_p: how far ahead a driver foresees speeds [s].
+/// τ_p: how far ahead a driver anticipates speeds [s].
 pub const FORESIGHT: f64 = 1.0;
 
 /// A driver's own motion.
@@ -32,18 +32,18 @@ pub struct Pace {
     pub speed: f64,
     /// v₀: desired speed [m/s].
     pub desired: f64,
-    /// Share of the usual time gap that the driver accepts for now: 1 when relaxed, less around a lane change.
+    /// Share of the usual time gap that the driver accepts at present: 1 when relaxed, less around a lane change.
     pub headway_relaxation: f64,
 }
 
 impl Pace {
-    /// A relaxed driver at `speed` who would like to drive `desired` [m/s].
+    /// A relaxed driver at `speed` with the desired speed `desired` [m/s].
     pub fn new(speed: f64, desired: f64) -> Pace {
         Pace { speed, desired, headway_relaxation: 1.0 }
     }
 
-    /// What the driver accepts for now of its `usual` time gap [s]: no less than half a second, unless that is its
-    /// usual one.
+    /// What the driver accepts at present of its `usual` time gap [s]: at least half a second, unless its usual time
+    /// gap is shorter.
     #[inline]
     pub(crate) fn time_gap(&self, usual: f64) -> f64 {
         /// No driver accepts a shorter time gap around a lane change [s].
@@ -61,7 +61,7 @@ pub struct Ahead {
     pub gap: f64,
     /// v_l: its speed [m/s].
     pub speed: f64,
-    /// a_l: its acceleration [m/s²], as far as it can be seen; 0 of what is supposed only.
+    /// a_l: its acceleration [m/s²], as far as it is visible; 0 for an imagined leader.
     pub acceleration: f64,
 }
 
@@ -104,8 +104,8 @@ pub fn speed_after(acceleration: f64, pace: Pace) -> f64 {
     if speed > 0.0 { speed } else { 0.0 }
 }
 
-/// The car-following models a style can name.
-// Which one it is stands in a byte of its own, which is told at every step of every driver.
+/// The car-following models that a style can name.
+// A byte of its own stores the variant: every step of every driver reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(u8)]
 #[serde(tag = "model", rename_all = "lowercase")]
@@ -128,7 +128,7 @@ pub enum FollowingModel {
     Newell(Newell),
 }
 
-/// What the model that is named answers, whichever it is.
+/// Calls the method of the model in this variant.
 macro_rules! ask {
     ($self:expr, $model:ident => $answer:expr) => {
         match $self {
@@ -145,7 +145,7 @@ macro_rules! ask {
 }
 
 impl CarFollowing for FollowingModel {
-    // The most frequent call of a simulation: inlined, it costs a third less for the model of most drivers.
+    // The most frequent call of a simulation: inlining saves a third of its time for the most frequent model.
     #[inline(always)]
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         if let FollowingModel::Idm(model) = self {
@@ -165,8 +165,8 @@ impl FollowingModel {
     /// What two vehicles need to turn one behind the other [m].
     pub const LARGEST_CLEARANCE: f64 = 0.5;
 
-    /// The acceleration of any model. It gets numbers, since structs would be written to memory for the others as well;
-    /// without a leader the gap is infinite.
+    /// The acceleration of any model. It takes numbers, because structs would be written to memory for the other
+    /// models as well; without a leader the gap is infinite.
     #[inline(never)]
     fn any_acceleration(
         &self,
@@ -199,9 +199,9 @@ impl FollowingModel {
         0.5 * (short + long)
     }
 
-    /// Gap [m] that emergency braking keeps behind another vehicle for who follows by this model, at most
-    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; others may come up to the bumper
-    /// ahead, where there is no room to turn into another lane.
+    /// Gap [m] that emergency braking keeps to another vehicle for a driver with this model, at most
+    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; other models may come up to the
+    /// bumper ahead, where there is no space to turn into another lane.
     pub fn clearance(&self) -> f64 {
         match self {
             FollowingModel::Idm(_) | FollowingModel::Fvdm(_) => 0.0,

@@ -1,12 +1,12 @@
-//! The optimal velocity: the speed that a driver wants at a net gap, which FVDM, OVM and GFM steer towards.
+//! The optimal velocity: the speed that a driver wants at a net gap. FVDM, OVM and GFM steer towards it.
 //!
 //! Helbing and Tilch (1998), Phys. Rev. E 58, 133, constants from memory.
 //!
 //! * literal: V = min(V₁ + V₂ tanh(C₁ s − C₂), v₀). The paper's printed line lost the minus sign. Below 2.32 m V is
 //!   negative: a follower that is too close brakes the harder for it. Only as an expected speed it is floored at 0.
-//! * repaired: V never exceeds V₁ + V₂ = 14.66 m/s whatever the driver wants, so the speed and the lengths are
-//!   scaled to the desired speed: V = v₀ [tanh(C₁ s·14.66/v₀ − C₂) + tanh C₂] / (1 + tanh C₂). The gap is counted
-//!   beyond the jam gap (ours).
+//! * repaired: V never exceeds V₁ + V₂ = 14.66 m/s whatever the driver wants, so the speed and the lengths are scaled
+//!   to the desired speed: V = v₀ [tanh(C₁ s·14.66/v₀ − C₂) + tanh C₂] / (1 + tanh C₂). The gap is counted beyond the
+//!   jam gap (ours).
 
 use super::{Ahead, Pace};
 use crate::Reading;
@@ -29,7 +29,7 @@ const V2: f64 = 7.91;
 const C1: f64 = 0.13;
 /// C₂.
 const C2: f64 = 1.57;
-/// V₁ + V₂: the speed that the constants were found for [m/s].
+/// V₁ + V₂: the speed for which the constants were found [m/s].
 const FITTED_SPEED: f64 = V1 + V2;
 /// tanh C₂.
 const TANH_C2: f64 = 0.917_025_761_396_608_3;
@@ -51,14 +51,13 @@ impl OptimalVelocity {
                 let length_scale = FITTED_SPEED / pace.desired;
                 let beyond_jam = (gap - self.jam_gap / pace.headway_relaxation).max(0.0);
                 let rise = tanh(C1 * beyond_jam * length_scale - C2) + TANH_C2;
-                // The share is rounded to at most 1, so that nobody expects more than it desires.
+                // The share is rounded to at most 1, so that no driver expects more than it desires.
                 pace.desired * (rise / (1.0 + TANH_C2)).max(0.0)
             }
         }
     }
 
-    /// A length [m] that was found together with the constants, as this driver has it: it scales with the others
-    /// (ours).
+    /// A length [m] that was found together with the constants, scaled for this driver like the other lengths (ours).
     #[inline]
     pub(super) fn scaled(&self, pace: Pace, length: f64) -> f64 {
         match self.reading {
@@ -74,14 +73,14 @@ pub(super) fn gap_of(ahead: Option<Ahead>) -> f64 {
     ahead.map_or(f64::INFINITY, |ahead| ahead.gap)
 }
 
-/// tanh by one exponential: near zero its absolute error is that of 1, which is all that V needs, at half the cost.
+/// tanh by one exponential: near zero its absolute error is that of 1, which is enough for V, in half the time.
 #[inline]
 fn tanh(x: f64) -> f64 {
     1.0 - 2.0 / (exp(2.0 * x) + 1.0)
 }
 
-/// Who closes in takes no liberties with the gap: without a time gap of its own, a model of the optimal velocity would
-/// brake too late behind the leader of a tight lane change (ours).
+/// Headway relaxation does not count for a driver that closes in: a model of the optimal velocity has no time gap of
+/// its own, and would brake too late behind the leader after a lane change into a short gap (ours).
 #[inline]
 pub(super) fn wary(pace: Pace, ahead: Option<Ahead>) -> Pace {
     /// Closing speed from which the usual gap counts in full [m/s].

@@ -45,7 +45,7 @@ impl CarFollowing for Ovm {
         self.sensitivity * (optimal - pace.speed)
     }
 
-    /// The optimal velocity itself, as the paper has it for FVDM.
+    /// The optimal velocity itself, which the paper uses for FVDM.
     fn anticipated_speed(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         self.optimal_velocity().expected(pace, gap_of(ahead))
     }

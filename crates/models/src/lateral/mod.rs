@@ -1,7 +1,7 @@
-//! How a lane change moves a vehicle sideways: how fast the change goes on, and how far across the vehicle is by then.
+//! How a lane change moves a vehicle sideways: how fast the change progresses, and how far across the vehicle is.
 //!
-//! A lateral model says how far across a vehicle is after a share of the time of its change. How long that time is says
-//! the style ([`crate::Manner::duration`]); a slow vehicle needs more of it, whatever the model ([`Crossing`]).
+//! A lateral model gives the lateral position of a vehicle after a share of the time of its change. The style gives
+//! this time ([`crate::Manner::duration`]); a slow vehicle needs more of it, whatever the model ([`Crossing`]).
 
 mod crossing;
 mod quintic;
@@ -34,7 +34,7 @@ impl LateralModel {
     /// one path, the rear bumper later, so that a long vehicle does not swing out.
     #[inline]
     pub fn bumpers(self, crossing: Crossing, progress: f64) -> [f64; 2] {
-        // Half the vehicle as a share of the way that the change takes, fading in and out with the change.
+        // Half the vehicle as a share of the distance that the change takes; it fades in and out with the change.
         let half = 0.5 * crossing.length / crossing.way() * 4.0 * progress * (1.0 - progress);
         [progress + half, progress - half].map(|it| self.moved_share(it))
     }

@@ -1,4 +1,4 @@
-//! Cars on a line, and how they move on.
+//! Cars on a line, and how they move.
 
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 
@@ -43,14 +43,14 @@ impl Car {
         Ahead { gap, speed: leader.speed, acceleration: leader.acceleration }
     }
 
-    /// What its driver would like, who desires `desired` [m/s], behind `leader`.
+    /// The acceleration that its driver wants behind `leader`, with the desired speed `desired` [m/s].
     pub(crate) fn wish(self, model: &FollowingModel, desired: f64, leader: Option<Car>) -> f64 {
         model.acceleration(Pace::new(self.speed, desired), leader.map(|it| self.behind(it)))
     }
 }
 
-/// The cars a step of `dt` [s] later by the rule of Runge and Kutta of the fourth order, where `wishes` are the
-/// accelerations of such cars after so many seconds.
+/// The cars after a step of `dt` [s] by the Runge-Kutta method of fourth order; `wishes` are the accelerations of
+/// such cars after so many seconds.
 pub(crate) fn runge_kutta(cars: &[Car], dt: f64, wishes: impl Fn(&[Car], f64) -> Vec<f64>) -> Vec<Car> {
     let on = |slopes: &[(f64, f64)], dt: f64| -> Vec<Car> {
         let moved = |(car, (speed, acceleration)): (&Car, &(f64, f64))| Car {

@@ -1,4 +1,5 @@
-//! Drivers who react late: Newell's to the place of the leader, Herman's to its speed.
+//! − u at its highest, u(t) = Σ_(k ≤ t) (−λ)^k (t − k)^k / k!; the next follower swings further, though gains are
+//! below 1.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +16,7 @@ fn v20_newell_drivers_follow_their_leaders_path_shifted_in_time_and_space() {
     let newell = Newell::default();
     let (model, time_gap) = (FollowingModel::Newell(newell), newell.time_gap);
     let distance = LENGTH + newell.jam_gap;
-    // A column that stands; its leader drives as it likes, accelerating evenly within each step of τ.
+    // A standing column; its leader drives freely, and accelerates evenly within each step of τ.
     let mut paths = vec![(0..CARS).map(|i| Car::at(-distance * i as f64, 0.0)).collect::<Vec<_>>()];
     for step in 0..200 {
         let now = paths.last().expect("it has begun");
@@ -64,7 +65,7 @@ const STEP: f64 = 0.01;
 /// T, in steps.
 const DELAY: usize = 100;
 
-/// How the driver responds to a leader whose speed jumps from 0 to 1 m/s.
+/// The response of the driver to a leader whose speed jumps from 0 to 1 m/s.
 fn step_response(sensitivity: f64, seconds: f64) -> Vec<f64> {
     herman(sensitivity, &vec![1.0; (seconds / STEP) as usize])
 }
@@ -78,13 +79,11 @@ fn v21_below_one_over_e_a_late_driver_does_not_oscillate() {
     let nervous = step_response(0.45, 60.0);
     assert!(!is_monotone(&nervous));
     let highest = |speeds: &[f64]| speeds.iter().copied().fold(0.0, f64::max);
-    // 1 − u at its highest, u(t) = Σ_(k ≤ t) (−λ)^k (t − k)^k / k!; who follows it swings further, though gains are
-    // below 1.
     assert_near(highest(&nervous), 1.013587, 2e-6);
     assert_near(highest(&herman(0.45, &nervous)), 1.017006, 2e-6);
 }
 
-/// How much higher than its leader a late driver swings, whose leader's speed does with `frequency` [1/s].
+/// How much higher than its leader a late driver swings; the leader's speed swings with `frequency` [1/s].
 fn herman_gain(sensitivity: f64, frequency: f64) -> f64 {
     const SETTLED: f64 = 200.0;
     let period = TAU / frequency;

@@ -1,4 +1,4 @@
-//! Car-following: numbers known exactly, and what becomes of cars that follow each other.
+//! Car-following: exact reference values, and the motion of cars that follow each other.
 
 mod cars;
 mod delayed;

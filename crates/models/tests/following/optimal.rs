@@ -1,4 +1,4 @@
-//! The optimal velocity, and the models that steer towards it, against numbers known exactly.
+//! The optimal velocity, and the models that steer towards it, against exact reference values.
 
 use laneweave_models::Reading;
 use laneweave_models::follow::{
@@ -18,7 +18,7 @@ fn v3_the_literal_optimal_velocity() {
     for (gap, speed) in [(5.0, 1.008151), (10.0, 4.664728), (20.0, 12.871615)] {
         assert_near(LITERAL.expected(pace, gap), speed, 1e-6);
     }
-    // V(0) = −0.503674: nobody expects to drive backwards, but a follower brakes for it.
+    // V(0) = −0.503674: no driver expects to drive backwards, but a follower brakes for it.
     assert_eq!(LITERAL.expected(pace, 0.0), 0.0);
     let touching = literal_fvdm().acceleration(Pace::new(0.0, 50.0), Some(Ahead::standing(0.0)));
     assert_near(touching, 0.41 * -0.503674, 1e-6);
@@ -139,7 +139,7 @@ fn a_tight_driver_sees_a_larger_gap() {
     for optimal in [LITERAL, REPAIRED] {
         assert_near(optimal.expected(tight, 12.0), optimal.expected(relaxed, 20.0), 1e-12);
     }
-    // Standing still, a tight driver keeps the jam gap of a relaxed one.
+    // Standing still, a driver in headway relaxation keeps the same jam gap as a relaxed one.
     let shifted = OptimalVelocity { jam_gap: 2.0, ..REPAIRED };
     assert_near(shifted.expected(tight, 2.0), 0.0, 1e-12);
     assert_near(shifted.expected(tight, 2.0 + 12.0), shifted.expected(relaxed, 2.0 + 20.0), 1e-12);

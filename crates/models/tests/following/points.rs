@@ -1,4 +1,4 @@
-//! Car-following against numbers known exactly: points, equilibria, capacities, prospects.
+//! Car-following against exact reference values: points, equilibria, capacities, expected speeds.
 
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace, speed_after};
 

@@ -4,7 +4,7 @@ use laneweave_models::follow::{FollowingModel, Idm};
 
 use crate::cars::{Car, LENGTH};
 
-/// Everybody but the first follows for a step of `dt` [s].
+/// All vehicles but the first follow for a step of `dt` [s].
 fn follow(model: &FollowingModel, desired: f64, cars: &mut [Car], dt: f64) {
     let before = cars.to_vec();
     for (car, leader) in cars[1..].iter_mut().zip(&before) {
@@ -12,8 +12,8 @@ fn follow(model: &FollowingModel, desired: f64, cars: &mut [Car], dt: f64) {
     }
 }
 
-/// Times [s] after the beginning of green at which the fronts of a standing queue pass the line, which the first stands
-/// at.
+/// Times [s] after the beginning of green at which the fronts of a standing queue pass the line; the first vehicle
+/// stands at the line.
 fn passages(model: FollowingModel, desired: f64, cars: usize) -> Vec<f64> {
     const DT: f64 = 0.01;
     let jam_gap = 2.0;
@@ -58,7 +58,7 @@ fn v24_the_end_of_a_queue_moves_as_flow_and_density_say() {
     // 15 veh/km at 1500 veh/h run into 90 veh/km at 900 veh/h: 100 km/h into 10 km/h.
     let (fast, slow) = (100.0 / 3.6, 10.0 / 3.6);
     let (far, near) = (1000.0 / 15.0, 1000.0 / 90.0);
-    // An IDM that is in equilibrium in both, as far as the desired speed leaves the slow state alone.
+    // IDM drivers in equilibrium in both states, as far as the desired speed does not affect the slow state.
     let jam_gap = 2.0;
     let time_gap = (near - LENGTH - jam_gap) / slow;
     let share = (jam_gap + fast * time_gap) / (far - LENGTH);
@@ -66,7 +66,7 @@ fn v24_the_end_of_a_queue_moves_as_flow_and_density_say() {
     let idm = Idm { acceleration: 1.4, deceleration: 2.0, time_gap, jam_gap, exponent: 4.0 };
     let model = FollowingModel::Idm(idm);
     let mut cars: Vec<Car> = (0..CARS).map(|it| Car::at(-far * it as f64, fast)).collect();
-    // Where and when each first drives at less than half the way between the two speeds.
+    // When and where each vehicle first drives at less than the mean of the two speeds.
     let mut joined: Vec<Option<(f64, f64)>> = vec![None; CARS];
     for step in 0..24_000 {
         follow(&model, desired, &mut cars, DT);

@@ -1,4 +1,4 @@
-//! The rarer models against numbers known exactly.
+//! The less usual models against exact reference values.
 
 use laneweave_models::follow::{
     Acc, Ahead, CarFollowing, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm, Pace,
@@ -13,7 +13,7 @@ use crate::sets::{k2010, t2000, urban};
 fn v2_acc_brakes_as_published() {
     let (acc, set) = (Acc::default(), k2010());
     assert_eq!(acc.idm(), set.idm);
-    // v, v_l, s and a_l; IDM's acceleration, the heuristic's and what comes of both.
+    // v, v_l, s and a_l; IDM's acceleration, the heuristic's and the resulting one.
     for (speed, leader, gap, leader_acceleration, by_idm, heuristic, acceleration) in [
         (30.0, 30.0, 20.0, 0.0, -7.250040, 0.0, -2.049690),
         (30.0, 25.0, 20.0, 0.0, -29.027423, -0.625, -2.889024),
@@ -52,7 +52,7 @@ fn acc_on_the_free_road_or_without_coolness_is_idm() {
 
 #[test]
 fn acc_is_not_puzzled_by_a_leader_who_stands() {
-    // 0/0 in the first line of the heuristic; whoever stands there will have stopped a moment ago as well.
+    // 0/0 in the first line of the heuristic; a vehicle that stands there has stopped a moment ago as well.
     let (acc, pace) = (Acc::default(), Pace::new(10.0, k2010().desired));
     let stopping = |acceleration| acc.heuristic(pace, Ahead { gap: 20.0, speed: 0.0, acceleration });
     for acceleration in [0.0, -1e-9, -3.0] {
@@ -78,7 +78,7 @@ fn v4_krauss_drivers_are_as_fast_as_is_safe() {
     assert_near(after(12.0, 20.0, 10.0), 12.827723, 1e-6);
     assert_near(after(10.0, 10.0, 10.0), 10.0, 1e-12);
     assert_near(after(17.0, 50.0, 0.0), 17.185248, 1e-6);
-    // No harder than it can, and no faster than it likes.
+    // No harder than it can, and no faster than its desired speed.
     assert_near(after(5.0, 100.0, 10.0), 5.0 + 2.6, 1e-12);
     assert_near(49.0 + krauss.acceleration(Pace::new(49.0, 50.0), None), 50.0, 1e-12);
 }
@@ -123,7 +123,7 @@ fn v4_newell_lanes_have_triangular_fundamental_diagrams() {
 
 #[test]
 fn v4_wiedemanns_distances() {
-    // W74: AX + (BX_add + BX_mult z) √v with 2, 2 and 3; W99: CC0 + CC1 v, which is what Krauss and Newell keep.
+    // W74: AX + (BX_add + BX_mult z) √v with 2, 2 and 3; W99: CC0 + CC1 v, the gap of Krauss and Newell.
     let w74 = |speed: f64, z: f64| 2.0 + (2.0 + 3.0 * z) * speed.sqrt();
     assert_near(w74(15.0, 0.5), 15.555442, 1e-6);
     let w99 = Newell { time_gap: 0.9, jam_gap: 1.5 };

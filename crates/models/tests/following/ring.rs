@@ -14,7 +14,7 @@ pub(crate) struct Ring {
     pub(crate) cars: Vec<Car>,
 }
 
-/// How a ring moves on by a step [s].
+/// The integration of a ring over one step [s].
 pub(crate) type Step = fn(&mut Ring, f64);
 
 impl Ring {
@@ -49,7 +49,7 @@ impl Ring {
         }
     }
 
-    /// By the rule of Runge and Kutta.
+    /// By the Runge-Kutta method.
     pub(crate) fn advance_precisely(&mut self, dt: f64) {
         self.cars = runge_kutta(&self.cars, dt, |cars, _| self.wishes(cars));
     }
@@ -58,7 +58,7 @@ impl Ring {
         self.cars.iter().map(|car| car.speed).sum::<f64>() / self.cars.len() as f64
     }
 
-    /// Root mean square of how far speeds are from their mean [m/s].
+    /// Root mean square of the deviation of the speeds from their mean [m/s].
     pub(crate) fn unevenness(&self) -> f64 {
         let mean = self.mean_speed();
         let squares: f64 = self.cars.iter().map(|it| (it.speed - mean).powi(2)).sum();
@@ -148,7 +148,7 @@ impl Equilibrium {
         Equilibrium { model, desired, speed, gap, cars: Ring::CARS, slopes }
     }
 
-    /// The same on a ring of so many.
+    /// The same on a ring of so many cars.
     pub(crate) fn of(self, cars: usize) -> Equilibrium {
         Equilibrium { cars, ..self }
     }
@@ -157,13 +157,13 @@ impl Equilibrium {
         Ring::of(self.cars, self.model, self.desired, self.gap, self.speed)
     }
 
-    /// k: by what angle the wave that goes `mode` times round the ring turns from car to car.
+    /// k: the angle by which a wave with `mode` periods on the ring turns from car to car.
     pub(crate) fn number(&self, mode: usize) -> f64 {
         TAU * mode as f64 / self.cars as f64
     }
 
-    /// λ [1/s] of the wave that goes `mode` times round the ring: λ² = f_s (e^{ik} − 1) + (f_v + f_l e^{ik}) λ, the
-    /// root that grows faster.
+    /// λ [1/s] of the wave with `mode` periods on the ring: λ² = f_s (e^{ik} − 1) + (f_v + f_l e^{ik}) λ, the root
+    /// that grows faster.
     pub(crate) fn rate(&self, mode: usize) -> Complex {
         let [of_gap, of_speed, of_leader] = self.slopes;
         let ahead = Complex::on_circle(self.number(mode));
@@ -179,7 +179,7 @@ impl Equilibrium {
         growths.max_by(|a, b| a.1.total_cmp(&b.1)).expect("there are waves")
     }
 
-    /// λ [1/s] of the wave as it is found on a ring that is seeded with it, 0.1 mm high, after the first third of
+    /// λ [1/s] of the wave, measured on a ring that starts with this wave, 0.1 mm high, after the first third of
     /// `duration` [s].
     pub(crate) fn measured_rate(&self, mode: usize, step: Step, dt: f64, duration: f64) -> Complex {
         const HEIGHT: f64 = 1e-4;

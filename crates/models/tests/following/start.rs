@@ -1,4 +1,4 @@
-//! A column starts one after the other.
+//! A column starts, one vehicle after the other.
 
 use laneweave_models::Reading;
 use laneweave_models::follow::{FollowingModel, Fvdm};
@@ -9,10 +9,10 @@ use crate::sets::{literal_fvdm, literal_gfm, literal_ovm};
 
 /// Headway at which the literal optimal velocity is about 0 [m].
 const STANDING: f64 = 7.4;
-/// V₁ + V₂, which all drive in the end [m/s].
+/// V₁ + V₂, the final speed of all cars [m/s].
 const FREE: f64 = 14.66;
 
-/// Times [s] at which the cars of a column of `cars` reach half of the speed that they drive in the end.
+/// Times [s] at which the cars of a column of `cars` reach half of their final speed.
 fn starts(model: FollowingModel, cars: usize, dt: f64) -> Vec<f64> {
     let mut column: Vec<_> = (0..cars).map(|i| Car::at(-STANDING * i as f64, 0.0)).collect();
     let mut started = vec![None; cars];

@@ -7,7 +7,7 @@ use crate::assert_near;
 use crate::cars::Car;
 use crate::sets::{k2010, literal_fvdm, literal_gfm, literal_ovm, t2000};
 
-/// What became of a follower whose leader brakes until it stands.
+/// The result for a follower whose leader brakes until it stands.
 pub(crate) struct Stop {
     pub(crate) shortest_gap: f64,
     pub(crate) final_gap: f64,
@@ -52,7 +52,7 @@ fn from_equilibrium(model: FollowingModel, desired: f64, speed: f64, dt: f64) ->
     emergency(model, desired, speed, Car::at_gap(gap, speed), HARDEST_BRAKING, dt)
 }
 
-/// Steps up to the longest that the catalogue asks of [s].
+/// Steps [s] up to the longest that the catalogue requires.
 const STEPS: [f64; 5] = [0.01, 0.05, 0.1, 0.2, 0.25];
 
 #[test]
@@ -136,7 +136,7 @@ fn v17_gfm_in_the_form_of_jiang_brakes_as_fvdm_does() {
 
 #[test]
 fn v17_gfm_gipps_and_newell_survive_from_their_equilibria() {
-    // The gap left at the end, where it is one of the model's own.
+    // The gap left at the end, if the model itself keeps one.
     for (model, left) in [
         (FollowingModel::Gfm(Gfm::default()), Some(Gfm::default().jam_gap)),
         (FollowingModel::Gipps(Gipps::default()), None),
@@ -155,8 +155,8 @@ fn v17_gfm_gipps_and_newell_survive_from_their_equilibria() {
 
 #[test]
 fn v17_krauss_as_an_acceleration_is_late_and_touches_its_leader() {
-    // In steps of τ and behind a leader who brakes as he reckons, he stops where he wants to: with s₀ left. Speeds are
-    // those of the end of a step, as he has it.
+    // In steps of τ and behind a leader who brakes as it assumes, the driver stops where it wants to: with s₀ left.
+    // Speeds are those at the end of a step, as in the paper.
     let krauss = Krauss::default();
     let model = FollowingModel::Krauss(krauss);
     for speed in [9.0, 18.0, 27.0] {
@@ -171,7 +171,7 @@ fn v17_krauss_as_an_acceleration_is_late_and_touches_its_leader() {
         }
         assert_near(follower.behind(leader).gap, krauss.jam_gap, 1e-3);
     }
-    // In short steps speeds lag τ behind, and the jam gap is used up; behind hard braking it is not enough.
+    // In short steps the speeds lag τ behind, and use up the jam gap; behind hard braking it is not enough.
     for (speed, impact) in [(5.0, 0.0), (10.0, 1.237), (20.0, 2.987), (30.0, 3.842)] {
         assert_near(from_equilibrium(model, 120.0 / 3.6, speed, 0.01).impact, impact, 0.01);
     }

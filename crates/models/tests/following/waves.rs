@@ -21,7 +21,7 @@ fn literal_at(model: FollowingModel, gap: f64) -> Equilibrium {
     Equilibrium::at_gap(model, UNBOUNDED, gap)
 }
 
-/// So long that a wave becomes at most e⁴ times as high [s].
+/// Duration after which a wave is at most e⁴ times as high [s].
 fn duration(growth: f64) -> f64 {
     (4.0 / growth.abs()).clamp(30.0, 300.0)
 }
@@ -125,15 +125,15 @@ fn long_waves_grow_with_krauss_and_neither_grow_nor_fade_with_newell() {
     for speed in [3.0, 10.0, 20.0, 30.0] {
         let (_, growth) = Equilibrium::at_speed(krauss, 120.0 / 3.6, speed).fastest();
         assert!(growth > 1e-3, "{growth} at {speed} m/s");
-        // All that fades is of a higher order than usual, k⁴ instead of k²: halving k leaves a sixteenth.
+        // Where waves fade, the order is higher than usual, k⁴ instead of k²: half of k leaves a sixteenth.
         let at = |cars| Equilibrium::at_speed(newell, 120.0 / 3.6, speed).of(cars).rate(1).re;
         assert!(at(100) < 0.0);
         assert_near(at(100) / at(50), 1.0 / 16.0, 1e-3);
     }
 }
 
-/// How much higher the second of two cars behind a leader, whose speed swings with `frequency` [1/s], swings than the
-/// first.
+/// How much higher the second of two cars swings than the first, behind a leader whose speed swings with `frequency`
+/// [1/s].
 fn gain(at: &Equilibrium, frequency: f64) -> f64 {
     const HEIGHT: f64 = 1e-3;
     const SWINGS: usize = 10;
@@ -150,7 +150,7 @@ fn gain(at: &Equilibrium, frequency: f64) -> f64 {
     for taken in 0..4 * SWINGS * steps {
         let time = taken as f64 * dt;
         cars = runge_kutta(&cars, dt, |cars, after| wishes(cars, time + after));
-        // What lasts is what is left of the beginning after three quarters.
+        // What remains of the beginning after three quarters is permanent.
         if taken >= 3 * SWINGS * steps {
             let turn = Complex::on_circle(-frequency * (time + dt));
             for (height, car) in heights.iter_mut().zip(&cars[1..]) {
@@ -170,7 +170,7 @@ fn v11_a_platoon_passes_on_swings_with_the_published_gain() {
         (k2010(), 20.0, [0.995522, 0.981181, 0.923433, 0.677763]),
     ] {
         for (frequency, published) in [0.05, 0.1, 0.2, 0.5].into_iter().zip(gains) {
-            // Far below the 1 % asked for: a gain tells by its last digits on which side of 1 it is.
+            // Far below the required 1 %: the last digits of a gain show on which side of 1 it is.
             assert_near(gain(&idm_at(&set, speed), frequency), published, 1e-5);
         }
     }
@@ -193,7 +193,7 @@ fn v15_a_jam_moves_upstream_with_fifteen_kilometres_per_hour() {
     let mut ring = idm_at(&t2000(), 10.0).ring();
     ring.cars[0].position += 1.0;
     (0..10_000).for_each(|_| ring.advance(DT));
-    // When and where each car comes into a jam.
+    // Time and place at which each car enters a jam.
     let mut stops = vec![Vec::new(); Ring::CARS];
     for taken in 0..4_000 {
         let before = ring.cars.clone();
@@ -204,7 +204,7 @@ fn v15_a_jam_moves_upstream_with_fifteen_kilometres_per_hour() {
             }
         }
     }
-    // One jam, from car to car: those behind come into it later.
+    // One jam, from car to car: the cars behind enter it later.
     let (mut path, mut last) = (Line::default(), 0.0);
     for (time, place) in (40..Ring::CARS).rev().map(|i| {
         let next = stops[i].iter().copied().find(|it| it.0 > last).expect("there is a jam");

@@ -93,7 +93,7 @@ fn courtesy_is_nothing_where_nobody_is_concerned() {
     }
 }
 
-/// Where the driver, 10 m/s, leaves an old follower for a new one; all would like 14 m/s.
+/// The driver, 10 m/s, leaves an old follower for a new one; all desire 14 m/s.
 fn between_followers() -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 10.0, 14.0));
     situation.here.ahead = Some(Ahead::steady(30.0, 9.0));
@@ -103,7 +103,7 @@ fn between_followers() -> Situation<'static> {
     situation
 }
 
-/// The share of a follower at `speed` [m/s] whose leader is exchanged.
+/// The share of a follower at `speed` [m/s] that gets another leader.
 fn share_of(courtesy: &Courtesy, speed: f64, now: Ahead, then: Ahead) -> f64 {
     let expected = |ahead: Ahead| {
         let pace = Pace::new(speed, 14.0);
@@ -122,10 +122,10 @@ fn courtesy_adds_the_old_and_the_new_follower() {
         assert!(relief > 0.0 && harm < 0.0);
         // Slower than its lane's mean, 14 m/s, the driver is in the way.
         assert_near(courtesy.earning(&situation, chances(1.0)), relief + harm, 1e-12);
-        // As fast as its lane it is not.
+        // As fast as its lane, it is not.
         situation.here.flow.speed = 10.0;
         assert_near(courtesy.earning(&situation, chances(1.0)), harm, 1e-12);
-        // Nobody gives way whose own route is bound to its lane.
+        // A driver whose own route needs its lane gives way to nobody.
         situation.here.flow.speed = 14.0;
         assert_near(courtesy.earning(&leaving_route(situation, 50.0), chances(0.5)), harm, 1e-12);
     }
@@ -193,7 +193,7 @@ fn urgency_grows_towards_the_last_place_for_a_change() {
     {
         assert_near(urgency(1, remaining, speed), degree, 1e-6);
     }
-    // Two changes: as with half the way.
+    // Two changes: the same as half the distance.
     assert_near(urgency(2, 200.0, 20.0), 0.883721, 1e-6);
     assert_eq!(urgency(0, 0.0, 20.0), 0.0);
     assert_eq!(urgency(1, 5000.0, 20.0), 0.0);

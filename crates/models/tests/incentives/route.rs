@@ -20,7 +20,7 @@ fn the_repaired_chance_looks_at_the_lane_returned_to_and_the_literal_at_the_targ
     let of = |reading: Reading, flow: Flow| returning(reading).chance(1, 30.0, 12.0, &flow);
     assert_eq!(returning(Literal).chances(&situation), chances(of(Literal, situation.there.flow)));
     assert_eq!(returning(Repaired).chances(&situation), chances(of(Repaired, situation.here.flow)));
-    // In a wrong lane it is the target lane that the driver has to get into.
+    // In a wrong lane the driver has to get into the target lane.
     (situation.here.route, situation.there.route) = (situation.there.route, ON_ROUTE);
     let missing = returning(Repaired).chances(&situation);
     assert_eq!(missing, Chances { here: of(Repaired, situation.there.flow), there: 1.0 });
@@ -59,7 +59,7 @@ fn the_route_yields_what_the_turn_is_worth() {
         let earning = route.earning(&leaving, chances(literal_chance(20.0)));
         assert_near(earning, (60.0 - 118.964) / scale, 1e-5);
     }
-    // Half an hour further on the way the literal yield of the same minute fades, the repaired one does not.
+    // Half an hour away, the literal yield of the same minute is small; the repaired yield is the same.
     let yields = [Literal, Repaired].map(|reading| {
         let (route, mut situation) = minute_to_go(reading);
         situation.here.route.onward += 1740.0;
@@ -83,7 +83,7 @@ fn the_way_back_to_the_route_is_worth_what_leaving_it_costs() {
 #[test]
 fn who_finds_the_other_way_faster_by_more_than_its_band_does_not_come_back() {
     let (route, mut situation) = minute_to_go(Repaired);
-    // Half a minute is to be gained by the other way, whatever the chance of coming back.
+    // The other route gains half a minute, whatever the chance of coming back.
     situation.there.route.alternative = Some(0.0);
     situation.here.route.onward = 50.0;
     situation.there.route.onward = 50.0;
@@ -137,7 +137,7 @@ fn the_repaired_route_yield_is_clamped() {
 #[test]
 fn a_literal_route_yield_does_not_explode_at_the_destination() {
     let (route, mut situation) = minute_to_go(Literal);
-    // Half a second to go, two more to lose: −4 without a floor of a second under the denominator.
+    // Half a second to go, and a loss of two: −4 without a floor of a second under the denominator.
     (situation.section, situation.here.route.onward) = (5.0, 0.0);
     situation.there.route.alternative = Some(2.0);
     assert_near(route.earning(&leaving_route(situation, 1.0), chances(0.0)), -2.0, 1e-12);

@@ -1,4 +1,4 @@
-//! Situations to write down: a driver on an empty road, whose lanes a test then fills.
+//! Situations for tests: a driver on an empty road; a test then fills its lanes.
 
 use laneweave_models::change::{Behind, Driver, Flow, LaneView, RouteView, Situation, Toward};
 use laneweave_models::follow::{FollowingModel, Pace};
@@ -16,7 +16,7 @@ pub(crate) fn behind(gap: f64, driver: Driver<'_>) -> Option<Behind<'_>> {
     Some(Behind { gap, driver })
 }
 
-/// A lane that the driver's route needs not leave, 60 s to go.
+/// A lane that the driver's route need not leave, with 60 s of travel time left.
 pub(crate) const ON_ROUTE: RouteView =
     RouteView { changes: 0, remaining: f64::INFINITY, onward: 60.0, alternative: None };
 
