@@ -1,4 +1,4 @@
-//! What is suspicious about a network although it can be used: one function for each check.
+//! Checks for what is suspicious about a network although it can be used: one function for each check.
 
 use std::f64::consts::TAU;
 
@@ -10,10 +10,10 @@ use crate::problem::Problem;
 
 /// Lanelets whose ends are nearer than this were probably meant to meet [m].
 const NEARLY: f64 = 1.5;
-/// Directions that differ by less than this go on from each other [rad].
+/// Directions that differ by less than this continue each other [rad].
 const STRAIGHT_ON: f64 = 0.5;
 
-/// Lanelets of a fork or a merge that run beside each other for less of their length are meant so.
+/// Lanelets of a fork or a merge that run beside each other for a smaller share of their length are no problem.
 const SIDE_BY_SIDE: f64 = 0.6;
 
 /// All that is suspicious.
@@ -23,8 +23,8 @@ pub fn check(network: &Network) -> Vec<Problem> {
     problems
 }
 
-/// Lanelets that run side by side along borders of their own, so that nobody can change between them. Where lanes part
-/// or come together they do so for a while.
+/// Lanelets that run side by side along borders of their own, so that no vehicle can change between them. Where lanes
+/// part or come together, this is usual for a while.
 fn double_borders(network: &Network) -> impl Iterator<Item = Problem> {
     let mut previous: Vec<Vec<LaneletIndex>> = vec![Vec::new(); network.lanelets.len()];
     for (lanelet, index) in network.lanelets.iter().zip(0..) {
@@ -61,7 +61,7 @@ fn are_together(network: &Network, left: &[LaneletIndex], right: &[LaneletIndex]
     })
 }
 
-/// Lanelets that begin, or end, just where another one ends, or begins, without being joined to it, and to nothing
+/// Lanelets that begin, or end, just where another one ends, or begins, but are joined neither to it nor to anything
 /// else.
 fn broken_joints(network: &Network) -> Vec<Problem> {
     let lanelets = &network.lanelets;
@@ -122,7 +122,7 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// By how much two directions differ [rad].
+/// Difference of two directions [rad].
 fn turn(a: Pose, b: Pose) -> f64 {
     let turn = (a.heading - b.heading).rem_euclid(TAU);
     turn.min(TAU - turn)

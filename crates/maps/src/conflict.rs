@@ -1,4 +1,4 @@
-//! Which lanes get in each other's way: those that share ground, seen from above.
+//! Which lanes conflict: those that have common area, seen from above.
 
 use laneweave_network::{LaneletIndex, Polygon};
 use rayon::prelude::*;
@@ -7,25 +7,25 @@ use rstar::{AABB, RTree};
 
 use crate::problem::Problem;
 
-/// With no more others than this a lane conflicts, so that lanes drawn on one heap do not take time with the square of
-/// their number. The ramps of the largest junction do not come near.
+/// Maximum of conflicts of one lane, so that lanes drawn on top of each other do not take quadratic time. The ramps
+/// of the largest junction have far fewer.
 const MAXIMUM_CONFLICTS: usize = 256;
-/// Of no more others it is found out whether they conflict.
+/// Maximum of other lanes that are checked for a conflict with one lane.
 const MAXIMUM_CANDIDATES: usize = 8192;
 
 /// Places of lanes, by where they lie.
 type Index = RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>;
 
-/// Which lanes get in each other's way.
+/// The conflicts of lanes.
 pub(crate) struct Conflicts {
-    /// For each lane those whose ground it shares, in order.
+    /// For each lane those with which it has common area, in order.
     pub(crate) with: Vec<Vec<LaneletIndex>>,
-    /// Lanes with more others than are looked at.
+    /// Lanes with more others than are checked.
     pub(crate) crowded: Vec<LaneletIndex>,
 }
 
 impl Conflicts {
-    /// What is to be said of the lanes with more others than are looked at, given the element and line of each.
+    /// The problems of the lanes with more others than are checked, given the element and line of each.
     pub(crate) fn problems(&self, place: impl Fn(LaneletIndex) -> (i64, Option<usize>)) -> Vec<Problem> {
         let problem = |it: &LaneletIndex| {
             let (id, line) = place(*it);
@@ -41,9 +41,9 @@ impl Conflicts {
     }
 }
 
-/// The conflicts of lanes, given what each covers.
+/// The conflicts of lanes, given the area of each.
 ///
-/// Lanes that `are_joined`, beside each other or one behind the other, do not conflict. Heights do not count.
+/// Lanes that `are_joined`, beside each other or one after the other, do not conflict. Heights do not count.
 pub(crate) fn conflicts(
     outlines: &[Option<Polygon>],
     are_joined: impl Fn(usize, usize) -> bool + Sync,
@@ -53,7 +53,7 @@ pub(crate) fn conflicts(
         Some(GeomWithData::new(Rectangle::from_corners(low, high), index as u32))
     });
     let index: Index = RTree::bulk_load(boxes.collect());
-    // Each pair is looked at once, from the lane that comes first.
+    // Each pair is checked once, from the lane that comes first.
     let later: Vec<(Vec<LaneletIndex>, bool)> = (0..outlines.len())
         .into_par_iter()
         .map(|here| {

@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::rule::Rule;
 use crate::shape::{Flaw, Shape};
 
-/// What a map file holds of roads: borders that lanes share, as yet without a graph.
+/// The roads of a map file: borders that lanes share, as yet without a graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     pub(crate) points: Vec<Point>,
@@ -27,18 +27,18 @@ pub struct Drawing {
 pub(crate) struct Border {
     /// Places in [`Drawing::points`].
     pub(crate) points: Vec<u32>,
-    /// What is to be seen of it.
+    /// Its visible form.
     pub(crate) paint: Paint,
-    /// Who may cross it, seen along its points.
+    /// The directions in which it may be crossed, seen along its points.
     pub(crate) crossing: Crossing,
 }
 
-/// What is to be seen of a border.
+/// The visible form of a border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Paint {
-    /// A line, or whatever else the road has there.
+    /// A line, or another physical border.
     Painted,
-    /// Nothing: it stands in the map only.
+    /// Nothing: it is in the map only.
     Virtual,
 }
 
@@ -84,13 +84,13 @@ pub(crate) struct Lane {
     pub(crate) right: Edge,
     /// It may be used against its direction, too.
     pub(crate) is_two_way: bool,
-    /// What it runs through.
+    /// Its surroundings.
     pub(crate) surroundings: Surroundings,
     /// Speed limit [km/h].
     pub(crate) limit_kmh: f64,
 }
 
-/// What a lane runs through.
+/// The surroundings of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Surroundings {
     /// A motorway with its ramps.
@@ -105,7 +105,7 @@ pub(crate) enum Surroundings {
 pub(crate) const KMH_PER_MPS: f64 = 3.6;
 
 impl Drawing {
-    /// The map of this drawing, with a problem for each lane that was left out for its shape.
+    /// The map of this drawing, with a problem for each lane that was left out because of its shape.
     ///
     /// # Errors
     /// If no lane is left.
@@ -173,7 +173,7 @@ impl Drawing {
         (self.ends(left).1, self.ends(right).1)
     }
 
-    /// What a lane covers; `None` if it has no area.
+    /// The area of a lane; `None` if it has none.
     pub(crate) fn outline(&self, lane: &Lane) -> Option<Polygon> {
         Polygon::new(self.along(lane.left).chain(self.along(lane.right.reversed())))
     }
@@ -185,8 +185,8 @@ impl Drawing {
         if edge.reversed { (last, first) } else { (first, last) }
     }
 
-    /// Whether two lanes lie on either side of a border, or one begins or ends where the other does in some direction
-    /// of travel.
+    /// Whether two lanes lie on either side of a border, or one begins or ends where the other does, in some
+    /// direction of travel.
     fn are_joined(&self, a: &Lane, b: &Lane) -> bool {
         let is_beside = a.left == b.right || a.right == b.left;
         let is_opposite = a.left == b.left.reversed() || a.right == b.right.reversed();
@@ -201,7 +201,7 @@ impl Drawing {
             || start(a) == turned(start(b))
     }
 
-    /// Who may cross `edge`, seen in the direction of travel.
+    /// The directions in which `edge` may be crossed, seen in the direction of travel.
     pub(crate) fn crossing(&self, edge: Edge) -> Crossing {
         let crossing = self.borders[edge.border as usize].crossing;
         if edge.reversed { crossing.reversed() } else { crossing }

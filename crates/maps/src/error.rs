@@ -1,4 +1,4 @@
-//! Why a file does not make a network at all.
+//! Errors by which a file gives no network.
 
 use std::io;
 
@@ -32,7 +32,7 @@ pub enum MapError {
         /// The formats with their extensions.
         known: String,
     },
-    /// It is larger than what is to be read, unpacked if it is compressed.
+    /// It is larger than the limit; unpacked, if it is compressed.
     #[error(
         "the map is larger than the limit of {largest}; split it into smaller ones, or increase the limit"
     )]
@@ -40,15 +40,15 @@ pub enum MapError {
         /// The largest size that is read.
         largest: Size,
     },
-    /// It is called compressed but cannot be unpacked.
+    /// Its name says that it is compressed, but it cannot be unpacked.
     #[error(
         "the file cannot be unpacked ({0}); compress it again, or remove .gz from its name if it is not compressed"
     )]
     Compressed(io::Error),
-    /// It is not the XML that its format is.
+    /// It is not valid XML of its format.
     #[error(transparent)]
     Xml(#[from] XmlError),
-    /// The origin given for the projection is no place on earth that UTM covers.
+    /// The origin given for the projection is not in the area of UTM.
     #[error("the origin ({0}, {1}) is not a latitude within ±84° and a longitude within ±180°; correct it")]
     Origin(f64, f64),
     /// No lanelet is left that vehicles can use.
@@ -58,7 +58,7 @@ pub enum MapError {
         lanelets: usize,
         /// Why they were left out; those not meant for vehicles are not listed.
         problems: Vec<Problem>,
-        /// What would make them roads.
+        /// What would make them roads for vehicles.
         remedy: &'static str,
     },
     /// The lanelets do not make a network.

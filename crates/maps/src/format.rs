@@ -1,4 +1,4 @@
-//! The formats of map files, and reading a file in the one that its extension names.
+//! The formats of map files, and a reader that takes the format from the extension.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -24,11 +24,11 @@ pub struct Map {
     pub network: Network,
     /// Where vehicles may go from each lanelet.
     pub graph: Graph,
-    /// What orders traffic beside the lanelets themselves.
+    /// The rules of traffic, beside the lanelets themselves.
     pub rules: Vec<Rule>,
-    /// What else the file holds.
+    /// The other contents of the file.
     pub contents: Contents,
-    /// What could not be used as it stands, in order of lines.
+    /// Elements that could not be used unchanged, in order of lines.
     pub problems: Vec<Problem>,
     /// Latitude and longitude of the local frame's origin [°], if the map was projected.
     pub origin: Option<(f64, f64)>,
@@ -37,18 +37,18 @@ pub struct Map {
 /// How to read a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Latitude and longitude that become (0, 0) of the local frame [°]. Without it the place of the map's
-    /// first node, rounded to 0.1°. Of no effect on maps with metric coordinates of their own.
+    /// Latitude and longitude that become (0, 0) of the local frame [°]. Without it, the place of the map's first
+    /// node, rounded to 0.1°. It has no effect on maps with metric coordinates of their own.
     pub origin: Option<(f64, f64)>,
-    /// Whose speed limits hold where the map gives none.
+    /// The law whose speed limits apply where the map gives none.
     pub law: Law,
-    /// On which side traffic drives. Without it what the map says, or else the right.
+    /// On which side traffic drives. Without it, the map decides, or else the right.
     pub driving_side: Option<DrivingSide>,
     /// Largest size of its text, unpacked if it is compressed, up to [`Size::MAXIMUM`].
     pub largest: Size,
 }
 
-/// Whose traffic law holds on a map.
+/// The traffic law that applies on a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Law {
     /// That of Germany.
@@ -78,7 +78,7 @@ pub const FORMATS: &[Format] = &[
 /// Ending of the names of compressed files.
 const COMPRESSED: &str = ".gz";
 
-/// Reads the map file at `path` in the format that its extension names; `.gz` behind it means that it is compressed.
+/// Reads the map file at `path` in the format that its extension names; a final `.gz` means that it is compressed.
 ///
 /// # Errors
 /// If it cannot be read, is of no known format, breaks its format's rules, or has no lanelet for vehicles.
@@ -105,8 +105,8 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     (format.read)(&bytes, options)
 }
 
-/// The text of the compressed file at `path`. It is unpacked twice: the first time only to know its size, so that
-/// nothing is kept of one that is too large.
+/// The text of the compressed file at `path`. It is unpacked twice: the first time only to get its size, so that a
+/// file that is too large takes no memory.
 fn unpacked(path: &Path, largest: Size) -> Result<Vec<u8>, MapError> {
     let open = || File::open(path).map(MultiGzDecoder::new).map_err(MapError::Unreadable);
     let size = io::copy(&mut open()?.take(largest.0 + 1), &mut io::sink()).map_err(MapError::Compressed)?;
@@ -118,7 +118,7 @@ fn admit(size: u64, largest: Size) -> Result<(), MapError> {
     if size > largest.0 { Err(MapError::TooLarge { largest }) } else { Ok(()) }
 }
 
-/// So many bytes of what `source` holds.
+/// At most so many bytes of the content of `source`.
 fn read_all(source: impl Read, size: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(size as usize);
     source.take(size).read_to_end(&mut bytes)?;

@@ -1,5 +1,5 @@
-//! Lanelets that lie side by side although they share no border, so that the graph does not know them as
-//! neighbours: their facing borders were drawn twice, or meet only after a fork.
+//! Lanelets that lie side by side although they share no border: their facing borders were drawn twice, or meet only
+//! after a fork. The graph does not know them as neighbours.
 
 use std::collections::HashMap;
 
@@ -20,31 +20,31 @@ pub struct Alongside {
     pub on_right: [f64; 2],
 }
 
-/// Facing borders are at most this far apart [m]. Ours: drawn twice, they differ by decimetres; a kerb or a hatched
-/// area is wider.
+/// Facing borders are at most this far apart [m]. Ours: borders that were drawn twice differ by decimetres; a kerb or
+/// a hatched area is wider.
 const MAXIMUM_GAP: f64 = 0.75;
-/// Lanes side by side overlap by this at most [m]. Ours: those of a fork or a merge that overlap by more are one lane
+/// Lanes side by side overlap by at most this [m]. Ours: lanes of a fork or a merge that overlap by more are one lane
 /// there, without a line between them.
 const MAXIMUM_OVERLAP: f64 = 0.3;
-/// A shorter stretch is no place to change lanes [m]. Ours.
+/// On a shorter stretch, lanes cannot be changed [m]. Ours.
 const MINIMUM_STRETCH: f64 = 5.0;
-/// Borders of lanes side by side point in one direction up to this angle [rad]. Ours: lanes that cross, or part
-/// at a fork, do so at larger ones.
+/// Borders of lanes side by side have one direction up to this angle [rad]. Ours: lanes that cross, or part at a
+/// fork, do so at larger angles.
 const MAXIMUM_ANGLE: f64 = 0.1;
-/// Lanes on bridges are further above each other [m].
+/// Lanes on bridges are at least this far above each other [m].
 const MAXIMUM_HEIGHT: f64 = 2.0;
-/// Distance of the samples along a border [m].
+/// Distance between the samples along a border [m].
 const SAMPLE: f64 = 1.0;
-/// Borders are sampled so far [m], so that a few points far apart do not take the time of many. Real lanelets are
-/// shorter.
+/// Borders are sampled up to this length [m], so that a few points far apart do not take the time of many. Real
+/// lanelets are shorter.
 const SAMPLED: f64 = 2000.0;
 
 impl Network {
-    /// All stretches on which lanelets lie side by side in the same direction without being neighbours in the
-    /// graph, ordered by their lanelets, then along the left one.
+    /// All stretches on which lanelets lie side by side in the same direction without being neighbours in the graph,
+    /// ordered by their lanelets, then along the left one.
     ///
-    /// Pure geometry: the right border of one runs at most 0.75 m from the left border of the other, or
-    /// overlaps it by 0.3 m at most, parallel up to 6°, for at least 5 m. Of a longer border the first 2 km count.
+    /// Pure geometry: the right border of one is at most 0.75 m from the left border of the other, or overlaps it by
+    /// at most 0.3 m, parallel up to 6°, for at least 5 m. Of a longer border the first 2 km count.
     pub fn alongside(&self) -> Vec<Alongside> {
         let lanelets = &self.lanelets;
         let left_borders = Samples::of(lanelets, Side::Left);
@@ -115,10 +115,10 @@ struct Samples {
 }
 
 impl Samples {
-    /// Size of a cell [m]: what faces a sample lies in its own cell or one beside it.
+    /// Size of a cell [m]: a sample and the samples that face it lie in one cell or in neighbouring cells.
     const CELL: f64 = 2.0;
-    /// No cell holds more samples, so that lanelets on one heap do not take time with the square of their number; where
-    /// roads are drawn in earnest a handful meet.
+    /// Maximum of samples in a cell, so that lanelets drawn on top of each other do not take quadratic time. On real
+    /// roads only a few meet.
     const MOST: usize = 64;
 
     fn of(lanelets: &[Lanelet], side: Side) -> Samples {
@@ -158,7 +158,7 @@ impl Samples {
         runs.filter_map(|run| stretch(lanelets, left, run)).collect()
     }
 
-    /// Samples opposite of `sample`, which is one of a right border, on borders that run beside it in its direction.
+    /// Samples opposite of `sample`, which lies on a right border: those on borders beside it in its direction.
     fn facing<'a>(&'a self, sample: &'a Sample) -> impl Iterator<Item = &'a Sample> {
         let (column, row) = Samples::cell(&sample.at);
         let cells = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| (column + dx, row + dy)));

@@ -23,7 +23,7 @@ pub struct Network {
     pub lane_drops: Vec<ChainIndex>,
     /// On which side traffic drives.
     pub driving_side: DrivingSide,
-    /// Where chains get in each other's way, and where drivers stop; empty until [`Network::regulated`].
+    /// Conflict zones, and where drivers stop; empty until [`Network::regulated`].
     pub junctions: Junctions,
     /// For each lanelet where it starts.
     starts: Vec<Position>,
@@ -49,20 +49,20 @@ pub enum NetworkError {
 }
 
 impl Network {
-    /// A chain is cut at the next lanelet beyond a length between these [m]: long enough that what is done once for
-    /// every chain does not matter, short enough that a vehicle gets into the row of the others soon.
+    /// A chain is cut at the next lanelet beyond a length between these [m]. It is long enough that the work per
+    /// chain does not matter, and short enough that a vehicle soon comes into one array with the others.
     const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
-    /// So much of a lane before a junction is too short for a change [m]. Ours.
+    /// On this length of a lane before a junction a change is too short [m]. Ours.
     const ROOM_TO_CHANGE: f64 = 15.0;
-    /// So much of a lane is outside of junctions where vehicles come onto the map [m]: what the longest needs. Ours.
+    /// Length of a lane outside of junctions where vehicles enter the map [m]: enough for the longest vehicle. Ours.
     const ROOM_TO_ENTER: f64 = 15.0;
-    /// Within these bounds there are as many chains, so that threads share them evenly.
+    /// Number of chains within these bounds, so that threads share them evenly.
     const CHAINS: f64 = 32.0;
 
     /// Builds the network of `lanelets`.
     ///
     /// # Errors
-    /// If there are none, if one refers to a lanelet that does not exist, or has no positive speed limit.
+    /// If there are none, or if one refers to a lanelet that does not exist or has no positive speed limit.
     pub fn new(lanelets: Vec<Lanelet>, driving_side: DrivingSide) -> Result<Network, NetworkError> {
         if lanelets.is_empty() {
             return Err(NetworkError::Empty);
@@ -99,7 +99,8 @@ impl Network {
     /// The same network with its junctions, at which `regulations` hold.
     pub fn regulated(mut self, regulations: &Regulations) -> Network {
         self.junctions = Junctions::new(&self, regulations);
-        // What shares ground with others that come or leave at the edge of the map is entered in turns.
+        // Lanes that share a conflict area with others at the edge of the map get a conflict zone: vehicles enter in
+        // turns.
         let is_at_the_edge = |crossing: Crossing| {
             let Reach { chain, start, end } = *self.junctions.other_side(crossing);
             let chain = self.chain(chain);
@@ -131,7 +132,7 @@ impl Network {
         self
     }
 
-    /// Which traffic lights get in each other's way.
+    /// Which traffic lights conflict with each other.
     pub fn light_conflicts(&self) -> Vec<LightConflict> {
         self.junctions.light_conflicts(self)
     }
@@ -142,7 +143,7 @@ impl Network {
         self
     }
 
-    /// The stretches of a chain from which a change to `side` is allowed and can be over before the next junction.
+    /// The stretches of a chain on which a change to `side` is allowed and can end before the next junction.
     fn outside_of_junctions(&self, index: ChainIndex, side: Side) -> Vec<Beside> {
         let mut left = Vec::new();
         for stretch in self.chain(index).stretches(side) {
@@ -153,8 +154,8 @@ impl Network {
         left
     }
 
-    /// Where on a chain nobody changes lanes [m]: before and within junctions, those right before its start, too, and
-    /// while it is still one with others that fork off.
+    /// Stretches of a chain without lane changes [m]: before and within junctions, including those right before its
+    /// start, and while it is still one lane with others that fork off.
     fn taken_on(&self, index: ChainIndex) -> Vec<[f64; 2]> {
         let chain = self.chain(index);
         let before = chain.previous.iter().flat_map(|it| {
@@ -172,8 +173,8 @@ impl Network {
         &self.chains[index.at()]
     }
 
-    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough to change from the one to
-    /// the other with a car, or with a long vehicle [m]; the first beyond the last if nowhere.
+    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough for a change with a car,
+    /// or with a long vehicle [m]; the first is beyond the last if there is none.
     pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
         let there = self.chain(stretch.chain);
         if !(chain.is_narrow || there.is_narrow) {
@@ -196,7 +197,7 @@ impl Network {
         (&self.lanelets[index.at()], along)
     }
 
-    /// The same network with its chains stored the other way round: nothing that drives may notice.
+    /// The same network with its chains stored in reverse order: the result of a simulation must not change.
     pub fn with_chains_reversed(mut self) -> Network {
         let last = self.chains.len() as u32 - 1;
         let turn = |index: &mut ChainIndex| index.0 = last - index.0;
@@ -223,7 +224,7 @@ fn previous(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     previous
 }
 
-/// Maximal fork-free runs, cut where they are long enough.
+/// Maximal fork-free runs, cut to the lengths above.
 fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<LaneletIndex>> {
     let only_following = |it: LaneletIndex| match lanelets[it.at()].following[..] {
         [next] if previous[next.at()].len() == 1 => Some(next),
@@ -237,7 +238,7 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
     let enough = (total / Network::CHAINS).clamp(shortest, longest);
     let mut taken = vec![false; lanelets.len()];
     let mut runs = Vec::new();
-    // Runs with a first lanelet, then what is left: rings, which begin anywhere.
+    // Runs with a first lanelet, then what is left: closed loops, which begin anywhere.
     for first in all().filter(|it| !continues_another(*it)).chain(all()) {
         let mut next = (!taken[first.at()]).then_some(first);
         while next.is_some() {
@@ -326,7 +327,7 @@ fn stretches(
 fn clearance(chain: &Chain, sibling: &Chain) -> f64 {
     const APART: f64 = 2.7;
     const STEP: f64 = 2.0;
-    /// Chains that have not parted by then were drawn twice; ours, so that they do not take time with their length.
+    /// Chains that have not parted by then were drawn twice. The limit bounds the computing time; ours.
     const LONGEST_FORK: f64 = 500.0;
     let end = chain.length.min(LONGEST_FORK);
     let mut station = 0.0;

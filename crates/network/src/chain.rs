@@ -35,19 +35,20 @@ impl Position {
 
 /// A run of lanelets without a fork or a merge. Stations run along its centre line from its start [m].
 ///
-/// What drivers look at in every step comes first in memory, on one cache line: towns have thousands of chains.
+/// Fields that drivers read in every step come first in memory, on one cache line: towns have thousands of chains.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct Chain {
     /// Length [m].
     pub length: f64,
-    /// How far from its start its vehicles still touch those on chains that fork off with it [m], 500 m at most.
+    /// Distance from its start up to which its vehicles still touch those on chains that fork off with it [m], at
+    /// most 500 m.
     pub fork_clearance: f64,
     /// Chains that continue this one.
     pub following: Vec<ChainIndex>,
-    /// It ends beside a continuing chain: who is on it has to change lanes.
+    /// It ends beside a continuing chain: a vehicle on it has to change lanes.
     pub is_lane_drop: bool,
-    /// Somewhere it is too narrow for some vehicles, so that for them it begins later or ends earlier than drawn.
+    /// Somewhere it is too narrow for some vehicles: for them it begins later or ends earlier than drawn.
     pub is_narrow: bool,
     /// Chains that this one continues.
     pub previous: Vec<ChainIndex>,
@@ -65,7 +66,7 @@ pub struct Chain {
     pub centre: Polyline,
     /// Where it is wide enough to drive on, for cars and for long vehicles: first and last station of a front [m].
     pub open: [[f64; 2]; 2],
-    /// Somewhere on the way through it, it is narrower than a long vehicle.
+    /// On the path through it, it is narrower somewhere than a long vehicle.
     pub is_tight_for_long: bool,
 }
 
@@ -94,7 +95,7 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// Stretches of a side that are no further apart are one for who changes lanes [m]. Ours.
+    /// Stretches of a side that are no further apart count as one for a lane change [m]. Ours.
     pub const JOINED: f64 = 1.0;
 
     /// The station there that lies beside `station` here [m].
@@ -103,10 +104,10 @@ impl Beside {
         self.other_start + (station - self.start) * self.scale
     }
 
-    /// What is left of the stretch outside of those `taken` [m], in order; pieces too short for a change are left out.
+    /// The parts of the stretch outside of those `taken` [m], in order, without pieces too short for a change.
     pub(crate) fn without(&self, mut taken: Vec<[f64; 2]>) -> Vec<Beside> {
-        /// Shortest piece [m], and way to its end from the place that was taken before: who comes from there has to get
-        /// its rear out of it first. Ours.
+        /// Shortest piece [m], and distance to its end from the preceding taken place: a vehicle that comes from
+        /// there first has to get its rear out of it. Ours.
         const SHORTEST: f64 = 1.0;
         const SHORTEST_AFTER: f64 = 25.0;
         taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -128,10 +129,10 @@ impl Beside {
 }
 
 impl Chain {
-    /// Wide enough for all, all along.
+    /// Wide enough for all vehicles over its whole length.
     pub(crate) const WIDE: [[f64; 2]; 2] = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
 
-    /// Stretches of lanelets are joined to one as long as that moves no station by more than this [m].
+    /// Stretches of lanelets are joined to one as long as no station moves by more than this [m].
     const STRETCH_ERROR: f64 = 0.02;
 
     /// Stretches from which a change to `side` is allowed.
@@ -151,8 +152,8 @@ impl Chain {
         stretches[..after].last().filter(|it| station <= it.end)
     }
 
-    /// Where the last stretch begins from which a change is allowed, to either side; stretches that go on in each other
-    /// are one [m].
+    /// Start of the last stretch on which a change is allowed, to either side; stretches that continue each other are
+    /// one [m].
     pub fn last_window(&self) -> Option<f64> {
         let begin = |side: Side| {
             let mut begin: Option<f64> = None;
@@ -180,7 +181,7 @@ impl Chain {
         !self.is_narrow || self.is_open(station, is_long)
     }
 
-    /// Last station at which a car, or a long vehicle, keeps to it [m]: its end, or where it gets too narrow.
+    /// Last station that a car, or a long vehicle, can use [m]: its end, or where it gets too narrow.
     #[inline]
     pub fn driven_until(&self, is_long: bool) -> f64 {
         self.open[usize::from(is_long)][1].min(self.length)
@@ -199,7 +200,7 @@ impl Chain {
         (self.lanelets[after - 1], station - self.starts[after - 1])
     }
 
-    /// Joins `lanelets` to a chain; its surroundings are filled in when all chains are known.
+    /// Joins `lanelets` to a chain; its links are filled in when all chains are known.
     pub(crate) fn of(all: &[Lanelet], lanelets: Vec<LaneletIndex>) -> Chain {
         let mut centre = all[lanelets[0].at()].centre.clone();
         let mut starts = vec![0.0];
@@ -238,7 +239,7 @@ impl Chain {
     }
 }
 
-/// Adds `next` to `stretches`, joined to the last one where it goes on in the same way.
+/// Adds `next` to `stretches`; it is joined to the last one where it continues it.
 pub(crate) fn join(stretches: &mut Vec<Beside>, next: Beside) {
     if let Some(last) = stretches.last_mut() {
         let continues = last.chain == next.chain
@@ -270,7 +271,7 @@ mod tests {
         };
         assert_eq!(pieces(&[]), [[0.0, 100.0]]);
         assert_eq!(pieces(&[[30.0, 60.0]]), [[0.0, 30.0], [60.0, 100.0]]);
-        // The way from one to the next is too short, though one is on the chain before.
+        // The path from one to the next is too short, although one is on the chain before.
         assert_eq!(pieces(&[[-20.0, -5.0], [10.0, 30.0], [50.0, 60.0]]), [[60.0, 100.0]]);
         assert_eq!(pieces(&[[-20.0, -5.0], [20.0, 60.0]]), [[0.0, 20.0], [60.0, 100.0]]);
         assert_eq!(stretch.without(vec![[0.0, 60.0]])[0].other_start, 70.0);

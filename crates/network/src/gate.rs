@@ -15,9 +15,9 @@ pub struct Gate {
     pub chains: Vec<ChainIndex>,
 }
 
-/// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long. A
-/// lanelet whose group holds one that is not open is a lane that begins, or ends, beside a continuing one; one alone,
-/// from which no other can be reached, is no gate where there are others.
+/// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long. If a
+/// lanelet's group has one that is not open, it is a lane that begins, or ends, beside a continuing one. A single
+/// lanelet without a link to any other is no gate where there are others.
 pub(crate) fn gates(
     lanelets: &[Lanelet],
     chain_of: &[ChainIndex],
@@ -72,7 +72,7 @@ fn neighbours(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     beside
 }
 
-/// Chains that have no following one and are no exit: lane drops. A lanelet alone is none.
+/// Chains without a following one that are no exit: lane drops. A single lanelet is none.
 pub(crate) fn lane_drops(chains: &[Chain], exits: &[Gate]) -> Vec<ChainIndex> {
     let mut leaves = vec![false; chains.len()];
     exits.iter().flat_map(|gate| &gate.chains).for_each(|index| leaves[index.at()] = true);

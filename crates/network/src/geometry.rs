@@ -25,7 +25,7 @@ impl Point {
         (dx * dx + dy * dy).sqrt()
     }
 
-    /// The point halfway to `other`; the same seen from there, bit for bit.
+    /// The point halfway to `other`; the result is the same from either point, bit for bit.
     pub fn midpoint(&self, other: &Point) -> Point {
         Point { x: 0.5 * (self.x + other.x), y: 0.5 * (self.y + other.y), z: 0.5 * (self.z + other.z) }
     }
@@ -111,7 +111,7 @@ impl Polyline {
         self.stations.last().copied().unwrap_or(0.0)
     }
 
-    /// The same line run the other way.
+    /// The same line in the opposite direction.
     pub fn reversed(&self) -> Polyline {
         let length = self.length();
         Polyline {
@@ -120,7 +120,7 @@ impl Polyline {
         }
     }
 
-    /// The segment that holds `station`, and how far along it; the outer ones go on beyond the ends.
+    /// The segment that contains `station`, and the distance along it; the outer segments are prolonged.
     fn segment(&self, station: f64) -> (usize, f64) {
         let after = self.stations.partition_point(|s| *s <= station).clamp(1, self.stations.len() - 1);
         let (from, to) = (self.stations[after - 1], self.stations[after]);

@@ -125,7 +125,7 @@ impl Lanelet {
         }
     }
 
-    /// Room for a vehicle on the centre line at `station` [m]: from there to the nearest points of the two borders.
+    /// Width for a vehicle on the centre line at `station` [m]: from there to the nearest points of the two borders.
     pub fn clear_width(&self, station: f64) -> f64 {
         let at = self.centre.at(station);
         self.left_border.distance_to(&at) + self.right_border.distance_to(&at)

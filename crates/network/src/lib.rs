@@ -1,7 +1,7 @@
-//! Roads as a driver sees them. Knows no files and no vehicles.
+//! Roads as a driver sees them. This crate knows no files and no vehicles.
 //!
-//! A map's lanelets become [`Chain`]s, the lanes of the simulation: maximal fork-free runs of lanelets.
-//! Lanelet ids appear in input and output only.
+//! A map's lanelets become [`Chain`]s, the lanes of the simulation: maximal fork-free runs of lanelets. Lanelet ids
+//! appear in input and output only.
 
 mod alongside;
 mod build;

@@ -1,4 +1,4 @@
-//! Simple polygons, and whether two of them cover common ground. Which side of a line a point lies on is decided
+//! Simple polygons, and whether two of them have common area. On which side of a line a point lies is computed
 //! exactly (Shewchuk 1997, Adaptive precision floating-point arithmetic and fast robust geometric predicates), so the
 //! answers do not depend on how close a touch is.
 
@@ -57,7 +57,7 @@ impl Polygon {
         &self.points
     }
 
-    /// Whether there is ground that both cover. Polygons that only touch have none in common.
+    /// Whether there is area that both cover. Polygons that only touch have none in common.
     pub fn overlaps(&self, other: &Polygon) -> bool {
         let low = [self.low[0].max(other.low[0]), self.low[1].max(other.low[1])];
         let high = [self.high[0].min(other.high[0]), self.high[1].min(other.high[1])];
@@ -68,7 +68,8 @@ impl Polygon {
             (0..polygon.points.len()).filter(|it| polygon.edge(*it).reaches(low, high)).collect()
         };
         let (mine, mut theirs) = (near(self), near(other));
-        // From west to east, so that each edge is held against those only that are not further west than any is long.
+        // From west to east, so that each edge is compared only with edges that are not further west than the longest
+        // edge.
         theirs.sort_by(|a, b| other.edge(*a).low()[0].total_cmp(&other.edge(*b).low()[0]));
         let longest = theirs.iter().map(|it| other.edge(*it)).map(|it| it.high()[0] - it.low()[0]);
         // Rounding must not hide a touch.
@@ -87,7 +88,7 @@ impl Polygon {
         self.reaches_into(other) || other.reaches_into(self)
     }
 
-    /// Whether the edges `i` here and `j` there show that both cover common ground.
+    /// Whether the edges `i` here and `j` there show that both cover common area.
     fn meets_at(&self, i: usize, other: &Polygon, j: usize) -> bool {
         let (here, there) = (self.edge(i), other.edge(j));
         let sides = [here.side(there.from), here.side(there.to), there.side(here.from), there.side(here.to)];
@@ -209,7 +210,7 @@ impl Sector {
     }
 }
 
-/// Whether two points with these sides lie on either side.
+/// Whether two points with these sides lie on different sides.
 fn is_opposite(a: f64, b: f64) -> bool {
     (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
 }
@@ -222,7 +223,7 @@ fn is_same_direction(at: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
     turn(at, a, b) == 0.0 && same_half(0) && same_half(1)
 }
 
-/// Positive if the way from `a` over `b` to `c` turns left, negative to the right, zero if it is straight; exactly.
+/// Positive if the path from `a` over `b` to `c` turns left, negative to the right, zero if it is straight; exactly.
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let [a, b, c] = [a, b, c].map(|[x, y]| Coord { x, y });
     orient2d(a, b, c)
@@ -255,7 +256,7 @@ mod tests {
 
     fn overlap(a: &Polygon, b: &Polygon) -> bool {
         assert_eq!(a.overlaps(b), b.overlaps(a));
-        // Seen in a mirror, and moved by powers of two, nothing changes.
+        // A mirror image, and a shift by powers of two, change nothing.
         let moved = |it: &Polygon| {
             Polygon::new(it.points.iter().map(|p| Point::new(4.0 - 2.0 * p[0], 2.0 * p[1], 0.0))).unwrap()
         };

@@ -1,4 +1,4 @@
-//! Sections: lanelets side by side as one piece of road, and which way the roads lead that go on from it.
+//! Sections: lanelets side by side as one piece of road, and the roads that continue from it.
 
 use std::collections::BTreeMap;
 
@@ -22,16 +22,16 @@ pub struct Section {
     pub following: Vec<Branch>,
 }
 
-/// A way on from a section.
+/// A continuation of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Branch {
     /// The section that it leads to.
     pub section: usize,
-    /// Over how many lanes.
+    /// Number of lanes.
     pub lanes: usize,
     /// Its first lanelet, of those in the order of the map.
     pub lanelet: LaneletIndex,
-    /// By how much its direction has changed at the end of the junction, counter-clockwise [rad].
+    /// Change of its direction at the end of the junction, counter-clockwise [rad].
     pub angle: f64,
 }
 
@@ -101,15 +101,15 @@ fn numbers(lanelets: &[Lanelet]) -> Vec<usize> {
     numbers
 }
 
-/// How many lanelets lead into each.
+/// How many lanelets lead into each lanelet.
 fn ways_in(lanelets: &[Lanelet]) -> Vec<usize> {
     let mut ways_in = vec![0; lanelets.len()];
     lanelets.iter().flat_map(|it| &it.following).for_each(|it| ways_in[it.at()] += 1);
     ways_in
 }
 
-/// By how much the direction changes from the end of `from` along `to` and what alone continues it, until it meets
-/// others or for 30 m, ours [rad].
+/// Change of the direction from the end of `from` along `to` and its single continuation, until this meets others or
+/// for 30 m, ours [rad].
 fn angle(lanelets: &[Lanelet], ways_in: &[usize], from: LaneletIndex, to: LaneletIndex) -> f64 {
     const JUNCTION: f64 = 30.0;
     let before = &lanelets[from.at()].centre;

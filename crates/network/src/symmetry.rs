@@ -1,16 +1,16 @@
 //! Whether a lane leads everywhere that the lane beside it leads.
 //!
-//! The paper's text calls lanes symmetric that have the same next section; its figure's caption, which alone makes a
+//! The paper's text calls lanes symmetric that have the same next section. The caption of its figure, the only
 //! definition, calls the change from i to j symmetric if succ(i) ⊆ succ(j), succ the next sections of a lane.
 
-/// What a change from one lane to another means for a driver whose route is not known.
+/// What a change between two lanes means for a driver whose route is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symmetry {
     /// The other lane leads everywhere that the own one leads.
     Symmetric,
-    /// Some way that the own lane leads is lost.
+    /// The change loses a continuation of the own lane.
     Asymmetric,
-    /// One of them ends at the edge of the map: nobody knows where it leads.
+    /// One of them ends at the edge of the map: it is not known where it leads.
     Unknown,
 }
 

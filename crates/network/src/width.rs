@@ -1,5 +1,5 @@
-//! Where lanes are wide enough: a lane that opens, or narrows to nothing, begins and ends for a vehicle where it is as
-//! wide as that.
+//! Where lanes are wide enough. A lane that opens, or narrows to nothing, begins and ends for a vehicle where it is
+//! as wide as the vehicle.
 
 use crate::chain::{Chain, ChainIndex};
 use crate::gate::Gate;
@@ -9,15 +9,15 @@ use crate::lanelet::Lanelet;
 const BODIES: [f64; 2] = [1.8, 2.55];
 /// Widths are compared at stations this far apart [m].
 const STEP: f64 = 0.5;
-/// Whoever can come to a lane that ends can leave it: on this much road at least from where lanes may be changed, in
-/// which it gets no narrower than lanes are drawn [m]. Ours.
+/// Every vehicle that can reach a lane that ends can leave it. This is the minimum length of road with lane changes,
+/// on which the lane gets no narrower than lanes are drawn [m]. Ours.
 const LEAST_WINDOW: f64 = 5.0;
-/// What is nowhere wider than this has been drawn without a width [m].
+/// A lane that is nowhere wider than this was drawn without a width [m].
 const NO_WIDTH: f64 = 0.01;
 
-/// Notes for each chain where it is wide enough. A lane that begins or ends beside others, or on which no car fits and
-/// which leads nowhere, begins and ends where its width asks; any other leads through for all, but is tight for long
-/// vehicles where it is narrower than they are.
+/// Computes for each chain where it is wide enough. A lane that begins or ends beside others, or that is too narrow
+/// for cars and leads nowhere, begins and ends according to its width. Any other lane is open to all, but counts as
+/// narrow for long vehicles where it is narrower than they are.
 pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, exits]: [&[Gate]; 2]) {
     let [is_entrance, is_exit] = [entrances, exits].map(|gates| {
         let mut is_gate = vec![false; chains.len()];
@@ -44,8 +44,8 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
     }
 }
 
-/// First and last station at which a lane of these `widths` is as wide as a body, where it begins or ends for the sake
-/// of that [m]. It does not end before `left_by`, however narrow it is.
+/// First and last station at which a lane of these `widths` is as wide as a body, where it therefore begins or ends
+/// [m]. It does not end before `left_by`, however narrow it is.
 fn open(widths: &[(f64, f64)], body: f64, [opens, closes]: [bool; 2], left_by: f64) -> [f64; 2] {
     const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
     let mut wide = widths.iter().filter(|it| it.1 >= body).map(|it| it.0);
@@ -59,9 +59,9 @@ fn open(widths: &[(f64, f64)], body: f64, [opens, closes]: [bool; 2], left_by: f
     ]
 }
 
-/// Whether a look now and then shows that a chain is by far wide enough for all.
+/// Whether a few samples show that a chain is clearly wide enough for all.
 fn is_wide(chain: &Chain, lanelets: &[Lanelet]) -> bool {
-    /// Looks are this far apart [m], and show at least this width [m].
+    /// Distance between these samples [m], and the width that they must show [m].
     const APART: f64 = 10.0;
     const BY_FAR: f64 = BODIES[1] + 0.25;
     chain.lanelets.iter().all(|index| {

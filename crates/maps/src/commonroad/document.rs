@@ -10,12 +10,12 @@ use crate::problem::Problem;
 use crate::shape::MAXIMUM_COORDINATE;
 use crate::xml::{Element, Visitor, XmlError, number, walk};
 
-/// What a CommonRoad file says of roads.
+/// The roads of a CommonRoad file.
 #[derive(Debug, Default)]
 pub(super) struct Document {
     pub(super) lanelets: Vec<LaneletElement>,
     pub(super) signs: Vec<Sign>,
-    /// What the scenario is about, such as `urban`.
+    /// The kind of road that the scenario names, such as `urban`.
     pub(super) tags: Vec<String>,
 }
 
@@ -33,10 +33,10 @@ pub(super) struct LaneletElement {
     pub(super) adjacent_right: Option<Adjacent>,
     /// Its types, such as `urban`.
     pub(super) types: Vec<String>,
-    /// Who may use it in its direction, and who in both; often nobody is named.
+    /// Who may use it in its direction, and who in both; often the file names nobody.
     pub(super) users: Vec<String>,
     pub(super) users_both_ways: Vec<String>,
-    /// The element `speedLimit` of version 2018b [m/s]; not a number where it is unreadable.
+    /// The element `speedLimit` of version 2018b [m/s]; NaN where it is unreadable.
     pub(super) speed_limit: Option<f64>,
     /// Ids of traffic signs.
     pub(super) signs: Vec<i64>,
@@ -65,9 +65,9 @@ impl LaneletElement {
 /// A bound of a lanelet, in its direction of travel.
 #[derive(Debug, Default)]
 pub(super) struct Bound {
-    /// Its points, with coordinates that are not a number where they are missing or unreadable.
+    /// Its points; coordinates that are missing or unreadable are NaN.
     pub(super) points: Vec<Point>,
-    /// Who may cross what is painted; `None` if that is not known.
+    /// The directions in which its marking may be crossed; `None` if that is not known.
     pub(super) crossing: Option<Crossing>,
 }
 
@@ -84,14 +84,14 @@ pub(super) struct Adjacent {
 pub(super) struct Sign {
     pub(super) id: i64,
     pub(super) line: usize,
-    /// What it shows: numbers of the national catalogue, and the first value that goes with each.
+    /// What it shows: numbers of the national catalogue, each with its first value.
     pub(super) shown: Vec<(String, Option<f64>)>,
 }
 
 /// The versions whose elements are known.
 const VERSIONS: [&str; 2] = ["2018b", "2020a"];
 
-/// Reads a CommonRoad file. Elements without a usable id become problems, unknown ones are passed over.
+/// Reads a CommonRoad file. Elements without a usable id become problems; unknown ones are ignored.
 pub(super) fn parse(bytes: &[u8], problems: &mut Vec<Problem>) -> Result<Document, XmlError> {
     let mut drafts = Drafts { document: Document::default(), building: Building::Nothing, problems };
     walk(bytes, "commonRoad", &mut drafts)?;
@@ -171,7 +171,7 @@ impl Drafts<'_> {
                 remedy: format!("convert the file to {}", VERSIONS.join(" or ")),
             });
         }
-        // Version 2018b has them here, 2020a as elements.
+        // Version 2018b has them here, version 2020a as elements.
         self.document.tags.extend(tags.iter().flat_map(|it| it.split_whitespace()).map(String::from));
         Ok(())
     }
@@ -234,7 +234,7 @@ impl LaneletElement {
         None
     }
 
-    /// Takes in the text of an element inside.
+    /// Reads the text of an element inside.
     fn close(&mut self, part: &str, text: &str) -> Option<Problem> {
         let (bound, part) = match part.split_once('/') {
             Some(("leftBound", part)) => (&mut self.left, part),
@@ -284,7 +284,7 @@ impl LaneletElement {
 }
 
 impl Sign {
-    /// Takes in the text of an element inside.
+    /// Reads the text of an element inside.
     fn close(&mut self, part: &str, text: &str) {
         let Some((number_shown, value)) = self.shown.last_mut() else { return };
         match part {

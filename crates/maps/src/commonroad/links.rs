@@ -1,4 +1,4 @@
-//! Which lanelets follow each other, and which lie side by side: what a file says of it, checked.
+//! Which lanelets follow each other, and which lie side by side: the links of the file, checked.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,21 +8,20 @@ use super::document::LaneletElement;
 use crate::drawing::Crossing;
 use crate::problem::Problem;
 
-/// Lanelets whose common ends or bounds lie further apart do not touch [m]: more than the width of lanes,
-/// since neighbours may part at a fork of the road.
+/// Lanelets whose common ends or bounds lie further apart do not touch [m]: more than the width of lanes, because
+/// neighbours may part at a fork of the road.
 const MAXIMUM_GAP: f64 = 20.0;
 
-/// No more lanelets than this follow one, or are followed by it: what is built from links grows with the
-/// square.
+/// Maximum of lanelets that follow one, or that it follows: what is built from links grows quadratically.
 const MAXIMUM_SHARING: usize = 32;
 
-/// Where each id of a file stands in the network: nowhere if its lanelet was left out.
+/// The index in the network of each id of the file; none if its lanelet was left out.
 pub(super) type Places = HashMap<i64, Option<LaneletIndex>>;
 
-/// Fills in what lies around `lanelets`, which are those of `elements` in the same order.
+/// Fills in the links of `lanelets`, which belong to `elements` in the same order.
 ///
-/// Successors follow if they lie where the lanelet ends. Neighbours are those that name each other, if they
-/// lie side by side; whether a change is allowed between them is told by what is painted ([`may_cross`]).
+/// Successors follow if they lie where the lanelet ends. Lanelets are neighbours if they name each other and lie side
+/// by side; the marking decides whether a change is allowed between them ([`may_cross`]).
 pub(super) fn connect(
     elements: &[&LaneletElement],
     places: &Places,
@@ -54,7 +53,7 @@ pub(super) fn connect(
     }
 }
 
-/// Links as both of their ends name them, each from the lanelet behind to the one ahead.
+/// Links that both of their ends name, each from the lanelet behind to the one ahead.
 struct Links {
     by_successor: HashSet<(LaneletIndex, LaneletIndex)>,
     by_predecessor: HashSet<(LaneletIndex, LaneletIndex)>,
@@ -71,7 +70,7 @@ impl Links {
         links
     }
 
-    /// What is wrong if `element` and those that it names do not agree.
+    /// The problem if `element` and the lanelets that it names do not agree.
     fn one_sided(&self, element: &LaneletElement, here: LaneletIndex, places: &Places) -> Vec<Problem> {
         let ahead = element
             .successors
@@ -101,7 +100,7 @@ fn present(ids: &[i64], places: &Places) -> impl Iterator<Item = LaneletIndex> {
     ids.iter().filter_map(|id| place(*id, places))
 }
 
-/// The first of some ids, and how many more there are.
+/// The first of some ids, and the number of the others.
 fn listed<'a>(kind: &str, mut ids: impl Iterator<Item = &'a i64>) -> Option<String> {
     let first = ids.next()?;
     Some(match ids.count() {
@@ -110,7 +109,7 @@ fn listed<'a>(kind: &str, mut ids: impl Iterator<Item = &'a i64>) -> Option<Stri
     })
 }
 
-/// What is wrong if lanelets that `element` names are not in the file.
+/// The problem if lanelets that `element` names are not in the file.
 fn missing(element: &LaneletElement, places: &Places) -> Option<Problem> {
     let beside = Side::BOTH.into_iter().filter_map(|side| element.adjacent(side)).map(|it| it.id);
     let named: Vec<i64> =
@@ -120,7 +119,7 @@ fn missing(element: &LaneletElement, places: &Places) -> Option<Problem> {
     Some(element.problem(what, "add the lanelet, or remove the reference"))
 }
 
-/// The successors of `element` that lie where it ends; `previous` counts those that lead to each lanelet.
+/// The successors of `element` that lie where it ends; `previous` counts the lanelets that lead to each.
 fn following(
     element: &LaneletElement,
     here: LaneletIndex,
@@ -182,7 +181,7 @@ fn beside(
 ) -> Option<LaneletIndex> {
     let adjacent = element.adjacent(side)?;
     let there = place(adjacent.id, places)?;
-    // The left of an oncoming lanelet is on our left, too.
+    // For an oncoming lanelet, its left is also on our left.
     let back_side = if adjacent.same_direction { side.opposite() } else { side };
     let back = elements[there.at()].adjacent(back_side);
     let agrees = back.is_some_and(|it| it.id == element.id && it.same_direction == adjacent.same_direction);

@@ -1,19 +1,19 @@
 //! CommonRoad maps: XML with lanelets that name those around them, in the versions 2018b and 2020a.
 //!
-//! Lanelets have bounds of their own and coordinates in metres. What the format leaves open is read so:
+//! Lanelets have bounds of their own and coordinates in metres. Where the format leaves something open, these rules
+//! apply:
 //!
-//! * A lanelet is for cars if its users say so, and without any if all of its types are roads; others
-//!   (shoulders, bus lanes, bicycle lanes, sidewalks, crosswalks …) are left out.
-//! * A line that is dashed, or not painted, may be crossed, a solid one or a kerb not. The lanelet's own
-//!   bound counts; where nothing is known of it, the neighbour's; where neither says anything, the line may
-//!   be crossed.
-//! * Where neither the lanelet nor a sign gives a speed limit, that of the law holds, in Germany 50 km/h in towns and
-//!   where nothing is known, 130 km/h on motorways, 100 km/h on other roads. The lanelet's type tells which,
-//!   and where it has none, or `urban` alone, the tags of the scenario.
-//! * Traffic drives on the right unless the options say otherwise: the format does not say it.
+//! * A lanelet is for cars if its users say so, or, without users, if all of its types are roads; others (shoulders,
+//!   bus lanes, bicycle lanes, sidewalks, crosswalks …) are left out.
+//! * A dashed or unpainted line may be crossed, a solid one or a kerb not. The lanelet's own bound counts; if nothing
+//!   is known of it, the neighbour's; if nothing is known of either, the line may be crossed.
+//! * Where neither the lanelet nor a sign gives a speed limit, the legal one applies: in Germany 50 km/h in towns and
+//!   where nothing is known, 130 km/h on motorways, 100 km/h on other roads. The lanelet's type decides; if it has
+//!   none, or `urban` alone, the tags of the scenario decide.
+//! * Traffic drives on the right unless the options say otherwise: the format has no such field.
 //!
-//! Traffic lights, stop lines, intersections and signs other than speed limits are passed over. Lanelets that
-//! overlap without a link stay without one.
+//! Traffic lights, stop lines, intersections and signs other than speed limits are ignored. Lanelets that overlap
+//! without a link stay without one.
 
 mod document;
 mod links;
@@ -62,7 +62,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     Ok(Map { network, graph, rules: Vec::new(), contents, problems, origin: None })
 }
 
-/// The lanelets that cars may use and that have a shape, with nothing around them yet; where all ids stand.
+/// The lanelets that cars may use and that have a shape, without links; and the indices of all ids.
 fn shaped<'a>(
     document: &'a Document,
     law: Law,

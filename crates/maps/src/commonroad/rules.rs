@@ -19,7 +19,7 @@ const ROADS: [&str; 10] = [
     "unknown",
 ];
 
-/// Types of lanelets that are not for them.
+/// Types of lanelets that are not for cars.
 const OTHERS: [&str; 10] = [
     "shoulder",
     "busLane",
@@ -33,7 +33,7 @@ const OTHERS: [&str; 10] = [
     "restricted_area",
 ];
 
-/// Users among whom cars are.
+/// Users that include cars.
 const CAR_USERS: [&str; 2] = ["vehicle", "car"];
 
 /// Whether the format has this type of lanelets.
@@ -43,8 +43,7 @@ pub(super) fn is_type(text: &str) -> bool {
 
 /// Whether cars may use a lanelet.
 ///
-/// Its users name everybody who may; without any of them all of its types must be roads. One without types is
-/// a road.
+/// Its users name everyone who may; without users, all of its types must be roads. A lanelet without types is a road.
 pub(super) fn is_for_cars(lanelet: &LaneletElement) -> bool {
     if lanelet.users.is_empty() && lanelet.users_both_ways.is_empty() {
         return lanelet.types.iter().all(|it| ROADS.contains(&it.as_str()));
@@ -57,8 +56,8 @@ pub(super) fn is_two_way(lanelet: &LaneletElement) -> bool {
     lanelet.users_both_ways.iter().any(|it| CAR_USERS.contains(&it.as_str()))
 }
 
-/// Who may cross a line, seen along the bound's points; nothing is known of an `unknown` one, and an error
-/// says that the format has no such marking.
+/// The directions in which a line may be crossed, seen along the bound's points. For an `unknown` line nothing is
+/// known; an error says that the format has no such marking.
 ///
 /// The first word of `dashed_solid` is the left half of the line: it may be crossed from the left.
 pub(super) fn crossing(marking: &str) -> Result<Option<Crossing>, ()> {

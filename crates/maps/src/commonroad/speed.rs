@@ -12,10 +12,10 @@ use crate::problem::Problem;
 /// and Croatia.
 const SPEED_SIGNS: [&str; 10] =
     ["274", "274.1", "R2-1", "r301", "3.24", "R15", "C43", "B14", "\u{3a1}-32", "B31"];
-/// Limits above are slips of the pen [km/h].
+/// Limits above this are taken as errors [km/h].
 const MAXIMUM: f64 = 500.0;
 
-/// The limits that the signs of a map show [m/s], by their ids. Of several on one sign the lowest counts.
+/// The limits that the signs of a map show [m/s], by their ids. The lowest of several on one sign counts.
 pub(super) struct SpeedSigns(HashMap<i64, Option<f64>>);
 
 impl SpeedSigns {
@@ -54,10 +54,10 @@ fn is_limit(speed: f64) -> bool {
 
 /// The limit of a lanelet [m/s].
 ///
-/// Its own element `speedLimit` comes first, then the lowest limit on its signs, then what the law says for its types,
-/// which goes into `of_law` [km/h]. For a lanelet without types, or with nothing but `urban`, the one `of_scenario`
-/// counts, that for the scenario's tags [km/h]: version 2020a demands a type, and files made from older ones say
-/// `urban` even on a motorway.
+/// Its own element `speedLimit` comes first, then the lowest limit on its signs, then the legal limit for its types,
+/// which is added to `of_law` [km/h]. For a lanelet without types, or with only `urban`, `of_scenario` counts, the
+/// limit for the scenario's tags [km/h]: version 2020a requires a type, and files made from older ones say `urban`
+/// even on a motorway.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
@@ -92,8 +92,8 @@ pub(super) fn limit(
     })
 }
 
-/// The limit where none is given [km/h]: that of the law for a road in town, a motorway, or another road out of town;
-/// where nothing is known, that in town.
+/// The limit where none is given [km/h]: the legal one for a road in town, a motorway, or another road out of town;
+/// where nothing is known, the limit in town.
 pub(super) fn default(law: Law, kinds: &[String]) -> f64 {
     let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
     if any(&["urban"]) {
@@ -159,7 +159,7 @@ mod tests {
         ] {
             assert_eq!((of(types, &["highway"]), of(types, &["urban"])), (kmh, kmh), "{types:?}");
         }
-        // Where the type says little the scenario's tags tell.
+        // Where the type says little, the scenario's tags decide.
         for types in [&[][..], &["urban"]] {
             let by_tag =
                 [of(types, &["highway", "comfort"]), of(types, &["highway", "urban"]), of(types, &[])];

@@ -1,5 +1,5 @@
 //! The road on which the paper explains its route incentive: three lanes before a junction, of which one leads left,
-//! one left and straight on, and one straight on, and two roads beyond that meet again.
+//! one left and straight on, and one straight on. The two roads beyond it meet again.
 
 use laneweave_network::DrivingSide;
 
@@ -11,17 +11,17 @@ use super::movement::Movement;
 use super::street::{Profile, pose};
 use crate::drawing::Drawing;
 
-/// How long the three lanes are, up to the middle of the junction [m].
+/// Length of the three lanes, up to the middle of the junction [m].
 const APPROACH: f64 = 515.0;
-/// Before the junction lanes are not changed on so many metres.
+/// Length without lane changes before the junction [m].
 const SOLID: f64 = 40.0;
 /// Speed limit [km/h].
 const SPEED_LIMIT: f64 = 50.0;
-/// How far north the left road turns east [m].
+/// Distance from the junction north to where the left road turns east [m].
 const NORTH: f64 = 220.0;
-/// How far east the roads meet again [m].
+/// Distance east to where the roads meet again [m].
 const EAST: f64 = 300.0;
-/// How far roads go on beyond the last junction [m].
+/// Length of the roads beyond the last junction [m].
 const BEYOND: f64 = 150.0;
 
 /// Draws the approach, from the west to a junction at (0, 0): its path, between lanes A and B, is y = 0.
@@ -42,7 +42,7 @@ pub fn approach(driving_side: DrivingSide) -> Drawing {
     let junction = |at, control, movements| Junction { at, kind: Kind::Marked(control, movements) };
     let street = |from, to, lanes| Street { from, to, profile: one_way(lanes) };
     let layout = Layout {
-        // Nobody meets at the first two, so nothing orders them.
+        // At the first two junctions no paths meet, so no rules are needed.
         junctions: vec![
             junction((0.0, 0.0), Control::RightBeforeLeft, fork),
             junction((0.0, NORTH), Control::RightBeforeLeft, bend),
@@ -52,7 +52,7 @@ pub fn approach(driving_side: DrivingSide) -> Drawing {
             Street {
                 from: Place::Edge(pose(-APPROACH, 0.0, East.heading())),
                 to: Place::Arm(0, West),
-                // The straight road goes on from lanes B and C.
+                // The straight road continues from lanes B and C.
                 profile: Profile { left_of_path: 1, solid: SOLID, ..one_way(3) },
             },
             street(Place::Arm(0, North), Place::Arm(1, South), 2),

@@ -1,11 +1,12 @@
-//! A drawing that grows: points, borders, lanes and rules, numbered as they come. It is drawn for traffic on the right.
+//! A drawing under construction: points, borders, lanes and rules, numbered in order. It is drawn for traffic on the
+//! right.
 
 use laneweave_network::{DrivingSide, Point};
 
 use crate::drawing::{Border, Crossing, Drawing, Edge, Lane, Paint, Surroundings};
 use crate::rule::{Rule, RuleKind};
 
-/// A drawing that grows.
+/// A drawing under construction.
 #[derive(Clone)]
 pub(super) struct Canvas {
     drawing: Drawing,
@@ -23,7 +24,7 @@ impl Canvas {
         Canvas { drawing }
     }
 
-    /// Adds a point, to the millimetre.
+    /// Adds a point, rounded to the millimetre.
     pub(super) fn point(&mut self, at: Point) -> u32 {
         // Adding zero leaves no negative zero.
         let [x, y, z] = [at.x, at.y, at.z].map(|metres| (metres * 1000.0).round() / 1000.0 + 0.0);
@@ -31,7 +32,7 @@ impl Canvas {
         self.drawing.points.len() as u32 - 1
     }
 
-    /// What is drawn so far.
+    /// The drawing so far.
     pub(super) fn drawing(&self) -> &Drawing {
         &self.drawing
     }
@@ -46,7 +47,7 @@ impl Canvas {
         self.border(Border { points, paint: Paint::Painted, crossing })
     }
 
-    /// Adds a border that is not painted, and not crossed.
+    /// Adds a border that is not painted, and that vehicles may not cross.
     pub(super) fn imaginary(&mut self, points: Vec<u32>) -> u32 {
         self.border(Border { points, paint: Paint::Virtual, crossing: Crossing::NEVER })
     }
@@ -81,7 +82,7 @@ impl Canvas {
         self.drawing.rules.push(Rule { id: 0, line: None, kind, lanelets, stop_lines, signs });
     }
 
-    /// The same without points through which no border runs.
+    /// The same without points that no border uses.
     pub(super) fn tidied(mut self) -> Canvas {
         let Drawing { points, borders, .. } = &mut self.drawing;
         let mut places: Vec<Option<u32>> = vec![None; points.len()];
@@ -95,7 +96,7 @@ impl Canvas {
         self
     }
 
-    /// The drawing, its rules numbered behind the lanes; for traffic on the left its mirror image, with y negated.
+    /// The drawing, its rules numbered after the lanes; for traffic on the left its mirror image, with y negated.
     pub(super) fn finish(mut self, driving_side: DrivingSide) -> Drawing {
         let first = self.drawing.lanes.len() as i64 + 1;
         for (rule, id) in self.drawing.rules.iter_mut().zip(first..) {

@@ -11,7 +11,7 @@ pub(super) enum Compass {
     South,
 }
 
-/// How the way goes on at a junction.
+/// A movement at a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Turn {
     Left,
@@ -39,7 +39,7 @@ impl Compass {
         }
     }
 
-    /// The other way.
+    /// The opposite direction.
     pub(super) fn opposite(self) -> Compass {
         Compass::ALL[(self as usize + 2) % 4]
     }
@@ -49,7 +49,7 @@ impl Compass {
         matches!(self, Compass::East | Compass::West)
     }
 
-    /// How somebody turns who drove in this direction and goes on in `other`.
+    /// The movement of a vehicle that came in this direction and leaves in `other`.
     pub(super) fn turn(self, other: Compass) -> Turn {
         [Turn::Straight, Turn::Left, Turn::Back, Turn::Right][(other as usize + 4 - self as usize) % 4]
     }

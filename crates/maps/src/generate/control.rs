@@ -1,4 +1,4 @@
-//! Who goes first at a junction, as rules of the map.
+//! The control of a junction, as rules of the map.
 
 use laneweave_network::Point;
 
@@ -8,20 +8,20 @@ use super::junction::{Arm, Connector};
 use super::street::LaneEnd;
 use crate::rule::RuleKind;
 
-/// How high lights hang above their stop line [m]. Ours.
+/// Height of the lights above their stop line [m]. Ours.
 const LIGHT: f64 = 5.0;
 
-/// What orders the traffic of a junction.
+/// The control of a junction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Control {
     /// Lights for every lane; their program is not part of the map.
     #[default]
     Signals,
-    /// The street that runs east and west goes first.
+    /// The street that runs east and west has priority.
     Priority,
-    /// No sign: who comes from the right goes first, or from the left where traffic drives on the left.
+    /// No sign: vehicles from the right have priority, or from the left where traffic drives on the left.
     RightBeforeLeft,
-    /// Everybody stops, and goes in the order of arrival.
+    /// Every vehicle stops, and they go in the order of arrival.
     AllWayStop,
 }
 
@@ -56,7 +56,7 @@ fn priority(canvas: &mut Canvas, arms: &[Arm], connectors: &[Connector]) {
     }
 }
 
-/// Adds the rule that the lanelets of some lanes and their ways on give way to those that go first.
+/// Adds the rule that the lanelets of some lanes, and the lanelets that follow, give way to those with priority.
 pub(super) fn yielding(canvas: &mut Canvas, lanes: &[LaneEnd], first: Vec<i64>, yielding: Vec<i64>) {
     let lines = lanes.iter().map(|it| stop_line(canvas, it)).collect();
     let lanelets = [first.clone(), yielding.clone()].concat();

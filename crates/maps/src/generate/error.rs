@@ -1,23 +1,23 @@
-//! Why a map cannot be made.
+//! Errors of the map generator.
 
 use thiserror::Error;
 
 /// Why a map cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GenerateError {
-    /// Too few or too many of something.
+    /// A count is out of range.
     #[error("{count} {what}; choose {from} to {to}")]
     Count {
         /// What is counted.
         what: &'static str,
-        /// How many there should be.
+        /// The number given.
         count: usize,
         /// The least that is possible.
         from: usize,
         /// The most that is possible.
         to: usize,
     },
-    /// A number out of range, or none.
+    /// A number is out of range, or NaN.
     #[error("{what} of {value} {unit}; choose {from} to {to} {unit}")]
     OutOfRange {
         /// What the number means.
@@ -31,7 +31,7 @@ pub enum GenerateError {
         /// The most that is possible.
         to: f64,
     },
-    /// More lanelets than make sense.
+    /// More lanelets than the generator makes.
     #[error("about {0:.0} lanelets; choose fewer lanes, a shorter road or longer lanelets")]
     TooMany(f64),
     /// The only lane ends.
@@ -51,12 +51,12 @@ pub enum GenerateError {
         /// Length of the road [m].
         length: f64,
     },
-    /// Two of them get in each other's way.
+    /// Two of them need the same place.
     #[error("the {0} and the {1} overlap or nearly touch; move one of them")]
     Overlap(String, String),
 }
 
-/// Refuses a number of things that is out of range.
+/// Refuses a count that is out of range.
 pub(super) fn check_count(
     what: &'static str,
     count: usize,
@@ -68,7 +68,7 @@ pub(super) fn check_count(
     Err(GenerateError::Count { what, count, from, to })
 }
 
-/// Refuses a number that is out of range, or none.
+/// Refuses a number that is out of range, or NaN.
 pub(super) fn check_range(
     what: &'static str,
     value: f64,

@@ -10,13 +10,13 @@ use super::layout::{Junction, Kind, Layout, Place, Street, draw};
 use super::street::{Profile, pose};
 use crate::drawing::Drawing;
 
-/// More junctions in a row are not built.
+/// Maximum of junctions in a row.
 const MAXIMUM_JUNCTIONS: usize = 50;
-/// More lanes in a direction are not built.
+/// Maximum of lanes in a direction.
 const MAXIMUM_LANES: usize = 3;
-/// Between these lengths a block may be [m]: shorter ones leave no room between junctions of three lanes.
+/// Bounds of the length of a block [m]: shorter ones leave no space between junctions of three lanes.
 const BLOCK_LENGTHS: [f64; 2] = [80.0, 1000.0];
-/// Between these speeds a limit may be [km/h].
+/// Bounds of the speed limit [km/h].
 const SPEED_LIMITS: [f64; 2] = [5.0, 130.0];
 
 /// Rows of junctions, with streets between them and one block beyond.
@@ -28,11 +28,11 @@ pub struct Grid {
     pub columns: usize,
     /// Lanes of each street in each direction: 1 to 3.
     pub lanes: usize,
-    /// From the middle of a junction to that of the next one [m].
+    /// From the middle of a junction to that of the next [m].
     pub block_length_m: f64,
     /// Speed limit [km/h].
     pub speed_limit_kmh: f64,
-    /// What orders the traffic of each junction.
+    /// The control of each junction.
     pub control: Control,
     /// On which side traffic drives. Left is the mirror image of right, with y negated.
     pub driving_side: DrivingSide,
@@ -59,7 +59,7 @@ impl Default for Grid {
 pub struct Arterial {
     /// How many streets cross it: 1 to 50.
     pub junctions: usize,
-    /// From the middle of a junction to that of the next one [m].
+    /// From the middle of a junction to that of the next [m].
     pub block_length_m: f64,
     /// Speed limit [km/h].
     pub speed_limit_kmh: f64,
@@ -155,7 +155,7 @@ impl Raster {
         canvas.finish(driving_side)
     }
 
-    /// Adds the blocks of a street through these junctions, and one beyond at either end.
+    /// Adds the blocks of a street through these junctions, and one block beyond at either end.
     fn street(&self, layout: &mut Layout, junctions: &[usize], towards: Compass, profile: Profile) {
         let edge = |junction: usize, way: f64| {
             let ((x, y), (east, north)) = (layout.junctions[junction].at, towards.step());

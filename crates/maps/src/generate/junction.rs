@@ -17,7 +17,7 @@ const RADIUS: f64 = 10.0;
 /// A street where it meets a junction.
 #[derive(Clone, Debug)]
 pub(super) struct Arm {
-    /// Where the street lies, seen from the junction.
+    /// The direction of the street, seen from the junction.
     pub(super) towards: Compass,
     /// Lanes that end at the junction, from left to right.
     pub(super) arriving: Vec<LaneEnd>,
@@ -27,7 +27,7 @@ pub(super) struct Arm {
 }
 
 impl Arm {
-    /// The lanelets that arrive, and those that go on from there.
+    /// The lanelets that arrive, and those that leave.
     pub(super) fn ways(&self, connectors: &[Connector]) -> Vec<i64> {
         let own = connectors.iter().filter(|it| it.from == self.towards).map(|it| it.lanelet);
         self.arriving.iter().map(|it| it.lanelet).chain(own).collect()
@@ -42,15 +42,15 @@ pub(super) struct Connector {
     pub(super) lanelet: i64,
 }
 
-/// How far from the middle of a junction an arm of it ends [m], so that there is room to turn from and to the arms
-/// across.
+/// Distance from the middle of a junction to the end of its arm [m], large enough for turns from and to the crossing
+/// arms.
 pub(super) fn setback(arms: &[Lanes; 4], towards: Compass) -> f64 {
     let across = Compass::ALL.into_iter().filter(|it| it.is_along_east() != towards.is_along_east());
     let lanes = across.map(|it| arms[it as usize]).map(|it| it.arriving.max(it.leaving)).max().unwrap_or(0);
     (lanes.max(1) as f64 - 0.5) * LANE_WIDTH + RADIUS
 }
 
-/// Draws the ways over a junction.
+/// Draws the paths over a junction.
 pub(super) fn connect(canvas: &mut Canvas, arms: &[Arm], movements: &[Movement]) -> Vec<Connector> {
     let arm = |towards: Compass| arms.iter().find(|it| it.towards == towards);
     let mut borders = Borders::default();
@@ -66,7 +66,7 @@ pub(super) fn connect(canvas: &mut Canvas, arms: &[Arm], movements: &[Movement])
     connectors
 }
 
-/// Borders that were drawn already between two points; connectors side by side share them.
+/// Borders that already exist between two points; connectors side by side share them.
 #[derive(Default)]
 pub(super) struct Borders(HashMap<[u32; 2], u32>);
 

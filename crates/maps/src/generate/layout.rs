@@ -1,4 +1,4 @@
-//! A plan of junctions and the streets between them, and how it is drawn.
+//! A plan of junctions and the streets between them, and its drawing.
 
 use laneweave_network::Pose;
 
@@ -33,7 +33,7 @@ pub(super) enum Kind {
     Crossing(Control),
     /// With these movements only.
     Marked(Control, Vec<Movement>),
-    /// Around a ring of one lane; arms have one lane in each direction at most.
+    /// Around a roundabout of one lane; arms have at most one lane in each direction.
     Roundabout,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Street {
 pub(super) enum Place {
     /// The edge of the map; the pose of the street's path.
     Edge(Pose),
-    /// This arm of a junction, which is given by its number.
+    /// The arm of the junction with this number.
     Arm(usize, Compass),
     /// Another road: its points across, and the pose of the street's path.
     Road(Vec<u32>, Pose),
@@ -111,7 +111,7 @@ impl Layout {
         lanes
     }
 
-    /// The pose of a street's path at its end, where an arm of a junction gives it this `heading`.
+    /// The pose of a street's path at its end, with this `heading` if an arm of a junction is there.
     fn pose(&self, lanes: &[[Lanes; 4]], place: &Place, heading: impl Fn(Compass) -> f64) -> Pose {
         match *place {
             Place::Edge(pose) | Place::Road(_, pose) => pose,

@@ -1,4 +1,4 @@
-//! Maps of our own, made from a few numbers.
+//! Generated maps, made from a few numbers.
 
 mod approach;
 mod canvas;

@@ -1,10 +1,10 @@
-//! Which lane of a junction leads where.
+//! Which lane of a junction leads to which.
 
 use std::ops::Range;
 
 use super::compass::{Compass, Turn};
 
-/// A way over a junction, from a lane that arrives onto one that leaves; lanes count from the left.
+/// A path over a junction, from a lane that arrives onto one that leaves; lanes count from the left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Movement {
     /// The arm from which it comes.
@@ -15,7 +15,7 @@ pub(super) struct Movement {
     pub(super) onto: usize,
 }
 
-/// How many lanes arrive on an arm of a junction, and leave on it.
+/// Number of lanes that arrive on an arm of a junction, and that leave on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Lanes {
     pub(super) arriving: usize,
@@ -25,8 +25,8 @@ pub(super) struct Lanes {
 /// The usual movements at a junction with these arms, in the order of [`Compass::ALL`].
 ///
 /// The leftmost lane leads left, the rightmost one right, each onto the lane on the same side of the other road. All
-/// lanes lead straight on, side by side, but the left one of three, and lanes that do not go on beyond. Where nothing
-/// leads straight on, all lanes turn. Nobody turns back.
+/// lanes lead straight on, side by side, except the left one of three and lanes without a continuation. If no lane
+/// leads straight on, all lanes turn. There are no U-turns.
 pub(super) fn usual(arms: &[Lanes; 4]) -> Vec<Movement> {
     let mut movements = Vec::new();
     for from in Compass::ALL {
@@ -40,7 +40,7 @@ pub(super) fn usual(arms: &[Lanes; 4]) -> Vec<Movement> {
         let there = ways.map(|it| it.map(|(_, lanes)| lanes));
         for (way, lanes) in ways.into_iter().zip(lanes_of(arriving, there)) {
             let Some((to, leaving)) = way else { continue };
-            // Counted from the right but for turns to the left.
+            // Counted from the right, except for turns to the left.
             let is_left = heading.turn(to) == Turn::Left;
             movements.extend(lanes.filter_map(|lane| {
                 let onto = if is_left { lane } else { (lane + leaving).checked_sub(arriving)? };
@@ -51,7 +51,8 @@ pub(super) fn usual(arms: &[Lanes; 4]) -> Vec<Movement> {
     movements
 }
 
-/// Which of `arriving` lanes lead left, straight on, and right, given how many go on there.
+/// Which of `arriving` lanes lead left, straight on, and right, given the number of lanes that leave in each
+/// direction.
 fn lanes_of(arriving: usize, [left, straight, right]: [Option<usize>; 3]) -> [Range<usize>; 3] {
     let all = 0..arriving;
     if straight.is_some() {
@@ -71,7 +72,7 @@ fn lanes_of(arriving: usize, [left, straight, right]: [Option<usize>; 3]) -> [Ra
 mod tests {
     use super::*;
 
-    /// Where the lanes lead that come from the west, to the left, straight on and to the right: pairs of lanes.
+    /// Where lanes from the west lead, to the left, straight on and to the right: pairs of lanes.
     fn from_west(arriving: usize, leaving: [usize; 3]) -> [Vec<(usize, usize)>; 3] {
         let mut arms = [Lanes::default(); 4];
         arms[Compass::West as usize].arriving = arriving;

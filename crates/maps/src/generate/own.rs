@@ -5,7 +5,7 @@ use laneweave_network::DrivingSide;
 use super::{Control, GenerateError, Grid, Motorway, approach, grid, motorway, roundabout, town};
 use crate::drawing::Drawing;
 
-/// File names in the folder `maps`, and what they hold.
+/// File names in the folder `maps`, and their contents.
 ///
 /// # Errors
 /// If one of them cannot be drawn.

@@ -1,20 +1,20 @@
-//! Smooth lines of straight pieces and arcs, to draw roads along.
+//! Smooth lines of straight pieces and arcs, along which roads are drawn.
 
 use std::f64::consts::{PI, TAU};
 
 use laneweave_network::{Point, Pose};
 
-/// Directions that differ by less are one [rad].
+/// Directions that differ by less count as one [rad].
 const PARALLEL: f64 = 1e-6;
-/// Lines that lie closer beside each other are one [m].
+/// Lines at a smaller distance count as one [m].
 const IN_LINE: f64 = 2e-3;
-/// Length of the straight pieces between points on a bend: this share of its radius. Ours: 2 cm beside
-/// the arc at most in a junction, 6 cm on a long bend.
+/// Length of the straight pieces between points on a bend, as a share of its radius. Ours: at most 2 cm beside the
+/// arc in a junction, 6 cm on a long bend.
 const CHORD_PER_RADIUS: f64 = 0.05;
 /// Bounds of that length [m]. Ours.
 const CHORDS: [f64; 2] = [1.5, 10.0];
 
-/// A line whose direction changes steadily.
+/// A line with a continuous direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
     /// Some of them may have no length.
@@ -25,13 +25,13 @@ pub(super) struct Path {
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     from: Pose,
-    /// To the left positive [1/m].
+    /// Curvature, to the left positive [1/m].
     curvature: f64,
     length: f64,
 }
 
 impl Piece {
-    /// The piece that goes on from here.
+    /// The piece that continues from here.
     fn on(self, curvature: f64, length: f64) -> Piece {
         Piece { from: self.pose(self.length), curvature, length }
     }
@@ -60,8 +60,8 @@ impl Path {
         Path { pieces: [arc, arc.on(0.0, 0.0), arc.on(0.0, 0.0)] }
     }
 
-    /// The way between two poses: straight on; or one bend as wide as there is room for; or, for what lies beside in
-    /// the same direction, a bend there and one back.
+    /// The path between two poses: straight on; or one bend with the largest possible radius; or, for a parallel
+    /// pose, a bend and one back.
     pub(super) fn between(from: Pose, to: Pose) -> Path {
         let turn = (to.heading - from.heading + PI).rem_euclid(TAU) - PI;
         let (x, y) = (libm::cos(from.heading), libm::sin(from.heading));
@@ -77,7 +77,7 @@ impl Path {
     }
 
     fn bend(from: Pose, ahead: f64, beside: f64, turn: f64) -> Path {
-        // How far it is from either end to where their directions meet.
+        // Distance from either end to where their directions meet.
         let after = beside / libm::sin(turn);
         let before = ahead - after * libm::cos(turn);
         let tangent = before.min(after);
@@ -101,7 +101,7 @@ impl Path {
         self.pieces.iter().map(|it| it.length).sum()
     }
 
-    /// Where it is at `station` [m], and its direction there.
+    /// Its point and direction at `station` [m].
     pub(super) fn pose(&self, station: f64) -> Pose {
         let [first, second, third] = &self.pieces;
         if station <= first.length {
@@ -117,7 +117,7 @@ impl Path {
         Point::new(at.x - offset * libm::sin(heading), at.y + offset * libm::cos(heading), at.z)
     }
 
-    /// Stations between its ends at which it has to have points to be drawn: on bends, and where these begin and end.
+    /// Stations between its ends at which a drawing needs points: on bends, and where these begin and end.
     pub(super) fn bends(&self) -> Vec<f64> {
         let (mut stations, mut start) = (Vec::new(), 0.0);
         for piece in &self.pieces {

@@ -1,4 +1,4 @@
-//! Roundabouts: a ring of one lane, around which traffic on the right drives counter-clockwise.
+//! Roundabouts: a circulating lane, which traffic on the right drives counter-clockwise.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
 
@@ -13,20 +13,20 @@ use super::path::Path;
 use super::street::{LaneEnd, Profile, pose};
 use crate::drawing::{Crossing, Drawing, Edge, Surroundings};
 
-/// Radius of the middle of the ring [m]: with its lane 34.5 m across, where small roundabouts have 26 to 45 m (FGSV,
-/// Merkblatt für die Anlage von Kreisverkehren, from memory).
+/// Radius of the middle of the circulating lane [m]: with this lane 34.5 m across; small roundabouts have 26 to 45 m
+/// (FGSV, Merkblatt für die Anlage von Kreisverkehren, from memory).
 const RADIUS: f64 = 15.0;
-/// Width of the ring's lane [m]. Ours.
+/// Width of the circulating lane [m]. Ours.
 const LANE_WIDTH: f64 = 4.5;
-/// Ways in and out touch the ring at this angle before and after the middle of their arm [rad]. Ours.
+/// Entries and exits touch the circle at this angle before and after the middle of their arm [rad]. Ours.
 const TOUCH: f64 = FRAC_PI_6;
-/// Speed limit on the ring [km/h]. Ours.
+/// Speed limit on the circulating lane [km/h]. Ours.
 const SPEED_LIMIT: f64 = 30.0;
-/// How far from the middle arms end [m], so that ways in and out bend with a radius of about 11 m.
+/// Distance from the middle to the end of the arms [m], so that entries and exits bend with a radius of about 11 m.
 pub(super) const SETBACK: f64 = 23.5;
 /// Speed limit on the arms [km/h].
 const ARM_SPEED_LIMIT: f64 = 50.0;
-/// How long the arms are, from the middle [m].
+/// Length of the arms, from the middle [m].
 const ARM: f64 = 200.0;
 
 /// Draws a roundabout with four arms of a lane in each direction.
@@ -46,29 +46,29 @@ pub fn roundabout(driving_side: DrivingSide) -> Drawing {
     canvas.finish(driving_side)
 }
 
-/// A ring of one lane.
+/// The circulating lane of a roundabout.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ring {
     /// Its middle: east and north [m].
     pub(super) middle: (f64, f64),
     /// Radius of the middle of its lane [m].
     pub(super) radius: f64,
-    /// Ways in and out touch it at this angle before and after the middle of their arm [rad].
+    /// Entries and exits touch it at this angle before and after the middle of their arm [rad].
     pub(super) touch: f64,
 }
 
-/// A street where it meets a ring.
+/// A street where it meets a roundabout.
 #[derive(Clone, Debug)]
 pub(super) struct RingArm {
-    /// In which direction the street lies, seen from the middle [rad].
+    /// Direction of the street, seen from the middle [rad].
     pub(super) heading: f64,
-    /// Lanes that end at the ring.
+    /// Lanes that end at the roundabout.
     pub(super) arriving: Vec<LaneEnd>,
     /// Lanes that begin there.
     pub(super) leaving: Vec<LaneEnd>,
 }
 
-/// Draws the usual ring, with arms at right angles.
+/// Draws the usual roundabout, with arms at right angles.
 pub(super) fn usual_ring(canvas: &mut Canvas, middle: (f64, f64), arms: &[Arm]) {
     let arm = |it: &Arm| RingArm {
         heading: it.towards.heading(),
@@ -79,10 +79,10 @@ pub(super) fn usual_ring(canvas: &mut Canvas, middle: (f64, f64), arms: &[Arm]) 
     ring(canvas, Ring { middle, radius: RADIUS, touch: TOUCH }, &arms);
 }
 
-/// Draws a ring, and the ways to it and from it, its arms given counter-clockwise. Who comes to it gives way.
+/// Draws a roundabout with its entries and exits; its arms are given counter-clockwise. Entering vehicles give way.
 pub(super) fn ring(canvas: &mut Canvas, ring: Ring, arms: &[RingArm]) {
     let Ring { middle, radius, touch } = ring;
-    // Where ways out leave and ways in arrive, counter-clockwise.
+    // Where exits leave and entries arrive, counter-clockwise.
     let angles: Vec<f64> = arms.iter().flat_map(|it| [it.heading - touch, it.heading + touch]).collect();
     let points: Vec<[u32; 2]> = angles
         .iter()
@@ -114,7 +114,7 @@ pub(super) fn ring(canvas: &mut Canvas, ring: Ring, arms: &[RingArm]) {
     }
 }
 
-/// Draws a piece of the ring between two pairs of points, inner and outer.
+/// Draws a piece of the circulating lane between two pairs of points, inner and outer.
 fn piece(canvas: &mut Canvas, ring: Ring, [begin, end]: [[u32; 2]; 2], angle: f64, turn: f64) -> i64 {
     let edges = [(0, -0.5), (1, 0.5)].map(|(side, out)| {
         let radius = ring.radius + out * LANE_WIDTH;
@@ -128,7 +128,7 @@ fn piece(canvas: &mut Canvas, ring: Ring, [begin, end]: [[u32; 2]; 2], angle: f6
     canvas.lane(edges, Surroundings::Town, SPEED_LIMIT)
 }
 
-/// Where somebody is on the ring, and where he drives.
+/// A place on the circulating lane, and the direction of travel there.
 fn on_ring((x, y): (f64, f64), angle: f64, radius: f64) -> Pose {
     let at = Point::new(x + radius * libm::cos(angle), y + radius * libm::sin(angle), 0.0);
     Pose { at, heading: angle + FRAC_PI_2 }

@@ -8,29 +8,29 @@ use crate::drawing::{Crossing, Edge, Surroundings};
 
 /// Width of a lane in town [m]: RASt 06, from memory.
 pub(super) const LANE_WIDTH: f64 = 3.25;
-/// Before a junction lanes are not changed on so many metres. Ours.
+/// Length without lane changes before a junction [m]. Ours.
 pub(super) const SOLID: f64 = 30.0;
-/// About how long lanelets are elsewhere [m].
+/// Approximate length of lanelets elsewhere [m].
 const LANELET: f64 = 50.0;
-/// Slopes have a point every so many metres.
+/// Distance between points on slopes [m].
 const SLOPE_STEP: f64 = 10.0;
-/// On so many metres to either side of its middle a bridge is level [m].
+/// Length to either side of its middle on which a bridge is level [m].
 const LEVEL: f64 = 20.0;
 
-/// What a street has across, and what holds on it.
+/// The cross-section of a street, and its rules.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Profile {
     /// Lanes against the path, on its left.
     pub(super) against: usize,
     /// Lanes along the path, on its right.
     pub(super) along: usize,
-    /// Lanes along the path that lie on its left. None where there are lanes against it.
+    /// Lanes along the path that lie on its left. None if there are lanes against it.
     pub(super) left_of_path: usize,
     /// Width of a lane [m].
     pub(super) lane_width: f64,
-    /// Lanes are not changed on so many metres before a junction.
+    /// Length without lane changes before a junction [m].
     pub(super) solid: f64,
-    /// How high its middle lies above its ends [m].
+    /// Height of its middle above its ends [m].
     pub(super) rise: f64,
     pub(super) surroundings: Surroundings,
     pub(super) limit_kmh: f64,
@@ -51,17 +51,17 @@ impl Profile {
         }
     }
 
-    /// How many lines it has, edges among them.
+    /// Number of its lines, edges included.
     fn lines(&self) -> usize {
         self.against + self.along + 1
     }
 
-    /// How far a line lies to the left of the path [m]; lines count from the left.
+    /// Offset of a line to the left of the path [m]; lines count from the left.
     fn offset(&self, line: usize) -> f64 {
         ((self.against + self.left_of_path) as f64 - line as f64) * self.lane_width
     }
 
-    /// How high a street of this length lies at `station` [m]: steepest halfway up.
+    /// Height of a street of this length at `station` [m]: it is steepest halfway up.
     fn height(&self, station: f64, length: f64) -> f64 {
         let middle = length / 2.0;
         let up = ((middle - (station - middle).abs()) / (middle - LEVEL)).clamp(0.0, 1.0);
@@ -69,7 +69,7 @@ impl Profile {
     }
 }
 
-/// What is at the end of a street.
+/// The end of a street.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum End {
     /// The end of the map.
@@ -100,7 +100,7 @@ pub(super) struct Mouth {
     pub(super) across: Vec<u32>,
 }
 
-/// Draws a street along `path` between two ends, and returns what it is like there.
+/// Draws a street along `path` between two ends, and returns these ends.
 pub(super) fn street(canvas: &mut Canvas, path: &Path, profile: &Profile, ends: [End; 2]) -> [Mouth; 2] {
     let cuts = cuts(path.length(), profile, &ends);
     let last = cuts.len() - 1;
@@ -141,7 +141,7 @@ fn cuts(length: f64, profile: &Profile, ends: &[End; 2]) -> Vec<f64> {
     cuts
 }
 
-/// Stations between its ends at which a street has points, to show its bends and slopes.
+/// Stations between its ends at which a street has points, for its bends and slopes.
 fn shape(path: &Path, profile: &Profile) -> Vec<f64> {
     let mut stations = path.bends();
     if profile.rise != 0.0 {
@@ -151,14 +151,14 @@ fn shape(path: &Path, profile: &Profile) -> Vec<f64> {
     stations
 }
 
-/// In which directions lanes are not changed.
+/// The directions in which lane changes are forbidden.
 #[derive(Clone, Copy)]
 struct Solid {
     along: bool,
     against: bool,
 }
 
-/// A street that is being drawn.
+/// A street under construction.
 struct Draft<'a> {
     canvas: &'a mut Canvas,
     path: &'a Path,
@@ -167,7 +167,7 @@ struct Draft<'a> {
 }
 
 impl Draft<'_> {
-    /// The points across the street at `station`, where this is: those of the other road, if there is one, first.
+    /// The points across the street at this `station` and place; those of the other road, if there is one, first.
     fn row(&mut self, station: f64, end: &End) -> Vec<u32> {
         let given: &[u32] = if let End::Road(points) = end { points } else { &[] };
         let lines = 0..self.profile.lines();
@@ -180,7 +180,7 @@ impl Draft<'_> {
         self.canvas.point(Point { z: at.z + height, ..at })
     }
 
-    /// Draws the lanelets between two rows of points, and returns what the street is like there.
+    /// Draws the lanelets between two rows of points, and returns the end of the street there.
     fn piece(&mut self, [from, to]: [f64; 2], rows: [&Vec<u32>; 2], solid: Solid) -> [Mouth; 2] {
         // A point too near to the next one would be a kink.
         const APART: f64 = 1.0;

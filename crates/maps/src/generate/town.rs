@@ -18,17 +18,17 @@ const MOTORWAY: f64 = 120.0;
 const MOTORWAY_LANE: f64 = 3.5;
 /// From the middle of the motorway to its first lanes [m].
 const MEDIAN: f64 = 2.0;
-/// From where to where the motorway runs [m]. Its lanelets end nowhere below the edge of a bridge, so that whether they
-/// share ground with it is no matter of rounding.
+/// From where to where the motorway runs [m]. No lanelet ends below the edge of a bridge, so that rounding does not
+/// decide whether they have common area.
 const MOTORWAY_ENDS: [f64; 2] = [-1020.0, 1365.0];
 /// From where to where its deceleration lane runs, and its acceleration lane [m].
 const DECELERATION: [f64; 2] = [-760.0, -510.0];
 const ACCELERATION: [f64; 2] = [815.0, 1065.0];
-/// How high bridges lie above the motorway [m].
+/// Height of bridges above the motorway [m].
 const BRIDGE: f64 = 6.0;
-/// How far streets go on beyond the last junction [m].
+/// Length of streets beyond the last junction [m].
 const BEYOND: f64 = 150.0;
-/// How far they go on north and south of the roundabout [m].
+/// Length of streets north and south of the roundabout [m].
 const RING_ARM: f64 = 100.0;
 
 /// East and north of the streets [m]; the motorway lies at 0.
@@ -44,7 +44,7 @@ const SOUTH_STREET: f64 = -500.0;
 ///
 /// The carriageway to the east has an off-ramp to the western bridge's street and an on-ramp from the eastern one's,
 /// both at lights. The main street has two lanes in each direction and three junctions with lights, and ends at a
-/// roundabout. The other junctions have priority signs, but one without any, and one where all stop.
+/// roundabout. The other junctions have priority signs, except one without any, and one all-way stop.
 pub fn town(driving_side: DrivingSide) -> Drawing {
     let mut canvas = Canvas::new();
     let Ramps { off, on } = motorway(&mut canvas);
@@ -168,7 +168,7 @@ impl Town {
         self.layout.streets.push(Street { from, to, profile });
     }
 
-    /// An arm of the junction that is there, or else the edge of the map, where a path leads in direction `along`.
+    /// An arm of the junction that is there, or else the edge of the map, for a path in the direction `along`.
     fn place(&self, [x, y]: [f64; 2], arm: Compass, along: Compass) -> Place {
         match self.layout.junctions.iter().position(|it| it.at == (x, y)) {
             Some(junction) => Place::Arm(junction, arm),

@@ -2,7 +2,7 @@
 //!
 //! Schakel, Knoop, van Arem (2012), Transp. Res. Rec. 2316, 47–57 (from memory). The desire for a side is
 //!
-//!     d = d_r + θ_v (d_s + d_b)
+//! d = d_r + θ_v (d_s + d_b)
 //!
 //! * d_r, the route: the urgency of the own lane if the side takes a change off the route, minus that of the side if
 //!   it adds one.

@@ -57,7 +57,7 @@ fn a_ring_is_one_chain_that_continues_itself() {
 
 #[test]
 fn chains_that_fork_without_parting_touch_for_500_m() {
-    // Each of 32 lanelets is followed by all of 32 others, which lie on one heap.
+    // Each of 32 lanelets is followed by all 32 others, which lie on top of each other.
     let mut all: Vec<Lanelet> = (0..32).map(|i| lanelet(i, 0.0, 100.0, 0.0)).collect();
     all.extend((32..64).map(|i| lanelet(i, 100.0, 20_000.0, 0.0)));
     for lanelet in &mut all[..32] {
@@ -75,7 +75,7 @@ fn chains_of_a_fork_touch_until_wide_vehicles_have_room_beside_each_other() {
     all.push(Lanelet { id: 3, centre: branch, ..all[1].clone() });
     all[0].following = vec![LaneletIndex(1), LaneletIndex(2)];
     let network = Network::new(all, DrivingSide::Right).unwrap();
-    // Along both they part by 2.7 m in 27 m; every second metre is looked at.
+    // Along both they part by 2.7 m in 27 m; a sample lies at every second metre.
     assert_eq!(network.chains.iter().map(|it| it.fork_clearance).collect::<Vec<_>>(), [0.0, 28.0, 28.0]);
 }
 

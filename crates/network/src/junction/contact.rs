@@ -1,4 +1,4 @@
-//! Places of two chains at which vehicles would be near enough to touch, whether one ever meets the other there or not.
+//! Places of two chains at which vehicles would be near enough to touch, whether they ever meet there or not.
 
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
@@ -12,20 +12,20 @@ use crate::geometry::Point;
 pub(super) const LONGEST_VEHICLE: f64 = 12.0;
 const LONG_VEHICLE_WIDTH: f64 = 2.55;
 const CAR_WIDTH: f64 = 1.85;
-/// Space between vehicles whose ways cross at an angle, or bend: there their corners swing out [m]. Ours.
+/// Space between vehicles whose paths cross at an angle, or bend: there their corners swing out [m]. Ours.
 const SPACE: f64 = 0.15;
-/// Ways lead side by side where their directions differ by no more than this [rad]. Ours.
+/// Paths lead side by side where their directions differ by at most this [rad]. Ours.
 const SIDE_BY_SIDE: f64 = 0.2;
-/// They are straight lanes of a road, in which vehicles pass each other without space between, where their directions
-/// differ by no more than this, and change by no more along a vehicle [rad]. Ours.
+/// Paths are straight lanes of a road where their directions differ by at most this, and change by at most this along
+/// a vehicle [rad]. Vehicles pass each other there without space between. Ours.
 const STRAIGHT: f64 = 0.04;
 /// Distance of the samples along a chain [m].
 pub(super) const SAMPLE: f64 = 0.5;
-/// Successive samples that are looked around together: about as far as others are near.
+/// Number of successive samples with one common search for others: about as far as others are near.
 const BLOCK: usize = 16;
 /// Vehicles on levels further apart do not touch [m].
 const HEIGHT: f64 = 2.5;
-/// The longest vehicle's middle is taken to be no further inside of a bend than this [m].
+/// In a bend, the middle of the longest vehicle is assumed to be at most this far inside [m].
 const SAG_AT_MOST: f64 = 2.0;
 
 /// Two places at which vehicles would be near each other.
@@ -33,18 +33,18 @@ const SAG_AT_MOST: f64 = 2.0;
 pub(super) struct Contact {
     /// On the one chain and on the other [m].
     pub(super) stations: [f64; 2],
-    /// Which vehicles would touch; `None` if all have room beside each other, or if cars do and a long vehicle does not
-    /// come there.
+    /// Which vehicles would touch; `None` if all have space beside each other, or if cars do and no long vehicle
+    /// comes there.
     pub(super) touch: Option<Touch>,
-    /// The ways lead in one direction, side by side.
+    /// The paths lead in one direction, side by side.
     pub(super) is_along: bool,
     /// They are straight lanes of a road there, of one direction or of both.
     pub(super) is_road: bool,
-    /// Only long vehicles would touch, which are half beyond the ends of a chain.
+    /// Only long vehicles would touch, with half of the vehicle beyond the ends of a chain.
     pub(super) is_beyond: bool,
 }
 
-/// A place on a chain, and the place inside of a bend that the middle of the longest vehicle passes.
+/// A place on a chain, and the place inside of a bend where the middle of the longest vehicle passes.
 #[derive(Clone, Copy)]
 struct Sample {
     chain: ChainIndex,
@@ -57,11 +57,11 @@ struct Sample {
     is_straight: bool,
     /// Half of the vehicle would be beyond the chain's ends.
     is_beyond: bool,
-    /// Cars, and long vehicles, drive there.
+    /// Whether cars, and whether long vehicles, drive there.
     is_open_for: [bool; 2],
 }
 
-/// The contacts of each two chains that have any, the chain of the smaller index first; in the order of stations.
+/// The contacts of each pair of chains that has any, the chain of the smaller index first; in the order of stations.
 pub(super) fn contacts(network: &Network) -> Vec<([ChainIndex; 2], Vec<Contact>)> {
     let samples = samples(network);
     let tree = RTree::bulk_load(
@@ -89,7 +89,7 @@ pub(super) fn contacts(network: &Network) -> Vec<([ChainIndex; 2], Vec<Contact>)
     all
 }
 
-/// All from where somebody could touch a vehicle at one of these samples.
+/// All places from which a vehicle could touch a vehicle at one of these samples.
 fn around(block: &[Sample]) -> AABB<[f64; 2]> {
     let reach = LONG_VEHICLE_WIDTH + SPACE + 2.0 * SAG_AT_MOST;
     let corners = block
@@ -147,14 +147,14 @@ fn samples(network: &Network) -> Vec<Sample> {
     samples
 }
 
-/// The places at `station` of a chain, beyond its ends on each way that goes on over the chains `next` to it.
+/// The places at `station` of a chain; beyond its ends, on each path over the chains `next` to it.
 fn along(
     network: &Network,
     chain: ChainIndex,
     station: f64,
     next: fn(&Chain) -> &[ChainIndex],
 ) -> Vec<Point> {
-    /// More chains than there are on the ways over half a vehicle's length at any junction.
+    /// Maximum of chains on the paths over half a vehicle's length; no junction has as many.
     const MOST: usize = 64;
     let mut places = Vec::new();
     let mut open = vec![(chain, station)];

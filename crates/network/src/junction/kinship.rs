@@ -1,4 +1,4 @@
-//! How chains near each other are related: one behind the other, forking off together, leading into one.
+//! How chains near each other are related: one after the other, forking off together, leading into one.
 
 use crate::build::Network;
 use crate::chain::{Chain, ChainIndex};
@@ -6,15 +6,15 @@ use crate::lanelet::Side;
 
 /// How far relations are followed along chains [m].
 const NEAR: f64 = 40.0;
-/// Ways of one length up to this belong together [m].
+/// Paths whose lengths differ by at most this belong together [m].
 const SAME: f64 = 4.0;
-/// Places of a way this close behind each other are no conflict, whatever the shape of the way [m].
+/// Places of a path this close behind each other are no conflict, whatever the shape of the path [m].
 const BEHIND: f64 = 15.0;
 
-/// Ways lead in one direction whose headings have no smaller cosine of the angle between them: 60°. Ours.
+/// Paths lead in one direction if the cosine of the angle between their headings is at least this: 60°. Ours.
 const ONE_DIRECTION: f64 = 0.5;
 
-/// How two chains come to be close to each other.
+/// Why two chains are close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meeting {
     /// They fork off together, and have not parted yet.
@@ -27,7 +27,7 @@ pub(super) enum Meeting {
     Crosses,
 }
 
-/// For each chain its kin.
+/// The related chains of each chain.
 pub(super) struct Kinship<'a> {
     network: &'a Network,
     /// Chains that lead to it, with the distance from their ends to its start [m].
@@ -48,7 +48,7 @@ impl<'a> Kinship<'a> {
         }
     }
 
-    /// Whether these stations of two chains lie close behind each other on one way.
+    /// Whether these stations of two chains lie close behind each other on one path.
     pub(super) fn is_one_behind_the_other(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let is_behind = |from: ChainIndex, at_from: f64, to: ChainIndex, at_to: f64| {
             let left = self.network.chain(from).length - at_from;
@@ -58,7 +58,8 @@ impl<'a> Kinship<'a> {
         is_behind(a, at_a, b, at_b) || is_behind(b, at_b, a, at_a)
     }
 
-    /// Whether lanes may be changed between these stations of two chains, of which one begins or ends beside the other.
+    /// Whether lanes may be changed between these stations of two chains, one of which begins or ends beside the
+    /// other.
     pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let chain = |it: ChainIndex| self.network.chain(it);
         let is_partial = |it: ChainIndex| chain(it).is_lane_drop || chain(it).open != Chain::WIDE;
@@ -142,7 +143,7 @@ fn within_reach<'n>(
     found
 }
 
-/// The distances to the kin that two chains have in common.
+/// The distances to the related chains that two chains have in common.
 fn common(a: &[(ChainIndex, f64)], b: &[(ChainIndex, f64)]) -> impl Iterator<Item = (f64, f64)> {
     a.iter().flat_map(move |(kin, from_a)| {
         b.iter().filter(move |it| it.0 == *kin).map(move |(_, from_b)| (*from_a, *from_b))

@@ -15,12 +15,12 @@ impl LightIndex {
     }
 }
 
-/// A light, or several that the drivers on one lanelet obey together.
+/// A light, or several lights that the drivers on one lanelet obey together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     /// The smallest id of its regulatory elements: its name.
     pub id: i64,
-    /// When it shows what; of an actuated one with the longest greens.
+    /// Its program; of an actuated light, with the maximum greens.
     pub program: Program,
 }
 
@@ -40,7 +40,7 @@ pub enum LightState {
 pub struct Program {
     /// Length of a cycle [s].
     pub cycle: f64,
-    /// What comes first in the cycle comes first here.
+    /// The phases, in the order of the cycle.
     pub phases: Vec<Phase>,
 }
 
@@ -56,10 +56,10 @@ pub struct Phase {
 }
 
 impl Program {
-    /// A light that never stops anybody.
+    /// A light that is always green.
     pub const ALWAYS_GREEN: Program = Program { cycle: 60.0, phases: Vec::new() };
 
-    /// How long who comes at any time waits for green on average if nobody is there before it [s].
+    /// Mean waiting time for green of a vehicle that arrives at a random time and finds no queue [s].
     pub fn mean_wait(&self) -> f64 {
         let count = self.phases.len();
         let next = |number: usize| self.phases[(number + 1) % count].from;
@@ -75,7 +75,7 @@ impl Program {
         self.state_within(self.within_cycle(time))
     }
 
-    /// What it shows at this place of its cycle [s].
+    /// What it shows at this time of its cycle [s].
     #[inline]
     pub(super) fn state_within(&self, at: f64) -> LightState {
         if self.phases.is_empty() {
@@ -97,15 +97,15 @@ impl Program {
         states.min_by_key(|it| *it as u8).unwrap_or(LightState::Red)
     }
 
-    /// How long from `time` [s] on it shows the same, but for rounding [s]; infinite if it never changes.
+    /// Time from `time` [s] on during which it shows the same, except for rounding [s]; infinite if it never changes.
     pub fn steady_for(&self, time: f64) -> f64 {
         let at = self.within_cycle(time);
         let ends = self.phases.iter().flat_map(|it| [it.from, it.to, it.to + it.yellow]);
         ends.map(|it| self.within_cycle(it - at)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The time since the last beginning of a cycle [s]: the remainder, which is dear, only where a sum is not the
-    /// same.
+    /// The time since the last beginning of a cycle [s]. The remainder takes long, and is computed only where a sum
+    /// is not the same.
     #[inline]
     pub(super) fn within_cycle(&self, time: f64) -> f64 {
         match time {
@@ -124,7 +124,7 @@ impl Program {
     }
 }
 
-/// The rules of lights, together where the drivers on a lanelet obey several, ordered by their smallest ids.
+/// The rules of lights. Lights that the drivers on one lanelet obey are together, ordered by their smallest ids.
 pub(super) fn sharing(stops: &[StopRule]) -> Vec<Vec<&StopRule>> {
     let mut groups: Vec<Vec<&StopRule>> = Vec::new();
     for rule in stops.iter().filter(|it| it.kind == StopKind::Light && !it.lanelets.is_empty()) {

@@ -1,4 +1,4 @@
-//! Junctions: where chains get in each other's way, who goes first there, and where drivers stop.
+//! Junctions: where chains conflict, which has priority, and where drivers stop.
 
 mod contact;
 mod kinship;
@@ -22,12 +22,12 @@ use crate::geometry::{Point, Polyline};
 use crate::lanelet::LaneletIndex;
 use kinship::Kinship;
 
-/// What orders traffic on the lanelets of a network, beside their links.
+/// The rules for traffic on the lanelets of a network, beside their links.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Regulations {
     /// Lights and signs at which drivers stop.
     pub stops: Vec<StopRule>,
-    /// Who goes first.
+    /// Priorities.
     pub priorities: Vec<Priority>,
 }
 
@@ -40,7 +40,7 @@ pub struct StopRule {
     pub kind: StopKind,
     /// The lanelets whose drivers obey it.
     pub lanelets: Vec<LaneletIndex>,
-    /// Where they stop; a lanelet that none of the lines crosses is left at its end.
+    /// Stop lines; on a lanelet that none of the lines crosses, drivers stop at its end.
     pub lines: Vec<Vec<Point>>,
 }
 
@@ -49,18 +49,18 @@ pub struct StopRule {
 pub enum StopKind {
     /// A traffic light, if it shows red.
     Light,
-    /// A stop sign: always, and then they give way.
+    /// A stop sign: every driver stops, and then gives way.
     StopSign,
-    /// An all-way stop: always, and then they go in the order of arrival.
+    /// An all-way stop: every driver stops, and then they go in the order of arrival.
     AllWayStop,
     /// A line at which they wait if they have to.
     Line,
 }
 
-/// Some lanelets go before others.
+/// Some lanelets have priority over others.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Priority {
-    /// Those that go first.
+    /// Those with priority.
     pub first: Vec<LaneletIndex>,
     /// Those that give way.
     pub yielding: Vec<LaneletIndex>,
@@ -73,7 +73,7 @@ pub struct Junctions {
     pub zones: Vec<Zone>,
     /// All traffic lights.
     pub lights: Vec<Light>,
-    /// The plans that were made for lights without a program.
+    /// The generated plans of lights without a program.
     pub made: Vec<SignalPlan>,
     /// The plans in which traffic extends greens.
     pub actuated: Vec<SignalPlan>,
@@ -84,11 +84,11 @@ pub struct Junctions {
     nearby: Vec<Vec<Nearby>>,
 }
 
-/// What drivers meet on a chain without junctions.
+/// A chain without junctions.
 static NOTHING: OnChain = OnChain::EMPTY;
 
 impl Junctions {
-    /// The junctions of `network` under `regulations`. Lights without a program are given one (see [`Program`]).
+    /// The junctions of `network` under `regulations`. Lights without a program get one (see [`Program`]).
     pub fn new(network: &Network, regulations: &Regulations) -> Junctions {
         let kinship = Kinship::of(network);
         let contacts = contact::contacts(network);
@@ -130,14 +130,15 @@ impl Junctions {
         signals::conflicts(network, self)
     }
 
-    /// For each zone and each of its sides whether its drivers come past a light on `network`, to which these belong.
+    /// For each zone and each of its sides whether its drivers pass a light on `network`, to which these junctions
+    /// belong.
     pub fn lit_sides(&self, network: &Network) -> Vec<[bool; 2]> {
         signals::lit_sides(network, self)
     }
 
     /// What the lights show at `time` [s].
     pub fn show(&self, time: f64) -> impl Iterator<Item = LightState> {
-        // Those who stand together have cycles of one length.
+        // Lights of one junction have the same cycle length.
         let (mut cycle, mut at) = (f64::NAN, 0.0);
         self.lights.iter().map(move |Light { program, .. }| {
             if program.cycle != cycle {
@@ -147,7 +148,7 @@ impl Junctions {
         })
     }
 
-    /// How long from `time` [s] on all lights with fixed programs show the same, but for rounding [s].
+    /// Time from `time` [s] on during which all lights with fixed programs show the same, except for rounding [s].
     pub fn steady_for(&self, time: f64) -> f64 {
         self.lights.iter().map(|it| it.program.steady_for(time)).fold(f64::INFINITY, f64::min)
     }
@@ -158,21 +159,21 @@ impl Junctions {
         self.chains.get(chain.at()).unwrap_or(&NOTHING)
     }
 
-    /// Stations on `chain` at which its turns begin [m], in order: where it changes its direction by more than 30°
-    /// within 30 m, but for those around a roundabout.
+    /// Stations on `chain` at which its turns begin [m], in order: where its direction changes by more than 30°
+    /// within 30 m. Turns around a roundabout do not count.
     pub fn turns(&self, chain: ChainIndex) -> &[f64] {
         self.turns.get(chain.at()).map_or(&[], Vec::as_slice)
     }
 
-    /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first beyond the
-    /// last if there is none.
+    /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first is beyond
+    /// the last if there is none.
     #[inline]
     pub fn places(&self, chain: ChainIndex) -> [f64; 2] {
         self.on(chain).extent
     }
 
-    /// How far it is from `x` on `chain`, which is `length` long, to the next place where drivers may have to stop,
-    /// whichever way they go [m].
+    /// Distance from `x` on `chain`, which is `length` long, to the next place where drivers may have to stop, on any
+    /// route [m].
     #[inline]
     pub fn free_way(&self, chain: ChainIndex, x: f64, length: f64) -> f64 {
         let &OnChain { extent: [first, last], beyond, .. } = self.on(chain);
@@ -214,7 +215,7 @@ impl Junctions {
         &self.zones[crossing.zone.at()].sides[usize::from(1 - crossing.side)]
     }
 
-    /// Follows a reversal of the network's chains, by which each index is turned.
+    /// Follows a reversal of the network's chains: every index is reversed.
     pub(crate) fn reverse_chains(&mut self, turn: impl Fn(&mut ChainIndex)) {
         self.chains.reverse();
         self.turns.reverse();
@@ -292,7 +293,7 @@ impl Junctions {
             let Position { chain, x: start } = network.start_of(*lanelet);
             let centre = &network.lanelets[lanelet.at()].centre;
             let along = rule.lines.iter().find_map(|line| centre.crossed_by(line));
-            // A line before the lanelet is that of a lanelet within the junction.
+            // A line before the lanelet belongs to a lanelet within the junction.
             let is_before = rule.lines.iter().any(|line| is_nearer_to_start(centre, line));
             let station = start + along.unwrap_or(if is_before { 0.0 } else { centre.length() });
             self.chains[chain.at()].stops.push(Stop { station, sign });
@@ -305,7 +306,7 @@ fn is_nearer_to_start(centre: &Polyline, line: &[Point]) -> bool {
     nearest(centre.at(0.0)) < nearest(centre.at(centre.length()))
 }
 
-/// The lanelets near a chain that decide by which rules its drivers go: its own and those that lead to it.
+/// The lanelets near a chain whose rules its drivers follow: its own and those that lead to it.
 fn lineage<'a>(
     network: &'a Network,
     kinship: &'a Kinship,

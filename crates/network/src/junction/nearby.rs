@@ -1,11 +1,11 @@
-//! Where vehicles on different chains are near enough to touch: the list by which overlaps are looked for, whether
-//! anything is meant to keep them apart there or not.
+//! Where vehicles on different chains are near enough to touch. The search for overlaps uses this list; it includes
+//! places where no rule keeps vehicles apart.
 
 use super::contact::{Contact, LONGEST_VEHICLE, SAMPLE};
 use crate::build::Network;
 use crate::chain::ChainIndex;
 
-/// Stretches of two chains: a vehicle whose front is on the one may touch one whose front is on the other.
+/// Stretches of two chains: a vehicle with its front on one may touch a vehicle with its front on the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearby {
     /// First and last station of a front on the one chain [m].
@@ -16,12 +16,12 @@ pub struct Nearby {
     pub there: [f64; 2],
 }
 
-/// Contacts are joined over stretches of this length [m]: long lanes side by side are not held against each other as a
+/// Contacts are joined over stretches of this length [m], so that long lanes side by side are not compared as a
 /// whole.
 const PIECE: f64 = 20.0;
 
-/// For each chain the stretches of other ones, of larger or smaller index, that are near it; each two chains are named
-/// once.
+/// For each chain the stretches of other chains, of larger or smaller index, that are near it; each pair of chains is
+/// listed once.
 pub(super) fn nearby(network: &Network, contacts: &[([ChainIndex; 2], Vec<Contact>)]) -> Vec<Vec<Nearby>> {
     let mut all = vec![Vec::new(); network.chains.len()];
     for ([here, there], contacts) in contacts {
@@ -38,7 +38,7 @@ fn number(contact: &Contact) -> i64 {
     (contact.stations[0] / PIECE).floor() as i64
 }
 
-/// The stretches of contacts that follow on each other on the other chain.
+/// The stretches of contacts that follow each other on the other chain.
 fn runs(piece: &[Contact]) -> Vec<[[f64; 2]; 2]> {
     let mut sorted: Vec<[f64; 2]> = piece.iter().map(|it| it.stations).collect();
     sorted.sort_by(|a, b| a[1].total_cmp(&b[1]));
@@ -51,7 +51,7 @@ fn runs(piece: &[Contact]) -> Vec<[[f64; 2]; 2]> {
     runs.map(|run| [0, 1].map(|side| extent(run, side))).collect()
 }
 
-/// Notes two stretches on which bodies are near each other, and those beyond their chains' ends on which the fronts may
+/// Adds two stretches on which vehicles are near each other, and those beyond their chains' ends where the fronts may
 /// be.
 fn note(network: &Network, all: &mut [Vec<Nearby>], bodies: [(ChainIndex, [f64; 2]); 2]) {
     let [ones, others] =
@@ -63,7 +63,7 @@ fn note(network: &Network, all: &mut [Vec<Nearby>], bodies: [(ChainIndex, [f64; 
     }
 }
 
-/// A stretch, and what of it lies on the chains that follow.
+/// A stretch, and its parts on the following chains.
 fn fronts(network: &Network, chain: ChainIndex, stretch: [f64; 2]) -> Vec<(ChainIndex, [f64; 2])> {
     let mut found = vec![(chain, stretch)];
     let mut at = 0;

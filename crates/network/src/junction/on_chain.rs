@@ -2,13 +2,14 @@
 
 use super::{LightIndex, Touch, ZoneIndex};
 
-/// What drivers meet on one chain, in the order of stations. What they look at in every step comes first in memory.
+/// What drivers meet on one chain, in the order of stations. Fields that they read in every step come first in
+/// memory.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct OnChain {
     /// First and last place [m].
     pub(super) extent: [f64; 2],
-    /// From the chain's end to the next place on any way on [m].
+    /// From the chain's end to the next place on any route [m].
     pub(super) beyond: f64,
     /// All crossings and stops; of two at the same station the place to stop comes first.
     pub places: Vec<Place>,
@@ -40,7 +41,7 @@ pub enum PlaceKind {
         touch: Touch,
         /// Where it ends [m].
         end: f64,
-        /// From where on the lanes are one, if they become one [m].
+        /// Station from which on the lanes are one, if they become one [m].
         merge: Option<f64>,
     },
 }
@@ -57,20 +58,20 @@ pub struct Crossing {
 /// A place to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// Where the front has to stay behind [m].
+    /// The front must not pass this station [m].
     pub station: f64,
-    /// At what.
+    /// The reason to stop.
     pub sign: Sign,
 }
 
-/// What a driver stops at.
+/// The reason to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// A light.
     Light(LightIndex),
-    /// A stop sign, of all ways or not: once, whoever comes.
+    /// A stop sign, of all ways or not: every driver stops once.
     Stop,
-    /// A line, if somebody comes.
+    /// A line: drivers stop if they have to give way.
     Line,
 }
 

@@ -1,5 +1,6 @@
-//! Who goes first in a zone: what signs say, then the ring of a roundabout, then who does not turn across the oncoming,
-//! then who comes from the side of the road on which traffic drives (in Germany the right).
+//! Which side has priority in a zone. In this order: signs; the circulating lane of a roundabout; vehicles that do
+//! not turn across oncoming traffic; vehicles from the side of the road on which traffic drives (in Germany the
+//! right).
 
 use std::f64::consts::PI;
 
@@ -17,7 +18,7 @@ struct Marks {
     all_stop: bool,
 }
 
-/// Settles who goes first in each zone.
+/// Determines which side has priority in each zone.
 pub(super) fn settle(network: &Network, kinship: &Kinship, regulations: &Regulations, zones: &mut [Zone]) {
     if zones.is_empty() {
         return;
@@ -41,7 +42,7 @@ pub(super) fn settle(network: &Network, kinship: &Kinship, regulations: &Regulat
     }
 }
 
-/// For each lanelet the priorities by which it goes first, and those by which it gives way.
+/// For each lanelet the rules that give it priority, and those by which it gives way.
 fn orders(network: &Network, regulations: &Regulations) -> Vec<[Vec<usize>; 2]> {
     let mut orders = vec![[Vec::new(), Vec::new()]; network.lanelets.len()];
     for (number, rule) in regulations.priorities.iter().enumerate() {
@@ -85,7 +86,7 @@ fn by_stop_signs(
     }
 }
 
-/// Where exactly one of two sides goes first, that one.
+/// The side that has priority, where exactly one of the two has it.
 fn first_of(goes_first: [bool; 2]) -> Option<Precedence> {
     match goes_first {
         [true, false] => Some(Precedence::Side(0)),
@@ -94,13 +95,13 @@ fn first_of(goes_first: [bool; 2]) -> Option<Precedence> {
     }
 }
 
-/// How far before a zone the direction is taken from which a path comes [m].
+/// Distance before a zone at which the direction of a path is taken [m].
 const COMES_FROM: f64 = 15.0;
-/// Paths that come from directions closer than this come from one road, further apart than the second from opposite
+/// Paths whose directions differ by less than the first come from one road, by more than the second from opposite
 /// ones [rad].
 const ONE_ROAD: f64 = PI / 6.0;
 const OPPOSITE: f64 = 0.75 * PI;
-/// Who turns by more than this gives way to oncoming traffic [rad].
+/// A vehicle that turns by more than this gives way to oncoming traffic [rad].
 pub(super) const TURNS: f64 = PI / 6.0;
 
 fn by_shape(network: &Network, zone: &Zone) -> Precedence {
@@ -130,8 +131,8 @@ pub(super) fn turned(from: f64, to: f64) -> f64 {
     if angle > PI { angle - 2.0 * PI } else { angle }
 }
 
-/// Whether a chain is part of a roundabout: a way of at most 250 m leads back to it and turns once around, to the side
-/// where traffic does not drive.
+/// Whether a chain is part of a roundabout: a path of at most 250 m leads back to it and turns once around, to the
+/// side on which traffic does not drive.
 pub(super) fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
     const LONGEST: f64 = 250.0;
     const ONCE_AROUND: std::ops::Range<f64> = 1.6 * PI..2.4 * PI;
@@ -146,7 +147,7 @@ pub(super) fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
     if network.chain(chain).length > LONGEST {
         return false;
     }
-    // Each chain is reached once, along the shortest way.
+    // Each chain is reached once, along the shortest path.
     let mut open = vec![(network.chain(chain).length, chain, turn_of(chain).1, turn_of(chain).2)];
     let mut seen = vec![chain];
     while let Some(nearest) = (0..open.len()).min_by(|a, b| open[*a].0.total_cmp(&open[*b].0)) {

@@ -1,27 +1,27 @@
-//! Which lights get in each other's way, and the programs of those that do: turns, one after the other.
+//! Which lights conflict, and the programs of those that do: phases, one after the other.
 
 use super::light::{LightIndex, Phase, Program};
 use super::{Junctions, Precedence, Sign, Touch, ZoneIndex};
 use crate::build::Network;
 use crate::chain::ChainIndex;
 
-/// A program for several lights: turns that follow on each other, again and again.
+/// A program for several lights: phases that follow each other and repeat.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalPlan {
-    /// When the first turn begins, and again after every cycle [s].
+    /// Start of the first phase, and of every further cycle [s].
     pub offset: f64,
-    /// The turns in order.
+    /// The phases in order.
     pub turns: Vec<Turn>,
 }
 
-/// Some lights are green, then yellow, and then all are red.
+/// A phase: some lights are green, then yellow, and then all are red.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turn {
-    /// Those that are green. One that is green in the next turn, too, stays green in between.
+    /// The lights that are green. A light that is green in the next phase, too, stays green in between.
     pub lights: Vec<LightIndex>,
-    /// Length of green, the longest if traffic extends it [s].
+    /// Length of green, the maximum if traffic extends it [s].
     pub green: f64,
-    /// How traffic extends it; without it does not.
+    /// How traffic extends it; `None`: it is fixed.
     pub extension: Option<Extension>,
     /// Length of the yellow after it [s].
     pub yellow: f64,
@@ -32,9 +32,9 @@ pub struct Turn {
 /// How traffic extends a green.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extension {
-    /// Its shortest length [s].
+    /// Minimum green [s].
     pub least: f64,
-    /// It ends when nobody has come for so long [s].
+    /// Gap time: green ends when no vehicle has come for so long [s].
     pub gap: f64,
 }
 
@@ -45,29 +45,29 @@ impl Default for Extension {
     }
 }
 
-/// Two lights whose drivers get in each other's way.
+/// Two lights whose drivers conflict.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightConflict {
-    /// The lights, the one that comes first in the list first.
+    /// The lights; the one that comes first in the list is first.
     pub lights: [LightIndex; 2],
-    /// Where: a zone in which neither goes first if there is one, or else any.
+    /// Where: a zone in which neither side has priority, if there is one, or else any.
     pub zone: ZoneIndex,
-    /// The side of the zone on which the drivers of the first light come.
+    /// The side of the zone for the drivers of the first light.
     pub side: u8,
-    /// In every zone one of them gives way, as who turns across oncoming traffic: both may be green.
+    /// In every zone one of them gives way, like a turn across oncoming traffic: both may be green.
     pub is_ordered: bool,
 }
 
-/// Length of yellow [s] (definitions of made signals).
+/// Length of yellow [s] (definitions of generated programs).
 const YELLOW: f64 = 3.0;
-/// Cycle of made programs [s].
+/// Cycle of generated programs [s].
 const CYCLE: f64 = 60.0;
-/// Speed at which a junction is taken to be cleared [m/s], and least time for it [s].
+/// Speed at which vehicles clear a junction [m/s], and minimum clearance time [s].
 const CLEARING_SPEED: f64 = 8.0;
 const LEAST_ALL_RED: f64 = 2.0;
-/// Shortest green [s]; with more groups than fit into the cycle it is longer. Ours.
+/// Minimum green [s]; with more groups than fit into the cycle, the cycle is longer. Ours.
 const LEAST_GREEN: f64 = 5.0;
-/// Longest green of those that traffic extends [s]; ours.
+/// Maximum green of actuated lights [s]; ours.
 const LONGEST_GREEN: f64 = 40.0;
 
 impl Turn {
@@ -78,7 +78,7 @@ impl Turn {
 }
 
 impl SignalPlan {
-    /// Its lights; those of several turns several times.
+    /// Its lights; a light of several phases comes several times.
     pub fn lights(&self) -> impl Iterator<Item = LightIndex> {
         self.turns.iter().flat_map(|it| it.lights.iter().copied())
     }
@@ -88,7 +88,7 @@ impl SignalPlan {
         self.turns.iter().map(Turn::duration).sum()
     }
 
-    /// The same lights with greens of 5 to 40 s that traffic extends; ours.
+    /// The same lights, actuated, with greens of 5 to 40 s; ours.
     pub fn actuated(mut self) -> SignalPlan {
         for turn in &mut self.turns {
             (turn.green, turn.extension) = (LONGEST_GREEN, Some(Extension::default()));
@@ -96,12 +96,12 @@ impl SignalPlan {
         self
     }
 
-    /// Traffic extends some of its greens.
+    /// Whether traffic extends some of its greens.
     pub fn is_actuated(&self) -> bool {
         self.turns.iter().any(|it| it.extension.is_some())
     }
 
-    /// The program of one of its lights; of an actuated one with the longest greens.
+    /// The program of one of its lights; of an actuated one with the maximum greens.
     pub fn program(&self, light: LightIndex) -> Program {
         let has_turn = |number: usize| self.turns[number].lights.contains(&light);
         let count = self.turns.len();
@@ -132,14 +132,14 @@ impl SignalPlan {
     }
 }
 
-/// Which lights get in each other's way.
+/// The pairs of lights that conflict.
 pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightConflict> {
     between(junctions, &fields(network, junctions))
 }
 
-/// The plans for lights without a program: 60 s, groups that do not get in each other's way one after the other in the
-/// order of ids, yellow 3 s, all red for the clearance distance at 8 m/s, at least 2 s; what is left is green in equal
-/// shares.
+/// The plans for lights without a program. Cycle 60 s; groups without conflicts follow each other in the order of
+/// ids; yellow 3 s; all red for the clearance distance at 8 m/s, at least 2 s. The groups share the rest as green in
+/// equal parts.
 pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<SignalPlan> {
     let mut plans = Vec::new();
     let fields = fields(network, junctions);
@@ -172,7 +172,7 @@ fn fields(network: &Network, junctions: &Junctions) -> Vec<Field> {
     (0..junctions.lights.len()).map(|it| Field::of(network, junctions, LightIndex(it as u32))).collect()
 }
 
-/// For each zone and each of its sides whether its drivers come past a light.
+/// For each zone and each of its sides whether its drivers pass a light.
 pub(super) fn lit_sides(network: &Network, junctions: &Junctions) -> Vec<[bool; 2]> {
     let mut is_lit = vec![[false; 2]; junctions.zones.len()];
     for (zone, side) in fields(network, junctions).into_iter().flat_map(|it| it.zones) {
@@ -197,7 +197,7 @@ fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
     pairs.filter_map(conflict).collect()
 }
 
-/// The lights of each junction: those that get in each other's way, directly or over others, in order.
+/// The lights of each junction: those that conflict, directly or through others, in order.
 fn junctions_of(count: usize, conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
     let mut left: Vec<usize> = (0..count).collect();
     let mut found = Vec::new();
@@ -217,12 +217,12 @@ fn junctions_of(count: usize, conflict: impl Fn(usize, usize) -> bool) -> Vec<Ve
     found
 }
 
-/// Time for who passed last to clear the junction [s].
+/// Time for the last vehicle to clear the junction [s].
 fn all_red<'a>(fields: impl Iterator<Item = &'a Field>) -> f64 {
     (fields.map(|it| it.clearance).fold(0.0, f64::max) / CLEARING_SPEED).max(LEAST_ALL_RED)
 }
 
-/// Maximal sets of members that do not conflict: each begins with the first that has had no turn.
+/// Maximal sets of members that do not conflict: each begins with the first member that has had no phase.
 fn groups(members: &[usize], conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for first in members {
@@ -242,15 +242,15 @@ fn groups(members: &[usize], conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec
 
 /// What lies behind a light.
 struct Field {
-    /// Zones and sides that its drivers come to.
+    /// Zones and sides that its drivers reach.
     zones: Vec<(u32, u8)>,
-    /// Longest way from where they stop to the end of the last of them [m].
+    /// Longest path from their stop line to the end of the last of them [m].
     clearance: f64,
 }
 
 impl Field {
     fn of(network: &Network, junctions: &Junctions, light: LightIndex) -> Field {
-        /// Zones further beyond a light, or beyond the last zone, are another junction's [m].
+        /// Zones further beyond a light, or beyond the last zone, belong to another junction [m].
         const REACH: f64 = 80.0;
         const NEXT: f64 = 25.0;
         let mut field = Field { zones: Vec::new(), clearance: 0.0 };

@@ -5,12 +5,12 @@ use crate::build::Network;
 use crate::chain::ChainIndex;
 use crate::geometry::Polyline;
 
-/// Directions are taken so far apart [m].
+/// Distance over which directions are compared [m].
 const SAMPLE: f64 = 5.0;
-/// So many samples make a turn, and part it from the next one to the same side.
+/// Number of samples that make a turn, and separate it from the next one to the same side.
 const SAMPLES: usize = 6;
 
-/// For each chain the stations at which its turns begin [m], in order. Going on round a roundabout is no turn.
+/// For each chain the stations at which its turns begin [m], in order. Driving on around a roundabout is no turn.
 pub(super) fn turns(network: &Network) -> Vec<Vec<f64>> {
     let chains = (0..network.chains.len() as u32).map(ChainIndex);
     let turns_of = |chain: ChainIndex| {
@@ -27,7 +27,7 @@ fn along(line: &Polyline) -> Vec<f64> {
         (0..=samples).map(|it| line.heading((it as f64 * SAMPLE).min(line.length()))).collect();
     let bends: Vec<f64> = headings.windows(2).map(|it| turned(it[0], it[1])).collect();
     let mut turns = Vec::new();
-    // The last place on a turn, and to which side it goes.
+    // The last place on a turn, and its side.
     let mut last: Option<(usize, f64)> = None;
     for at in 0..bends.len() {
         let turn: f64 = bends[at..].iter().take(SAMPLES).sum();
@@ -50,8 +50,8 @@ mod tests {
     use super::*;
     use crate::geometry::Point;
 
-    /// The turns of a straight line of 100 m, followed by arcs, each with a radius [m] and an angle to the left [rad],
-    /// and straight on for 100 m after each.
+    /// The turns of a straight line of 100 m, followed by arcs, each with a radius [m] and an angle to the left
+    /// [rad], and by 100 m straight on after each.
     fn turns_of(arcs: &[(f64, f64)]) -> Vec<f64> {
         let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0f64);
         let mut points = vec![Point::new(x, y, 0.0)];

@@ -1,5 +1,5 @@
-//! Conflict zones: where two chains cross, merge, run beside each other on shared ground, or come so close in a bend
-//! that a long vehicle needs both.
+//! Conflict zones: where two chains cross, merge, or run beside each other on a conflict area, or come so close in a
+//! bend that a long vehicle needs both.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,24 +22,24 @@ impl ZoneIndex {
 /// A stretch of one chain and a stretch of another on which vehicles would touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Zone {
-    /// What makes it one.
+    /// Its kind.
     pub kind: ZoneKind,
     /// Which vehicles would touch there.
     pub touch: Touch,
     /// The two stretches.
     pub sides: [Reach; 2],
-    /// The side that goes first.
+    /// The side with priority.
     pub precedence: Precedence,
 }
 
-/// What makes a zone.
+/// Kinds of zones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ZoneKind {
     /// The chains cross or touch.
     Crossing,
-    /// They lead into one, or in one direction over the same ground: who goes second follows. Stations along each
-    /// side's chain, or beyond its end, from which on they are one, or at which a vehicle has left the ground that they
-    /// share [m].
+    /// They lead into one lane, or in one direction over the same area: the second vehicle follows the first.
+    /// Stations along each side's chain, or beyond its end, from which on they are one, or at which a vehicle has
+    /// left the area that they share [m].
     Merging([f64; 2]),
 }
 
@@ -48,14 +48,14 @@ pub enum ZoneKind {
 pub enum Touch {
     /// Any two.
     Any,
-    /// Two of which one is long, at least.
+    /// Any two of which at least one is long.
     OneLong,
     /// Two long ones.
     BothLong,
 }
 
 impl Touch {
-    /// Whether it concerns a vehicle at all that `is_long` or not.
+    /// Whether it concerns a vehicle that `is_long` or not.
     #[inline]
     pub fn concerns(self, is_long: bool) -> bool {
         is_long || self != Touch::BothLong
@@ -83,15 +83,15 @@ pub struct Reach {
     pub end: f64,
 }
 
-/// Who goes first where both could.
+/// Priority where both could go.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precedence {
-    /// Who came first.
+    /// The vehicle that came first.
     #[default]
     Arrival,
-    /// The side of this number, 0 or 1; the other gives way.
+    /// The side with this number, 0 or 1; the other gives way.
     Side(u8),
-    /// Who comes from the right, which is the side of this number, unless the other has waited long.
+    /// The vehicle from the right, on the side with this number, unless the other has waited long.
     FromTheRight(u8),
 }
 
@@ -103,10 +103,11 @@ pub(super) fn zones(kinship: &Kinship, contacts: &[([ChainIndex; 2], Vec<Contact
     contacts.iter().flat_map(|(pair, contacts)| zones_of(kinship, *pair, contacts)).collect()
 }
 
-/// The zones of two chains with these contacts, which are in the order of the first one's stations.
+/// The zones of two chains with these contacts, which are in the order of the first chain's stations.
 fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> Vec<Zone> {
     let touching = contacts.iter().filter_map(|it| Some((it, it.touch?)));
-    // Where one of two lanes begins or ends, the change between them has to stay possible: cars would not touch there.
+    // Where one of two lanes begins or ends, the change between them has to stay possible: cars would not touch
+    // there.
     let apart = touching.filter(|(it, touch)| {
         let is_changed = *touch != Touch::Any && kinship.is_left_beside(pair, it.stations);
         !is_changed && !kinship.is_one_behind_the_other(pair, it.stations)
@@ -120,8 +121,8 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> V
                     (0..2).all(|side| (it.0.stations[side] - contact.0.stations[side]).abs() <= APART)
                 })
             };
-        // Cars would wait for nothing in a crossing that is longer for the sake of long vehicles beyond it: that is one
-        // of its own.
+        // In a crossing that is longer because of long vehicles beyond it, cars would wait without a reason: that
+        // part is a zone of its own.
         let joins = |group: &&mut Vec<(&Contact, Touch)>| {
             fits(group) && !(contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any))
         };
@@ -151,8 +152,8 @@ fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]
         }
         Meeting::Crosses => ZoneKind::Crossing,
     };
-    // Estimates are too coarse to tell two long vehicles from one where ways cross, or any from all where they lead
-    // into one.
+    // Estimates are too coarse to distinguish two long vehicles from one where paths cross, or any from all where
+    // they lead into one.
     let touch = match kind {
         ZoneKind::Merging(_) if !mostly(group, |it| it.is_along) => Touch::Any,
         ZoneKind::Crossing if !mostly(group, |it| it.is_road) => touch.min(Touch::OneLong),
@@ -162,7 +163,7 @@ fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]
     Some(Zone { kind, touch, sides: [reach(0), reach(1)], precedence: Precedence::Arrival })
 }
 
-/// Whether by far most of the contacts are of a kind.
+/// Whether by far the most contacts are of a kind.
 fn mostly(group: &[(&Contact, Touch)], kind: impl Fn(&Contact) -> bool) -> bool {
     const MOST: f64 = 0.8;
     let found = group.iter().filter(|it| kind(it.0)).count();

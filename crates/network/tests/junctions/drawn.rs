@@ -23,7 +23,7 @@ impl Lanes {
         self
     }
 
-    /// The same seen in a mirror.
+    /// The mirror image.
     pub(crate) fn mirrored(mut self) -> Lanes {
         self.0.iter_mut().flat_map(|lane| &mut lane.0).for_each(|point| point.y = -point.y);
         self
@@ -56,7 +56,7 @@ impl Lanes {
         self.network(DrivingSide::Right).regulated(regulations).junctions
     }
 
-    /// The zones where no rules hold.
+    /// The zones without rules.
     pub(crate) fn zones(&self) -> Vec<Zone> {
         self.junctions(&Regulations::default()).zones
     }

@@ -1,4 +1,4 @@
-//! Lights without a program are given one: conflicting movements are never on their way at once.
+//! Lights without a program get one: conflicting movements are never green at once.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,7 +9,7 @@ use laneweave_network::{
 
 use crate::drawn::{Lanes, arc, straight};
 
-/// Where the lines lie, from the middle of the junction [m], and how far the lanes are from the middle of the road [m].
+/// Distance of the lines from the middle of the junction [m], and of the lanes from the middle of the road [m].
 const LINE: f64 = 12.0;
 const BESIDE: f64 = 1.75;
 
@@ -88,7 +88,7 @@ fn four_arms_whose_movements_all_conflict_have_a_quarter_of_60_s_each() {
     for (light, turn) in lights.iter().zip(0..) {
         assert_eq!(light.program.cycle, 60.0);
         let [phase] = light.program.phases[..] else { panic!("{:?}", light.program) };
-        // The longest way is the one straight on, 24 m and a sample: 3.0625 s at 8 m/s, after 3 s of yellow.
+        // The longest path is the one straight on, 24 m and a sample: 3.0625 s at 8 m/s, after 3 s of yellow.
         assert!((phase.from - 15.0 * f64::from(turn)).abs() < 1e-9, "{phase:?}");
         assert!((phase.to - phase.from - (15.0 - 3.0 - 24.5 / 8.0)).abs() < 1e-9, "{phase:?}");
     }
@@ -204,10 +204,10 @@ fn drivers_stop_at_the_first_place_where_a_line_cuts_their_way() {
     let point = |x: f64, y: f64| Point::new(x, y, 0.0);
     let way = Polyline::new([point(0.0, 0.0), point(10.0, 0.0), point(10.0, 10.0), point(0.0, 10.0)])
         .expect("the line has a length");
-    // The line of two pieces cuts the way at 25 m, then at 5 m.
+    // The line of two pieces cuts the path at 25 m, then at 5 m.
     let bent = [point(5.0, 12.0), point(5.0, 6.0), point(5.0, -1.0)];
     assert_eq!(way.crossed_by(&bent), Some(5.0));
-    // Through a corner, along the way, and in one point only.
+    // Through a corner, along the path, and in one point only.
     assert_eq!(way.crossed_by(&[point(9.0, -1.0), point(11.0, 1.0)]), Some(10.0));
     assert_eq!(way.crossed_by(&[point(2.0, 0.0), point(8.0, 0.0)]), None);
     assert_eq!(way.crossed_by(&[point(4.0, 0.0), point(4.0, 2.0)]), Some(4.0));

@@ -1,4 +1,4 @@
-//! Junctions: where lanes get in each other's way, who goes first there, and what lights show.
+//! Junctions: where lanes conflict, which has priority, and what lights show.
 
 mod drawn;
 mod lights;

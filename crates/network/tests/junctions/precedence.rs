@@ -1,4 +1,4 @@
-//! Who goes first in a zone: signs, then rings, then who does not turn, then the side.
+//! Which side has priority in a zone: signs, then roundabouts, then vehicles that do not turn, then the side.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -25,12 +25,12 @@ fn goes_before(first: u32, yielding: u32) -> Regulations {
     Regulations { priorities: vec![priority], ..Regulations::default() }
 }
 
-/// Who goes first where the lanes to the east (0) and to the north (1) cross.
+/// The side with priority where the lanes to the east (0) and to the north (1) cross.
 fn at_the_crossing(regulations: &Regulations) -> Precedence {
     crossing(0.0).junctions(regulations).zones[0].precedence
 }
 
-/// Who goes first, on a road where traffic drives on the given side, without rules.
+/// The side with priority, on a road where traffic drives on the given side, without rules.
 fn without_rules(lanes: &Lanes, side: DrivingSide) -> Vec<Precedence> {
     let junctions = lanes.network(side).regulated(&Regulations::default()).junctions;
     junctions.zones.iter().map(|it| it.precedence).collect()
@@ -46,8 +46,8 @@ fn left_turn() -> Lanes {
     Lanes::default().with(straight((-100.0, 0.0), (100.0, 0.0)), &[]).with(turning, &[])
 }
 
-/// A ring of radius 15 m, counter-clockwise from the south, in quarters 0 to 3; into its first quarter leads the lane
-/// 4, from its second leads the lane 5.
+/// A circulating lane of radius 15 m, counter-clockwise from the south, in quarters 0 to 3; lane 4 leads into its
+/// first quarter, lane 5 leads out of its second.
 fn roundabout() -> Lanes {
     let quarter = |number: f64| arc((0.0, 0.0), 15.0, (number - 1.0) * FRAC_PI_2, FRAC_PI_2);
     Lanes::default()
@@ -96,7 +96,7 @@ fn where_all_have_to_stop_they_go_in_the_order_of_arrival() {
 
 #[test]
 fn without_signs_who_comes_from_the_right_goes_first_or_from_the_left_where_traffic_drives_there() {
-    // Who drives to the north comes from the right of who drives to the east.
+    // A vehicle to the north comes from the right of a vehicle to the east.
     assert_eq!(without_rules(&crossing(0.0), DrivingSide::Right), [Precedence::FromTheRight(1)]);
     assert_eq!(without_rules(&crossing(0.0), DrivingSide::Left), [Precedence::FromTheRight(0)]);
 }

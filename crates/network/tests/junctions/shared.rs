@@ -1,4 +1,4 @@
-//! Lanes over the same ground from edge to edge of a map.
+//! Lanes over the same area from edge to edge of a map.
 
 use laneweave_network::{Network, ZoneKind};
 
@@ -12,7 +12,7 @@ fn only_zone(network: &Network) -> (ZoneKind, [[f64; 2]; 2]) {
 
 #[test]
 fn two_directions_over_the_same_ground_from_edge_to_edge_take_turns_and_both_are_entered() {
-    // On the same ground, and on ground that they share by half.
+    // On the same area, and on an area that they share by half.
     for shift in [0.0, 1.4] {
         let (left, right) = (1.65 - 0.5 * shift, -1.65 - 0.5 * shift);
         let there = lanelet(1, &[(0.0, left), (400.0, left)], &[(0.0, right), (400.0, right)]);
@@ -40,7 +40,7 @@ fn two_ways_that_begin_at_one_place_at_the_edge_merge_there_and_both_are_entered
     let network = network(vec![up, down]);
     let (kind, sides) = only_zone(&network);
     assert!(sides.iter().all(|it| it[0] == 0.0 && (20.0..60.0).contains(&it[1])), "{sides:?}");
-    // They are one until the longest vehicle is out of the ground that they share.
+    // They are one until the longest vehicle has left the area that they share.
     assert_eq!(kind, ZoneKind::Merging(sides.map(|it| it[1] + 12.0)));
     assert_eq!(entrances(&network), [1, 2]);
 }

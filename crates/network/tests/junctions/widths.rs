@@ -1,5 +1,4 @@
-//! Lanes between borders that are drawn: where they are wide enough to drive on, and whether narrow ones get in each
-//! other's way.
+//! Lanes between drawn borders: where they are wide enough to drive on, and whether narrow ones conflict.
 
 use laneweave_network::{
     DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side, ZoneKind,
@@ -60,7 +59,7 @@ fn a_lane_that_narrows_to_nothing_ends_for_each_class_where_it_is_as_wide_as_tha
     // It is 3.30 m wide at 200 m and narrows by 3.3 cm in a metre: to 1.80 m in 45.5 m, to 2.55 m in 22.7 m.
     for (is_long, end) in [(false, 245.5), (true, 222.7)] {
         let until = drop.driven_until(is_long);
-        // Widths are compared every half a metre; across the lane, not across the road, they are a little less.
+        // Widths are compared every half metre; across the lane, not across the road, they are a little smaller.
         assert!((until - end).abs() < 1.5, "{until} instead of {end}");
         assert!(drop.is_open(0.0, is_long) && drop.is_open(until, is_long), "{:?}", drop.open);
         assert!(!drop.is_open(until + 1.0, is_long), "{:?}", drop.open);
@@ -69,8 +68,8 @@ fn a_lane_that_narrows_to_nothing_ends_for_each_class_where_it_is_as_wide_as_tha
     assert_eq!(network.junctions.zones, [], "nobody drives where it touches the other lane");
 }
 
-/// A road of 400 m between borders 2.6 m apart, beside its first half on the right a lane. From 200 m this can be left
-/// for the first time, and narrows at once, to nothing in `taper` [m].
+/// A road of 400 m between borders 2.6 m apart, with a lane on the right beside its first half. From 200 m on
+/// vehicles can leave this lane, and it narrows at once, to nothing in `taper` [m].
 fn late(taper: f64) -> Network {
     let mut road = vec![
         eastward(1, [0.0, 200.0], 2.6, 2.6),

@@ -7,9 +7,10 @@ use proptest::prelude::*;
 
 use crate::drawn::{Lanes, WIDTH, arc, crossing, joined, straight};
 
-/// Width of the largest vehicle and the space beside it [m]: within this of a path somebody else is in the way.
+/// Width of the largest vehicle and the space beside it [m]: within this distance of a path another vehicle is in the
+/// way.
 const CLOSE: f64 = 2.55 + 0.15;
-/// Distance of the places that are compared [m]; a zone begins and ends no further than this beyond what is in the way.
+/// Distance between the compared places [m]; a zone begins and ends at most this far beyond the obstruction.
 const SAMPLE: f64 = 0.5;
 
 fn only(zones: &[Zone]) -> &Zone {

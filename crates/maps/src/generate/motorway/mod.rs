@@ -24,11 +24,11 @@ pub struct Motorway {
     pub speed_limit_kmh: f64,
     /// Width of a lane [m].
     pub lane_width_m: f64,
-    /// About how long the lanelets are [m].
+    /// Approximate length of the lanelets [m].
     pub lanelet_length_m: f64,
-    /// Where on-ramps meet the road [m]: a ramp of 200 m that becomes a lane of 250 m beside the slow one.
+    /// Where on-ramps meet the road [m]: a ramp of 200 m that continues as a lane of 250 m beside the slow lane.
     pub on_ramp_at: Vec<f64>,
-    /// Where off-ramps leave it [m]: a lane of 250 m beside the slow one that becomes a ramp of 200 m.
+    /// Where off-ramps leave it [m]: a lane of 250 m beside the slow lane that continues as a ramp of 200 m.
     pub off_ramp_at: Vec<f64>,
     /// A weaving section.
     pub weaving: Option<Weaving>,
@@ -38,8 +38,8 @@ pub struct Motorway {
     pub driving_side: DrivingSide,
 }
 
-/// An on-ramp and an off-ramp with one lane beside the slow one between them, on which traffic to and from the road
-/// changes places. Both ramps are 200 m long.
+/// An on-ramp and an off-ramp with one lane between them, beside the slow lane; traffic to and from the road weaves
+/// on it. Both ramps are 200 m long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weaving {
     /// Where the on-ramp meets the road [m].
@@ -67,9 +67,9 @@ impl Default for Motorway {
 }
 
 impl Motorway {
-    /// Two lanes with a weaving section of `length_m`, 1200 m behind where the road begins and before where it ends.
+    /// Two lanes with a weaving section of `length_m`, 1200 m after the beginning of the road and before its end.
     pub fn weaving(length_m: f64) -> Motorway {
-        /// Room for the ramps, and for traffic to settle [m].
+        /// Length for the ramps, and for traffic to settle [m].
         const AROUND: f64 = 1200.0;
         Motorway {
             lanes: 2,
@@ -82,11 +82,11 @@ impl Motorway {
 
 /// Draws a motorway.
 ///
-/// Lanelets are numbered from 1 on, row by row along the road, in each from the slow lane to the fast one;
-/// then ramps.
+/// Lanelets are numbered from 1 on, row by row along the road, in each row from the slow lane to the fast one; then
+/// the ramps.
 ///
 /// # Errors
-/// If a number is out of range, or ramps and the lane drop do not fit on the road beside each other.
+/// If a number is out of range, or if ramps and the lane drop do not fit on the road side by side.
 pub fn motorway(motorway: &Motorway) -> Result<Drawing, GenerateError> {
     let plan = Plan::of(motorway)?;
     let mut sketch = Sketch::new(motorway, &plan);

@@ -1,4 +1,4 @@
-//! The plan of a motorway: what fits on it, and where its rows of lanelets are cut.
+//! The plan of a motorway: what fits on it, and the stations at which its rows of lanelets are cut.
 
 use std::fmt;
 
@@ -6,18 +6,18 @@ use super::ramp::{self, Direction, Ramp};
 use super::{Motorway, Weaving};
 use crate::generate::error::{GenerateError, check_count, check_range};
 
-/// Wider roads are not built.
+/// Maximum of lanes.
 const MAXIMUM_LANES: usize = 12;
-/// Ramps, lane drops and the ends of the road keep this distance, so that no row is shorter [m].
+/// Minimum distance between ramps, lane drops and the ends of the road, so that no row is shorter [m].
 const CLEARANCE: f64 = 10.0;
-/// Shorter roads have no ramps [m].
+/// Minimum length of a road with ramps [m].
 const SHORTEST_WITH_RAMPS: f64 = 500.0;
-/// Between these lengths a weaving section may be [m]. Ours.
+/// Bounds of the length of a weaving section [m]. Ours.
 const WEAVING_LENGTHS: [f64; 2] = [100.0, 1000.0];
-/// More lanelets than this are a mistake.
+/// Maximum of lanelets.
 const MAXIMUM_LANELETS: f64 = 5e6;
 
-/// Where a motorway is cut, and what it has beside it.
+/// The stations at which a motorway is cut, and what lies beside it.
 #[derive(Debug)]
 pub(super) struct Plan {
     /// Where rows begin and end, in order [m].
@@ -48,7 +48,8 @@ impl Plan {
         i32::from(self.lane_drop.is_some_and(|at| self.stations[row] >= at))
     }
 
-    /// The outermost line of `row`: beyond the slow lane's where an acceleration or deceleration lane runs.
+    /// The outermost line of `row`: where an acceleration or deceleration lane runs, it lies beyond that of the slow
+    /// lane.
     pub(super) fn outer_line(&self, row: usize) -> i32 {
         let middle = (self.stations[row] + self.stations[row + 1]) / 2.0;
         let has_lane = self.ramps.iter().any(|it| it.lane[0] < middle && middle < it.lane[1]);
@@ -78,7 +79,7 @@ impl Plan {
     }
 }
 
-/// What takes room on the road.
+/// A part of the plan that needs length on the road.
 enum Feature {
     Ramp(Ramp),
     /// An on-ramp and an off-ramp with one lane between them.
@@ -129,11 +130,11 @@ impl fmt::Display for Feature {
     }
 }
 
-/// Refuses features, in order along the road, that do not fit on it or get in each other's way.
+/// Refuses features, in order along the road, that do not fit on it or overlap.
 fn check_places(features: &[Feature], length: f64) -> Result<(), GenerateError> {
     for feature in features {
         let [from, to] = feature.extent();
-        // Written so that numbers that are none are refused.
+        // This form also refuses NaN.
         if !(from >= CLEARANCE && to <= length - CLEARANCE) {
             return Err(GenerateError::OutsideRoad { what: feature.to_string(), from, to, length });
         }

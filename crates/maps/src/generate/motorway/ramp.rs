@@ -6,12 +6,12 @@ use std::fmt;
 const LANE: f64 = 250.0;
 /// Length of a ramp along the road [m].
 pub(super) const LENGTH: f64 = 200.0;
-/// How far the end of a ramp lies beside the road's edge [m].
+/// Distance from the road's edge to the end of a ramp [m].
 const OFFSET: f64 = 15.0;
 /// Speed limit on ramps [km/h].
 pub(super) const SPEED_LIMIT: f64 = 80.0;
 
-/// A ramp, and the lane beside the road that it becomes or comes from.
+/// A ramp, and the lane beside the road that continues it or that it continues.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ramp {
     pub(super) direction: Direction,
@@ -44,7 +44,7 @@ impl Ramp {
         }
     }
 
-    /// Where all of it begins and ends [m].
+    /// Where the ramp with its lane begins and ends [m].
     pub(super) fn extent(&self) -> [f64; 2] {
         let [from, to] = self.lane;
         match self.direction {
@@ -53,8 +53,8 @@ impl Ramp {
         }
     }
 
-    /// Station of its point at `fraction` of the way, in the direction of travel, and how far that lies
-    /// beside the road's edge [m]: a parabola, parallel to the road where it meets it.
+    /// Station of its point at `fraction` of its length, in the direction of travel, and the distance of the point
+    /// from the road's edge [m]: a parabola, parallel to the road where it meets it.
     pub(super) fn point(&self, fraction: f64) -> (f64, f64) {
         let away = match self.direction {
             Direction::On => 1.0 - fraction,

@@ -9,7 +9,7 @@ use super::ramp::{self, Direction, Ramp};
 use crate::drawing::{Crossing, Drawing, Edge, Surroundings};
 use crate::generate::canvas::Canvas;
 
-/// A motorway that is being drawn.
+/// A motorway under construction.
 pub(super) struct Sketch<'a> {
     motorway: &'a Motorway,
     plan: &'a Plan,
@@ -78,7 +78,7 @@ impl<'a> Sketch<'a> {
         }
     }
 
-    /// Points of a ramp's border in the direction of travel, which shares a point with `line` at `station`.
+    /// Points of a ramp's border in the direction of travel; it shares a point with `line` at `station`.
     fn ramp_line(&mut self, ramp: &Ramp, station: usize, line: i32, segments: usize) -> Vec<u32> {
         let shared = match ramp.direction {
             Direction::On => segments,
@@ -111,7 +111,7 @@ impl<'a> Sketch<'a> {
         self.canvas.lane([left, right], Surroundings::Motorway, limit_kmh);
     }
 
-    /// The drawing of all that was drawn.
+    /// The finished drawing.
     pub(super) fn finish(self) -> Drawing {
         self.canvas.finish(self.motorway.driving_side)
     }

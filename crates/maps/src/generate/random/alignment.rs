@@ -1,4 +1,4 @@
-//! Roads that are hard for where they lead and how they are cut: bends, short lanelets, narrow lanes.
+//! Roads that are difficult because of their alignment or cuts: bends, short lanelets, narrow lanes.
 
 use super::element::Built;
 use super::hazard::Hazard;
@@ -8,15 +8,15 @@ use crate::generate::path::Path;
 
 /// Radius of the innermost lane of sharp bends [m].
 const RADIUS: [f64; 2] = [8.0, 20.0];
-/// By how much sharp bends turn, and those with one back [rad].
+/// Angle of sharp bends, and of those with one back [rad].
 const TURN: [f64; 2] = [0.8, 2.1];
 const THERE_AND_BACK: [f64; 2] = [0.4, 1.1];
 /// Limit on bends [km/h].
 const BEND_LIMIT: f64 = 30.0;
-/// Length of short lanelets [m], and how many lie in a row.
+/// Length of short lanelets [m], and their number in a row.
 const SHORT: [f64; 2] = [0.5, 3.0];
 const ROW: [usize; 2] = [3, 12];
-/// Width of narrow lanes [m], how long they are, and the way there [m].
+/// Width of narrow lanes [m], their length, and the length of the transition [m].
 const NARROW: [f64; 2] = [2.2, 2.6];
 const NARROW_LENGTH: [f64; 2] = [50.0, 250.0];
 const TRANSITION: f64 = 25.0;

@@ -8,25 +8,25 @@ use super::mouth::{Knot, Mouth, Span, onward};
 use super::stretch::{Pen, Stretch, limit_of_bend};
 use crate::generate::path::Path;
 
-/// Whether lanes part from a road in the direction in which it is drawn, or come to it.
+/// Whether lanes part from a road in its drawing direction, or join it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Joint {
     Parts,
     Comes,
 }
 
-/// How a side road leads away.
+/// The shape of a side road.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     pub(super) joint: Joint,
-    /// By how much it turns to the left of the road as it is drawn, seen from the joint outwards [rad].
+    /// Angle to the left of the road in its drawing direction, seen from the joint outwards [rad].
     pub(super) angle: f64,
     /// From the joint to where its directions meet, and from there to its end [m].
     pub(super) legs: [f64; 2],
 }
 
 impl Pen {
-    /// Draws a side road from some lanes of a cross-section outwards, and returns its outer end.
+    /// Draws a side road outwards from some lanes of a cross-section, and returns its outer end.
     pub(super) fn side_road(&mut self, at: &Mouth, course: Course) -> Mouth {
         let from = match course.joint {
             Joint::Parts => at.clone(),
@@ -41,7 +41,7 @@ impl Pen {
     }
 }
 
-/// A cross-section seen the other way.
+/// A cross-section seen in the opposite direction.
 fn turned(mouth: &Mouth) -> Mouth {
     let last = mouth.knots.len() - 1;
     let knot = |it: &Knot| Knot { offset: -it.offset, ..*it };

@@ -1,4 +1,4 @@
-//! Random numbers that are the same everywhere, for good.
+//! Random numbers that are the same on every machine and in every version.
 //!
 //! Steele, Lea and Flood (2014), Fast splittable pseudorandom number generators: SplitMix64, constants from memory.
 
@@ -25,27 +25,27 @@ impl Dice {
         bits ^ (bits >> 31)
     }
 
-    /// A number from 0 to 1, without 1.
+    /// A number in [0, 1).
     fn share(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A number of a range.
+    /// A number in a range.
     pub(super) fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.share()
     }
 
-    /// A whole number of a range, both ends among them.
+    /// A whole number in a range, both ends included.
     pub(super) fn count(&mut self, from: usize, to: usize) -> usize {
         from + (self.next() % (to - from + 1) as u64) as usize
     }
 
-    /// Whether something happens that has this chance.
+    /// True with this probability.
     pub(super) fn chance(&mut self, chance: f64) -> bool {
         self.share() < chance
     }
 
-    /// One of some choices, of which there has to be one.
+    /// One of some choices; there must be at least one.
     pub(super) fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.count(0, choices.len() - 1)]
     }

@@ -7,16 +7,16 @@ use super::mouth::Mouth;
 use super::stretch::{Ease, Pen, Stretch};
 use crate::generate::path::Path;
 
-/// How long lanes can be changed before they part [m], and how long they cannot before and after [m].
+/// Length with lane changes before lanes part [m], and lengths without before and after [m].
 const WINDOW: [f64; 2] = [12.0, 60.0];
 const BEFORE: [f64; 2] = [50.0, 150.0];
 const AFTER: [f64; 2] = [10.0, 50.0];
-/// By how much roads turn away from each other [rad].
+/// Angle by which roads turn away from each other [rad].
 const TURN: [f64; 2] = [0.3, 0.7];
-/// How long lanes take to come together at the edge of the map [m].
+/// Length over which lanes come together at the edge of the map [m].
 const TOGETHER: [f64; 2] = [30.0, 80.0];
 
-/// Lanes that can be changed on a short piece only, then part.
+/// Lanes with a short stretch for lane changes, which then part.
 pub(super) fn short_window(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     if mouth.is_two_way() || mouth.lanes() < 2 || !mouth.is_ahead() {
         return None;
@@ -42,7 +42,8 @@ fn away(pen: &mut Pen, lanes: &Mouth, side: f64) -> Mouth {
     pen.side_road(&lanes.clone().at_most(70.0), Course { joint: Joint::Parts, angle, legs })
 }
 
-/// Two or three roads of one lane that begin at one place at the edge of the map; against traffic they end there.
+/// Two or three roads of one lane that begin at one place at the edge of the map; in the opposite direction they end
+/// there.
 pub(super) fn from_edge(pen: &mut Pen, edge: &Mouth) -> Option<Built> {
     let lane = edge.only(0..1);
     let mut mouths = vec![away(pen, &lane, 1.0), away(pen, &lane, -1.0)];
@@ -53,7 +54,7 @@ pub(super) fn from_edge(pen: &mut Pen, edge: &Mouth) -> Option<Built> {
     Some(Built { mouths, hazard: Some(hazard) })
 }
 
-/// Lanes that all end at one place at the edge of the map; against traffic they begin there.
+/// Lanes that all end at one place at the edge of the map; in the opposite direction they begin there.
 pub(super) fn to_edge(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     if mouth.is_two_way() || mouth.lanes() < 2 {
         return None;

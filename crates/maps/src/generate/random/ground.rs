@@ -1,23 +1,23 @@
-//! Where there is room: elements keep away from each other.
+//! Free areas: elements keep a distance from each other.
 
 use laneweave_network::{Point, Polygon};
 
 use super::stretch::Pen;
 
-/// Elements that are not joined keep this distance [m]. Ours.
+/// Minimum distance between elements that are not joined [m]. Ours.
 const CLEARANCE: f64 = 6.0;
-/// So far around their joint elements may be nearer to each other [m]. Ours.
+/// Within this distance of their joint, elements may be nearer to each other [m]. Ours.
 const AROUND_JOINT: f64 = 25.0;
-/// Distances are looked at so often along a border [m].
+/// Distance between the samples along a border [m].
 const STEP: f64 = 3.0;
 
-/// What lanelets of an element cover.
+/// The areas of an element's lanelets.
 #[derive(Debug, Default)]
 pub(super) struct Ground {
     lots: Vec<Lot>,
 }
 
-/// What one lanelet covers.
+/// The area of one lanelet.
 #[derive(Debug)]
 struct Lot {
     outline: Polygon,
@@ -26,8 +26,8 @@ struct Lot {
 }
 
 impl Ground {
-    /// Takes the ground of an element, all lanelets from number `first` on, if there is room for it beside those that
-    /// are there; around its joint it may come near to them.
+    /// Takes the area of an element, all lanelets from number `first` on, if it is free beside the existing ones;
+    /// around its joint it may be near to them.
     pub(super) fn take(&mut self, pen: &Pen, first: usize, joint: Option<Point>) -> bool {
         let drawing = pen.canvas.drawing();
         let outlines = drawing.lanes[first..].iter().filter_map(|it| drawing.outline(it));

@@ -1,4 +1,4 @@
-//! How a random map grows: from a cross-section at its edge, element by element, along every road that comes up.
+//! The growth of a random map: from a cross-section at its edge, element by element, along every new road.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -14,14 +14,14 @@ use super::{Element, RandomMap, alignment, fork, junction, lane_end, merge, ramp
 use crate::generate::canvas::Canvas;
 use crate::generate::street::pose;
 
-/// No road goes on once so much is drawn [m].
+/// Once so much road is drawn, no road continues [m].
 const ENOUGH: f64 = 2200.0;
-/// An element is tried so often before it is left out.
+/// Number of attempts before an element is left out.
 const TRIES: usize = 6;
-/// Elements along the first road, and along those that branch off.
+/// Number of elements along the first road, and along those that branch off.
 const FIRST: [usize; 2] = [3, 7];
 const FURTHER: [usize; 2] = [0, 2];
-/// How often a street is joined to nothing, and how far from the middle it begins at most [m].
+/// Probability of a street that is joined to nothing, and its maximum distance from the middle [m].
 const ASIDE: f64 = 0.15;
 const FAR: f64 = 300.0;
 /// The road between elements, and to the edge of the map [m].
@@ -31,7 +31,7 @@ const TO_EDGE: [f64; 2] = [40.0, 150.0];
 const WIDTHS: [f64; 2] = [2.9, 3.75];
 const LIMITS: [f64; 4] = [30.0, 50.0, 70.0, 100.0];
 
-/// Elements for roads of one direction, and for streets of both; more likely ones stand there more than once.
+/// Elements for roads of one direction, and for streets of both; more likely ones are listed more than once.
 const ONE_WAY: [Builder; 18] = [
     lane_end::narrowing,
     lane_end::narrowing,
@@ -67,14 +67,14 @@ const TWO_WAY: [Builder; 11] = [
 ];
 const ANY: [Builder; 2] = [alignment::short_lanelets, alignment::narrow_lanes];
 
-/// A road that may go on.
+/// A road that may continue.
 struct Bud {
     mouth: Mouth,
-    /// How many further elements it may have.
+    /// Maximum of further elements.
     elements: usize,
 }
 
-/// A map that grows.
+/// A map under construction.
 struct Growth {
     pen: Pen,
     ground: Ground,
@@ -82,7 +82,7 @@ struct Growth {
     buds: VecDeque<Bud>,
 }
 
-/// Grows the map of a seed; each attempt is another one.
+/// Grows the map of a seed; each attempt is different.
 pub(super) fn grow(seed: u64, attempt: u64) -> RandomMap {
     let pen = Pen { canvas: Canvas::new(), dice: Dice::new(seed, attempt), length: 0.0 };
     let mut growth = Growth { pen, ground: Ground::default(), elements: Vec::new(), buds: VecDeque::new() };
@@ -96,7 +96,7 @@ pub(super) fn grow(seed: u64, attempt: u64) -> RandomMap {
 }
 
 impl Growth {
-    /// Draws the edge of the map at which it begins.
+    /// Draws the edge of the map where it begins.
     fn begin(&mut self) {
         let Pen { canvas, dice, .. } = &mut self.pen;
         let width = Width { lane: dice.between(WIDTHS[0], WIDTHS[1]), limit_kmh: dice.pick(&LIMITS) };
@@ -113,7 +113,7 @@ impl Growth {
         self.build(&edge, None, builder, elements);
     }
 
-    /// Draws, at times, a street that is joined to nothing.
+    /// Draws, with a probability, a street that is joined to nothing.
     fn set_aside(&mut self) {
         if !self.pen.dice.chance(ASIDE) {
             return;
@@ -130,7 +130,7 @@ impl Growth {
         }
     }
 
-    /// Goes on along a road: with an element, or to the edge of the map.
+    /// Continues a road: with an element, or to the edge of the map.
     fn go_on(&mut self, Bud { mouth, elements }: Bud) {
         let joint = Some(mouth.pose.at);
         if elements > 0 && self.pen.length < ENOUGH {
@@ -140,16 +140,16 @@ impl Growth {
                 }
             }
         }
-        // Without room the road ends where it is.
+        // Without free area the road ends where it is.
         self.build(&mouth, joint, to_edge, 0);
     }
 
-    /// Draws an element if there is room for it; the roads that come up go on, the first one with so many elements.
+    /// Draws an element if its area is free; the new roads continue, the first one with so many elements.
     fn build(&mut self, mouth: &Mouth, joint: Option<Point>, builder: Builder, elements: usize) -> bool {
         let mut pen = self.pen.clone();
         let first = pen.canvas.drawing().lanes.len();
         let built = builder(&mut pen, mouth);
-        // What comes next draws other numbers even if this is left out.
+        // The next element uses other random numbers, even if this one is left out.
         self.pen.dice = pen.dice.clone();
         let Some(Built { mouths, hazard }) = built else { return false };
         if !self.ground.take(&pen, first, joint) {
@@ -166,7 +166,7 @@ impl Growth {
     }
 }
 
-/// The road from the edge of the map on.
+/// The road from the edge of the map onwards.
 fn from_edge(pen: &mut Pen, edge: &Mouth) -> Option<Built> {
     Some(Built { mouths: vec![pen.straight(edge, TO_EDGE)], hazard: None })
 }

@@ -1,23 +1,23 @@
-//! What random maps hold that is hard to drive on.
+//! Difficult elements of random maps.
 
 use std::fmt;
 
-/// An element of a random map that is hard to drive on.
+/// A difficult element of a random map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Hazard {
     /// A lane that narrows to nothing beside others.
     Taper,
     /// A lane that opens from nothing beside others.
     OpeningLane,
-    /// A lane that ends square beside others.
+    /// A lane that ends with a square end beside others.
     BluntLaneDrop,
-    /// A ramp whose lane runs beside the road, then narrows to nothing.
+    /// A ramp with a lane that runs beside the road, then narrows to nothing.
     OnRamp,
     /// A lane that opens from nothing, runs beside the road, then leads away.
     OffRamp,
-    /// A road that comes to a lane without one of its own.
+    /// A road that joins a lane without a lane of its own.
     Merge,
-    /// A road that leaves a lane without one of its own.
+    /// A road that leaves a lane without a lane of its own.
     Fork,
     /// A lanelet of 0.5 to 1.4 m beside a lane, with no border in common.
     Strip,
@@ -27,9 +27,9 @@ pub enum Hazard {
     EdgeMerge,
     /// One lane for both directions.
     OneLaneStreet,
-    /// Directions whose lanes share ground in part.
+    /// Directions whose lanes partly share one area.
     PartialOverlap,
-    /// A short piece on which lanes can be changed before they part.
+    /// A short stretch for lane changes before lanes part.
     ShortWindow,
     /// A row of lanelets of 0.5 to 3 m.
     ShortLanelets,
@@ -43,7 +43,7 @@ pub enum Hazard {
     Roundabout,
     /// A junction with lights.
     Lights,
-    /// A junction at which one street goes first.
+    /// A junction at which one street has priority.
     Priority,
     /// A junction without any rule.
     PlainJunction,

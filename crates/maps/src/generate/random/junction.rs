@@ -15,14 +15,14 @@ use crate::generate::street::LaneEnd;
 const ANGLE: [f64; 2] = [1.05, 2.09];
 /// Radius of the outer edge of turns to the right [m].
 const RADIUS: [f64; 2] = [6.0, 12.0];
-/// How long arms are drawn [m].
+/// Length of arms [m].
 const ARM: [f64; 2] = [25.0, 60.0];
-/// Limit on the way over a junction [km/h].
+/// Limit on the paths over a junction [km/h].
 const LIMIT: f64 = 50.0;
 
 /// A street where it meets a junction.
 pub(super) struct Arm {
-    /// Where it leads, seen from the junction [rad].
+    /// Its direction, seen from the junction [rad].
     pub(super) heading: f64,
     /// The lane that ends at the junction.
     pub(super) arriving: LaneEnd,
@@ -30,7 +30,7 @@ pub(super) struct Arm {
     pub(super) leaving: LaneEnd,
 }
 
-/// A junction of three or four arms with lights, with a street that goes first, or without a rule.
+/// A junction of three or four arms: with lights, with a street with priority, or without a rule.
 pub(super) fn junction(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     if !mouth.is_two_way() {
         return None;
@@ -39,7 +39,7 @@ pub(super) fn junction(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let angle = pen.dice.between(ANGLE[0], ANGLE[1]);
     let half = angle.min(PI - angle) / 2.0;
     let setback = (mouth.breadth() / 2.0 + pen.dice.between(RADIUS[0], RADIUS[1])) / libm::tan(half);
-    // Where arms lead, seen along the road: on, to the left, to the right.
+    // Directions of the arms, seen along the road: straight on, to the left, to the right.
     let mut turns = vec![0.0, angle, angle - PI];
     if pen.dice.chance(0.5) {
         turns.remove(pen.dice.count(0, 2));
@@ -61,14 +61,14 @@ pub(super) fn junction(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     Some(Built { mouths, hazard: Some(hazard) })
 }
 
-/// The arm along which the road comes.
+/// The arm on which the road arrives.
 pub(super) fn own_arm(mouth: &Mouth) -> Option<Arm> {
     let (arriving, leaving) = (mouth.lane_end(true)?, mouth.lane_end(false)?);
     Some(Arm { heading: mouth.pose.heading + PI, arriving, leaving })
 }
 
-/// Draws an arm that turns by so much from the road, and returns its outer end, too. The middle of the junction lies
-/// the first of two setbacks beyond the mouth; the arm begins the second one from it [m].
+/// Draws an arm at this angle to the road, and also returns its outer end. The two setbacks [m] are: from the mouth
+/// to the middle of the junction, and from there to the beginning of the arm.
 pub(super) fn new_arm(pen: &mut Pen, mouth: &Mouth, turn: f64, setbacks: [f64; 2]) -> Option<(Arm, Mouth)> {
     let middle = onward(mouth.pose, setbacks[0], turn);
     let pose = onward(middle, setbacks[1], 0.0);
@@ -80,7 +80,7 @@ pub(super) fn new_arm(pen: &mut Pen, mouth: &Mouth, turn: f64, setbacks: [f64; 2
     Some((Arm { heading: pose.heading, arriving, leaving }, outer))
 }
 
-/// Draws the ways between all arms, and returns them by the arm from which they come.
+/// Draws the paths between all arms, and returns them by the arm from which they come.
 fn ways(canvas: &mut Canvas, arms: &[Arm], limit_kmh: f64) -> Vec<Vec<i64>> {
     let mut borders = Borders::default();
     let mut ways = Vec::new();
@@ -95,7 +95,7 @@ fn ways(canvas: &mut Canvas, arms: &[Arm], limit_kmh: f64) -> Vec<Vec<i64>> {
     ways
 }
 
-/// The street along which the road comes goes first: that arm, and the one across where there is one.
+/// The street of the road has priority: its arm, and the opposite one if there is one.
 fn priority(canvas: &mut Canvas, arms: &[Arm], ways: &[Vec<i64>]) {
     let of = |number: usize| {
         let own = std::iter::once(arms[number].arriving.lanelet);

@@ -1,16 +1,16 @@
-//! Lanes that end beside others, or begin there: tapers, and ends cut square.
+//! Lanes that end or begin beside others: tapers, and square ends.
 
 use super::element::Built;
 use super::hazard::Hazard;
 use super::mouth::{Mouth, Span, knot};
 use super::stretch::{Pen, Stretch};
 
-/// How long tapers are [m].
+/// Length of tapers [m].
 const TAPER: [f64; 2] = [30.0, 200.0];
-/// How long lanes can be changed before a lane ends, and how long the road goes on as it is [m].
+/// Length with lane changes before a lane ends, and length of the unchanged road [m].
 const BEFORE: [f64; 2] = [50.0, 150.0];
 const AFTER: [f64; 2] = [40.0, 80.0];
-/// Roads with a lane that opens have no more lanes than this.
+/// Maximum of lanes of a road with a lane that opens.
 const MOST_LANES: usize = 3;
 
 /// A lane of several narrows to nothing.
@@ -59,7 +59,7 @@ pub(super) fn opening(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     Some(Built::road(pen.straight(&wide, BEFORE), hazard))
 }
 
-/// A lane of several ends square; seen against traffic, it begins square.
+/// A lane of several has a square end; in the opposite direction, it begins with one.
 pub(super) fn blunt(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     if mouth.is_two_way() {
         return None;

@@ -1,4 +1,4 @@
-//! Roads that come to a lane, or leave one, without a lane of their own.
+//! Roads that join a lane, or leave it, without a lane of their own.
 
 use super::branch::{Course, Joint};
 use super::element::Built;
@@ -6,13 +6,13 @@ use super::hazard::Hazard;
 use super::mouth::Mouth;
 use super::stretch::Pen;
 
-/// How long the road runs on the side of the joint on which the other road lies, and on the other one [m].
+/// Length of the road on the joint's side of the other road, and on the opposite side [m].
 const ALONG: [f64; 2] = [60.0, 90.0];
 const BEYOND: [f64; 2] = [20.0, 60.0];
-/// By how much the other road turns [rad].
+/// Angle of the other road [rad].
 const TURN: [f64; 2] = [0.25, 1.0];
 
-/// A road of one lane comes to the outermost lane, or leaves it, on either side.
+/// A road of one lane joins the outermost lane, or leaves it, on either side.
 pub(super) fn merge(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     if mouth.is_two_way() {
         return None;

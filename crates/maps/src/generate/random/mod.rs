@@ -1,4 +1,4 @@
-//! Random maps that are hard to drive on, though somebody could have drawn them.
+//! Random maps that are difficult to drive on, although a real map could look like them.
 
 mod alignment;
 mod branch;
@@ -26,35 +26,35 @@ pub use hazard::Hazard;
 use crate::drawing::Drawing;
 use crate::format::Map;
 
-/// A map is drawn anew until it has so many elements that are hard to drive on.
+/// A map is drawn again until it has at least so many difficult elements.
 const FEWEST_HAZARDS: usize = 5;
-/// And so much road [m].
+/// Minimum length of road [m].
 const LEAST_LENGTH: f64 = 600.0;
-/// It is drawn anew so often at most. None of some hundred seeds needs as many.
+/// Maximum of attempts. None of some hundred seeds needs as many.
 const ATTEMPTS: u64 = 64;
 
 /// A random map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RandomMap {
-    /// What is drawn.
+    /// The drawing.
     pub drawing: Drawing,
-    /// What it is made of, in the order in which it was drawn.
+    /// Its elements, in the order in which they were drawn.
     pub elements: Vec<Element>,
-    /// How much road it has, whatever its lanes [m].
+    /// Length of its roads, whatever their lanes [m].
     pub length_m: f64,
 }
 
-/// A part of a random map. Lanelets of different elements share no ground.
+/// A part of a random map. Lanelets of different elements have no common area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
-    /// What is hard about it, if anything is.
+    /// Its difficulty, if it has one.
     pub hazard: Option<Hazard>,
     /// Ids of its lanelets.
     pub lanelets: Range<i64>,
 }
 
 impl RandomMap {
-    /// What is hard about it, each kind once, in the order of [`Hazard::ALL`].
+    /// Its difficulties, each kind once, in the order of [`Hazard::ALL`].
     pub fn hazards(&self) -> BTreeSet<Hazard> {
         self.elements.iter().filter_map(|it| it.hazard).collect()
     }
@@ -64,7 +64,7 @@ impl RandomMap {
         hazards >= FEWEST_HAZARDS && self.length_m >= LEAST_LENGTH && self.has_clear_entrance()
     }
 
-    /// Whether somebody can come onto it where the other direction does not need the same ground.
+    /// Whether a vehicle can enter it at a place where the other direction does not need the same area.
     fn has_clear_entrance(&self) -> bool {
         let Ok(Map { network, .. }) = self.drawing.build() else { return false };
         let is_shared = |id: i64| {

@@ -9,27 +9,27 @@ use crate::generate::street::LaneEnd;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Knot {
     pub(super) point: u32,
-    /// How far it lies to the left of the pose [m].
+    /// Its offset to the left of the pose [m].
     pub(super) offset: f64,
 }
 
-/// A lane between two lines, or two knots, of a cross-section.
+/// A lane between two lines of a cross-section; lines are given by the numbers of their points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Span {
     /// Its line on the left, seen along the road, not along the lane.
     pub(super) left: usize,
     /// Its line on the right.
     pub(super) right: usize,
-    /// Traffic drives along the road, and not against it.
+    /// Whether traffic drives along the road, not against it.
     pub(super) ahead: bool,
 }
 
-/// A cross-section of a road, seen along the road as it is drawn.
+/// A cross-section of a road, seen in its drawing direction.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mouth {
-    /// Its middle, and where the road leads on.
+    /// Its middle, and the direction of the road.
     pub(super) pose: Pose,
-    /// Its points; of lanes beside each other two may be one point.
+    /// Its points; two points of neighbouring lanes may be one.
     pub(super) knots: Vec<Knot>,
     /// Its lanes, from left to right.
     pub(super) spans: Vec<Span>,
@@ -39,7 +39,7 @@ pub(super) struct Mouth {
     pub(super) limit_kmh: f64,
 }
 
-/// What a new cross-section is like.
+/// The form of a new cross-section.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Width {
     /// Width of a lane [m].
@@ -57,7 +57,7 @@ impl Mouth {
         Mouth { pose, knots, spans, lanelets: Vec::new(), limit_kmh: width.limit_kmh }
     }
 
-    /// A lane in each direction, which share ground to a width of `overlap` [m].
+    /// A lane in each direction; they share an area of the width `overlap` [m].
     pub(super) fn two_way(canvas: &mut Canvas, pose: Pose, overlap: f64, width: Width) -> Mouth {
         let mut knots: Vec<Knot> = Vec::new();
         for offset in two_way_offsets(width.lane, overlap) {
@@ -120,7 +120,7 @@ impl Mouth {
         Some(LaneEnd { lanelet: *self.lanelets.get(lane)?, left, right })
     }
 
-    /// The cross-section of some of its lanes only, its pose in their middle; lanes without any width are left out.
+    /// The cross-section of some of its lanes only, its pose in their middle; lanes of no width are left out.
     pub(super) fn only(&self, lanes: std::ops::Range<usize>) -> Mouth {
         let mut mouth = Mouth { knots: Vec::new(), spans: Vec::new(), lanelets: Vec::new(), ..self.clone() };
         for lane in lanes {
@@ -153,8 +153,8 @@ impl Mouth {
     }
 }
 
-/// Offsets of the lines of a lane against the road and one along it, both `lane` wide, that share a width of `overlap`
-/// [m].
+/// Offsets of the lines of a lane against the road and of one along it, both `lane` wide, which share an area of the
+/// width `overlap` [m].
 pub(super) fn two_way_offsets(lane: f64, overlap: f64) -> [f64; 4] {
     let out = lane - overlap / 2.0;
     // Adding zero leaves no negative zero.
@@ -173,7 +173,7 @@ pub(super) fn beside(pose: Pose, offset: f64) -> Pose {
     Pose { at: Point::new(at.x - offset * sine, at.y + offset * cosine, at.z), heading }
 }
 
-/// The pose `length` further on, after a turn there [m, rad].
+/// The pose after a turn on the spot and the distance `length` [rad, m].
 pub(super) fn onward(pose: Pose, length: f64, turn: f64) -> Pose {
     let Pose { at, heading } = pose;
     let (x, y) = (at.x + length * libm::cos(heading), at.y + length * libm::sin(heading));

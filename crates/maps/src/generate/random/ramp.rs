@@ -1,4 +1,4 @@
-//! Ramps: a lane comes to the road at an angle, runs beside it and narrows to nothing; or the reverse.
+//! Ramps: a lane joins the road at an angle, runs beside it and narrows to nothing; or the reverse.
 
 use super::branch::{Course, Joint};
 use super::element::Built;
@@ -6,14 +6,14 @@ use super::hazard::Hazard;
 use super::mouth::{Mouth, Span, knot};
 use super::stretch::{Pen, Stretch};
 
-/// How long the lane narrows to nothing, or opens [m].
+/// Length over which the lane narrows to nothing, or opens [m].
 const TAPER: [f64; 2] = [40.0, 200.0];
-/// How long it runs beside the road at its full width [m]; often not at all.
+/// Length of the lane beside the road at its full width [m]; often zero.
 const BESIDE: [f64; 2] = [10.0, 100.0];
-/// How long the road runs beside the ramp, and beyond [m].
+/// Length of the road beside the ramp, and beyond [m].
 const ALONG: [f64; 2] = [60.0, 90.0];
 const BEYOND: [f64; 2] = [40.0, 70.0];
-/// By how much ramps turn [rad].
+/// Angle of ramps [rad].
 const TURN: [f64; 2] = [0.25, 0.7];
 
 /// A lane comes beside the road, and narrows to nothing.
@@ -50,7 +50,7 @@ pub(super) fn opening(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     Some(Built { mouths: vec![pen.straight(&rest, ALONG), outer], hazard: Some(hazard) })
 }
 
-/// On which side the ramp lies: mostly on the right of traffic. None at a road of both directions.
+/// The side of the ramp: mostly on the right of traffic. None at a road of both directions.
 fn side(pen: &mut Pen, mouth: &Mouth) -> Option<bool> {
     let is_usual = pen.dice.chance(0.8);
     (!mouth.is_two_way()).then_some(mouth.is_ahead() != is_usual)
@@ -86,7 +86,7 @@ fn widened(pen: &mut Pen, road: &Mouth, on_left: bool) -> Mouth {
     wide
 }
 
-/// The road with a further lane that has no width yet, and the offsets at which it has one.
+/// The road with a further lane that has no width yet, and the offsets at which it has its full width.
 fn unopened(road: &Mouth, on_left: bool) -> (Mouth, Vec<f64>) {
     let mut wide = Mouth { spans: spans(road), ..road.clone() };
     let [left, right] = road.reach();

@@ -9,16 +9,16 @@ use super::mouth::{Mouth, onward};
 use super::stretch::Pen;
 use crate::generate::roundabout::{Ring, RingArm, ring};
 
-/// Radius of the middle of the ring [m].
+/// Radius of the middle of the circulating lane [m].
 const RADIUS: [f64; 2] = [10.0, 20.0];
-/// From the ring to where arms end [m].
+/// From the circulating lane to the end of the arms [m].
 const SETBACK: f64 = 8.5;
-/// Ways in and out touch a small ring at this angle beside the middle of their arm, and a large one at that [rad].
-/// Ours.
+/// Entries and exits touch a small roundabout at the first angle beside the middle of their arm, and a large one at
+/// the second [rad]. Ours.
 const TOUCH: [f64; 2] = [0.66, 0.52];
-/// By how much arms lie aside of where they would lie evenly [rad].
+/// Angle by which arms deviate from even directions [rad].
 const ASIDE: f64 = 0.08;
-/// The road before the ring [m].
+/// The road before the roundabout [m].
 const BEFORE: [f64; 2] = [25.0, 60.0];
 
 /// A roundabout.

@@ -1,4 +1,4 @@
-//! Streets whose directions share ground: all of it, or a part.
+//! Streets whose directions share an area: all of it, or a part.
 
 use super::element::Built;
 use super::hazard::Hazard;
@@ -6,14 +6,14 @@ use super::mouth::{Mouth, Width, two_way_offsets};
 use super::stretch::{Ease, Pen, Stretch};
 use crate::generate::path::Path;
 
-/// How long one lane serves both directions [m].
+/// Length of one lane for both directions [m].
 const ONE_LANE: [f64; 2] = [40.0, 300.0];
-/// How long directions overlap in part [m], and by how much [m].
+/// Length of a partial overlap of the directions [m], and its width [m].
 const PARTIAL: [f64; 2] = [50.0, 400.0];
 const OVERLAP: [f64; 2] = [0.3, 1.8];
-/// The way from lanes beside each other to lanes that share ground [m].
+/// Length of the transition from lanes side by side to lanes that share an area [m].
 const TRANSITION: [f64; 2] = [20.0, 40.0];
-/// Streets that share ground have this limit at most [km/h].
+/// Maximum limit of streets that share an area [km/h].
 const LIMIT: f64 = 50.0;
 
 /// One lane for both directions.
@@ -22,19 +22,19 @@ pub(super) fn one_lane_street(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     sharing(pen, mouth, width, ONE_LANE, Hazard::OneLaneStreet)
 }
 
-/// Directions that overlap in part.
+/// Directions that partly overlap.
 pub(super) fn partial_overlap(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let overlap = pen.dice.between(OVERLAP[0], OVERLAP[1]);
     sharing(pen, mouth, overlap, PARTIAL, Hazard::PartialOverlap)
 }
 
-/// A street that shares ground from the edge of the map on.
+/// A street that shares an area from the edge of the map on.
 pub(super) fn from_edge(pen: &mut Pen, start: &Mouth) -> Option<Built> {
     let (shared, hazard) = shared_from(pen, start);
     Some(Built::road(parting(pen, &shared, 0.0), hazard))
 }
 
-/// A street that shares ground from one edge of the map to the other.
+/// A street that shares an area from one edge of the map to the other.
 pub(super) fn edge_to_edge(pen: &mut Pen, start: &Mouth) -> Option<Built> {
     let (_, hazard) = shared_from(pen, start);
     Some(Built { mouths: Vec::new(), hazard: Some(hazard) })
@@ -71,7 +71,7 @@ fn run(pen: &mut Pen, mouth: &Mouth, [from, to]: [f64; 2]) -> Mouth {
     pen.draw(&Stretch { is_doubled, ..Stretch::onward(mouth, path) })
 }
 
-/// The way to lanes that overlap so much [m].
+/// The transition to lanes that overlap so much [m].
 fn parting(pen: &mut Pen, mouth: &Mouth, overlap: f64) -> Mouth {
     let length = pen.dice.between(TRANSITION[0], TRANSITION[1]);
     let stretch = Stretch::onward(mouth, Path::straight(mouth.pose, length));

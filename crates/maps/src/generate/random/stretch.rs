@@ -1,4 +1,4 @@
-//! Stretches: lanes along a path between lines that may come nearer to each other or part.
+//! Stretches: lanes along a path between lines that may converge or diverge.
 
 use laneweave_network::Pose;
 
@@ -8,32 +8,32 @@ use crate::drawing::{Crossing, Edge, KMH_PER_MPS, Surroundings};
 use crate::generate::canvas::Canvas;
 use crate::generate::path::Path;
 
-/// Lines that come nearer to each other have a point so often [m]. Ours.
+/// Distance between the points of lines that converge [m]. Ours.
 const STEP: f64 = 8.0;
-/// And at least so many.
+/// Their minimum number.
 const STEPS: f64 = 8.0;
-/// Points keep this distance along the road [m]. Ours.
+/// Minimum distance between points along the road [m]. Ours.
 const APART: f64 = 0.4;
 /// Lines that end nearer to each other end at one point [m].
 const SAME: f64 = 1e-6;
-/// On bends that are not meant to be hard the limit means no more than this to the side [m/s²]. Ours.
+/// Maximum lateral acceleration at the limit, on bends that are not meant to be difficult [m/s²]. Ours.
 const SIDEWAYS: f64 = 3.5;
-/// Limits of bends that are not meant to be hard [km/h].
+/// Limits of bends that are not meant to be difficult [km/h].
 const LIMITS: [f64; 4] = [100.0, 70.0, 50.0, 30.0];
 
-/// What maps are drawn with.
+/// The state of a drawing.
 #[derive(Clone)]
 pub(super) struct Pen {
     pub(super) canvas: Canvas,
     pub(super) dice: Dice,
-    /// How much road is drawn [m].
+    /// Length of road so far [m].
     pub(super) length: f64,
 }
 
-/// How a line gets from its offset at the start to the one at the end.
+/// The form of a line from its offset at the start to the one at the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Ease {
-    /// The share of the way to this power; 1 is a straight line.
+    /// The share of the length to this power; 1 is a straight line.
     Power(f64),
     /// Parallel to the road at both ends.
     Smooth,
@@ -43,7 +43,7 @@ pub(super) enum Ease {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
     pub(super) from: Knot,
-    /// How far it ends to the left of the path [m].
+    /// Offset of its end to the left of the path [m].
     pub(super) to: f64,
     pub(super) ease: Ease,
     pub(super) crossing: Crossing,
@@ -58,7 +58,7 @@ pub(super) struct Stretch {
     /// Where lanelets are cut between the ends of the path [m].
     pub(super) cuts: Vec<f64>,
     pub(super) limit_kmh: f64,
-    /// Lanes have borders of their own where they could have one in common.
+    /// Whether lanes have borders of their own where they could share one.
     pub(super) is_doubled: bool,
 }
 
@@ -73,7 +73,7 @@ impl Line {
 }
 
 impl Stretch {
-    /// The road as it is at its mouth, its lanes of one direction changed across dashed lines.
+    /// The road with the cross-section of its mouth, with dashed lines between lanes of one direction.
     pub(super) fn onward(mouth: &Mouth, path: Path) -> Stretch {
         let spans = &mouth.spans;
         let divides = |line: usize| {
@@ -91,7 +91,7 @@ impl Stretch {
         Stretch { path, lines, spans: mouth.spans.clone(), cuts: Vec::new(), limit_kmh, is_doubled: false }
     }
 
-    /// The same, with lines that nobody crosses.
+    /// The same, with lines that no vehicle may cross.
     pub(super) fn solid(mut self) -> Stretch {
         self.lines.iter_mut().for_each(|it| it.crossing = Crossing::NEVER);
         self
@@ -188,18 +188,18 @@ impl Pen {
         stretch.spans.iter().map(lane).collect()
     }
 
-    /// Draws the road as it is at its mouth along a path.
+    /// Draws the road with the cross-section of its mouth along a path.
     pub(super) fn go_on(&mut self, mouth: &Mouth, path: Path) -> Mouth {
         self.draw(&Stretch::onward(mouth, path))
     }
 
-    /// Draws the road straight on for a length of this range [m].
+    /// Draws the road straight on for a random length in this range [m].
     pub(super) fn straight(&mut self, mouth: &Mouth, [from, to]: [f64; 2]) -> Mouth {
         let length = self.dice.between(from, to);
         self.go_on(mouth, Path::straight(mouth.pose, length))
     }
 
-    /// A straight path on from a cross-section, or a bend that can be driven at its limit.
+    /// A straight path from a cross-section, or a bend that can be driven at its limit.
     pub(super) fn gentle(&mut self, mouth: &Mouth, length: f64) -> Path {
         if self.dice.chance(0.5) {
             return Path::straight(mouth.pose, length);
@@ -210,7 +210,7 @@ impl Pen {
         Path::arc(mouth.pose, radius, length / radius)
     }
 
-    /// How a taper narrows: linearly, or along a curve.
+    /// The form of a taper: linear, or a curve.
     pub(super) fn taper(&mut self) -> Ease {
         Ease::Power(if self.dice.chance(0.5) { 1.0 } else { self.dice.between(0.7, 2.0) })
     }

@@ -7,16 +7,16 @@ use super::mouth::{Mouth, Span, knot};
 use super::stretch::{Pen, Stretch};
 use crate::generate::path::Path;
 
-/// Width of a strip [m], its length [m], and from the lane to it [m]; less than nothing where they overlap.
+/// Width of a strip [m], its length [m], and its distance from the lane [m]; negative where they overlap.
 const WIDTH: [f64; 2] = [0.5, 1.4];
 const LENGTH: [f64; 2] = [50.0, 300.0];
 const GAP: [f64; 2] = [-0.2, 0.5];
-/// How long before the end of a strip a road joins the lane [m].
+/// Distance before the end of a strip at which a road joins the lane [m].
 const BEFORE_END: [f64; 2] = [3.0, 15.0];
 /// The road before and after [m].
 const AROUND: [f64; 2] = [25.0, 60.0];
 
-/// A strip on the right of the road, at times with a road that joins on the left shortly before its end.
+/// A strip on the right of the road, sometimes with a road that joins on the left shortly before its end.
 pub(super) fn strip(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let mouth = pen.straight(mouth, AROUND);
     let length = pen.dice.between(LENGTH[0], LENGTH[1]);
