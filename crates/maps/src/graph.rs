@@ -1,4 +1,4 @@
-//! The routing graph: which lanelets follow each other, which lie side by side, and which get in each other's way.
+//! The routing graph: which lanelets follow each other, which lie side by side, and which conflict.
 
 use laneweave_network::{Lanelet, LaneletIndex, Polygon};
 
@@ -22,8 +22,8 @@ impl NodeIndex {
 pub struct Graph {
     /// First all lanelets in their own direction, in the order of the network, then the two-way ones backwards.
     pub nodes: Vec<Node>,
-    /// For each lanelet of the network those whose ground it shares, in order: seen from above, without those beside it
-    /// along a common border and those that follow on it. A two-way lanelet is among its own.
+    /// For each lanelet of the network those with which it has common area, in order: seen from above, without those
+    /// beside it along a common border and those that follow it. A two-way lanelet is in its own list.
     pub conflicting: Vec<Vec<LaneletIndex>>,
 }
 
@@ -32,25 +32,24 @@ pub struct Graph {
 pub struct Node {
     /// The lanelet.
     pub lanelet: LaneletIndex,
-    /// It is driven against its own direction.
+    /// Whether it is driven against its own direction.
     pub is_backward: bool,
     /// What begins where it ends.
     pub following: Vec<NodeIndex>,
     /// What ends where it begins.
     pub previous: Vec<NodeIndex>,
-    /// What is beside it on the left, if a change there is allowed.
+    /// The node beside it on the left, if a change there is allowed.
     pub left: Option<NodeIndex>,
-    /// What is beside it on the right, if a change there is allowed.
+    /// The node beside it on the right, if a change there is allowed.
     pub right: Option<NodeIndex>,
-    /// What is beside it on the left without a change being allowed.
+    /// The node beside it on the left to which no change is allowed.
     pub adjacent_left: Option<NodeIndex>,
-    /// What is beside it on the right without a change being allowed.
+    /// The node beside it on the right to which no change is allowed.
     pub adjacent_right: Option<NodeIndex>,
 }
 
 impl Graph {
-    /// The graph of lanelets that are linked already, all of them driven in their own direction, and what is wrong with
-    /// it.
+    /// The graph of lanelets that already have links, all of them driven in their own direction, and its problems.
     pub(crate) fn of(lanelets: &[Lanelet]) -> (Graph, Vec<Problem>) {
         let index = |it: LaneletIndex| NodeIndex(it.0);
         let mut nodes: Vec<Node> = (0..lanelets.len()).map(|it| node(it, false)).collect();
@@ -83,7 +82,7 @@ impl Graph {
     }
 }
 
-/// What a lanelet covers.
+/// The area of a lanelet.
 fn outline(lanelet: &Lanelet) -> Option<Polygon> {
     let [left, right] = [&lanelet.left_border, &lanelet.right_border].map(|it| it.points());
     Polygon::new(left.iter().chain(right.iter().rev()).copied())
@@ -145,7 +144,7 @@ fn node(lanelet: usize, is_backward: bool) -> Node {
     }
 }
 
-/// Ways by `key`, and in their own order where that is equal.
+/// Values by `key`, and in their own order where that is equal.
 fn sorted<K: Ord>(ways: &[Way], key: impl Fn(&Way) -> K) -> Vec<(K, NodeIndex)> {
     let mut all: Vec<_> =
         ways.iter().enumerate().map(|(index, way)| (key(way), NodeIndex(index as u32))).collect();
@@ -153,13 +152,13 @@ fn sorted<K: Ord>(ways: &[Way], key: impl Fn(&Way) -> K) -> Vec<(K, NodeIndex)> 
     all
 }
 
-/// The ways with `key`.
+/// The values with `key`.
 fn with<K: Ord>(ways: &[(K, NodeIndex)], key: K) -> impl Iterator<Item = NodeIndex> {
     let from = ways.partition_point(|(it, _)| *it < key);
     ways[from..].iter().take_while(move |(it, _)| *it == key).map(|(_, index)| *index)
 }
 
-/// A two-way lanelet gets in its own way.
+/// A two-way lanelet conflicts with itself.
 pub(crate) fn add_two_way(conflicting: &mut [Vec<LaneletIndex>], nodes: &[Node]) {
     for lanelet in nodes.iter().filter(|it| it.is_backward).map(|it| it.lanelet) {
         let own = &mut conflicting[lanelet.at()];
@@ -167,8 +166,8 @@ pub(crate) fn add_two_way(conflicting: &mut [Vec<LaneletIndex>], nodes: &[Node])
     }
 }
 
-/// Links `lanelets`, which are those of the forward `nodes`, with each other; simulated traffic uses lanelets in their
-/// own direction only.
+/// Links `lanelets`, which belong to the forward `nodes`; simulated traffic uses lanelets in their own direction
+/// only.
 pub(crate) fn link(lanelets: &mut [Lanelet], nodes: &[Node]) {
     let forward = |it: NodeIndex| Some(&nodes[it.at()]).filter(|it| !it.is_backward).map(|it| it.lanelet);
     for (lanelet, node) in lanelets.iter_mut().zip(nodes) {

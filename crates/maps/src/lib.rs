@@ -1,8 +1,7 @@
-//! Map files read into road networks, and maps of our own made and written.
+//! Map files read into road networks; and generated maps, which can be written as files.
 //!
 //! A file is read into a [`Drawing`] (points, borders, and lanes between borders), and a drawing becomes a
-//! [`Network`](laneweave_network::Network). The generator makes drawings, too, which can be written as a
-//! file.
+//! [`Network`](laneweave_network::Network). The generator makes drawings, too.
 
 mod check;
 pub mod commonroad;

@@ -1,13 +1,13 @@
-//! What is wrong with one element of a map that is read nevertheless.
+//! Problems of single elements of a map that is read nevertheless.
 
 use std::fmt;
 
 use serde::Serialize;
 
-/// The element of a problem that many lanelets have: they lack borders.
+/// The name of the element in a problem of many lanelets: they have no borders.
 pub const BORDERS: &str = "borders";
 
-/// Something in a map that could not be used as it stands.
+/// A part of a map that could not be used unchanged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Problem {
     /// The element, such as `lanelet 4711`.
@@ -16,7 +16,7 @@ pub struct Problem {
     pub line: Option<usize>,
     /// What is wrong, and what was done about it.
     pub what: String,
-    /// What mends it.
+    /// The remedy.
     pub remedy: String,
 }
 

@@ -1,4 +1,4 @@
-//! From the rules of a map to what its drivers obey at junctions.
+//! The rules of a map as regulations for drivers at junctions.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,10 +7,10 @@ use laneweave_network::{LaneletIndex, Network, Priority, Regulations, StopKind, 
 use crate::format::Map;
 use crate::rule::{Rule, RuleKind};
 
-/// What orders traffic at the junctions of `map`.
+/// The regulations for the junctions of `map`.
 ///
-/// A light or stop sign that no lanelet refers to holds for those whose centre lines its stop lines cross. Where
-/// there is a light, a stop sign beside it does not count.
+/// A light or stop sign to which no lanelet refers applies to the lanelets whose centre lines its stop lines cross.
+/// Beside a light, a stop sign does not count.
 pub fn regulations(map: &Map) -> Regulations {
     let places = map.network.lanelets.iter().zip(0..).map(|(it, index)| (it.id, LaneletIndex(index)));
     let lookup = Lookup { network: &map.network, places: places.collect() };

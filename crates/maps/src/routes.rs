@@ -1,10 +1,10 @@
-//! The sensible ways from one lanelet to another.
+//! The sensible routes from one lanelet to another.
 //!
-//! Lanelets between which lane changes are allowed are one *section* of road, and so are those that lead from the same
-//! section to the same section, as lanes do across a junction: ways that differ only in where lanes are changed are one
-//! way. A way is sensible if it enters no section twice and takes not much longer than the best one. Of ways over the
-//! same *roads*, which are sections side by side whether or not a change between them is allowed, the fastest is named,
-//! and the others are counted.
+//! Lanelets with lane changes between them are one *section* of road. So are lanelets that lead from the same section
+//! to the same section, like lanes across a junction: routes that differ only in the places of lane changes are one
+//! route. A route is sensible if it enters no section twice and takes not much longer than the best one. *Roads* are
+//! sections side by side, whether or not a change between them is allowed. Of the routes over the same roads, the
+//! fastest is returned, and the others are counted.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -15,23 +15,23 @@ use laneweave_network::Network;
 use crate::format::Map;
 use crate::graph::{Graph, Node, NodeIndex};
 
-/// A way through a map.
+/// A route through a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// Its lanelets, with how each is reached.
+    /// Its lanelets, each with the way it is reached.
     pub steps: Vec<Step>,
     /// From the beginning of the first lanelet to the end of the last one [m].
     pub length: f64,
     /// At the speed limits [s].
     pub time: f64,
-    /// How many ways over the same roads were found, which differ in their lanes: this one and slower ones.
+    /// Number of routes over the same roads that differ in their lanes: this one and slower ones.
     pub variants: usize,
 }
 
-/// A lanelet of a way.
+/// A lanelet of a route.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// Where it is in the graph.
+    /// Its node in the graph.
     pub node: NodeIndex,
     /// How it is reached.
     pub by: By,
@@ -40,7 +40,7 @@ pub struct Step {
 /// How a lanelet is reached from the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
-    /// It goes on, or is the first.
+    /// It follows, or is the first.
     Following,
     /// By a change to the left.
     Left,
@@ -48,28 +48,28 @@ pub enum By {
     Right,
 }
 
-/// Which ways are sensible.
+/// The limits for sensible routes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sense {
-    /// Most ways that are named.
+    /// Maximum of routes that are returned.
     pub most: usize,
-    /// They take at most so many times as long as the best one.
+    /// Maximum ratio of their time to that of the best one.
     pub longest: f64,
 }
 
 impl Default for Sense {
-    /// Ten ways, up to twice as long.
+    /// Ten routes, up to twice as long.
     fn default() -> Sense {
         Sense { most: 10, longest: 2.0 }
     }
 }
 
-/// The way with the fewest changes is taken among those of one time; a change counts so much [s].
+/// Of routes with the same time, the one with the fewest changes is taken; a change counts so much [s].
 const CHANGE: f64 = 1e-3;
-/// Partial ways that are looked at before the search gives up.
+/// Partial routes after which the search gives up.
 const MOST_PARTIAL: usize = 200_000;
 
-/// The sensible ways from `from` to `to`, the fastest first.
+/// The sensible routes from `from` to `to`, the fastest first.
 pub fn routes(map: &Map, from: NodeIndex, to: NodeIndex, sense: Sense) -> Vec<Route> {
     let search = Search::new(map, to);
     if !search.remaining[from.at()].is_finite() {
@@ -103,18 +103,18 @@ pub fn routes(map: &Map, from: NodeIndex, to: NodeIndex, sense: Sense) -> Vec<Ro
         }
     }
     if found.is_empty() {
-        // Some ways lead back to where they began.
+        // Some routes lead back to where they began.
         return vec![search.fastest(from)];
     }
     found.into_iter().map(|(_, route)| route).collect()
 }
 
-/// A way as far as it was thought out.
+/// A partial route.
 struct Partial {
-    /// Least time of the whole way [s].
+    /// Minimum time of the whole route [s].
     estimate: f64,
     sections: Vec<u32>,
-    /// The nodes of the last section that can be reached, and the least time to the beginning of each [s].
+    /// The nodes of the last section that can be reached, and the minimum time to the beginning of each [s].
     costs: Vec<(NodeIndex, f64)>,
 }
 
@@ -140,12 +140,12 @@ impl Ord for Partial {
 
 struct Search<'a> {
     graph: &'a Graph,
-    /// For each node the time that it takes [s], and its length [m].
+    /// For each node its travel time [s], and its length [m].
     times: Vec<f64>,
     lengths: Vec<f64>,
     /// For each node its section.
     sections: Vec<u32>,
-    /// For each node the least time from its beginning to the end of the goal [s].
+    /// For each node the minimum time from its beginning to the end of the goal [s].
     remaining: Vec<f64>,
     goal: NodeIndex,
 }
@@ -178,7 +178,7 @@ impl<'a> Search<'a> {
         Partial { estimate: estimate.fold(f64::INFINITY, f64::min), sections, costs }
     }
 
-    /// The ways that are a section longer, as far as they lead to the goal.
+    /// The routes that are a section longer, if they can reach the goal.
     fn onward(&self, partial: &Partial) -> Vec<Partial> {
         let mut next: Vec<(u32, NodeIndex, f64)> = Vec::new();
         for (node, cost) in &partial.costs {
@@ -196,7 +196,7 @@ impl<'a> Search<'a> {
         entries.filter(|it| it.estimate.is_finite()).collect()
     }
 
-    /// All nodes that can be reached from these by lane changes, with the least cost of each.
+    /// All nodes that can be reached from these by lane changes, with the minimum cost of each.
     fn spread(&self, entered: Vec<(NodeIndex, f64)>) -> Vec<(NodeIndex, f64)> {
         let mut costs: Vec<(NodeIndex, f64)> = Vec::new();
         let mut open = entered;
@@ -217,16 +217,16 @@ impl<'a> Search<'a> {
         it.left.map(|it| (it, By::Left)).into_iter().chain(it.right.map(|it| (it, By::Right)))
     }
 
-    /// The best way from `from` to the goal through these sections.
+    /// The best route from `from` to the goal through these sections.
     fn route(&self, from: NodeIndex, sections: &[u32]) -> Option<Route> {
-        // For each section the nodes that can be reached, from the first section on.
+        // For each section the nodes that can be reached, beginning with the first section.
         let mut reached = vec![self.spread(vec![(from, 0.0)])];
         for section in &sections[1..] {
             let partial = Partial { estimate: 0.0, sections: Vec::new(), costs: reached.last()?.clone() };
             let next = self.onward(&partial).into_iter().find(|it| it.sections == [*section])?;
             reached.push(next.costs);
         }
-        // Back from the goal, always to where the costs came from.
+        // Back from the goal, each time to the node from which the cost came.
         let mut steps = Vec::new();
         let mut node = self.goal;
         for (level, costs) in reached.iter().enumerate().rev() {
@@ -259,7 +259,7 @@ impl<'a> Search<'a> {
         Some(self.measured(steps))
     }
 
-    /// The fastest way from `from`, from where one leads to the goal.
+    /// The fastest route from `from`, if one leads to the goal.
     fn fastest(&self, from: NodeIndex) -> Route {
         let mut steps = vec![Step { node: from, by: By::Following }];
         let mut node = from;
@@ -286,7 +286,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// For each node a number that it shares with those `beside` it, either way.
+/// For each node a number that it shares with those `beside` it, in either direction.
 fn sections<const N: usize>(graph: &Graph, beside_of: impl Fn(&Node) -> [Option<NodeIndex>; N]) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut beside: Vec<Vec<NodeIndex>> = vec![Vec::new(); graph.nodes.len()];
@@ -309,7 +309,7 @@ fn sections<const N: usize>(graph: &Graph, beside_of: impl Fn(&Node) -> [Option<
     sections
 }
 
-/// Sections with one number for those that lead from the same sections to the same sections.
+/// Sections, with one number for those that lead from the same sections to the same sections.
 fn joined(graph: &Graph, sections: &[u32]) -> Vec<u32> {
     let mut around: HashMap<u32, [BTreeSet<u32>; 2]> = HashMap::new();
     for (node, section) in graph.nodes.iter().zip(sections) {
@@ -319,14 +319,14 @@ fn joined(graph: &Graph, sections: &[u32]) -> Vec<u32> {
     }
     let mut first: HashMap<&[BTreeSet<u32>; 2], u32> = HashMap::new();
     let number = sections.iter().map(|section| match &around[section] {
-        // What begins or ends at the edge of the map leads nowhere in common.
+        // Lanelets that begin or end at the edge of the map have no common destination.
         [before, after] if before.is_empty() || after.is_empty() => *section,
         both => *first.entry(both).or_insert(*section),
     });
     number.collect()
 }
 
-/// For each node the least time from its beginning to the end of `goal` [s]; infinite where no way leads there
+/// For each node the minimum time from its beginning to the end of `goal` [s]; infinite where no route leads there
 /// (Dijkstra).
 fn remaining(graph: &Graph, times: &[f64], goal: NodeIndex) -> Vec<f64> {
     let mut beside: Vec<Vec<NodeIndex>> = vec![Vec::new(); graph.nodes.len()];
@@ -336,7 +336,7 @@ fn remaining(graph: &Graph, times: &[f64], goal: NodeIndex) -> Vec<f64> {
         }
     }
     let mut remaining = vec![f64::INFINITY; graph.nodes.len()];
-    // Times are positive, so their bits are in their order.
+    // Times are positive, so their bits have the same order.
     let mut open = BinaryHeap::from([Reverse((times[goal.at()].to_bits(), goal))]);
     while let Some(Reverse((bits, node))) = open.pop() {
         let time = f64::from_bits(bits);

@@ -1,4 +1,4 @@
-//! What orders traffic beside the lanelets themselves: lights, signs, and who goes first.
+//! The rules of traffic beside the lanelets themselves: lights, signs, and priorities.
 
 use laneweave_network::Point;
 
@@ -9,48 +9,48 @@ pub struct Rule {
     pub id: i64,
     /// Line of the file in which it stands.
     pub line: Option<usize>,
-    /// What it orders.
+    /// The kind of rule.
     pub kind: RuleKind,
-    /// Ids of the lanelets that refer to it: whose drivers obey it.
+    /// Ids of the lanelets that refer to it: their drivers obey it.
     pub lanelets: Vec<i64>,
-    /// Where they stop; without any, at the end of their lanelet.
+    /// Stop lines; without any, drivers stop at the end of their lanelet.
     pub stop_lines: Vec<Vec<Point>>,
-    /// Where the lights or signs are that show it.
+    /// Positions of the lights or signs that show it.
     pub signs: Vec<Vec<Point>>,
 }
 
-/// What a rule orders.
+/// The kinds of rules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RuleKind {
     /// Obey the light.
     TrafficLight,
-    /// Some lanelets go first.
+    /// Some lanelets have priority.
     RightOfWay {
-        /// Ids of the lanelets that go first.
+        /// Ids of the lanelets with priority.
         first: Vec<i64>,
         /// Ids of the lanelets that give way.
         yielding: Vec<i64>,
     },
-    /// Everybody stops, and goes in the order of arrival.
+    /// An all-way stop: every driver stops, and they go in the order of arrival.
     AllWayStop {
         /// Ids of the lanelets that lead there.
         lanelets: Vec<i64>,
     },
     /// Stop, then give way.
     StopSign,
-    /// Let those on a crosswalk pass.
+    /// Drivers give way to people on a crosswalk.
     Crosswalk {
         /// Ids of the lanelets that cross.
         lanelets: Vec<i64>,
     },
-    /// A speed limit; the lanelets have it already.
+    /// A speed limit; it is already in the lanelets.
     SpeedLimit,
-    /// Something else, kept by its name and without effect.
+    /// Another rule, stored with its name and without effect.
     Other(String),
 }
 
 impl RuleKind {
-    /// Its name in Lanelet2 maps, or that of what it is not known as.
+    /// Its name in Lanelet2 maps, or the name of an unknown one.
     pub fn name(&self) -> &str {
         match self {
             RuleKind::TrafficLight => "traffic_light",

@@ -2,7 +2,7 @@
 
 use laneweave_network::Polyline;
 
-/// Points further from the origin are none on earth [m].
+/// Coordinates beyond this are taken as errors [m].
 pub(crate) const MAXIMUM_COORDINATE: f64 = 4.1e7;
 
 /// Borders and centre line of a lane that can be driven.
@@ -13,17 +13,17 @@ pub(crate) struct Shape {
     pub(crate) centre: Polyline,
 }
 
-/// Why two borders make no lane.
+/// Why two borders give no lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flaw {
     pub(crate) what: &'static str,
     pub(crate) remedy: &'static str,
 }
 
-/// A shorter centre line is a slip of the pen [m].
+/// Minimum length of the centre line [m].
 const MINIMUM_LENGTH: f64 = 0.01;
 
-/// No lane runs on for longer without a cut; a longer one has a point that is far off [m].
+/// Maximum length of a lane; a longer one has a point that is far off [m].
 const MAXIMUM_LENGTH: f64 = 20_000.0;
 
 impl Shape {
@@ -32,7 +32,7 @@ impl Shape {
         const NO_LINE: &str = "draw it through at least two different points with finite coordinates";
         let left = left.ok_or(Flaw { what: "its left border has no length", remedy: NO_LINE })?;
         let right = right.ok_or(Flaw { what: "its right border has no length", remedy: NO_LINE })?;
-        // Checked on the borders, too, since the work of finding the centre line grows with them.
+        // The borders are checked, too, because the time for the centre line grows with them.
         if left.length().max(right.length()) > MAXIMUM_LENGTH {
             return Err(Flaw {
                 what: "it is longer than 20 km",
@@ -68,7 +68,7 @@ mod tests {
         assert_eq!(what(line(1.0, 0.0), None), "its right border has no length");
         assert_eq!(what(line(0.009, 3.5), line(0.009, 0.0)), "it is shorter than 1 cm");
         assert_eq!(what(line(20_001.0, 3.5), line(10.0, 0.0)), "it is longer than 20 km");
-        // Borders run against each other leave no centre line.
+        // Borders in opposite directions leave no centre line.
         assert_eq!(what(line(5.0, 0.0).map(|it| it.reversed()), line(5.0, 0.0)), "it is shorter than 1 cm");
     }
 }

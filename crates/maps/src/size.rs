@@ -1,4 +1,4 @@
-//! Sizes of files, as people write them.
+//! Sizes of files, in the form that people write.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Size(pub u64);
 
-/// The units by which sizes are written, the largest first [B].
+/// The units of sizes, the largest first [B].
 const UNITS: [(&str, u64); 7] = [
     ("GiB", 1 << 30),
     ("GB", 1_000_000_000),
@@ -21,7 +21,7 @@ const UNITS: [(&str, u64); 7] = [
 const BYTES_PER_MB: f64 = 1e6;
 
 impl Size {
-    /// The largest map that is read at all.
+    /// The largest size that can be chosen.
     pub const MAXIMUM: Size = Size(2 << 30);
 
     /// So many megabytes.
@@ -35,7 +35,7 @@ impl Size {
     }
 }
 
-/// The largest map that is read where nothing is said.
+/// The default limit for maps.
 impl Default for Size {
     fn default() -> Size {
         Size(1 << 30)

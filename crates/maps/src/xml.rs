@@ -1,5 +1,5 @@
-//! XML as a stream of elements with their lines, within limits: what all formats that are XML share. Names and
-//! attributes are borrowed from the file.
+//! XML as a stream of elements with their lines, within limits, for all formats that are XML. Names and attributes
+//! are borrowed from the file.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -11,27 +11,27 @@ use quick_xml::events::{BytesRef, Event};
 use quick_xml::reader::Reader;
 use thiserror::Error;
 
-/// Elements nested deeper than this are refused; no map format comes near.
+/// Maximum depth of nested elements; no map format comes near.
 const MAXIMUM_DEPTH: usize = 32;
 
-/// Longer names are refused [B], since each element is known by its own and those around it.
+/// Maximum length of a name [B]: the path of each element contains its own name and those around it.
 const MAXIMUM_NAME: usize = 128;
 
-/// Why a file is not the XML that was expected.
+/// Why a file is not the expected XML.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum XmlError {
-    /// It is no text.
+    /// It is not text.
     #[error("line {line}: the bytes are not UTF-8 text; save the file as UTF-8 XML")]
     NotText {
-        /// Where the text ends.
+        /// Where the valid text ends.
         line: usize,
     },
-    /// It is no well-formed XML.
+    /// It is not well-formed XML.
     #[error("line {line}: not well-formed XML ({what}); save the file again, or correct this line")]
     Broken {
-        /// Where it breaks.
+        /// The line of the error.
         line: usize,
-        /// How.
+        /// The error.
         what: String,
     },
     /// It is XML of another kind.
@@ -48,10 +48,10 @@ pub enum XmlError {
     },
 }
 
-/// What comes next in an XML file.
+/// The next token of an XML file.
 #[derive(Debug)]
 pub(crate) enum Token<'a> {
-    /// An element begins; an empty one is closed by a token of its own, too.
+    /// An element begins; an empty one also gets a closing token of its own.
     Open(Element<'a>),
     /// Text inside an element; it may come in several pieces.
     Text(Cow<'a, str>),
@@ -68,13 +68,13 @@ pub struct Element<'a> {
     pub name: &'a str,
     /// The line in which it begins.
     pub line: usize,
-    /// Name and attributes as they stand.
+    /// Name and attributes as text.
     content: &'a str,
 }
 
 impl<'a> Element<'a> {
-    /// Its attributes in order, unescaped. One that is given twice comes twice: to look for such doubles would take
-    /// time quadratic in their number.
+    /// Its attributes in order, unescaped. One that is given twice comes twice: a search for duplicates would take
+    /// quadratic time.
     pub fn attributes(&self) -> impl Iterator<Item = Result<(&'a str, Cow<'a, str>), XmlError>> + use<'a> {
         let line = self.line;
         let mut attributes = Attributes::new(self.content, self.name.len());
@@ -82,7 +82,7 @@ impl<'a> Element<'a> {
         attributes.map(move |attribute| {
             let attribute = attribute.map_err(|error| broken(line, error))?;
             let value = match attribute.value {
-                // Almost every value stands for itself.
+                // Almost every value contains no escapes.
                 Cow::Borrowed(value) if is_plain(value) => Cow::Borrowed(value),
                 _ => {
                     let value = attribute.normalized_value(XmlVersion::Implicit1_0);
@@ -109,7 +109,7 @@ impl<'a> Element<'a> {
 }
 
 impl XmlError {
-    /// The same error so many lines further on.
+    /// The same error, so many lines further on.
     pub(crate) fn moved(mut self, lines: usize) -> XmlError {
         match &mut self {
             XmlError::NotText { line } | XmlError::Broken { line, .. } | XmlError::OtherRoot { line, .. } => {
@@ -119,7 +119,7 @@ impl XmlError {
         self
     }
 
-    /// The line of which it complains.
+    /// The line of the error.
     pub fn line(&self) -> usize {
         match self {
             XmlError::NotText { line } | XmlError::Broken { line, .. } | XmlError::OtherRoot { line, .. } => {
@@ -129,10 +129,10 @@ impl XmlError {
     }
 }
 
-/// What reads a document as [`walk`] goes through it.
+/// A receiver for the elements of a document, see [`walk`].
 ///
-/// A path names an element by those around it, without the outermost one: `lanelet/leftBound/point`. That of
-/// the outermost element itself is empty.
+/// A path names an element by those around it, without the outermost one: `lanelet/leftBound/point`. The path of the
+/// outermost element itself is empty.
 pub trait Visitor {
     /// An element begins.
     ///
@@ -140,15 +140,14 @@ pub trait Visitor {
     /// If its attributes are not well-formed.
     fn open(&mut self, path: &str, element: &Element) -> Result<(), XmlError>;
 
-    /// An element ends; `text` is what stands between its last child, or else its beginning, and its end.
+    /// An element ends; `text` is the text between its last child, or else its beginning, and its end.
     fn close(&mut self, path: &str, text: &str);
 }
 
-/// Goes through a document whose outermost element is `root`.
+/// Reads a document with the outermost element `root`, and calls the receiver.
 ///
 /// # Errors
-/// If it is not well-formed, is nested too deeply, uses an entity of its own, or has another outermost
-/// element.
+/// If it is not well-formed, is nested too deeply, uses an entity of its own, or has another outermost element.
 pub fn walk(bytes: &[u8], root: &'static str, visitor: &mut impl Visitor) -> Result<(), XmlError> {
     let mut tokens = Tokens::of(text(bytes)?, root);
     let (mut path, mut content) = (String::new(), String::new());
@@ -180,7 +179,7 @@ pub fn walk(bytes: &[u8], root: &'static str, visitor: &mut impl Visitor) -> Res
 /// The text of a file, without its byte order mark, which the reader does not count.
 ///
 /// # Errors
-/// If the bytes are no UTF-8.
+/// If the bytes are not UTF-8.
 pub(crate) fn text(bytes: &[u8]) -> Result<&str, XmlError> {
     let text = std::str::from_utf8(bytes);
     let text = text.map_err(|error| XmlError::NotText { line: 1 + lines(&bytes[..error.valid_up_to()]) })?;
@@ -197,22 +196,22 @@ pub(crate) struct Tokens<'a> {
     text: &'a str,
     root: &'static str,
     has_root: bool,
-    /// Up to where lines were counted, and the line there.
+    /// Position up to which lines were counted, and the line there.
     counted: usize,
     line: usize,
     depth: usize,
-    /// An empty element was opened and is to be closed.
+    /// Whether an empty element was opened and has to be closed.
     is_empty: bool,
 }
 
 impl<'a> Tokens<'a> {
-    /// The tokens of a file with this text, whose outermost element is to be `root`.
+    /// The tokens of a file with this text and the outermost element `root`.
     pub(crate) fn of(text: &'a str, root: &'static str) -> Tokens<'a> {
         let reader = Reader::from_str(text);
         Tokens { reader, text, root, has_root: false, counted: 0, line: 1, depth: 0, is_empty: false }
     }
 
-    /// The tokens of the rest of a file that begins inside of its outermost element, between two others. Lines are
+    /// The tokens of the rest of a file; it begins inside of the outermost element, between two others. Lines are
     /// counted from there.
     pub(crate) fn inside(rest: &'a str, root: &'static str) -> Tokens<'a> {
         let mut tokens = Tokens { has_root: true, depth: 1, ..Tokens::of(rest, root) };
@@ -220,18 +219,18 @@ impl<'a> Tokens<'a> {
         tokens
     }
 
-    /// Where in the text the next token begins.
+    /// The position in the text at which the next token begins.
     pub(crate) fn position(&self) -> usize {
         self.reader.buffer_position() as usize
     }
 
-    /// How many lines end before the next token.
+    /// The number of lines that end before the next token.
     pub(crate) fn lines(&mut self) -> usize {
         self.count_to(self.position());
         self.line - 1
     }
 
-    /// How many elements are open.
+    /// The number of open elements.
     pub(crate) fn depth(&self) -> usize {
         self.depth
     }
@@ -288,7 +287,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The element whose markup stands from `start` to `end`, of which the closing sign is left out.
+    /// The element with the markup from `start` to `end`, without the closing sign.
     fn open(&mut self, start: usize, end: usize, name: usize) -> Result<Token<'a>, XmlError> {
         if self.depth == MAXIMUM_DEPTH {
             return Err(broken(self.line, "elements are nested too deeply"));
@@ -325,7 +324,7 @@ fn lines(bytes: &[u8]) -> usize {
     memchr::memchr_iter(b'\n', bytes).count()
 }
 
-/// The text for which `reference` stands. What a document defines itself is refused: such entities can grow without
+/// The text for which `reference` stands. Entities that a document defines itself are refused: they can grow without
 /// bound.
 fn resolved(reference: &BytesRef, line: usize) -> Result<String, XmlError> {
     match reference.resolve_char_ref().map_err(|error| broken(line, error))? {
@@ -337,12 +336,12 @@ fn resolved(reference: &BytesRef, line: usize) -> Result<String, XmlError> {
     }
 }
 
-/// `what` makes the file no well-formed XML in `line`.
+/// The error that `what`, in `line`, makes the file no well-formed XML.
 fn broken(line: usize, what: impl Display) -> XmlError {
     XmlError::Broken { line, what: what.to_string() }
 }
 
-/// The number that `text` is; not a number where it is unreadable.
+/// The number in `text`; NaN where it is unreadable.
 pub fn number(text: &str) -> f64 {
     text.trim().parse().unwrap_or(f64::NAN)
 }

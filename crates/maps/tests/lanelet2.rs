@@ -1,4 +1,4 @@
-//! Reading Lanelet2 maps: what is left out, and what is refused.
+//! Reading Lanelet2 maps: which elements are left out, and which files are refused.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn read(text: &str) -> Result<Map, MapError> {
     lanelet2::read(text.as_bytes(), &ReadOptions::default())
 }
 
-/// The problems after `from` became `to`, and the ids of the lanelets that are left.
+/// The problems after the replacement of `from` by `to`, and the ids of the remaining lanelets.
 fn broken(from: &str, to: &str) -> (Vec<String>, Vec<i64>) {
     assert!(TWO_LANES.contains(from), "{from}");
     let map = read(&TWO_LANES.replacen(from, to, 1)).expect("one lanelet is left");

@@ -1,4 +1,4 @@
-//! What the generator of motorways draws.
+//! The drawings of the motorway generator.
 
 use laneweave_maps::generate::{Motorway, Weaving, motorway};
 use laneweave_network::{LaneletIndex, Network};

@@ -1,4 +1,4 @@
-//! The maps in the folder `maps`, and that what the generators draw is read again as the same.
+//! The maps in the folder `maps`; and generated drawings, which are the same after writing and reading.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -25,7 +25,7 @@ fn read(text: &str) -> Result<Map, MapError> {
     lanelet2::read(text.as_bytes(), &ReadOptions::default())
 }
 
-/// What `of` returns, in seconds and not in minutes.
+/// The result of `of`, which must take seconds, not minutes.
 fn soon<T>(of: impl FnOnce() -> T) -> T {
     let started = Instant::now();
     let result = of();

@@ -1,4 +1,4 @@
-//! Random maps: sound, hostile, and the same for the same seed.
+//! Random maps: valid, difficult, and the same for the same seed.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -6,7 +6,7 @@ use laneweave_maps::generate::{Element, Hazard, RandomMap, random};
 use laneweave_maps::{Map, ReadOptions, lanelet2};
 use laneweave_network::{LaneletIndex, Side};
 
-/// The seeds of the yard-stick.
+/// The seeds of the benchmark.
 fn seeds() -> impl Iterator<Item = u64> {
     (1..=300).chain(1001..=1100)
 }

@@ -1,4 +1,4 @@
-//! Real maps, where they are at hand: counts that agree with those of the reference library.
+//! Real maps, if they are available: counts that agree with those of the reference library.
 
 use std::path::Path;
 
@@ -17,8 +17,8 @@ fn read(file: &str) -> Option<Map> {
     Some(load(&path, &ReadOptions::default()).expect("the map is sound"))
 }
 
-/// Lanelets for cars, pairs that follow, left and right changes, left and right neighbours without, conflicts seen from
-/// both sides, problems.
+/// Lanelets for cars, pairs that follow, left and right changes, left and right neighbours without changes, conflicts
+/// seen from both sides, problems.
 type Counts = [usize; 8];
 
 fn counts(map: &Map) -> Counts {
@@ -40,7 +40,7 @@ const MAPS: [(&str, Counts); 11] = [
     ("lanelet2/crossroads_with_stoplines.osm", [79, 100, 0, 0, 0, 0, 176, 0]),
     ("lanelet2/four_track_highway.osm", [36, 28, 16, 16, 6, 6, 0, 0]),
     ("lanelet2/intersection.osm", [58, 57, 10, 10, 9, 9, 104, 0]),
-    // The reference adds four successors that are two-way lanelets run backwards, which traffic does not use here.
+    // The reference adds four successors that are two-way lanelets driven backwards, which traffic does not use here.
     ("lanelet2/karlsruhe.osm", [328, 313, 57, 56, 54, 55, 298, 60]),
     ("lanelet2/karlsruhe_roundabout.osm", [232, 225, 53, 52, 52, 53, 175, 1]),
     ("lanelet2/kashiwanoha.osm", [77, 93, 3, 3, 0, 0, 168, 0]),
@@ -68,7 +68,7 @@ fn a_map_that_is_written_and_read_again_is_the_same() {
         let text = document.write();
         let map = document.map(problems, &ReadOptions::default()).unwrap();
         let again = lanelet2::read(text.as_bytes(), &ReadOptions::default()).unwrap();
-        // Lanelets, chains, entrances and all the rest, to the last bit.
+        // Lanelets, chains, entrances and everything else, to the last bit.
         assert_eq!(format!("{:?}", again.network), format!("{:?}", map.network), "{file}");
         assert_eq!((&again.graph, &again.contents, again.origin), (&map.graph, &map.contents, map.origin));
         let lineless = |map: &Map| -> Vec<Rule> {

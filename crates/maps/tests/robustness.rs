@@ -1,4 +1,4 @@
-//! No bytes make the reader panic.
+//! The reader does not panic, whatever the bytes.
 
 use laneweave_maps::generate::{Control, Grid, Motorway, Weaving, grid, motorway};
 use laneweave_maps::{Map, ReadOptions, check, lanelet2};
@@ -15,7 +15,7 @@ fn map() -> String {
     lanelet2::write(&motorway(&small).expect("the motorway is possible"))
 }
 
-/// What gets into files: markup in odd places, and numbers that are none.
+/// Text that is put into files: markup in unusual places, and invalid numbers.
 fn scrap() -> impl Strategy<Value = Vec<u8>> {
     prop_oneof![
         prop::collection::vec(any::<u8>(), 0..4),

@@ -1,4 +1,4 @@
-//! What the generators of towns draw.
+//! The drawings of the town generators.
 
 use std::collections::HashSet;
 use std::time::Instant;
@@ -7,7 +7,7 @@ use laneweave_maps::generate::{Arterial, Control, Grid, approach, arterial, grid
 use laneweave_maps::{Drawing, Map, NodeIndex, RuleKind, Sense, lanelet2, routes};
 use laneweave_network::{Beside, DrivingSide, Gate, Lanelet, LaneletIndex, Polyline, Side};
 
-/// Limits of streets, of the ring, and of the motorway [m/s].
+/// Limits of streets, of the roundabout, and of the motorway [m/s].
 const STREET: f64 = 50.0 / 3.6;
 const RING: f64 = 30.0 / 3.6;
 const MOTORWAY: f64 = 120.0 / 3.6;
@@ -29,7 +29,7 @@ fn refusal(change: impl Fn(&mut Grid)) -> String {
     grid(&wanted).expect_err("it is no grid").to_string()
 }
 
-/// All maps with right-angled junctions and rings.
+/// All maps with right-angled junctions and roundabouts.
 fn towns() -> Vec<Map> {
     let right = DrivingSide::Right;
     let mut drawings = vec![town(right), approach(right), roundabout(right)];
@@ -43,14 +43,14 @@ fn lanelet(map: &Map, id: i64) -> &Lanelet {
     map.network.lanelets.iter().find(|it| it.id == id).expect("the lanelet is there")
 }
 
-/// By how much a lanelet turns, to the left positive [°].
+/// Angle by which a lanelet turns, to the left positive [°].
 fn turn(lanelet: &Lanelet) -> f64 {
     let centre = &lanelet.centre;
     let turn = centre.heading(centre.length()) - centre.heading(0.0);
     (turn.to_degrees() + 540.0).rem_euclid(360.0) - 180.0
 }
 
-/// How the ways turn that go on from a lanelet: l, s and r.
+/// Movements of the lanelets that follow a lanelet: l, s and r.
 fn ways(map: &Map, lanelet: &Lanelet) -> String {
     let following = lanelet.following.iter().map(|it| turn(&map.network.lanelets[it.at()]));
     let mut ways: Vec<char> = following
@@ -160,7 +160,7 @@ fn lanes_share_ground_inside_of_junctions_only() {
         assert_eq!(!others.is_empty(), is_inside, "{}", lanelet.id);
         ways += usize::from(is_inside);
     }
-    // Four junctions of four arms with a way left, two straight on and one right.
+    // Four junctions of four arms with one path left, two straight on and one right.
     assert_eq!(ways, 64);
 }
 
@@ -238,12 +238,12 @@ fn at_a_priority_junction_who_comes_from_north_or_south_gives_way() {
     assert_eq!(map.rules.len(), 2);
     for rule in &map.rules {
         let RuleKind::RightOfWay { first, yielding } = &rule.kind else { panic!("{rule:?}") };
-        // An approach and its three ways on; two of these go first.
+        // An approach and its three movements; two of these have priority.
         assert_eq!((first.len(), yielding.len(), rule.lanelets.len(), rule.stop_lines.len()), (8, 4, 12, 1));
         let is_along_east = |id: &i64| lanelet(&map, *id).centre.heading(0.0).cos().abs() > 0.9;
         assert!(first.iter().all(is_along_east) && !yielding.iter().any(is_along_east));
         assert!(rule.stop_lines[0].iter().all(|it| (it.y.abs() - 11.625).abs() < 1e-9));
-        // Whatever gives way crosses something that goes first.
+        // Every lanelet that gives way crosses one with priority.
         let index = |id: i64| map.network.lanelets.iter().position(|it| it.id == id).unwrap();
         for way in &yielding[1..] {
             let conflicting = &map.graph.conflicting[index(*way)];
@@ -266,7 +266,7 @@ fn an_all_way_stop_stops_all_and_right_before_left_has_no_sign() {
 fn every_way_into_a_roundabout_gives_way_to_the_ring() {
     let map = map(&roundabout(DrivingSide::Right));
     for entrance in entrances(&map).concat() {
-        // Around the ring one comes back, too.
+        // Vehicles also come back around the roundabout.
         let reached = reachable(&map, entrance, false);
         assert!(exits(&map).concat().iter().all(|it| reached.contains(it)));
     }
@@ -277,8 +277,8 @@ fn every_way_into_a_roundabout_gives_way_to_the_ring() {
         let [street, way_in] = &yielding[..] else { panic!("{yielding:?}") };
         assert_eq!(lanelet(&map, *street).speed_limit, STREET);
         let onto = |id: i64| lanelet(&map, id).following.clone();
-        // The piece of the ring before the arm, then the one in front of it, which leads onto the same lanelet as the
-        // way in.
+        // The piece of the circulating lane before the arm, then the one in front of it, which leads onto the same
+        // lanelet as the entry.
         assert_eq!(onto(first[1]).last(), onto(*way_in).last());
         assert!(onto(first[0]).iter().any(|it| map.network.lanelets[it.at()].id == first[1]));
         assert!(turn(lanelet(&map, first[1])) > 0.0);
@@ -345,7 +345,7 @@ fn on_the_approach_a_leads_left_b_both_ways_and_c_straight_on() {
     let lanes = entrances(&map).concat();
     let chain = |lane: usize| map.network.chains.iter().find(|it| it.lanelets[0] == lanes[lane]).unwrap();
     let reached = |lane: usize| {
-        // 25 m before the stop line lanes are changed no more.
+        // From 25 m before the stop line on, lane changes are forbidden.
         let (last, _) = chain(lane).lanelet(475.0);
         let reached = reachable(&map, last, true);
         [north, south, east].map(|exit| exit.iter().any(|it| reached.contains(it)))
@@ -391,7 +391,7 @@ fn four_hundred_junctions_take_seconds() {
     let drawing = grid(&wanted).unwrap();
     let text = lanelet2::write(&drawing);
     assert!(text.len() < 25_000_000, "{}", text.len());
-    // Twelve ways over each junction.
+    // Twelve paths over each junction.
     assert_eq!(map(&drawing).graph.nodes.iter().filter(|it| it.following.len() == 3).count(), 1600);
     assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
 }

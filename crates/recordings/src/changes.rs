@@ -1,5 +1,5 @@
-//! Lane changes: a vehicle's centre crosses the line between two lanes of one direction, and stays beyond it for 0.8 s
-//! at least. Each is counted once, at the crossing.
+//! Lane changes: a vehicle's centre crosses the line between two lanes of one direction, and stays beyond it for at
+//! least 0.8 s. Each change is counted once, at the crossing.
 
 use laneweave_network::{Lanelet, LaneletIndex, Point, Side};
 
@@ -11,21 +11,21 @@ use crate::purpose::Ways;
 use crate::recording::Track;
 use crate::smooth;
 
-/// A vehicle that stays shorter beyond the line has not changed lanes [s].
+/// Minimum time beyond the line for a lane change [s].
 const STAY: f64 = 0.8;
-/// Positions are smoothed over so much before and after to find the crossing [s].
+/// To find the crossing, positions are smoothed over this time before and after [s].
 const REACH: f64 = 0.25;
-/// Within so much before and after the match's change of lanelets the crossing is looked for [s].
+/// The crossing is searched within this time before and after the match's change of lanelets [s].
 const SEARCH: f64 = 0.6;
-/// A vehicle that is back within so much came back [s].
+/// A vehicle that is back within this time has come back [s].
 const RETURN: f64 = 30.0;
 
-/// A lane change that was seen.
+/// An observed lane change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaneChange {
     /// Id of the track.
     pub vehicle: i64,
-    /// Place of the track in the recording.
+    /// Index of the track in the recording.
     pub track: usize,
     /// When the centre crosses the line [s].
     pub time: f64,
@@ -33,7 +33,7 @@ pub struct LaneChange {
     pub from: LaneletIndex,
     /// The lanelet that it enters.
     pub to: LaneletIndex,
-    /// To which side.
+    /// The side.
     pub side: Side,
     /// Where the centre crosses the line [m].
     pub x: f64,
@@ -41,13 +41,13 @@ pub struct LaneChange {
     pub y: f64,
     /// Speed at the crossing [m/s].
     pub speed: f64,
-    /// The graph permits the change.
+    /// Whether the graph permits the change.
     pub along_graph: bool,
-    /// Why it was made, as far as the way afterwards shows.
+    /// Why it was made, as far as the later path shows.
     pub kind: Kind,
-    /// After which time it came back to the lane that it left, if within 30 s [s].
+    /// Time after which it came back to the lane that it left, if within 30 s [s].
     pub returned_after: Option<f64>,
-    /// How long the vehicle was seen after the crossing [s].
+    /// Time for which the vehicle was observed after the crossing [s].
     pub seen_after: f64,
 }
 
@@ -68,9 +68,9 @@ struct Crossing {
     from: LaneletIndex,
     to: LaneletIndex,
     aside: Aside,
-    /// The lanelet in which the vehicle is last seen before it leaves the lanes of the map.
+    /// The lanelet in which the vehicle is last observed before it leaves the lanes of the map.
     last: LaneletIndex,
-    /// When that is [s].
+    /// The time of that [s].
     seen_until: f64,
 }
 
@@ -105,7 +105,7 @@ fn changes_of(
     changes
 }
 
-/// Leaves out crossings after which the vehicle does not stay, and those by which it comes back from them.
+/// Removes crossings after which the vehicle does not stay, and the crossings back.
 fn those_that_stay(crossings: Vec<Crossing>) -> Vec<Crossing> {
     let mut kept: Vec<Crossing> = Vec::with_capacity(crossings.len());
     for crossing in crossings {
@@ -153,7 +153,7 @@ fn crossings(matched: &Matched<'_>, track: &Track, places: &[Option<Place>]) -> 
     crossings
 }
 
-/// For each state the last one up to which all have a place.
+/// For each state the last one up to which all states have a place.
 fn ends(places: &[Option<Place>]) -> Vec<usize> {
     let mut ends: Vec<usize> = (0..places.len()).collect();
     for at in (1..places.len()).rev() {
@@ -165,7 +165,7 @@ fn ends(places: &[Option<Place>]) -> Vec<usize> {
 }
 
 /// The frame, with a fraction, and the point [m] at which the smoothed centre crosses the line between two lanelets,
-/// next to the states `at` and `at + 1`, between which the match changes from one to the other.
+/// near the states `at` and `at + 1`, between which the match changes from one to the other.
 fn moment(track: &Track, at: usize, [from, to]: [&Lanelet; 2], step: f64) -> (f64, f64, f64) {
     let states = &track.states;
     let is_near = |it: &usize| smooth::elapsed(&states[at], &states[*it], step).abs() <= SEARCH;

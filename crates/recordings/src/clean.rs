@@ -1,4 +1,4 @@
-//! Cleaning: what no road user can have done is mended, or cut out, and reported.
+//! Cleaning: data that no real road user can produce is corrected, or cut out, and reported.
 
 mod motion;
 mod positions;
@@ -10,11 +10,11 @@ pub use report::{CleaningReport, Example, Finding};
 
 /// Cleans a recording, whatever its source.
 ///
-/// In this order, for each track: a size that no road user has is replaced by the usual one of its class; states with
-/// numbers that are not finite, and further states of one frame, are left out; so are single states far off the path,
-/// and where the path itself jumps, the track is split; missing frames are interpolated up to 1 s, and a longer gap
-/// splits the track; then a speed that contradicts the positions by more than 5 m/s is taken from smoothed positions,
-/// and a heading more than 45° off the direction of motion from these.
+/// The steps for each track, in this order: An impossible size is replaced by the usual one of its class. States with
+/// numbers that are not finite are left out, and further states of one frame. Single states far off the path are left
+/// out, too; where the path itself jumps, the track is split. Missing frames are interpolated up to 1 s; a longer gap
+/// splits the track. A speed that contradicts the positions by more than 5 m/s is replaced by that of smoothed
+/// positions. A heading more than 45° off the direction of motion is replaced in the same way.
 pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
     let mut report = CleaningReport {
         states: recording.tracks.iter().map(|it| it.states.len()).sum(),

@@ -1,11 +1,10 @@
 //! CommonRoad recordings: the dynamic obstacles of XML in the versions 2018b and 2020a.
 //!
-//! Values given as an interval are taken in its middle, positions given as an area at its centre. A state
-//! without a velocity gets that of the way from the state before, or to the next one. The first frame is
-//! number 0.
+//! For a value given as an interval the middle is taken, for a position given as an area its centre. A state without
+//! a velocity gets that of the path from the state before, or to the next one. The first frame is number 0.
 //!
-//! Static obstacles, obstacles that nobody saw and planning problems are passed over, occupancy sets, too: they
-//! say where somebody may be. The map is read by [`laneweave_maps::commonroad`].
+//! Static obstacles, unobserved obstacles and planning problems are ignored. Occupancy sets are ignored, too: they
+//! say where an obstacle may be. The map is read by [`laneweave_maps::commonroad`].
 
 mod obstacle;
 
@@ -44,12 +43,12 @@ pub fn read(bytes: &[u8]) -> Result<(Recording, Vec<Problem>), RecordingError> {
     Ok((Recording { step, tracks }, problems))
 }
 
-/// A recording that grows obstacle by obstacle.
+/// A recording under construction, obstacle by obstacle.
 #[derive(Default)]
 struct Draft {
     /// Line of the outermost element.
     line: usize,
-    /// Time between frames [s]; not a number where it is missing or unreadable.
+    /// Time between frames [s]; NaN where it is missing or unreadable.
     step: f64,
     tracks: Vec<Track>,
     ids: HashSet<i64>,
@@ -120,7 +119,7 @@ impl Draft {
     }
 }
 
-/// Vehicles that stand for good.
+/// Static vehicles.
 #[derive(Default)]
 struct Standing {
     number: usize,

@@ -1,4 +1,4 @@
-//! Recorded drivers: what they are about, as far as their way shows, and what has to be assumed of them.
+//! Recorded drivers: what their path shows of them, and what has to be assumed.
 
 use std::collections::HashMap;
 
@@ -10,23 +10,23 @@ use crate::matching::Matched;
 use crate::recording::RoadUser;
 use crate::sideways::{Extent, extents, last_before};
 
-/// What is assumed of a recorded driver, because no recording shows it.
+/// Assumptions about a recorded driver that no recording shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assumed {
-    /// Its place in the table of driver parameters.
+    /// Its index in the table of driver parameters.
     pub parameters: u32,
-    /// Its desired speed as a share of the one that the limit and its class allow, which for a simulated driver is that
-    /// of its style.
+    /// Its desired speed as a share of the speed that the limit and its class allow; for a simulated driver this
+    /// share comes from its style.
     pub speed_factor: f64,
 }
 
-/// Least speed factor of a driver, also of one who only stands.
+/// Minimum speed factor of a driver, also of one that only stands.
 const LEAST_FACTOR: f64 = 0.1;
 
 impl Assumed {
-    /// A driver with these parameters who wants to drive as it did for most of the time that it was seen: its speed
-    /// factor is that which it stayed below for 85 % of that time, at least 0.1 and at most 1. Who was held up all the
-    /// time wants too little.
+    /// A driver with these parameters and an estimated speed factor: the one below which it stayed for 85 % of the
+    /// time that it was observed, at least 0.1 and at most 1. For a driver that was held up all the time, the
+    /// estimate is too low.
     pub fn by_its_speeds(matched: &Matched<'_>, track: usize, parameters: u32) -> Assumed {
         let (track, places) = (&matched.recording.tracks[track], &matched.places[track]);
         let class = class_of(track.class);
@@ -50,7 +50,7 @@ pub(crate) struct Driver {
     pub(crate) assumed: Assumed,
     pub(crate) class: Class,
     pub(crate) destination: Destination,
-    /// The chains of its way in order, each with the number of the first state there.
+    /// The chains of its route in order, each with the number of the first state there.
     pub(crate) chains: Vec<(usize, ChainIndex)>,
     /// Its lane changes.
     pub(crate) changes: Vec<Change>,
@@ -70,7 +70,7 @@ impl Driver {
         allowed(self.class, limit) * self.assumed.speed_factor
     }
 
-    /// Onto which of `following` it goes on from where it is in state number `at`. Where branches still overlap the
+    /// The chain of `following` on which it continues after state number `at`. Where branches still overlap, the
     /// match may begin with another one: the last counts.
     pub(crate) fn next(&self, at: usize, following: &[ChainIndex]) -> Option<ChainIndex> {
         let later = self.chains.iter().filter(|(first, _)| *first > at).map(|(_, chain)| *chain);
@@ -111,8 +111,8 @@ pub(crate) fn drivers(
     drivers
 }
 
-/// Where each vehicle goes: to the exit that is easiest from where it was last seen. A vehicle that left the map was
-/// there.
+/// The destination of each vehicle: the exit that is easiest to reach from where it was last observed. A vehicle that
+/// left the map was at this exit.
 fn goals(matched: &Matched<'_>, navigator: &Navigator) -> HashMap<i64, Destination> {
     let mut last_seen: HashMap<i64, (i64, Position)> = HashMap::new();
     for (track, places) in matched.recording.tracks.iter().zip(&matched.places) {
@@ -129,7 +129,7 @@ fn goals(matched: &Matched<'_>, navigator: &Navigator) -> HashMap<i64, Destinati
     last_seen.into_iter().map(|(id, (_, at))| (id, easiest(navigator, at.chain, at.x))).collect()
 }
 
-/// The exit that from `x` on `chain` needs the fewest lane changes, and of several the least time.
+/// The exit that needs the fewest lane changes from `x` on `chain`, and of several the least time.
 pub(crate) fn easiest(navigator: &Navigator, chain: ChainIndex, x: f64) -> Destination {
     let changes = |destination: Destination| navigator.waypoint(destination, chain).changes;
     let reachable = navigator.reachable(chain, x);

@@ -1,4 +1,4 @@
-//! Why a file is no recording at all.
+//! Errors by which a file gives no recording.
 
 use std::fmt::Display;
 
@@ -17,7 +17,7 @@ pub enum RecordingError {
         /// The largest size that is read [B].
         limit: u64,
     },
-    /// A column is missing that cannot be done without.
+    /// A required column is missing.
     #[error("line 1: the column {column} is missing; add it to the header, which has: {found}")]
     MissingColumn {
         /// Its name.
@@ -25,17 +25,17 @@ pub enum RecordingError {
         /// The header as it stands, cut if it is long.
         found: String,
     },
-    /// It is not the XML that its format is.
+    /// It is not valid XML of its format.
     #[error(transparent)]
     Xml(#[from] XmlError),
-    /// It does not say the time between frames, or says no number above zero.
+    /// It does not give the time between frames, or gives no number above zero.
     #[error("line {line}: {element} has no time between frames above 0 s; give it the attribute {attribute}")]
     NoStep {
         /// Where the element begins.
         line: usize,
-        /// The element that should say it.
+        /// The element that should give it.
         element: &'static str,
-        /// The attribute in which it should.
+        /// The attribute that should give it.
         attribute: &'static str,
     },
     /// No road user in it can be used.
@@ -49,7 +49,7 @@ pub enum RecordingError {
     NoRows {
         /// Rows in the file.
         rows: usize,
-        /// What is wrong with the first one.
+        /// The problem of the first one.
         problem: Option<String>,
     },
     /// All rows are of one frame, so that the time between frames is not known.
@@ -60,7 +60,7 @@ pub enum RecordingError {
         /// The frame.
         frame: i64,
     },
-    /// The frames come too fast or too slowly.
+    /// The time between frames is out of range.
     #[error(
         "line {line}: frames are {step_ms} ms apart from here on; correct timestamp_ms or frame_id, \
          so that it is {from} to {to} ms"

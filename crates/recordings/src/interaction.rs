@@ -1,7 +1,8 @@
 //! Track files of the INTERACTION dataset (Zhan et al., 2019): CSV, one row for a road user in a frame.
 //!
-//! The columns track_id, frame_id, timestamp_ms, agent_type, x, y, vx, vy are required; psi_rad, length and width may
-//! be missing or empty, as they are for those who walk or cycle. Columns are known by name; rows come in any order.
+//! The columns track_id, frame_id, timestamp_ms, agent_type, x, y, vx, vy are required. psi_rad, length and width may
+//! be missing or empty, as they are for pedestrians and cyclists. Columns are identified by name; rows may be in any
+//! order.
 
 mod header;
 mod row;
@@ -22,7 +23,7 @@ pub use write::write;
 const MAXIMUM_SIZE: u64 = 512 << 20;
 /// Least and greatest time between frames [ms].
 const STEPS: (f64, f64) = (10.0, 2000.0);
-/// Times are written in whole milliseconds, so that they may be off by this [ms].
+/// Times are whole milliseconds, so they may be off by this [ms].
 const ROUNDING: f64 = 1.0;
 
 /// Reads a track file. Rows that cannot be used are left out and listed as problems.
@@ -55,7 +56,7 @@ struct Reader {
     rows: usize,
     tracks: Vec<Reading>,
     by_id: HashMap<i64, usize>,
-    /// Place of the track of the row before.
+    /// Index of the track of the row before.
     last: usize,
     problems: Problems,
 }
@@ -66,7 +67,7 @@ struct Reading {
     times: Vec<Time>,
 }
 
-/// When a state was, and where it stands in the file.
+/// Time of a state, and its line in the file.
 #[derive(Clone, Copy)]
 struct Time {
     frame: i64,
@@ -90,7 +91,7 @@ impl Reader {
         reading.times.push(Time { frame: row.state.frame, timestamp_ms: row.timestamp_ms, line });
     }
 
-    /// The track that `row` begins.
+    /// The track that begins with `row`.
     fn begin(&mut self, row: &Row, line: usize) -> Track {
         let element = || format!("track {}", row.track);
         if let Some(unknown) = &row.unknown_class {
@@ -123,7 +124,7 @@ impl Reader {
         Ok((Recording { step, tracks }, self.problems.into_list()))
     }
 
-    /// The time between frames [s], with which all timestamps must agree.
+    /// The time between frames [s]; all timestamps must agree with it.
     fn step(&self) -> Result<f64, RecordingError> {
         let times = || self.tracks.iter().flat_map(|it| &it.times);
         let empty = || RecordingError::NoRows {
@@ -178,7 +179,7 @@ impl Reading {
     }
 }
 
-/// Gives states without a heading that of the state before, or else of the first that has one, or else east.
+/// Fills in missing headings: that of the state before, or else of the first that has one, or else east.
 fn fill_headings(states: &mut [State]) {
     let first = states.iter().map(|it| it.heading).find(|it| !it.is_nan());
     let mut heading = first.unwrap_or(0.0);

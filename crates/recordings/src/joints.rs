@@ -1,18 +1,18 @@
-//! Which lanelets go on where another ends: those that follow in the graph, and those that merely begin there, because
-//! the map's points were drawn twice.
+//! The lanelets that continue another one: those that follow in the graph, and those that only begin at its end,
+//! because the map's points were drawn twice.
 
 use std::collections::HashMap;
 
 use laneweave_network::{Lanelet, LaneletIndex, Point};
 
-/// Corners that were drawn twice are at most this far apart [m]. Ours.
+/// Maximum distance between corners that were drawn twice [m]. Ours.
 const MAXIMUM_GAP: f64 = 0.75;
-/// The road bends by less at a joint [rad]. Ours.
+/// Maximum bend of the road at a joint [rad]. Ours.
 const MAXIMUM_BEND: f64 = 0.3;
-/// Lanes on bridges are further above each other [m].
+/// Lanes on bridges are at least this far above each other [m].
 const MAXIMUM_HEIGHT: f64 = 2.0;
 
-/// For each lanelet those that go on from its end, first those of the graph.
+/// For each lanelet those that continue it, first those of the graph.
 pub(crate) fn onward(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     let mut starts: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
     for (index, lanelet) in lanelets.iter().enumerate() {

@@ -4,15 +4,15 @@ use std::collections::HashMap;
 
 use laneweave_network::{Lanelet, LaneletIndex, Point};
 
-/// Size of a cell [m]. What lies in the cells around one is found from there, so that lanes may be up to twice as wide.
+/// Size of a cell [m]. The search covers the neighbouring cells, so that lanes may be up to twice as wide.
 const CELL: f64 = 10.0;
 
-/// Where a point lies along a lanelet.
+/// The position of a point relative to a lanelet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Foot {
     /// Along the centre line [m], not beyond its ends.
     pub(crate) station: f64,
-    /// To the left of the centre line, which is prolonged at its ends [m].
+    /// Distance to the left of the centre line, which is prolonged at its ends [m].
     pub(crate) offset: f64,
     /// Beyond its ends [m].
     pub(crate) beyond: f64,
@@ -27,9 +27,9 @@ pub(crate) struct Lanes<'a> {
 /// A segment of a centre line.
 #[derive(Clone, Copy, PartialEq)]
 struct Segment {
-    /// Place of its first point in the centre line.
+    /// Index of its first point in the centre line.
     number: u32,
-    /// Where it begins along the centre line [m].
+    /// Station of its beginning along the centre line [m].
     start: f64,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Lanes<'a> {
         Lanes { lanelets, cells }
     }
 
-    /// The lanelets around `point`, at most a cell away, and where it lies along them.
+    /// The lanelets around `point`, at most a cell away, and its position relative to them.
     pub(crate) fn around(&self, point: &Point) -> impl Iterator<Item = (LaneletIndex, Foot)> {
         let listed = self.cells.get(&cell(point)).map_or(&[][..], |it| it);
         listed.chunk_by(|a, b| a.0 == b.0).filter_map(|entries| {
@@ -64,7 +64,7 @@ impl<'a> Lanes<'a> {
     }
 }
 
-/// Where `point` lies along `lanelet`.
+/// The position of `point` relative to `lanelet`.
 pub(crate) fn foot(lanelet: &Lanelet, point: &Point) -> Option<Foot> {
     nearest(lanelet, segments(lanelet).map(|(segment, ..)| segment), point)
 }

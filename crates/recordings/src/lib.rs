@@ -1,8 +1,8 @@
-//! Recorded traffic: read, cleaned, matched to the map, and its lane changes found.
+//! Recorded traffic: read, cleaned and matched to the map, with its lane changes.
 //!
-//! A file becomes a [`Recording`] ([`interaction::read`], [`commonroad::read`]); [`clean()`] mends what no road user
-//! can have done; [`Matched`] says in which lanelet each vehicle is, and who is there in a frame; [`lane_changes`]
-//! finds who changes, [`extents`] from when to when; a [`Replay`] shows each frame as its drivers see it.
+//! A file becomes a [`Recording`] ([`interaction::read`], [`commonroad::read`]). [`clean()`] corrects impossible
+//! data. [`Matched`] gives the lanelet of each vehicle, and the vehicles in a frame. [`lane_changes`] finds the lane
+//! changes, [`extents`] their begin and end. A [`Replay`] shows each frame as its drivers see it.
 
 mod changes;
 mod clean;

@@ -1,7 +1,7 @@
-//! Matching to the map: in which lanelet each vehicle is, by its position, its heading, and the way it came and goes.
+//! Matching to the map: the lanelet of each vehicle, by its position, its heading, and its path before and after.
 //!
-//! The likeliest way through the lanelets around (Viterbi): staying off the middle of a lane and pointing elsewhere
-//! cost by the second, changing lanes costs a little, and going where no lane leads costs much.
+//! The most likely path through the lanelets around (Viterbi). A distance from the middle of a lane and an angle to
+//! it cost per second. A lane change costs a little. A move without a link costs much.
 
 use laneweave_network::{Lanelet, LaneletIndex, Network, Point};
 
@@ -10,7 +10,7 @@ use crate::moves::{Move, Moves};
 use crate::recording::{Recording, State, Track};
 use crate::smooth;
 
-/// Where a vehicle's centre is in its lane.
+/// The position of a vehicle's centre in its lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// The lanelet.
@@ -21,13 +21,14 @@ pub struct Place {
     pub offset: f64,
 }
 
-/// A recording with the place of each vehicle in each frame.
+/// A recording with the position of each vehicle in each frame.
 pub struct Matched<'a> {
     /// The roads.
     pub network: &'a Network,
     /// The recording.
     pub recording: &'a Recording,
-    /// For each track and each of its states the place; `None` far from all lanelets, and for all who are no vehicles.
+    /// For each track and each of its states the position; `None` far from all lanelets, and for all road users that
+    /// are no vehicles.
     pub places: Vec<Vec<Option<Place>>>,
     pub(crate) moves: Moves,
 }
@@ -51,20 +52,20 @@ const MAXIMUM_OUTSIDE: f64 = 2.0;
 const MAXIMUM_BEYOND: f64 = 3.0;
 /// A vehicle at a larger angle to a lane does not drive on it [rad].
 const MAXIMUM_TURN: f64 = 1.0;
-/// A turn against the lane that costs as much as being on its border [rad].
+/// An angle to the lane that costs as much as a position on its border [rad].
 const TURN: f64 = 0.3;
-/// Cost of a lane change, where being on the border costs 1/s. Ours: in a lane of 3.5 m there and back pays off from
-/// half a second at a decimetre beyond the line.
+/// Cost of a lane change; a position on the border costs 1/s. Ours: in a lane of 3.5 m, a change there and back is
+/// cheaper from half a second at a decimetre beyond the line.
 const ASIDE: f64 = 0.05;
-/// Cost of going over to the other lanelet of a fork or a merge.
+/// Cost of a move to the other lanelet of a fork or a merge.
 const OVER: f64 = 0.01;
-/// Cost of going where no lane leads.
+/// Cost of a move without a link.
 const ASTRAY: f64 = 10.0;
-/// Speeds are taken from so much before and after to find an acceleration [s].
+/// An acceleration is computed from the speeds this time before and after [s].
 const ACCELERATION_REACH: f64 = 0.5;
 
 impl<'a> Matched<'a> {
-    /// Matches the vehicles of `recording` to `network`, whose frame its positions are in.
+    /// Matches the vehicles of `recording` to `network`; both have the same frame.
     pub fn new(network: &'a Network, recording: &'a Recording) -> Matched<'a> {
         let lanes = Lanes::new(&network.lanelets);
         let moves = Moves::new(network, recording.step);
@@ -73,7 +74,8 @@ impl<'a> Matched<'a> {
         Matched { network, recording, places, moves }
     }
 
-    /// The vehicles in `frame` that have a place, by lanelet, in each from the last to the first in driving order.
+    /// The vehicles in `frame` that have a position, by lanelet, in each lanelet from the last to the first in
+    /// driving order.
     pub fn frame(&self, frame: i64) -> Vec<Present<'_>> {
         let mut present: Vec<Present<'_>> = Vec::new();
         for (track, places) in self.recording.tracks.iter().zip(&self.places) {
@@ -91,7 +93,7 @@ impl<'a> Matched<'a> {
     }
 }
 
-/// What matching a track needs.
+/// The data for matching a track.
 struct Matcher<'a> {
     lanelets: &'a [Lanelet],
     lanes: Lanes<'a>,
@@ -102,11 +104,11 @@ struct Matcher<'a> {
 /// A lanelet in which a state may be.
 struct Candidate {
     place: Place,
-    /// Cost of being there [1/s].
+    /// Cost of this state [1/s].
     rate: f64,
-    /// Least cost of all ways that end there.
+    /// Minimum cost of all paths that end there.
     cost: f64,
-    /// The candidate of the state before by which that way goes.
+    /// The candidate of the state before on that path.
     before: usize,
 }
 
@@ -133,7 +135,7 @@ impl Matcher<'_> {
         places
     }
 
-    /// Writes down the cheapest way at the end of `places`, and begins a new one.
+    /// Writes the cheapest path at the end of `places`, and begins a new one.
     fn settle(&self, way: &mut Vec<Vec<Candidate>>, places: &mut [Option<Place>]) {
         let cheapest = |it: &Vec<Candidate>| (0..it.len()).min_by(|a, b| it[*a].cost.total_cmp(&it[*b].cost));
         let mut at = way.last().and_then(cheapest).unwrap_or(0);
@@ -153,7 +155,7 @@ impl Matcher<'_> {
             let half_width = 0.5 * lanelet.width(foot.station);
             let turn = state.heading - lanelet.centre.heading(foot.station);
             let turn = turn.sin().atan2(turn.cos());
-            // Written so that numbers that are none are refused.
+            // This form also refuses NaN.
             let is_near = foot.offset.abs() <= half_width + MAXIMUM_OUTSIDE && foot.beyond <= MAXIMUM_BEYOND;
             if is_near && turn.abs() <= MAXIMUM_TURN {
                 let square = |it: f64| it * it;
@@ -167,7 +169,7 @@ impl Matcher<'_> {
         candidates
     }
 
-    /// Finds the cheapest way to `candidate`, which takes `time` [s].
+    /// Finds the cheapest path to `candidate`, which takes `time` [s].
     fn extend(&self, before: &[Candidate], candidate: &mut Candidate, time: f64) {
         let to = candidate.place.lanelet;
         let mut least = f64::INFINITY;

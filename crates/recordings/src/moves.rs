@@ -1,34 +1,34 @@
-//! From which lanelet a vehicle comes to which other within a frame, along the road or sideways.
+//! The moves of a vehicle between lanelets within a frame, along the road or sideways.
 
 use laneweave_network::{Lanelet, LaneletIndex, Network, Side};
 
 use crate::joints;
 
-/// No vehicle is faster [m/s].
+/// Maximum speed of a vehicle [m/s].
 const MAXIMUM_SPEED: f64 = 70.0;
-/// Lanelets that one lanelet goes on to within a frame, or forks into, at most; more are drawn in vain.
+/// Maximum of lanelets that one lanelet reaches within a frame, or forks into; further ones are ignored.
 const MAXIMUM_AHEAD: usize = 32;
-/// A stretch on which lanes lie side by side may be missed by so much [m].
+/// Tolerance at the ends of a stretch on which lanes lie side by side [m].
 const MARGIN: f64 = 5.0;
 
 /// The moves between the lanelets of a network.
 pub(crate) struct Moves {
-    /// For each lanelet the moves from it, ordered by where they lead.
+    /// For each lanelet the moves from it, ordered by their targets.
     from: Vec<Vec<(LaneletIndex, Move)>>,
     /// For each lanelet what lies beside it.
     beside: Vec<Vec<Neighbour>>,
-    /// For each lanelet those that go on from its end.
+    /// For each lanelet those that continue it.
     onward: Vec<Vec<LaneletIndex>>,
     /// For each lanelet those that fork off, or merge, with it, in order.
     siblings: Vec<Vec<LaneletIndex>>,
 }
 
-/// How a vehicle comes from one lanelet to another.
+/// A move of a vehicle from one lanelet to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Move {
     /// It stays in its lane.
     Along,
-    /// It goes over to a lanelet that forks off, or merges, with its own: where they overlap they are one lane.
+    /// It moves to a lanelet that forks off, or merges, with its own: where they overlap they are one lane.
     Over,
     /// It changes lanes.
     Aside(Aside),
@@ -37,11 +37,11 @@ pub(crate) enum Move {
 /// A change of lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aside {
-    /// To which side.
+    /// The side.
     pub(crate) side: Side,
-    /// The graph permits it.
+    /// Whether the graph permits it.
     pub(crate) along_graph: bool,
-    /// Stations of the lanelet that is left between which it is possible [m].
+    /// Stations of the old lanelet between which it is possible [m].
     pub(crate) stretch: [f64; 2],
 }
 
@@ -84,7 +84,7 @@ impl Moves {
         &self.beside[lanelet.at()]
     }
 
-    /// What goes on from the end of `lanelet`.
+    /// The lanelets that continue `lanelet`.
     pub(crate) fn onward(&self, lanelet: LaneletIndex) -> &[LaneletIndex] {
         &self.onward[lanelet.at()]
     }
@@ -110,7 +110,7 @@ fn beside(network: &Network) -> Vec<Vec<Neighbour>> {
     for pair in network.alongside() {
         let mut add = |from: LaneletIndex, lanelet, side, stretch: [f64; 2]| {
             match all[from.at()].iter_mut().find(|it| it.lanelet == lanelet) {
-                // Several stretches are taken as one from the first to the last.
+                // Several stretches count as one, from the first to the last.
                 Some(Neighbour { change: Aside { stretch: [start, end], .. }, .. }) => {
                     (*start, *end) = (start.min(stretch[0]), end.max(stretch[1]));
                 }
@@ -164,8 +164,8 @@ fn ahead(lanelets: &[Lanelet], onward: &[Vec<LaneletIndex>], from: usize, reach:
     found.into_iter().map(|(lanelet, _)| lanelet).collect()
 }
 
-/// The moves from a lanelet: straight on, then to what lies beside it and goes on from there, then to what lies beside
-/// those that follow.
+/// The moves from a lanelet: straight on, then to the lanelets beside it and their continuations, then to the
+/// lanelets beside those that follow.
 fn moves(from: usize, ahead: &[Vec<LaneletIndex>], beside: &[Vec<Neighbour>]) -> Vec<(LaneletIndex, Move)> {
     let mut moves: Vec<(LaneletIndex, Move)> = ahead[from].iter().map(|it| (*it, Move::Along)).collect();
     for neighbour in &beside[from] {

@@ -1,4 +1,4 @@
-//! A list of problems that does not grow with the file: of each kind the first few, and how many more there are.
+//! A list of problems that does not grow with the file: the first few of each kind, and the number of others.
 
 use laneweave_maps::Problem;
 
@@ -20,8 +20,8 @@ struct Kind {
 }
 
 impl Problems {
-    /// Adds a problem of the kind `name`, which `remedy` mends. `place` names the element and says what is wrong; it
-    /// is asked for listed ones only.
+    /// Adds a problem of the kind `name` with this `remedy`. `place` names the element and the problem; it is called
+    /// only for listed ones.
     pub(crate) fn add(
         &mut self,
         name: &'static str,
@@ -43,12 +43,12 @@ impl Problems {
         }
     }
 
-    /// The first of all.
+    /// The first of all problems.
     pub(crate) fn first(&self) -> Option<&Problem> {
         self.kinds.iter().filter_map(|it| it.listed.first()).min_by_key(|it| it.line)
     }
 
-    /// All listed ones in order of lines, then how many more there are of each kind.
+    /// All listed problems in order of lines, then the number of others of each kind.
     pub(crate) fn into_list(self) -> Vec<Problem> {
         let rest: Vec<Problem> = self.kinds.iter().filter(|it| it.more > 0).map(Kind::rest).collect();
         let mut list: Vec<Problem> = self.kinds.into_iter().flat_map(|it| it.listed).collect();

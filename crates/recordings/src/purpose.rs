@@ -1,4 +1,4 @@
-//! Why a lane was changed, as far as the way afterwards shows.
+//! Why a lane was changed, as far as the later path shows.
 
 use std::collections::VecDeque;
 
@@ -9,32 +9,32 @@ use crate::moves::Moves;
 /// Why a lane was changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// From the old lane the vehicle would have come where it went with no more changes than from the new one, and the
-    /// same holds for all ways on from where it was last seen, as far as the map goes.
+    /// From the old lane the vehicle would have reached its later place with no more changes than from the new one.
+    /// The same holds for all continuations from where it was last observed, as far as the map goes.
     Discretionary,
-    /// From the old lane it would have needed more changes, or would not have come there.
+    /// From the old lane it would have needed more changes, or would not have arrived there.
     Route,
-    /// It was last seen before the ways part: some that go on from there need more changes from the old lane.
+    /// It was last observed before routes part: some of the continuations need more changes from the old lane.
     Unknown,
 }
 
-/// The ways on a network, by the number of lane changes that they need.
+/// The routes of a network, by the number of lane changes that they need.
 pub(crate) struct Ways<'a> {
     moves: &'a Moves,
-    /// For each lanelet its row: the lanelets that lie side by side have one number.
+    /// For each lanelet its row: lanelets that lie side by side have one number.
     rows: Vec<usize>,
 }
 
-/// More changes than any way has: there is none.
+/// More changes than any route has: there is no route.
 const NEVER: u32 = u32::MAX;
 
 impl<'a> Ways<'a> {
-    /// The ways on a network of `count` lanelets.
+    /// The routes of a network of `count` lanelets.
     pub(crate) fn new(count: usize, moves: &'a Moves) -> Ways<'a> {
         Ways { moves, rows: rows(count, moves) }
     }
 
-    /// Why a vehicle changed from one lanelet to another that it was last seen on `last` afterwards.
+    /// Why a vehicle changed from one lanelet to another; afterwards it was last observed on `last`.
     pub(crate) fn kind(&self, from: LaneletIndex, to: LaneletIndex, last: LaneletIndex) -> Kind {
         let (stayed, changed) = (self.changes_to_rows(from), self.changes_to_rows(to));
         let needs_more = |lanelet: LaneletIndex| {
@@ -48,7 +48,7 @@ impl<'a> Ways<'a> {
         if is_open { Kind::Unknown } else { Kind::Discretionary }
     }
 
-    /// For each row the least number of changes on a way there from `start`.
+    /// For each row the minimum number of changes on a route there from `start`.
     fn changes_to_rows(&self, start: LaneletIndex) -> Vec<u32> {
         let mut changes = vec![NEVER; self.rows.len()];
         changes[start.at()] = 0;
@@ -77,7 +77,7 @@ impl<'a> Ways<'a> {
         least
     }
 
-    /// The lanelets that go on from `start` without a change, and itself.
+    /// `start` itself, and the lanelets that continue it without a change.
     fn onward(&self, start: LaneletIndex) -> Vec<LaneletIndex> {
         reached(self.rows.len(), start, |it, found| found.extend(self.moves.onward(it)))
     }
@@ -102,7 +102,7 @@ fn rows(count: usize, moves: &Moves) -> Vec<usize> {
     rows.into_iter().flatten().collect()
 }
 
-/// All lanelets that are reached from `start` by what `next` adds for each.
+/// All lanelets that can be reached from `start`; `next` adds the next ones of each.
 fn reached(
     count: usize,
     start: LaneletIndex,

@@ -14,7 +14,7 @@ pub struct Recording {
 pub struct Track {
     /// Its id in the file.
     pub id: i64,
-    /// What it is.
+    /// Its class.
     pub class: RoadUser,
     /// Length [m].
     pub length: f64,
@@ -24,7 +24,7 @@ pub struct Track {
     pub states: Vec<State>,
 }
 
-/// Where a road user is in one frame.
+/// The state of a road user in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// Number of the frame: its time is frame × step.
@@ -39,7 +39,7 @@ pub struct State {
     pub heading: f64,
 }
 
-/// What kind of road user.
+/// The class of a road user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RoadUser {
     /// A passenger car or van.
@@ -52,9 +52,9 @@ pub enum RoadUser {
     Motorcycle,
     /// A bicycle.
     Bicycle,
-    /// Somebody on foot.
+    /// A pedestrian.
     Pedestrian,
-    /// Anything else, or not told apart.
+    /// Anything else, or unknown.
     Other,
 }
 
@@ -77,7 +77,7 @@ impl RoadUser {
         }
     }
 
-    /// Usual length and width [m], for those whose size is not known. Ours.
+    /// Usual length and width [m], where the size is not known. Ours.
     pub fn usual_size(self) -> (f64, f64) {
         match self {
             RoadUser::Car => (4.5, 1.8),
@@ -91,7 +91,7 @@ impl RoadUser {
 }
 
 impl Recording {
-    /// First and last frame in which somebody is there.
+    /// First and last frame with a road user.
     pub fn frames(&self) -> Option<(i64, i64)> {
         let first = self.tracks.iter().filter_map(|it| it.states.first()).map(|it| it.frame).min()?;
         let last = self.tracks.iter().filter_map(|it| it.states.last()).map(|it| it.frame).max()?;
@@ -100,7 +100,7 @@ impl Recording {
 }
 
 impl Track {
-    /// The place in `states` of its state in `frame`.
+    /// The index in `states` of its state in `frame`.
     pub fn at(&self, frame: i64) -> Option<usize> {
         self.states.binary_search_by_key(&frame, |it| it.frame).ok()
     }

@@ -1,10 +1,10 @@
-//! Recorded traffic as its drivers see it: each frame is a [`Scene`], in which `perceive` gives the situation of a
-//! driver as it does in a simulated one.
+//! Recorded traffic as its drivers see it: each frame is a [`Scene`]. From it, `perceive` gives the situation of a
+//! driver in the same way as in a simulation.
 //!
-//! Observed: place, speed, acceleration, length; from what came later, where a vehicle goes, and from when to when it
-//! changes lanes, during which it stands in both. Assumed by the caller: the driver parameters and the desired
-//! speed. Not to be seen in a recording: who waits for a gap, so that [`Situation::merging`] stays empty, and who
-//! accepts a shorter gap for now.
+//! Observed: place, speed, acceleration, length. From later frames: a vehicle's destination, and the begin and end of
+//! its lane changes, during which it stands in both lanes. Assumed by the caller: the driver parameters and the
+//! desired speed. Not visible in a recording: which drivers wait for a gap, so [`Situation::merging`] stays empty;
+//! and headway relaxation.
 
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
@@ -18,14 +18,14 @@ use crate::lanes::{self, Foot};
 use crate::matching::Matched;
 use crate::smooth;
 
-/// Positions and speeds are smoothed over so much before and after [s].
+/// Positions and speeds are smoothed over this time before and after [s].
 const REACH: f64 = 0.25;
-/// Speeds are taken from so much before and after to find an acceleration [s].
+/// An acceleration is computed from the speeds this time before and after [s].
 const ACCELERATION_REACH: f64 = 0.5;
-/// No front bumper is further ahead of where its centre is on a lanelet [m].
+/// Maximum distance from a vehicle's centre to its front bumper [m].
 const FARTHEST: f64 = 50.0;
 
-/// A recording whose frames can be looked at as scenes.
+/// A recording with its frames as scenes.
 pub struct Replay<'a> {
     matched: &'a Matched<'a>,
     navigator: &'a Navigator,
@@ -34,10 +34,10 @@ pub struct Replay<'a> {
     drivers: Vec<Driver>,
 }
 
-/// What was assumed of a driver cannot be.
+/// Invalid assumptions about a driver.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum ReplayError {
-    /// Driver parameters are not in the table.
+    /// The driver parameters are not in the table.
     #[error(
         "vehicle {vehicle} is given the driver parameters {parameters}, but there are {count} sets, from 0 on"
     )]
@@ -46,7 +46,7 @@ pub enum ReplayError {
         vehicle: i64,
         /// Its driver parameters.
         parameters: u32,
-        /// How many there are.
+        /// Size of the table.
         count: usize,
     },
     /// A desired speed makes no sense.
@@ -60,16 +60,16 @@ pub enum ReplayError {
 }
 
 impl<'a> Replay<'a> {
-    /// A recording with all its lane `changes`, seen by drivers with `driver_parameters` who find their ways by
-    /// `navigator`.
-    /// `assume` says for each track, by its place in the recording, what its driver is like.
+    /// A recording with all its lane `changes`, seen by drivers with `driver_parameters` and the routes of
+    /// `navigator`. `assume` gives the assumptions about each track's driver, by the index of the track in the
+    /// recording.
     ///
-    /// Each vehicle goes where it went. Where the recording ends before it left the map, it is taken to go to the exit
-    /// that needs the fewest lane changes from there, and of several the least time; so it is as long as permitted
-    /// changes do not lead where it went.
+    /// Each vehicle goes where it went. If the recording ends before it left the map, its destination is the exit
+    /// that needs the fewest lane changes from there, and of several the one of least time. The same destination is
+    /// used while permitted changes do not lead where it went.
     ///
     /// # Errors
-    /// If somebody is given driver parameters that there are not, or a desired speed not above 0.
+    /// If an assumption names driver parameters that do not exist, or a desired speed not above 0.
     pub fn new(
         matched: &'a Matched<'a>,
         changes: &[LaneChange],
@@ -90,8 +90,8 @@ impl<'a> Replay<'a> {
         Ok(Replay { matched, navigator, driver_parameters, drivers })
     }
 
-    /// The instant of `frame`. A vehicle is there from its first state with a place until its front bumper passes an
-    /// exit.
+    /// The instant of `frame`. A vehicle is in it from its first state with a position until its front bumper passes
+    /// an exit.
     pub fn frame(&self, frame: i64) -> Frame<'_> {
         let tracks = self.matched.recording.tracks.iter().enumerate();
         let present = tracks.filter_map(|(track, it)| Some((track, it.at(frame)?)));
@@ -137,17 +137,16 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Where the front bumper is, `half` a vehicle's length ahead of the foot of its centre on
-    /// `lanelet`.
+    /// The position of the front bumper, `half` a vehicle's length ahead of its centre's foot on `lanelet`.
     fn front(&self, lanelet: LaneletIndex, foot: &Foot, half: f64) -> Option<Position> {
         let Position { chain, x: start } = self.matched.network.start_of(lanelet);
         let beyond = if foot.station > 0.0 { foot.beyond } else { -foot.beyond };
-        // Written so that numbers that are none are refused.
+        // This form also refuses NaN.
         let is_near = beyond.abs() + half <= FARTHEST;
         is_near.then(|| Position::new(chain, start + foot.station + beyond + half))
     }
 
-    /// The same place where it lies beyond the end of the chain: on the chain onto which the driver goes on. `None`
+    /// The same place, if it lies beyond the end of the chain: on the chain on which the driver continues. `None`
     /// beyond an exit.
     fn onward(&self, driver: &Driver, at: usize, front: Position) -> Option<Position> {
         let Position { mut chain, mut x } = front;
@@ -165,7 +164,7 @@ impl<'a> Replay<'a> {
         Some(Position::new(chain, x))
     }
 
-    /// The lanelet on `side` of `lanelet`, and where `centre` lies along it.
+    /// The lanelet on `side` of `lanelet`, and the position of `centre` along it.
     fn beside(&self, lanelet: LaneletIndex, side: Side, centre: &Point) -> Option<(LaneletIndex, Foot)> {
         let beside = self.matched.moves.beside(lanelet).iter().filter(|it| it.change.side == side);
         let foot = |it: LaneletIndex| lanes::foot(&self.matched.network.lanelets[it.at()], centre);
@@ -183,7 +182,7 @@ pub struct Frame<'r> {
 }
 
 impl Frame<'_> {
-    /// The instant as a scene, in which a vehicle is named by its track's place in the recording.
+    /// The instant as a scene; the name of a vehicle is the index of its track in the recording.
     pub fn scene(&self) -> Scene<'_> {
         let Replay { matched, navigator, driver_parameters, .. } = self.replay;
         self.snapshot.scene(matched.network, navigator, driver_parameters)
@@ -194,7 +193,7 @@ impl Frame<'_> {
         self.ids.iter().map(|(id, _)| *id)
     }
 
-    /// Where in the scene a vehicle's main entry stands.
+    /// The position of a vehicle's main entry in the scene.
     pub fn spot(&self, vehicle: i64) -> Option<Spot> {
         let found = self.ids.binary_search_by_key(&vehicle, |(id, _)| *id).ok()?;
         self.snapshot.spot(self.ids[found].1)

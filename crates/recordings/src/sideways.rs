@@ -1,10 +1,10 @@
-//! When a lane change begins and ends: the quintic that fits the way across best.
+//! The begin and end of a lane change: the quintic that fits the lateral motion best.
 //!
 //! y(t) = A + (B − A) (10 τ³ − 15 τ⁴ + 6 τ⁵), τ = (t − t₀)/(t₁ − t₀), least squares over t₀, t₁, A and B.
 //!
-//! It begins and ends without lateral speed and acceleration, so that no single position shows when; all of them
-//! together do, to less than a tenth of a second under 10 cm of noise. A slow vehicle needs way, not time: where one
-//! drives below the speed at which the usual change takes the least way, t runs slower.
+//! It begins and ends without lateral speed and acceleration, so no single position shows the times. All positions
+//! together show them, to less than a tenth of a second under 10 cm of noise. For a slow vehicle the distance counts,
+//! not the time: below the speed at which the usual change takes its minimum distance, t runs slower.
 
 use laneweave_models::lateral::{Crossing, moved_share};
 use laneweave_network::{LaneletIndex, Point};
@@ -14,7 +14,7 @@ use crate::lanes;
 use crate::matching::{Matched, Place};
 use crate::smooth;
 
-/// From when to when a vehicle moves from one lane to another.
+/// The times between which a vehicle moves from one lane to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// When it begins [s].
@@ -31,21 +31,21 @@ impl Extent {
     }
 }
 
-/// A change is looked at for so much before and after the crossing [s]. Ours: most take 3 to 10 s.
+/// A change is analysed over this time before and after the crossing [s]. Ours: most take 3 to 10 s.
 const REACH: f64 = 10.0;
-/// No change is shorter [s].
+/// Minimum duration of a change [s].
 const SHORTEST: f64 = 1.0;
-/// What a change usually takes [s]; as simulated.
+/// Usual duration of a change [s], as in the simulation.
 const USUAL: f64 = 4.0;
-/// How much it counts that drivers keep near the middle of their lanes, in states: positions are off by 0.1 m, drivers
-/// by 0.3 m.
+/// Weight, in states, of the assumption that drivers keep near the middle of their lanes: the error of positions is
+/// 0.1 m, that of drivers 0.3 m.
 const KEEPING: f64 = 0.1;
-/// Speeds are smoothed over so much before and after [s].
+/// Speeds are smoothed over this time before and after [s].
 const SPEED_REACH: f64 = 0.25;
 /// First and last step of the search [s].
 const STEPS: (f64, f64) = (1.0, 0.005);
 
-/// From when to when each of `changes` goes on, which are all those of their tracks in order of time.
+/// The begin and end of each of `changes`, which are all those of their tracks in order of time.
 pub fn extents(matched: &Matched<'_>, changes: &[LaneChange]) -> Vec<Extent> {
     let halfway = |one: &LaneChange, other: Option<&LaneChange>| {
         other.filter(|it| it.track == one.track).map(|it| 0.5 * (one.time + it.time))
@@ -62,7 +62,7 @@ pub fn extents(matched: &Matched<'_>, changes: &[LaneChange]) -> Vec<Extent> {
         .collect()
 }
 
-/// Number of the last state that is matched to the old lane, which may be a little before or after the crossing.
+/// Number of the last state that is matched to the old lane; it may be a little before or after the crossing.
 pub(crate) fn last_before(matched: &Matched<'_>, change: &LaneChange) -> Option<usize> {
     let (states, places) = (&matched.recording.tracks[change.track].states, &matched.places[change.track]);
     let is_in = |place: &Option<Place>, lanelet| place.is_some_and(|it| it.lanelet == lanelet);
@@ -72,28 +72,28 @@ pub(crate) fn last_before(matched: &Matched<'_>, change: &LaneChange) -> Option<
     goes_over.map(|(at, _)| at).min_by(|a, b| off(*a).total_cmp(&off(*b)))
 }
 
-/// The way across that was seen.
+/// The observed lateral motion.
 struct Way {
-    /// When it crosses the line [s].
+    /// Time of the crossing [s].
     crossing: f64,
     /// In order of time.
     seen: Vec<Sight>,
-    /// Distance of the lanes' middles [m].
+    /// Distance between the middles of the lanes [m].
     width: f64,
 }
 
-/// Where a vehicle is on its way across.
+/// The lateral position of a vehicle.
 struct Sight {
-    /// When [s].
+    /// Time [s].
     time: f64,
-    /// Time at the pace of a fast vehicle since the crossing [s].
+    /// Scaled time since the crossing: that of a fast vehicle [s].
     paced: f64,
-    /// How far it is from the middle of the old lane towards the new one [m].
+    /// Distance from the middle of the old lane towards the new one [m].
     aside: f64,
 }
 
 impl Way {
-    /// What is seen of `change` between two times [s].
+    /// The observations of `change` between two times [s].
     fn of(matched: &Matched<'_>, change: &LaneChange, from: f64, until: f64) -> Way {
         let (track, places) = (&matched.recording.tracks[change.track], &matched.places[change.track]);
         let step = matched.recording.step;
@@ -116,7 +116,7 @@ impl Way {
         way
     }
 
-    /// Paced time at a time [s].
+    /// Scaled time at a time [s].
     fn paced(&self, time: f64) -> f64 {
         let after = self.seen.partition_point(|it| it.time < time);
         match (after.checked_sub(1).and_then(|it| self.seen.get(it)), self.seen.get(after)) {
@@ -129,7 +129,7 @@ impl Way {
         }
     }
 
-    /// Time [s] at a paced time.
+    /// Time [s] at a scaled time.
     fn time(&self, paced: f64) -> f64 {
         let after = self.seen.partition_point(|it| it.paced < paced);
         match (after.checked_sub(1).and_then(|it| self.seen.get(it)), self.seen.get(after)) {
@@ -142,7 +142,7 @@ impl Way {
         }
     }
 
-    /// The beginning and the end that fit best.
+    /// The begin and end with the best fit.
     fn extent(&self) -> Extent {
         let mut best = [-0.5 * USUAL, 0.5 * USUAL];
         let mut least = self.misfit(best);
@@ -162,7 +162,7 @@ impl Way {
         Extent { began: self.time(best[0]), ended: self.time(best[1]) }
     }
 
-    /// Sum of the squared distances [m²] from the path between two paced times that fits best.
+    /// Sum of the squared distances [m²] from the best path between two scaled times.
     fn misfit(&self, [began, ended]: [f64; 2]) -> f64 {
         // Normal equations of A and B, whose expected values are 0 and the lanes' distance.
         let (mut aa, mut ab, mut bb) = (KEEPING, 0.0, KEEPING);
@@ -183,7 +183,7 @@ impl Way {
     }
 }
 
-/// Distance of the middles of the two lanes at the crossing [m].
+/// Distance between the middles of the two lanes at the crossing [m].
 fn width(matched: &Matched<'_>, change: &LaneChange) -> f64 {
     let lanelets = &matched.network.lanelets;
     let crossing = Point::new(change.x, change.y, 0.0);

@@ -1,8 +1,8 @@
-//! Local straight-line fits: what a track does around a moment, without the noise of single frames.
+//! Local straight-line fits: the motion around a moment, without the noise of single frames.
 
 use crate::recording::State;
 
-/// States to each side that a fit takes in at most, so that its work does not grow with the rate of frames.
+/// Maximum of states to each side in a fit, so that its time does not grow with the frame rate.
 const MAXIMUM_STATES: usize = 50;
 
 /// A smooth motion at one moment.
@@ -11,7 +11,7 @@ pub(crate) struct Motion {
     /// Position [m].
     pub(crate) x: f64,
     pub(crate) y: f64,
-    /// Velocity [m/s]; zero if there is one state only.
+    /// Velocity [m/s]; zero if there is only one state.
     pub(crate) vx: f64,
     pub(crate) vy: f64,
 }

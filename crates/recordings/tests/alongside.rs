@@ -1,4 +1,4 @@
-//! Lanelets of real maps that lie side by side without a common border, where the maps are at hand.
+//! Lanelets of real maps that lie side by side without a common border, if the maps are available.
 
 use std::path::Path;
 

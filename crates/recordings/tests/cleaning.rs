@@ -1,4 +1,4 @@
-//! Cleaning: what is mended, what is cut out, and what is left as it is.
+//! Cleaning: what is corrected, what is cut out, and what stays unchanged.
 
 use std::f64::consts::PI;
 

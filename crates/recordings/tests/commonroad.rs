@@ -1,4 +1,4 @@
-//! CommonRoad recordings: a small one of our own, broken ones, and real ones where they are at hand.
+//! CommonRoad recordings: a small one made for the test, broken ones, and real ones if they are available.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
@@ -32,8 +32,8 @@ fn read(text: &str) -> Result<(Recording, Vec<String>), RecordingError> {
     Ok((recording, problems.iter().map(Problem::to_string).collect()))
 }
 
-/// The recording with `from` replaced, which must be there, without the problem of the parked car: what is wrong
-/// with it, and the tracks that are left.
+/// The problems of the recording with `from` replaced, which must be there, without the problem of the parked car;
+/// and the remaining tracks.
 fn broken(from: &str, to: &str) -> (Vec<String>, Vec<Track>) {
     assert!(TWO_CARS.contains(from), "{from}");
     let (recording, mut problems) = read(&TWO_CARS.replace(from, to)).expect("a track is left");
@@ -45,7 +45,7 @@ fn broken(from: &str, to: &str) -> (Vec<String>, Vec<Track>) {
 fn tracks_are_read_with_their_frames() {
     let (recording, problems) = read(TWO_CARS).unwrap();
     let state = |frame, x, speed, heading| State { frame, x, y: -2.0, speed, heading };
-    // The last one's velocity is that of the way: 11 m in 0.5 s.
+    // The last state's velocity is that of the path: 11 m in 0.5 s.
     let states = vec![state(0, 10.0, 20.0, 0.0), state(1, 20.0, 20.0, 0.1), state(2, 31.0, 22.0, 0.0)];
     let car = Track { id: 7, class: RoadUser::Car, length: 4.5, width: 1.8, states };
     assert!((recording.tracks[0].states[1].heading - 0.1).abs() < 1e-15);
@@ -209,7 +209,7 @@ fn files_that_are_no_recording_say_why() {
     assert!(why(&TWO_CARS.replace("31", "\n&x;")).starts_with("line 8: not well-formed XML (the entity &x;"));
 }
 
-/// Numbers that look random: a linear congruential generator with Knuth's constants.
+/// Pseudo-random numbers: a linear congruential generator with Knuth's constants.
 struct Dice(u64);
 
 impl Dice {

@@ -7,7 +7,7 @@ use laneweave_recordings::{LaneChange, Matched, Recording, RoadUser, State, Trac
 const STEP: f64 = 0.2;
 const WIDTH: f64 = 3.5;
 
-/// A lanelet between its right border from `from` to `to` and one that is `WIDTH` further up.
+/// A lanelet with its right border from `from` to `to`, and its left border `WIDTH` further up.
 fn lanelet(id: i64, from: (f64, f64), to: (f64, f64), following: &[u32]) -> Lanelet {
     let line = |up: f64| {
         Polyline::new([Point::new(from.0, from.1 + up, 0.0), Point::new(to.0, to.1 + up, 0.0)])
@@ -41,7 +41,7 @@ fn fork() -> Network {
     Network::new(lanelets, DrivingSide::Right).expect("it is a network")
 }
 
-/// A car with 15 m/s from 10 m on, at the height of `way` over the distance.
+/// A car at 15 m/s from 10 m on; `way` gives its y over the distance.
 fn drive(way: impl Fn(f64) -> f64) -> Recording {
     let state = |frame: i64| {
         let x = 10.0 + 3.0 * frame as f64;
@@ -72,14 +72,14 @@ fn seen(recording: &Recording) -> (Vec<i64>, Vec<LaneChange>) {
 fn who_takes_either_branch_changes_no_lane() {
     let (upper, changes) = seen(&drive(|x| 1.75 + WIDTH * rise(x, 100.0, 200.0)));
     assert_eq!((upper, changes), (vec![1, 2, 4], vec![]));
-    // The graph does not know that 5 goes on from 3.
+    // The graph does not know that 5 continues 3.
     let (lower, changes) = seen(&drive(|_| 1.75));
     assert_eq!((lower, changes), (vec![1, 3, 5], vec![]));
 }
 
 #[test]
 fn drifting_where_the_branches_overlap_is_no_lane_change() {
-    // First along the middle of 2, then, still inside of both, back to 3.
+    // First along the middle of 2, then, while it is inside of both, back to 3.
     let way = |x: f64| 1.75 + 1.2 * rise(x, 100.0, 134.0) - 1.2 * rise(x, 140.0, 160.0);
     let (lanelets, changes) = seen(&drive(way));
     assert_eq!(changes, []);
@@ -135,7 +135,7 @@ fn who_waits_where_lanes_cross_is_in_the_one_that_it_points_along() {
     };
     let network = Network::new(vec![crossing(0.0), crossing(0.8)], DrivingSide::Right).unwrap();
     for (heading, expected) in [(0.1, 0), (0.7, 1)] {
-        // A metre beside the middle of the lane that it points along, in the middle of the other one.
+        // A metre beside the middle of the lane to which it is parallel, and in the middle of the other one.
         let way: f64 = if heading < 0.4 { 0.8 } else { 0.0 };
         let (sin, cos) = way.sin_cos();
         let along = 1.0 / 0.8_f64.sin();

@@ -1,4 +1,4 @@
-//! Track files of the INTERACTION dataset: what is read, and what is refused with which words.
+//! Track files of the INTERACTION dataset: what is read, what is refused, and the messages.
 
 use laneweave_recordings::{Recording, RecordingError, RoadUser, interaction};
 

@@ -1,4 +1,4 @@
-//! A real road, where it is at hand: six streams and 934 vehicles in 480 s.
+//! A real road, if it is available: six streams and 934 vehicles in 480 s.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -55,7 +55,7 @@ fn all_tracks_are_read_and_few_states_are_mended() {
     let share = report.speeds.count as f64 / report.states as f64;
     assert!((0.001..0.02).contains(&share), "{report}");
     assert!(report.headings.count + report.outliers.count + report.jumps.count < 50, "{report}");
-    // Nothing is left to mend.
+    // Nothing is left to correct.
     let (again, report) = clean(cleaned.clone());
     assert!(report.jumps.count + report.long_gaps.count + report.speeds.count == 0, "{report}");
     assert_eq!(again.tracks.len(), cleaned.tracks.len());

@@ -1,4 +1,4 @@
-//! Lane changes at known times on a made road, under noise: which are found, when, and which are none.
+//! Lane changes at known times on a generated road, with noise: which are found, when, and which are not counted.
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_network::{Network, Side};
@@ -32,7 +32,7 @@ fn normal(track: u64, frame: u64, axis: u64) -> f64 {
     0.5 * (0..12).map(|it| uniform([track, frame, 100 * axis + it])).sum::<f64>()
 }
 
-/// A car that goes straight on at `speed`, `aside(time)` from the road's edge, seen with `noise` [m].
+/// A car that drives straight on at `speed`, `aside(time)` from the road's edge, observed with `noise` [m].
 fn car(id: i64, speed: f64, noise: f64, seconds: f64, aside: impl Fn(f64) -> f64) -> Track {
     let states = (0..(seconds / STEP) as i64).map(|frame| {
         let time = frame as f64 * STEP;
@@ -52,7 +52,8 @@ fn found(network: &Network, tracks: Vec<Track>) -> Vec<LaneChange> {
     lane_changes(&Matched::new(network, &Recording { step: STEP, tracks }))
 }
 
-/// A car that changes lanes every 15 s, now here, now there in its lane, and when it crosses the line.
+/// A car that changes lanes every 15 s and drives at varying offsets in its lane, and the times when it crosses the
+/// line.
 fn weaving(id: i64, noise: f64) -> (Track, Vec<f64>) {
     let draw = |it: u64| uniform([id as u64, 7, it]);
     let middle = |number: u64| {
@@ -121,7 +122,7 @@ fn without_noise_the_crossing_is_exact() {
 #[test]
 fn a_change_counts_if_the_vehicle_stays() {
     let network = two_lanes();
-    // The centre is beyond the line for a third of the way there and back.
+    // The centre is beyond the line for a third of the time there and back.
     let excursion = |beyond: f64| {
         let way = 3.0 * beyond;
         let aside = move |time: f64| {
@@ -170,7 +171,7 @@ fn changes_towards_an_exit_are_for_the_route_and_others_are_not() {
     };
     assert_eq!(leaving(48.0), [(Side::Right, Kind::Unknown), (Side::Right, Kind::Unknown)]);
     assert_eq!(leaving(55.0), [(Side::Right, Kind::Route), (Side::Right, Kind::Route)]);
-    // Who goes on straight on has not needed to change.
+    // A vehicle that continues straight on has not needed to change.
     let overtaking = car(2, 30.0, 0.0, 60.0, |time| 1.75 + WIDTH * swing(time - 10.0, 4.0));
     let kinds: Vec<_> = found(&network, vec![overtaking]).iter().map(|it| it.kind).collect();
     assert_eq!(kinds, [Kind::Discretionary]);

@@ -167,7 +167,7 @@ struct Draft<'a> {
 }
 
 impl Draft<'_> {
-    /// The points across the street at this `station` and place; those of the other road, if there is one, first.
+    /// The points across the street at `station`; if `end` is another road, the points of that road come first.
     fn row(&mut self, station: f64, end: &End) -> Vec<u32> {
         let given: &[u32] = if let End::Road(points) = end { points } else { &[] };
         let lines = 0..self.profile.lines();

@@ -11,14 +11,14 @@ use super::rules::{line_subtype, subtype_and_location};
 use crate::drawing::{Border, Drawing, Lane, Paint};
 use crate::rule::{Rule, RuleKind};
 
-/// Where the origin of a drawing is put on the earth: latitude and longitude [°].
+/// The geographic place of the origin of a drawing: latitude and longitude [°].
 const ORIGIN: (f64, f64) = (49.0, 8.4);
 
 /// The elements of a Lanelet2 map with the roads and rules of this drawing.
 ///
-/// Nodes have exact metric coordinates (`local_x`, `local_y`, `ele`), and latitude and longitude for other programs,
-/// rounded to about a micrometre; these mean little further than some hundred kilometres from the origin. Lanelets and
-/// rules keep their ids; all else gets those that come after.
+/// Nodes have exact metric coordinates (`local_x`, `local_y`, `ele`). For other programs they also have latitude and
+/// longitude, rounded to about a micrometre; these are meaningless more than some hundred kilometres from the origin.
+/// Lanelets and rules keep their ids; everything else gets the ids after those.
 pub fn compose(drawing: &Drawing) -> Document<'static> {
     let document = Document { driving_side: Some(drawing.driving_side), ..Document::default() };
     let ids = drawing.lanes.iter().map(|it| it.id).chain(drawing.rules.iter().map(|it| it.id));
@@ -50,7 +50,7 @@ fn rounded(degrees: f64) -> f64 {
     (degrees * 1e11).round() / 1e11
 }
 
-/// A document that grows.
+/// A document under construction.
 struct Composer {
     document: Document<'static>,
     utm: Option<Utm>,

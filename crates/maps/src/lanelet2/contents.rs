@@ -1,4 +1,4 @@
-//! What a document holds beside the roads.
+//! The contents of a document beside the roads.
 
 use std::collections::BTreeMap;
 
@@ -48,13 +48,13 @@ pub(super) fn contents(document: &Document, lookup: &Lookup, problems: &mut Vec<
     }
 }
 
-/// The places of the left and the right border of a lanelet, if both are there.
+/// The indices of the left and the right border of a lanelet, if both exist.
 fn borders(document: &Document, lookup: &Lookup, lanelet: &Relation) -> Option<[usize; 2]> {
     let way = |side| lookup.way(document.members(lanelet, "way", side).next()?);
     Some([way("left")?, way("right")?])
 }
 
-/// The ground between two ways, if all their nodes have a position.
+/// The area between two ways, if all their nodes have a position.
 fn outline(document: &Document, lookup: &Lookup, [left, right]: [usize; 2]) -> Option<Vec<Point>> {
     let line = |way: usize| -> Option<Vec<Point>> {
         document.nodes_of(&document.ways[way]).iter().map(|it| lookup.point(*it)).collect()

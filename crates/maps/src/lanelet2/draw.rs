@@ -15,10 +15,10 @@ use crate::drawing::{Border, Drawing, Edge, Lane};
 use crate::format::ReadOptions;
 use crate::problem::{BORDERS, Problem};
 
-/// What is wrong, and what mends it.
+/// Problems, and their remedies.
 pub(super) type Flaw = (String, &'static str);
 
-/// The drawing of the document that `lookup` looks into. Its points are the nodes, used or not.
+/// The drawing of the document in `lookup`. Its points are the nodes, used or not.
 pub(super) fn draw(
     document: &Document,
     lookup: Lookup,
@@ -78,7 +78,7 @@ pub(super) fn draw(
     Drawing { points: lookup.into_points(), ..drawing }
 }
 
-/// What is said before all else of `lacking` lanelets, of so many, that lack a border; a single one speaks for itself.
+/// The summary before the list of `lacking` lanelets without a border, of so many; a single one needs none.
 fn without_borders(lacking: usize, lanelets: usize) -> Option<Problem> {
     (lacking > 1).then(|| Problem {
         element: BORDERS.into(),
@@ -93,17 +93,17 @@ fn problem(kind: &str, id: i64, line: u32, (what, remedy): Flaw) -> Problem {
     Problem { element: format!("{kind} {id}"), line: Some(line as usize), what, remedy: remedy.into() }
 }
 
-/// Where something of the document is not in the drawing.
+/// The indices in the drawing of elements of the document.
 const NONE: u32 = u32::MAX;
 
-/// A drawing that grows lane by lane, with the places of what was drawn already.
+/// A drawing under construction, lane by lane, with the indices of what was already drawn.
 struct Draft<'a> {
     document: &'a Document<'a>,
     lookup: &'a Lookup<'a>,
     drawing: Drawing,
-    /// For each way of the document its place in the drawing.
+    /// For each way of the document its index in the drawing.
     borders: Vec<u32>,
-    /// How many lanelets each way borders, by its place in the document.
+    /// For each way the number of lanelets that it borders, by its index in the document.
     shared: Sharing<usize>,
 }
 
@@ -111,7 +111,7 @@ impl Draft<'_> {
     /// The left and the right border of a lanelet.
     fn borders_of(&mut self, relation: &Relation) -> Result<[u32; 2], Flaw> {
         let [left, right] = [self.way(relation, "left")?, self.way(relation, "right")?];
-        // Before anything is done that takes time with the length of a border.
+        // This comes before everything that takes time with the length of a border.
         if [left, right].map(|it| self.shared.admits(it)) != [true; 2] {
             return Err(drawn_twice());
         }
@@ -181,7 +181,7 @@ impl Draft<'_> {
     }
 }
 
-/// How many lanes share a start, or an end.
+/// The number of lanes that share a start, or an end.
 #[derive(Default)]
 struct Ends {
     starts: Sharing<(u32, u32)>,

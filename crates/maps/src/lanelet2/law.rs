@@ -1,4 +1,4 @@
-//! Speed limits that hold where a map gives none.
+//! Legal speed limits, where a map gives none.
 
 use super::osm::Tags;
 use crate::format::Law;
@@ -12,7 +12,7 @@ impl Law {
         self.limit_of(lanelet.get("subtype"), lanelet.get("location"))
     }
 
-    /// The limit of a lanelet of this subtype in this location, in Lanelet2's words [km/h].
+    /// The limit of a lanelet of this subtype in this location, in Lanelet2's terms [km/h].
     pub(crate) fn limit_of(self, subtype: Option<&str>, location: Option<&str>) -> f64 {
         match self {
             Law::Germany => germany(subtype, location),
@@ -21,8 +21,9 @@ impl Law {
     }
 }
 
-/// Germany [km/h], as the reference library has it: 130 on a motorway (where it is only advised), 7 in a play street,
-/// otherwise 100 outside of towns and 50 inside (StVO §3, §18, §42; Autobahn-Richtgeschwindigkeits-Verordnung).
+/// Germany [km/h], with the values of the reference library: 130 on a motorway (where it is only advised), 7 in a
+/// play street, otherwise 100 outside of towns and 50 inside (StVO §3, §18, §42;
+/// Autobahn-Richtgeschwindigkeits-Verordnung).
 fn germany(subtype: Option<&str>, location: Option<&str>) -> f64 {
     match (subtype, location) {
         (Some("highway"), _) => 130.0,

@@ -1,4 +1,4 @@
-//! Elements by their ids, and where nodes lie.
+//! Elements by their ids, and the positions of nodes.
 
 use hashbrown::HashMap;
 use hashbrown::hash_map::Entry;
@@ -16,11 +16,11 @@ pub(super) struct Lookup<'a> {
     nodes: HashMap<i64, u32>,
     ways: HashMap<i64, u32>,
     relations: HashMap<i64, u32>,
-    /// Where each node of the document lies; see [`Lookup::place`].
+    /// The position of each node of the document; see [`Lookup::place`].
     points: Vec<Point>,
 }
 
-/// Where a node without a position lies.
+/// The position that stands for a missing one.
 const NOWHERE: Point = Point { x: f64::NAN, y: f64::NAN, z: f64::NAN };
 
 impl<'a> Lookup<'a> {
@@ -49,17 +49,17 @@ impl<'a> Lookup<'a> {
         Ok((Lookup { document, nodes, ways, relations, points }, origin))
     }
 
-    /// The place in the document of the node with this id.
+    /// The index in the document of the node with this id.
     pub(super) fn node(&self, id: i64) -> Option<usize> {
         self.nodes.get(&id).map(|it| *it as usize)
     }
 
-    /// The place in the document of the way with this id.
+    /// The index in the document of the way with this id.
     pub(super) fn way(&self, id: i64) -> Option<usize> {
         self.ways.get(&id).map(|it| *it as usize)
     }
 
-    /// The place in the document of the relation with this id.
+    /// The index in the document of the relation with this id.
     pub(super) fn relation(&self, id: i64) -> Option<usize> {
         self.relations.get(&id).map(|it| *it as usize)
     }
@@ -69,23 +69,23 @@ impl<'a> Lookup<'a> {
         self.relation(relation.id).is_some_and(|it| std::ptr::eq(&self.document.relations[it], relation))
     }
 
-    /// Where the node at a place in the document lies, if it has a position on earth.
+    /// The position of the node with this index in the document, if it has one on earth.
     pub(super) fn place(&self, node: usize) -> Option<Point> {
         Some(self.points[node]).filter(|it| !it.x.is_nan())
     }
 
-    /// Where all nodes lie, in the order of the document.
+    /// The positions of all nodes, in the order of the document.
     pub(super) fn into_points(self) -> Vec<Point> {
         self.points
     }
 
-    /// Where the node with this id lies.
+    /// The position of the node with this id.
     pub(super) fn point(&self, id: i64) -> Option<Point> {
         self.place(self.node(id)?)
     }
 }
 
-/// Where each id stands.
+/// The index of each id.
 fn by_id(
     elements: impl ExactSizeIterator<Item = (i64, u32)>,
     kind: &str,

@@ -35,14 +35,14 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     document.map(problems, options)
 }
 
-/// The text of a Lanelet2 map with this drawing, which is read again as the same network.
+/// The text of a Lanelet2 map with this drawing; reading it gives the same network.
 pub fn write(drawing: &Drawing) -> String {
     compose(drawing).write()
 }
 
 impl<'a> Document<'a> {
-    /// Reads the elements of an OSM file, all of them, whether or not a map needs them. Elements without a usable id
-    /// become problems.
+    /// Reads all elements of an OSM file, whether or not a map needs them. Elements without a usable id become
+    /// problems.
     ///
     /// # Errors
     /// If it is no OSM XML.
@@ -55,7 +55,7 @@ impl<'a> Document<'a> {
         Ok((document, problems))
     }
 
-    /// The map of these elements, with the `problems` that are known already and what else cannot be used as it stands.
+    /// The map of these elements, with the `problems` that are already known, and the problems found here.
     ///
     /// # Errors
     /// If it holds no lanelet that cars may use.
@@ -64,7 +64,7 @@ impl<'a> Document<'a> {
         let mut contents = contents::contents(&self, &lookup, &mut problems);
         let drawing = draw::draw(&self, lookup, options, &mut contents, &mut problems);
         let lanelets = self.relations_of_type("lanelet").count();
-        // Its memory serves the network.
+        // This frees its memory for the network.
         drop(self);
         match drawing.build() {
             Ok(map) => {

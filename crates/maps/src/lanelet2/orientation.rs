@@ -1,5 +1,5 @@
-//! Which way the borders of a lanelet run. A file may list the points of a border either way; the direction
-//! of travel is the one that has the left border on the left of the right one.
+//! The direction of the borders of a lanelet. A file may list the points of a border in either order; the direction
+//! of travel is the one with the left border on the left of the right one.
 
 use laneweave_network::Point;
 
@@ -41,8 +41,8 @@ fn side(line: &[Point], point: Point) -> f64 {
     nearest.1
 }
 
-/// The side on which `point` lies of the line from `from` through `corner` to `to`, when the corner is
-/// nearest: inside the bend only if it is inside of both legs.
+/// The side of the line from `from` through `corner` to `to` on which `point` lies, when the corner is nearest:
+/// inside the bend only if it is inside of both legs.
 fn at_corner(from: Point, corner: Point, to: Point, point: Point) -> f64 {
     let (before, after) = (cross(from, corner, point), cross(corner, to, point));
     if cross(from, corner, to) > 0.0 { before.min(after) } else { before.max(after) }

@@ -5,13 +5,13 @@ use std::ops::Range;
 
 use laneweave_network::DrivingSide;
 
-/// What an OSM file holds. What belongs to one element lies together in an array for all, and text stays where it is in
-/// the file, so that a document takes little more memory than its file.
+/// The contents of an OSM file. The parts of all elements lie in common arrays, and text stays where it is in the
+/// file, so that a document takes little more memory than its file.
 #[derive(Debug, Default)]
 pub struct Document<'a> {
     /// The text of the file.
     pub(super) text: &'a str,
-    /// Text that does not stand in the file as it is meant.
+    /// Text that the file does not contain in its final form.
     pub(super) own_text: String,
     pub(super) nodes: Vec<Node>,
     pub(super) ways: Vec<Way>,
@@ -27,16 +27,16 @@ pub struct Document<'a> {
 /// A piece of a document's text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Text {
-    /// Where it begins; from [`Text::OWN`] on counted in the document's own text.
+    /// Start position; from [`Text::OWN`] on it counts in the document's own text.
     start: u32,
     length: u32,
 }
 
 impl Text {
-    /// Files are no larger than this.
+    /// Maximum size of a file.
     const OWN: u32 = 1 << 31;
 
-    /// The same text when as much stands before the document's own text.
+    /// The same text, after so many bytes were put before the document's own text.
     fn moved(self, by: usize) -> Text {
         if self.start < Text::OWN { self } else { Text { start: self.start + by as u32, ..self } }
     }
@@ -49,7 +49,7 @@ pub(super) struct Tag {
     pub(super) value: Text,
 }
 
-/// From where to where an element's part of an array goes.
+/// Start and end of an element's part of an array.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Span {
     start: u32,
@@ -57,7 +57,7 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// What was added to an array since it had `start` items.
+    /// The items that were added to an array since it had `start` items.
     pub(super) fn since(start: usize, length: usize) -> Span {
         Span { start: start as u32, end: length as u32 }
     }
@@ -71,17 +71,17 @@ impl Span {
     }
 }
 
-/// A coordinate that may be missing, or given but no number.
+/// A coordinate that may be missing or no number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coordinate(f64);
 
 impl Coordinate {
-    /// Not a number in a way in which no reading of a number ends.
+    /// A NaN that no reading of a number gives.
     const MISSING: u64 = 0x7ff8_dead_dead_dead;
 
     pub(super) const NONE: Coordinate = Coordinate(f64::from_bits(Coordinate::MISSING));
 
-    /// The coordinate; not a number where it is unreadable.
+    /// The coordinate; NaN where it is unreadable.
     pub(super) fn new(value: f64) -> Coordinate {
         Coordinate(if value.is_nan() { f64::NAN } else { value })
     }
@@ -96,7 +96,7 @@ impl Coordinate {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) id: i64,
-    /// Its attributes of these names.
+    /// Its attributes with these names.
     pub(super) lat: Coordinate,
     pub(super) lon: Coordinate,
     pub(super) x: Coordinate,
@@ -122,7 +122,7 @@ pub(super) struct Way {
     pub(super) tags: Span,
 }
 
-/// Members in their roles.
+/// Members with their roles.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Relation {
     pub(super) id: i64,
@@ -131,7 +131,7 @@ pub(super) struct Relation {
     pub(super) tags: Span,
 }
 
-/// What plays a role in a relation.
+/// A member of a relation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Member {
     pub(super) id: i64,
@@ -141,7 +141,7 @@ pub(super) struct Member {
 }
 
 impl<'a> Document<'a> {
-    /// Keeps a text: where it is if it stands in the file.
+    /// Stores a text: as a position if the file contains it.
     pub(super) fn keep(&mut self, text: &str) -> Text {
         let length = text.len() as u32;
         let place = (text.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
@@ -153,7 +153,7 @@ impl<'a> Document<'a> {
         Text { start, length }
     }
 
-    /// Keeps the tags of an element.
+    /// Stores the tags of an element.
     pub(super) fn keep_tags(&mut self, tags: &[(&str, &dyn Display)]) -> Span {
         let start = self.tags.len();
         for (key, value) in tags {
@@ -163,7 +163,7 @@ impl<'a> Document<'a> {
         Span::since(start, self.tags.len())
     }
 
-    /// Adds the elements of another part of the same file, which comes `lines` later.
+    /// Adds the elements of another part of the same file, which starts `lines` later.
     pub(super) fn append(&mut self, other: Document<'a>, lines: usize) {
         let own = self.own_text.len();
         let [tags, references, members] = [self.tags.len(), self.references.len(), self.members.len()];
@@ -196,7 +196,7 @@ impl<'a> Document<'a> {
         self.driving_side = other.driving_side.or(self.driving_side);
     }
 
-    /// What a text says.
+    /// The string of a text.
     pub(super) fn get(&self, text: Text) -> &str {
         let (from, start) = match text.start.checked_sub(Text::OWN) {
             Some(start) => (self.own_text.as_str(), start),
@@ -220,7 +220,7 @@ impl<'a> Document<'a> {
         &self.members[relation.members.range()]
     }
 
-    /// The ids of a relation's members of a kind, `way` or `relation`, that play `role`.
+    /// The ids of a relation's members of a kind, `way` or `relation`, with this `role`.
     pub(super) fn members(
         &self,
         relation: &Relation,
@@ -237,7 +237,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// With so many of its tags an element is looked at, which is far more than any has.
+/// Maximum number of tags of an element that are read, far more than any element has.
 const MAXIMUM_TAGS: usize = 256;
 
 /// The tags of one element. Where a key is given twice the first one counts.
@@ -270,7 +270,7 @@ impl<'d> Tags<'d> {
     }
 }
 
-/// What `of` says of an element with these tags.
+/// The result of `of` for an element with these tags.
 #[cfg(test)]
 pub(super) fn with_tags<const N: usize, T>(tags: [(&str, &str); N], of: impl FnOnce(Tags) -> T) -> T {
     let mut document = Document::default();

@@ -16,13 +16,13 @@ fn set(coordinate: &mut Coordinate, text: &str) {
     }
 }
 
-/// Files that are shorter are read in one go [B].
+/// Shorter files are read in one part [B].
 const WORTH_SHARING: usize = 4 << 20;
 
-/// Reads an OSM file. Elements without a usable id become problems, unknown ones are passed over.
+/// Reads an OSM file. Elements without a usable id become problems; unknown ones are ignored.
 ///
-/// Of a large file two halves are read at once. The second one is taken to begin between two elements; when the first
-/// one gets there and finds it otherwise, it goes on to the end, and the second is forgotten.
+/// Two halves of a large file are read at once. The second is assumed to begin between two elements. When the first
+/// half arrives there and finds that this is wrong, it reads on to the end, and the result of the second is dropped.
 pub(super) fn parse<'a>(bytes: &'a [u8], problems: &mut Vec<Problem>) -> Result<Document<'a>, XmlError> {
     let text = xml::text(bytes)?;
     let cut = Some(text.len()).filter(|it| *it >= WORTH_SHARING).and_then(|it| element_after(text, it / 2));
@@ -49,7 +49,7 @@ fn parse_cut<'a>(text: &'a str, cut: usize, problems: &mut Vec<Problem>) -> Resu
 /// The outermost element.
 const ROOT: &str = "osm";
 
-/// Where, from `start` on, a line begins with what looks like an element of the file.
+/// The position after `start` at which a line begins with something that looks like an element of the file.
 fn element_after(text: &str, start: usize) -> Option<usize> {
     memchr::memchr_iter(b'\n', &text.as_bytes()[start..]).map(|it| start + it + 1).find_map(|line| {
         let rest = text.get(line..)?;
@@ -63,13 +63,13 @@ fn element_after(text: &str, start: usize) -> Option<usize> {
 struct Part<'a> {
     document: Document<'a>,
     problems: Vec<Problem>,
-    /// It ends where it was cut, not at the end of the file.
+    /// Whether it ends at the cut, not at the end of the file.
     is_cut: bool,
-    /// Lines that end in it.
+    /// Number of lines that end in it.
     lines: usize,
 }
 
-/// Reads the part of the text at `place`; beyond it, if it ends inside of something.
+/// Reads the part of the text at `place`, and further if it ends inside of something.
 fn part<'a>(text: &'a str, mut tokens: Tokens<'a>, place: Range<usize>) -> Result<Part<'a>, XmlError> {
     let mut problems = Vec::new();
     let document = with_room(text, place.clone());
@@ -95,8 +95,8 @@ fn part<'a>(text: &'a str, mut tokens: Tokens<'a>, place: Range<usize>) -> Resul
     Ok(Part { document, problems, is_cut, lines: tokens.lines() })
 }
 
-/// A document with room for as many elements as this part of the text seems to hold: arrays of that size take longer to
-/// grow than the elements to count.
+/// A document with capacity for as many elements as this part of the text seems to contain: growing large arrays
+/// takes longer than counting the elements.
 fn with_room(text: &str, part: Range<usize>) -> Document<'_> {
     let [mut nodes, mut ways, mut relations, mut references, mut members, mut tags] = [0; 6];
     let bytes = &text.as_bytes()[part];
@@ -111,7 +111,7 @@ fn with_room(text: &str, part: Range<usize>) -> Document<'_> {
             _ => {}
         }
     }
-    // What only looks like elements takes less room than the shortest ones.
+    // Text that only looks like elements is shorter than the shortest ones.
     let most = |count: usize, shortest: &str| count.min(bytes.len() / shortest.len());
     Document {
         text,
@@ -132,7 +132,7 @@ struct Parser<'a, 'p> {
     problems: &'p mut Vec<Problem>,
 }
 
-/// The element that is being read, and where its tags and its members or nodes begin.
+/// The element that is being read, and the start of its tags and its members or nodes.
 struct Open {
     element: Kind,
     first_tag: usize,
@@ -147,7 +147,7 @@ enum Kind {
 }
 
 impl<'a> Parser<'a, '_> {
-    /// Begins a node, way or relation; notes what `MetaInfo` says.
+    /// Begins a node, way or relation; reads `MetaInfo`.
     fn open(&mut self, element: &Element<'a>) -> Result<(), XmlError> {
         match element.name {
             "node" | "way" | "relation" => self.begin(element),
@@ -176,7 +176,7 @@ impl<'a> Parser<'a, '_> {
             let (key, value) = attribute?;
             match key {
                 "id" => id = id.or(Some(value)),
-                // Editors leave what was deleted in the file until it is uploaded.
+                // Editors keep deleted elements in the file until it is uploaded.
                 "action" if value == "delete" => return Ok(()),
                 "lat" => set(&mut node.lat, &value),
                 "lon" => set(&mut node.lon, &value),
@@ -264,7 +264,7 @@ impl<'a> Parser<'a, '_> {
         Ok(())
     }
 
-    /// Keeps the element that was being read.
+    /// Stores the element that was being read.
     fn close(&mut self) {
         let document = &mut self.document;
         let Some(Open { element, first_tag, first_part }) = self.open.take() else { return };

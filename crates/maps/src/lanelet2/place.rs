@@ -1,4 +1,4 @@
-//! Where the nodes of a map lie in its local metric frame.
+//! The positions of a map's nodes in its local metric frame.
 
 use laneweave_network::Point;
 
@@ -9,7 +9,7 @@ use crate::problem::Problem;
 use crate::shape::MAXIMUM_COORDINATE;
 use crate::xml::number;
 
-/// Which of the coordinates that nodes may have are used, for all nodes of a map alike.
+/// The kind of coordinates that is used for all nodes of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Frame {
     /// The tags `local_x` and `local_y` [m].
@@ -40,7 +40,7 @@ impl Frame {
         if nodes().all(is_local) {
             return Ok((Frame::Local, None));
         }
-        // Most have them, but not all: somebody forgot some.
+        // Most nodes have these coordinates, but not all: the others were forgotten.
         let local = nodes().filter(|it| is_local(it)).count();
         if let Some(first) = nodes().find(|it| !is_local(it)).filter(|_| 2 * local > document.nodes.len()) {
             problems.push(Problem {
@@ -65,8 +65,8 @@ impl Frame {
         Ok((Frame::Projected(utm), Some(origin)))
     }
 
-    /// Where a node with these tags lies; `None` if its coordinates are missing, unreadable or out of range. Without a
-    /// height it lies at zero.
+    /// The position of a node with these tags; `None` if its coordinates are missing, unreadable or out of range.
+    /// Without a height it lies at zero.
     pub(super) fn place(&self, node: &Node, tags: Tags) -> Option<Point> {
         let tag = |key| tags.get(key).map(number);
         let (x, y) = match self {
@@ -89,7 +89,7 @@ mod tests {
     const NODE: &str = "<node id='1' lat='49.04' lon='8.44' x='1' y='2' ele='3'>";
     const LOCAL: &str = "<tag k='local_x' v='4'/><tag k='local_y' v='5'/><tag k='ele' v='6'/>";
 
-    /// The frame of nodes, its origin, and where the last node lies.
+    /// The frame of nodes, its origin, and the position of the last node.
     fn frame(nodes: &str) -> (Frame, Option<(f64, f64)>, Option<Point>) {
         let text = format!("<osm>{nodes}</osm>");
         let document = parse(text.as_bytes(), &mut Vec::new()).unwrap();

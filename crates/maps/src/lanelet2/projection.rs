@@ -64,7 +64,7 @@ const RECTIFYING_RADIUS: f64 =
 pub(super) struct Utm {
     /// Longitude of the zone's central meridian [°].
     meridian: f64,
-    /// Where the origin lies from the central meridian and the equator [m].
+    /// Position of the origin from the central meridian and the equator [m].
     origin: (f64, f64),
 }
 
@@ -163,7 +163,7 @@ fn times(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Origin, place, and where the reference library's UTM projector puts it [m].
+    /// Origin, place, and its position by the reference library's UTM projector [m].
     const PLACES: [[[f64; 2]; 3]; 7] = [
         [[49.0, 8.4], [49.00345654351, 8.42427590707], [1778.502345819783, 370.4953713566065]],
         [[0.0, 0.0], [-0.003191105913, 0.001528866455], [170.36000002000947, -353.1998999621719]],

@@ -10,7 +10,7 @@ use super::sharing::{MAXIMUM_SHARING, Sharing};
 use crate::problem::Problem;
 use crate::rule::{Rule, RuleKind};
 
-/// The rules of a map, in the order of the file. Elements they name that are missing are listed.
+/// The rules of a map, in the order of the file. Missing elements that they name become problems.
 pub(super) fn rules(document: &Document, lookup: &Lookup, problems: &mut Vec<Problem>) -> Vec<Rule> {
     let mut obeying: HashMap<i64, Vec<i64>> = HashMap::new();
     for lanelet in document.relations_of_type("lanelet") {
@@ -44,7 +44,7 @@ struct Reader<'a> {
     document: &'a Document<'a>,
     lookup: &'a Lookup<'a>,
     relation: &'a Relation,
-    /// How many rules name each way, by its place in the document.
+    /// The number of rules that name each way, by its index in the document.
     shared: &'a mut Sharing<usize>,
     problems: &'a mut Vec<Problem>,
 }
@@ -96,7 +96,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether what it refers to is a way of this type, or subtype.
+    /// Whether the element that it refers to is a way of this type, or subtype.
     fn refers_to(&self, kind: &str) -> bool {
         let ways = self.document.members(self.relation, "way", "refers");
         ways.filter_map(|it| self.lookup.way(it)).any(|way| {
@@ -105,7 +105,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The ids of the lanelets in `role` that the map has.
+    /// The ids of the lanelets with `role` that are in the map.
     fn lanelets(&mut self, role: &'static str) -> Vec<i64> {
         let named: Vec<i64> = self.document.members(self.relation, "relation", role).collect();
         named
@@ -114,7 +114,7 @@ impl Reader<'_> {
             .collect()
     }
 
-    /// The ways in `role` that the map has.
+    /// The ways with `role` that are in the map.
     fn lines(&mut self, role: &'static str) -> Vec<Vec<Point>> {
         let named: Vec<i64> = self.document.members(self.relation, "way", role).collect();
         let (mut lines, mut left_out) = (Vec::new(), 0);

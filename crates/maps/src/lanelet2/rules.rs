@@ -6,10 +6,10 @@ use super::draw::Flaw;
 use super::osm::Tags;
 use crate::drawing::{Crossing, Paint, Surroundings};
 
-/// The tags that allow, or forbid, a lanelet to cars; the first that is given decides.
+/// The tags that allow, or forbid, a lanelet for cars; the first one given decides.
 const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle"];
 
-/// The tags that say whether cars may use a lanelet in one direction only; the first that is given decides.
+/// The tags that say whether cars may use a lanelet in one direction only; the first one given decides.
 const ONE_WAY: [&str; 3] = ["one_way:vehicle:car", "one_way:vehicle", "one_way"];
 
 /// Subtypes of lanelets: those of the tagging guide, and Autoware's `road_shoulder` and `pedestrian_lane`.
@@ -35,7 +35,7 @@ const LINES: [&str; 6] = ["solid", "solid_solid", "dashed", "dashed_solid", "sol
 
 /// Whether cars may use a lanelet with these tags.
 ///
-/// Tags `participant:…` name everybody who may; without any of them the subtype tells.
+/// Tags `participant:…` name everyone who may; without them the subtype decides.
 pub(super) fn is_for_cars(lanelet: Tags) -> bool {
     if lanelet.any("participant:") {
         return PARTICIPANTS.into_iter().find_map(|key| flag(lanelet, key)).unwrap_or(false);
@@ -48,7 +48,7 @@ pub(super) fn is_two_way(lanelet: Tags) -> bool {
     ONE_WAY.into_iter().find_map(|key| flag(lanelet, key)).is_some_and(|one_way| !one_way)
 }
 
-/// What a lanelet with these tags runs through. Without a location it is a town.
+/// The surroundings of a lanelet with these tags. Without a location it is a town.
 pub(super) fn surroundings(lanelet: Tags) -> Surroundings {
     match (lanelet.get("subtype"), lanelet.get("location")) {
         (Some("highway"), _) => Surroundings::Motorway,
@@ -57,7 +57,7 @@ pub(super) fn surroundings(lanelet: Tags) -> Surroundings {
     }
 }
 
-/// The tags `subtype` and `location` with which [`surroundings`] gives these again.
+/// The tags `subtype` and `location` from which [`surroundings`] returns these again.
 pub(super) fn subtype_and_location(surroundings: Surroundings) -> (&'static str, &'static str) {
     match surroundings {
         Surroundings::Motorway => ("highway", "nonurban"),
@@ -66,16 +66,16 @@ pub(super) fn subtype_and_location(surroundings: Surroundings) -> (&'static str,
     }
 }
 
-/// What is to be seen of a border with these tags.
+/// The visible form of a border with these tags.
 pub(super) fn paint(border: Tags) -> Paint {
     if border.is("type", "virtual") { Paint::Virtual } else { Paint::Painted }
 }
 
-/// Who may cross a border with these tags, seen along its points.
+/// The directions in which a border with these tags may be crossed, seen along its points.
 ///
-/// `lane_change` comes first, then `lane_change:left` and `lane_change:right`, of which one that is left out
-/// means no, and then what is painted. The first word of `dashed_solid` is the left half of the line: it may
-/// be crossed from the left.
+/// `lane_change` comes first. Then come `lane_change:left` and `lane_change:right`; a missing one of the two means
+/// no. Then the marking decides. The first word of `dashed_solid` is the left half of the line: it may be crossed
+/// from the left.
 pub(super) fn crossing(border: Tags) -> Crossing {
     if border.get("lane_change").is_some() {
         let allowed = flag(border, "lane_change") == Some(true);
@@ -98,7 +98,7 @@ pub(super) fn crossing(border: Tags) -> Crossing {
     }
 }
 
-/// The tag `type`'s subtype with which [`crossing`] gives this again, for a `line_thin`.
+/// The subtype, for the type `line_thin`, from which [`crossing`] returns this again.
 pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
     match (crossing.to_left, crossing.to_right) {
         (true, true) => "dashed",
@@ -108,7 +108,7 @@ pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
     }
 }
 
-/// What in the tags of a lanelet is written so that nobody understands it, and what is assumed.
+/// The tags of a lanelet that cannot be understood, and what is assumed.
 pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     match lanelet.get("subtype") {
@@ -126,7 +126,7 @@ pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<Flaw> {
     flaws
 }
 
-/// What in the tags of a border is written so that nobody understands it, and what is assumed.
+/// The tags of a border that cannot be understood, and what is assumed.
 pub(super) fn flaws_of_border(border: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     for key in ["lane_change", "lane_change:left", "lane_change:right"] {

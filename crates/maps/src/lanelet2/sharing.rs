@@ -1,14 +1,13 @@
-//! How many elements share another one: what is drawn or linked for each of them would grow with the square of the
-//! file.
+//! A limit on how many elements share another one: the work for them would grow quadratically with the file.
 
 use std::hash::Hash;
 
 use hashbrown::HashMap;
 
-/// No more elements than this share one.
+/// Maximum of elements that share one.
 pub(super) const MAXIMUM_SHARING: u32 = 32;
 
-/// Who shares what, by a key.
+/// The number of users of each key.
 pub(super) struct Sharing<K>(HashMap<K, u32>);
 
 impl<K> Default for Sharing<K> {
@@ -18,7 +17,7 @@ impl<K> Default for Sharing<K> {
 }
 
 impl<K: Eq + Hash> Sharing<K> {
-    /// Whether one more may share what has this `key`.
+    /// Whether one more element may share the element with this `key`.
     pub(super) fn admits(&mut self, key: K) -> bool {
         let count = self.0.entry(key).or_default();
         *count += 1;

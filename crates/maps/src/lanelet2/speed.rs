@@ -9,23 +9,23 @@ use crate::drawing::KMH_PER_MPS;
 use crate::format::Law;
 use crate::problem::Problem;
 
-/// Limits above are slips of the pen [km/h].
+/// Limits above this are taken as errors [km/h].
 const MAXIMUM: f64 = 500.0;
 
-/// What the speed limit rules of a document say.
+/// The speed limit rules of a document.
 pub(super) struct SpeedRules<'d> {
     document: &'d Document<'d>,
     lookup: &'d Lookup<'d>,
-    /// By their places in the document.
+    /// By their indices in the document.
     rules: HashMap<usize, Said<'d>>,
 }
 
-/// A speed limit as it is written.
+/// A speed limit as text.
 #[derive(Clone, Copy)]
 struct Said<'d> {
     line: u32,
     text: &'d str,
-    /// What that means [km/h].
+    /// Its value [km/h].
     limit: Option<f64>,
 }
 
@@ -46,8 +46,8 @@ impl<'d> SpeedRules<'d> {
 
     /// The limit of a lanelet [km/h].
     ///
-    /// Its first rule that can be understood comes first, then its tags, then what the law of the land says, which goes
-    /// into `of_law`.
+    /// Its first rule that can be understood comes first, then its tags, then the legal limit, which is added to
+    /// `of_law`.
     pub(super) fn limit(
         &self,
         lanelet: &Relation,
@@ -84,7 +84,7 @@ fn excerpt(text: &str) -> &str {
     text.char_indices().nth(LETTERS).map_or(text, |(end, _)| &text[..end])
 }
 
-/// What a rule says: by a tag of its own, or by the sign to which it refers.
+/// The limit of a rule: by a tag of its own, or by the sign to which it refers.
 fn sign_text<'d>(document: &'d Document<'d>, lookup: &Lookup, rule: &Relation) -> &'d str {
     let tags = document.tags(rule.tags);
     let own = ["sign_type", "speed_limit", "max_speed"].into_iter().find_map(|key| tags.get(key));
@@ -93,8 +93,7 @@ fn sign_text<'d>(document: &'d Document<'d>, lookup: &Lookup, rule: &Relation) -
     own.or_else(|| shown.next()).unwrap_or_default()
 }
 
-/// The limit of a German sign: 274 with the speed behind a dash (a zone of 30 km/h without), 310 the town
-/// sign.
+/// The limit of a German sign: 274 with the speed after a dash (a zone of 30 km/h without), 310 is the town sign.
 fn sign_limit(text: &str) -> Option<f64> {
     match text.strip_prefix("de")? {
         "274" => Some(30.0),
@@ -137,13 +136,13 @@ mod tests {
         }
     }
 
-    /// The limit of a lanelet with these tags, whose rule has those; the rule refers to a sign of 60 km/h.
+    /// The limit of a lanelet with these tags and a rule with those; the rule refers to a sign of 60 km/h.
     fn limit_of(lanelet: &str, rule: &str) -> (f64, Vec<Problem>) {
         let (limit, _, problems) = limit_and_law(lanelet, rule);
         (limit, problems)
     }
 
-    /// The same, with what the law gave.
+    /// The same, with the legal limits that were used.
     fn limit_and_law(lanelet: &str, rule: &str) -> (f64, Vec<f64>, Vec<Problem>) {
         let text = format!(
             "<osm><node id='1' x='0' y='0'/><way id='4'><tag k='subtype' v='de274-60'/></way>\n\n\n\n\

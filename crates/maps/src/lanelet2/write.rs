@@ -7,8 +7,8 @@ use laneweave_network::DrivingSide;
 use super::osm::{Document, Tags};
 
 impl Document<'_> {
-    /// The text of a file with these elements, which is read again as the same ones: ids, tags, coordinates, nodes and
-    /// members, whether or not this program knows what they mean.
+    /// The text of a file with these elements. Reading it gives the same ids, tags, coordinates, nodes and members,
+    /// whether or not this program knows their meaning.
     pub fn write(&self) -> String {
         let mut text = String::new();
         // Writing to a string never fails.
@@ -82,7 +82,7 @@ impl Display for Escaped<'_> {
                 '<' => f.write_str("&lt;")?,
                 '>' => f.write_str("&gt;")?,
                 '"' => f.write_str("&quot;")?,
-                // A reader takes plain ones for spaces.
+                // A reader replaces unescaped ones by spaces.
                 '\n' | '\r' | '\t' => write!(f, "&#{};", letter as u32)?,
                 letter => f.write_char(letter)?,
             }
@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(everything(&again).len(), 2 + 3 + 2 + 1);
     }
 
-    /// All that a document says but its lines.
+    /// The contents of a document without its line numbers.
     fn everything(document: &Document) -> Vec<String> {
         let tags = |span| document.tags(span).all().collect::<Vec<_>>();
         let nodes = document.nodes.iter().map(|it| {

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Notes what it sees.
+/// Records what it receives.
 #[derive(Default)]
 struct Notes(Vec<String>);
 

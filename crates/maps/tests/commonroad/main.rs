@@ -1,4 +1,4 @@
-//! CommonRoad maps: a small one of our own, broken ones, and real ones where they are at hand.
+//! CommonRoad maps: a small one made for the test, broken ones, and real ones if they are available.
 
 mod map;
 mod real;

@@ -1,11 +1,11 @@
-//! What a map says, and what is wrong with it.
+//! The contents of a map, and its problems.
 
 use laneweave_maps::{Map, MapError, Problem, ReadOptions, commonroad};
 use laneweave_network::{DrivingSide, Lanelet, LaneletIndex};
 
 use crate::{read, short, two_lanes};
 
-/// The map with `from` replaced, which must be there: what is wrong with it, and the lanelets that are left.
+/// The problems of the map with `from` replaced, which must be there, and the remaining lanelets.
 fn broken(from: &str, to: &str) -> (Vec<String>, Vec<Lanelet>) {
     let whole = two_lanes();
     assert!(whole.contains(from), "{from}");
@@ -29,7 +29,7 @@ fn lanelets_are_linked_as_the_file_says() {
     let beside = |it: &Lanelet| [it.left, it.right, it.adjacent_left, it.adjacent_right];
     assert_eq!(beside(&lanelets[0]), [None, at(2), None, None]);
     assert_eq!(beside(&lanelets[2]), [at(0), None, None, None]);
-    // The marking of 12's right bound counts for 22, whose left one says nothing.
+    // The marking of 12's right bound counts for 22, whose left bound has none.
     assert_eq!(beside(&lanelets[1]), [None, None, None, at(3)]);
     assert_eq!(beside(&lanelets[3]), [None, None, at(1), None]);
     assert_eq!(beside(&lanelets[4]), [None; 4]);
@@ -82,7 +82,7 @@ fn one_sided_links_are_problems() {
     let (problems, lanelets) = broken("<adjacentLeft ref='11' drivingDir='same'/>", "");
     assert!(problems[0].starts_with("lanelet 11 (line 2): its neighbour 21 does not name it in return"));
     assert_eq!((problems.len(), lanelets[0].right, lanelets[2].left), (1, None, None));
-    // Neighbours that do not agree on their direction are none either; both are told.
+    // Neighbours that do not agree on their direction are none either; both are reported.
     let (problems, lanelets) = broken("ref='11' drivingDir='same'", "ref='11' drivingDir='opposite'");
     assert_eq!((problems.len(), lanelets[0].right, lanelets[2].left), (2, None, None));
 }

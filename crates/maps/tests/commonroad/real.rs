@@ -1,4 +1,4 @@
-//! Windows of NGSIM, where they are at hand: counts that agree with those of the reference library.
+//! Windows of NGSIM, if they are available: counts that agree with those of the reference library.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use laneweave_network::Lanelet;
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad/");
 
-/// Lanelets, pairs that follow, left and right changes, left and right neighbours without, and the sum of the
+/// Lanelets, pairs that follow, left and right changes, left and right neighbours without changes, and the sum of the
 /// limits on signs [mm/s].
 type Counts = [usize; 7];
 
@@ -43,7 +43,7 @@ fn windows_of_ngsim_agree_with_the_reference_library() {
         assert_eq!(map.problems, [], "{name}");
         let lanelets = &map.network.lanelets;
         let count = |has: fn(&Lanelet) -> bool| lanelets.iter().filter(|it| has(it)).count();
-        // The windows of US 101 have no signs: 130 km/h holds, after their tags.
+        // The windows of US 101 have no signs: their tags give 130 km/h.
         let is_default = |it: &&Lanelet| it.speed_limit == 130.0 / 3.6;
         assert_eq!(lanelets.iter().all(|it| is_default(&it)), name.contains("US101"), "{name}");
         let signed: f64 = lanelets.iter().filter(|it| !is_default(it)).map(|it| it.speed_limit).sum();

@@ -1,4 +1,4 @@
-//! No bytes make the reader panic, or take long.
+//! The reader does not panic, and does not take long, whatever the bytes.
 
 use std::fmt::Write;
 use std::time::Instant;
@@ -56,7 +56,7 @@ fn cut_files_are_refused_or_read_but_never_panic() {
     }
 }
 
-/// Numbers that look random: a linear congruential generator with Knuth's constants.
+/// Pseudo-random numbers: a linear congruential generator with Knuth's constants.
 struct Dice(u64);
 
 impl Dice {

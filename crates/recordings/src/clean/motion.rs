@@ -6,18 +6,18 @@ use super::report::Noted;
 use crate::recording::State;
 use crate::smooth::{self, Motion};
 
-/// Positions are smoothed over so much before and after [s].
+/// Positions are smoothed over this time before and after [s].
 const REACH: f64 = 0.4;
 /// A speed contradicts the positions if it differs by more [m/s].
 const SPEED_ERROR: f64 = 5.0;
 /// A heading contradicts the motion if it differs by more [rad].
 const HEADING_ERROR: f64 = FRAC_PI_4;
-/// Only a motion at least so fast has a direction [m/s].
+/// Below this speed a motion has no direction [m/s].
 const MOVING: f64 = 2.0;
-/// Vehicles back up to this speed [m/s].
+/// Vehicles drive backwards up to this speed [m/s].
 const BACKING: f64 = 5.0;
 
-/// Takes speeds and headings that contradict the positions from these.
+/// Replaces speeds and headings that contradict the positions.
 pub(super) fn mend(states: &mut [State], step: f64, noted: &mut Noted<'_>) {
     if states.len() < 3 {
         return;

@@ -8,11 +8,11 @@ use crate::smooth::elapsed;
 const SHORT_GAP: f64 = 1.0;
 /// A track grows by interpolation to this many times its states at most.
 const MAXIMUM_GROWTH: usize = 4;
-/// Positions are off by less than this [m]. Ours: half a car.
+/// Maximum error of positions [m]. Ours: half a car.
 const NOISE: f64 = 2.5;
-/// No road user changes its speed faster [m/s²]: emergency braking on dry asphalt reaches 10.
+/// Maximum acceleration of a road user [m/s²]: emergency braking on dry asphalt reaches 10.
 const MAXIMUM_ACCELERATION: f64 = 12.0;
-/// Nobody is faster [m/s].
+/// Maximum speed [m/s].
 const MAXIMUM_SPEED: f64 = 100.0;
 
 /// The parts of a track without jumps and gaps.
@@ -45,7 +45,7 @@ pub(super) fn parts(mut states: Vec<State>, step: f64, noted: &mut Noted<'_>) ->
     parts
 }
 
-/// Leaves out states to which, and from which, the path jumps, and the same at an end of the track.
+/// Removes states to which, and from which, the path jumps, and such states at an end of the track.
 fn leave_out_outliers(states: &mut Vec<State>, step: f64, noted: &mut Noted<'_>) {
     let jumps = jumps(states, step);
     if states.len() < 3 {
@@ -63,8 +63,8 @@ fn leave_out_outliers(states: &mut Vec<State>, step: f64, noted: &mut Noted<'_>)
     });
 }
 
-/// For each step between two states whether the path jumps there: the step agrees neither with the one before nor
-/// with the one after, within what noise and acceleration can do.
+/// For each step between two states whether the path jumps there. It jumps if the step agrees neither with the one
+/// before nor with the one after, within the limits of noise and acceleration.
 fn jumps(states: &[State], step: f64) -> Vec<bool> {
     let steps: Vec<(f64, f64, f64)> = states
         .windows(2)
@@ -90,12 +90,12 @@ fn jumps(states: &[State], step: f64) -> Vec<bool> {
         .collect()
 }
 
-/// The state in `frame` on the straight way from `a` to `b`.
+/// The state in `frame` on the straight line from `a` to `b`.
 fn between(a: &State, b: &State, frame: i64) -> State {
     let fraction = (frame - a.frame) as f64 / (b.frame - a.frame) as f64;
     let mix = |from: f64, to: f64| from + fraction * (to - from);
     let turn = b.heading - a.heading;
-    // Headings may be so large that their difference is none.
+    // Headings may be so large that their difference is NaN.
     let turn = if turn.is_finite() { turn.sin().atan2(turn.cos()) } else { 0.0 };
     State {
         frame,

@@ -1,13 +1,13 @@
-//! What cleaning found.
+//! The findings of the cleaning.
 
 use std::fmt;
 
-/// What was mended or cut out of a recording.
+/// What was corrected in, or cut out of, a recording.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CleaningReport {
     /// States in the recording before.
     pub states: usize,
-    /// Tracks whose length or width no road user of their class has: the usual ones were taken.
+    /// Tracks with an impossible length or width for their class: the usual ones were taken.
     pub sizes: Finding,
     /// States with a number that is not finite: left out.
     pub not_finite: Finding,
@@ -27,7 +27,7 @@ pub struct CleaningReport {
     pub headings: Finding,
 }
 
-/// How often something was found, and where first.
+/// How often a problem was found, and where first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Finding {
     /// How often.
@@ -46,7 +46,7 @@ pub struct Example {
 }
 
 impl Finding {
-    /// Examples that are kept.
+    /// Maximum of stored examples.
     const EXAMPLES: usize = 5;
 
     fn add(&mut self, example: Example) {
@@ -92,7 +92,7 @@ impl fmt::Display for CleaningReport {
     }
 }
 
-/// The report as one track adds to it.
+/// The report, while one track adds to it.
 pub(super) struct Noted<'a> {
     pub(super) report: &'a mut CleaningReport,
     pub(super) track: i64,
@@ -100,7 +100,7 @@ pub(super) struct Noted<'a> {
 }
 
 impl Noted<'_> {
-    /// Adds one case in `frame` to the finding that `of` names.
+    /// Adds one case in `frame` to the finding that `of` selects.
     pub(super) fn add(&mut self, of: impl FnOnce(&mut CleaningReport) -> &mut Finding, frame: i64) {
         let example = Example { track: self.track, time: frame as f64 * self.step };
         of(self.report).add(example);

@@ -5,15 +5,15 @@ use laneweave_maps::xml::number;
 
 use crate::recording::{RoadUser, State, Track};
 
-/// Points further from the origin are none on earth [m].
+/// Coordinates beyond this are taken as errors [m].
 const MAXIMUM_COORDINATE: f64 = 4.1e7;
-/// Nobody moves faster on a road [m/s].
+/// Maximum speed on a road [m/s].
 const MAXIMUM_SPEED: f64 = 150.0;
-/// Directions beyond are slips of the pen: the format's range is one turn either way [rad].
+/// Directions beyond this are taken as errors: the format's range is one turn either way [rad].
 const MAXIMUM_ANGLE: f64 = 100.0;
-/// No road user is longer or wider [m].
+/// Maximum length or width of a road user [m].
 const MAXIMUM_EXTENT: f64 = 400.0;
-/// No recording has more frames.
+/// Maximum number of frames.
 const MAXIMUM_FRAME: f64 = 1e8;
 
 /// The element `dynamicObstacle`, in version 2018b `obstacle`, while it is read.
@@ -34,14 +34,14 @@ pub(super) struct Obstacle {
     has_occupancies: bool,
 }
 
-/// A rectangle or circle; zero where nothing is said.
+/// A rectangle or circle; zero where the file says nothing.
 #[derive(Default)]
 struct Shape {
     /// [m]
     length: f64,
     /// [m]
     width: f64,
-    /// Against the direction of the obstacle [rad].
+    /// Angle to the direction of the obstacle [rad].
     orientation: f64,
     /// Centre, ahead of and left of the obstacle's position [m].
     ahead: f64,
@@ -71,7 +71,7 @@ impl Obstacle {
         }
     }
 
-    /// Takes in the text of an element inside.
+    /// Reads the text of an element inside.
     pub(super) fn close(&mut self, part: &str, text: &str) {
         match part {
             "role" => self.is_static = text == "static",
@@ -131,7 +131,7 @@ impl Obstacle {
         Some(Track { id: self.id, class: self.class(), length, width, states: self.states })
     }
 
-    /// What it is, by its type.
+    /// Its class, by its type.
     pub(super) fn class(&self) -> RoadUser {
         match self.kind.as_str() {
             "car" | "taxi" | "priorityVehicle" => RoadUser::Car,
@@ -167,7 +167,7 @@ impl Shape {
         }
     }
 
-    /// Whether it lies around the obstacle's position.
+    /// Whether the shape lies around the obstacle's position.
     fn is_near(&self) -> bool {
         let is_near = |it: f64| it.abs() <= MAXIMUM_EXTENT;
         is_near(self.ahead) && is_near(self.left) && self.orientation.abs() <= MAXIMUM_ANGLE
@@ -232,7 +232,7 @@ impl Moment {
         }
     }
 
-    /// The state, whose speed is not a number where it is missing, or what is wrong with it.
+    /// The state, or its problem; a missing speed is NaN.
     fn state(&self) -> Result<State, &'static str> {
         let within = |value: Option<f64>, limit: f64| value.filter(|it| it.abs() <= limit);
         let time = self.time.exact.or_else(|| self.time.middle().map(f64::round));
@@ -262,7 +262,7 @@ impl Flaws {
     }
 }
 
-/// Speeds, where they are missing, from the way since the state before, or else to the next one.
+/// Fills in missing speeds from the path since the state before, or else to the next one.
 fn fill_speeds(states: &mut [State], step: f64) {
     for here in 0..states.len() {
         let (from, to) = if here == 0 { (0, 1) } else { (here - 1, here) };

@@ -1,4 +1,4 @@
-//! The header of a track file, by which the columns of its rows are known.
+//! The header of a track file, which identifies the columns of its rows.
 
 use super::row::{Flaw, Row};
 use crate::error::RecordingError;
@@ -19,14 +19,14 @@ pub(super) const COLUMNS: [&str; 11] = [
 ];
 /// The first of them are required.
 const REQUIRED: usize = 8;
-/// Further columns are not looked at.
+/// Further columns are ignored.
 const MAXIMUM_COLUMNS: usize = 256;
-/// Longer lines are no rows [B].
+/// Maximum length of a row [B].
 const MAXIMUM_LINE: usize = 1 << 16;
 
-/// Which column of the file holds what.
+/// The contents of the columns of the file.
 pub(super) struct Header {
-    /// For each column of the file its place in [`COLUMNS`].
+    /// For each column of the file its index in [`COLUMNS`].
     meanings: Vec<Option<usize>>,
     /// Columns that every row has to have.
     required: usize,
@@ -41,7 +41,7 @@ impl Header {
             .map(|name| COLUMNS.iter().position(|it| it.as_bytes() == bare(name)))
             .collect();
         for column in 0..COLUMNS.len() {
-            // Of columns with one name the first counts.
+            // Of columns with the same name the first counts.
             let same = meanings.iter_mut().filter(|it| **it == Some(column));
             same.skip(1).for_each(|it| *it = None);
         }
@@ -54,7 +54,7 @@ impl Header {
         Ok(Header { meanings, required })
     }
 
-    /// The row that stands in `line`.
+    /// The row in `line`.
     pub(super) fn row(&self, line: &[u8]) -> Result<Row, Flaw> {
         if line.len() > MAXIMUM_LINE {
             let what = format!("it has {} bytes, the limit is {MAXIMUM_LINE}", line.len());

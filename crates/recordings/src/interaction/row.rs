@@ -5,7 +5,7 @@ use std::str::FromStr;
 use super::header::COLUMNS;
 use crate::recording::{RoadUser, State};
 
-/// What a row says.
+/// The values of a row.
 pub(super) struct Row {
     pub(super) track: i64,
     pub(super) timestamp_ms: i64,
@@ -24,9 +24,9 @@ pub(super) struct Flaw {
     pub(super) remedy: &'static str,
 }
 
-/// Frames and times beyond this are none [1 or ms]; their differences stay exact.
+/// Frames and times beyond this are refused [1 or ms]; smaller ones have exact differences.
 const MAXIMUM_COUNT: i64 = 1 << 50;
-/// The motion of somebody slower has no direction [m/s].
+/// Below this speed a motion has no direction [m/s].
 const STANDSTILL: f64 = 0.1;
 
 impl Row {
@@ -38,7 +38,7 @@ impl Row {
         let speed = (vx * vx + vy * vy).sqrt();
         let motion = if speed > STANDSTILL { vy.atan2(vx) } else { f64::NAN };
         Ok(Row {
-            // Those who walk are numbered P1, P2, …, in a file of their own.
+            // Pedestrians are numbered P1, P2, …, in a file of their own.
             track: number(0, track.strip_prefix(b"P").unwrap_or(track))?,
             timestamp_ms: count(2, timestamp)?,
             class,
@@ -64,7 +64,7 @@ fn class_of(name: &[u8]) -> (RoadUser, Option<String>) {
         b"motorcycle" => RoadUser::Motorcycle,
         b"bicycle" => RoadUser::Bicycle,
         b"pedestrian" => RoadUser::Pedestrian,
-        // The dataset does not tell these apart.
+        // The dataset does not distinguish these.
         b"pedestrian/bicycle" => RoadUser::Other,
         _ => return (RoadUser::Other, Some(excerpt(name))),
     };

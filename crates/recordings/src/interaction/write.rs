@@ -32,7 +32,7 @@ fn write_track(track: &Track, step: f64, out: &mut impl Write) -> io::Result<()>
     Ok(())
 }
 
-/// The dataset's name of a class; it has one for those on foot and by bicycle who are not told apart.
+/// The dataset's name of a class; it has one name for pedestrians and cyclists together.
 fn name(class: RoadUser) -> &'static str {
     match class {
         RoadUser::Other => "pedestrian/bicycle",

@@ -6,7 +6,7 @@ use super::hazard::Hazard;
 use super::mouth::Mouth;
 use super::stretch::Pen;
 
-/// Length of the road on the joint's side of the other road, and on the opposite side [m].
+/// Length of the road on the side of the joint where the other road lies, and on the opposite side [m].
 const ALONG: [f64; 2] = [60.0, 90.0];
 const BEYOND: [f64; 2] = [20.0, 60.0];
 /// Angle of the other road [rad].

@@ -173,7 +173,7 @@ pub(super) fn beside(pose: Pose, offset: f64) -> Pose {
     Pose { at: Point::new(at.x - offset * sine, at.y + offset * cosine, at.z), heading }
 }
 
-/// The pose after a turn on the spot and the distance `length` [rad, m].
+/// The pose `length` ahead, then turned by `turn` [m, rad].
 pub(super) fn onward(pose: Pose, length: f64, turn: f64) -> Pose {
     let Pose { at, heading } = pose;
     let (x, y) = (at.x + length * libm::cos(heading), at.y + length * libm::sin(heading));
