@@ -1,12 +1,12 @@
-//! What the benchmarks share: rounds of measurement in turns, so that what disturbs the machine for a while disturbs
-//! all that is compared.
+//! Common parts of the benchmarks: rounds of measurement in turns, so that a disturbance of the machine affects all
+//! compared cases alike.
 
 pub mod machine;
 pub mod trial;
 
 use std::io::Write;
 
-/// Prints a line; who no longer reads misses nothing.
+/// Prints a line; a closed output is no error.
 pub fn say(line: &str) {
     let _ = writeln!(std::io::stdout(), "{line}");
 }
@@ -21,13 +21,13 @@ impl Rates {
         self.0.push(updates as f64 / wall_s);
     }
 
-    /// Of the round that was disturbed least: other programs, and the neighbours of a virtual machine, only ever slow a
-    /// round down.
+    /// The rate of the least disturbed round: other programs, and the neighbours of a virtual machine, only ever slow
+    /// a round down.
     pub fn best(&self) -> f64 {
         self.0.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Of the middle one of all rounds.
+    /// The median rate of all rounds.
     pub fn median(&self) -> f64 {
         let mut rates = self.0.clone();
         rates.sort_by(f64::total_cmp);

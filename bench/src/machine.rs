@@ -1,4 +1,4 @@
-//! What the machine gives at the moment: cores of a virtual machine are not always whole ones, and not always near each
+//! The present speed of the machine: cores of a virtual machine are not always whole ones, and not always near each
 //! other.
 
 use std::hint::{black_box, spin_loop};
@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread;
 use std::time::Instant;
 
-/// How long a message from one core to the other and back takes [ns]: four times as long where the two share no cache,
-/// a quarter of it where they are halves of one core; and a virtual machine is moved now and then.
+/// Time of a message from one core to the other and back [ns]. It is four times as long if the two share no cache,
+/// and a quarter of it if they are halves of one core; a virtual machine may be moved at any time.
 pub fn round_trip() -> f64 {
     const MESSAGES: u32 = 2_000;
     let (there, back) = (Message::default(), Message::default());
@@ -29,20 +29,20 @@ pub fn round_trip() -> f64 {
     })
 }
 
-/// What one core tells the other, on a cache line of its own.
+/// A message between cores, on a cache line of its own.
 #[derive(Default)]
 #[repr(align(128))]
 struct Message(AtomicU32);
 
-/// Asks again and again.
+/// Repeats the question.
 pub fn spin_until(is_so: impl Fn() -> bool) {
     while !is_so() {
         spin_loop();
     }
 }
 
-/// Does `work` while another thread calculates without touching memory: what that costs is the machine's, not the
-/// work's.
+/// Does `work` while another thread calculates without touching memory: the difference is the cost of the machine,
+/// not of the work.
 pub fn beside_a_busy_core<T>(work: impl FnOnce() -> T) -> T {
     let is_over = AtomicBool::new(false);
     thread::scope(|scope| {

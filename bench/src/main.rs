@@ -49,11 +49,11 @@ fn in_use() -> f64 {
 const LANES: usize = 4;
 /// Vehicles per kilometre and lane.
 const DENSITY: f64 = 12.5;
-/// Mean speed that goes with it [m/s]; what drives out at the end comes in at the start.
+/// Mean speed at that density [m/s]; with it, as many vehicles enter at the start as leave at the end.
 const SPEED: f64 = 26.0;
 const TRUCKS: f64 = 0.1;
 const STEP_S: f64 = 0.1;
-/// Steps before measuring, in which changes of lane set in.
+/// Steps before measuring, until the lane changes are steady.
 const WARM_UP: u32 = 100;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -83,8 +83,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Runs all in turn, `rounds` times, and prints what was measured: what disturbs the machine for a while disturbs all
-/// of them.
+/// Runs all cases in turn, `rounds` times, and prints the results: a disturbance of the machine affects all of them
+/// alike.
 fn measure<const N: usize>(mut all: [Measured; N], rounds: usize) -> Result<[Measured; N], Box<dyn Error>> {
     for _ in 0..rounds {
         all.iter_mut().for_each(Measured::go_on);
@@ -108,7 +108,7 @@ struct Measured {
 }
 
 impl Measured {
-    /// A motorway of `length_km` to be measured by rounds of `steps` steps, in which changes of lane have set in.
+    /// A motorway of `length_km`, measured by rounds of `steps` steps, after the lane changes are steady.
     fn motorway(length_km: f64, threads: usize, steps: u32) -> Result<Measured, Box<dyn Error>> {
         let mut world = empty_motorway(1000.0 * length_km, threads)?;
         let empty = in_use();
@@ -150,8 +150,8 @@ impl Measured {
     }
 }
 
-/// How many times faster two motorways of half the length are on two threads than on one, if the threads share nothing
-/// but wait for each other after every step: what the machine leaves of two cores.
+/// How many times faster two motorways of half the length are on two threads than on one, if the threads share
+/// nothing but wait for each other after every step: the gain that the machine allows for two cores.
 fn limit_of_two_threads(rounds: usize) -> Result<f64, Box<dyn Error>> {
     let half = || Measured::motorway(20.0, 1, 500);
     let (mut one, mut other, mut alone, mut together) = (half()?, half()?, 0.0_f64, 0.0_f64);
@@ -167,7 +167,8 @@ fn limit_of_two_threads(rounds: usize) -> Result<f64, Box<dyn Error>> {
     Ok(together / alone)
 }
 
-/// Updates per second in a round of one that waits after every step until as many as `threads` have `arrived`.
+/// Updates per second in a round of one motorway; after every step it waits until as many as `threads` have
+/// `arrived`.
 fn in_step(it: &mut Measured, arrived: &AtomicU32, threads: u32) -> f64 {
     let (before, start) = (it.world.counters().updates, Instant::now());
     for step in 1..=it.steps {

@@ -12,28 +12,28 @@ use laneweave::style::Population;
 
 /// Length of a step [s].
 pub const STEP_S: f64 = 0.1;
-/// How long vehicles come to a town [s].
+/// How long vehicles arrive in a town [s].
 pub const DURATION_S: f64 = 7200.0;
-/// Travel times are measured so often [s].
+/// Interval between measurements of travel times [s].
 const GUIDED_EVERY_S: f64 = 60.0;
 const TRUCKS: f64 = 0.1;
 
 /// A town and its traffic.
 pub struct Trial {
-    /// What its map is.
+    /// The description of its map.
     pub map: String,
     /// Demand as a multiple of the estimated capacity.
     pub load: f64,
-    /// Its world, before anybody has come.
+    /// Its world, before any vehicle has arrived.
     pub world: World,
 }
 
 impl Trial {
-    /// The trial of a number, the same one on every machine. Its chains are stored as `store` leaves them; so many
+    /// The trial with a number, the same one on every machine. `store` arranges the storage of its chains; so many
     /// `threads` share a step.
     ///
     /// # Errors
-    /// If the map cannot be drawn, or no traffic can be on it.
+    /// If the map cannot be drawn, or if there can be no traffic on it.
     pub fn new(
         number: u32,
         threads: usize,
@@ -94,7 +94,7 @@ fn regulated(drawing: &Drawing) -> Result<Network, Box<dyn Error>> {
     Ok(map.network.regulated(&rules))
 }
 
-/// Makes some entrances and destinations count for much more than others.
+/// Gives some entrances and destinations much more weight than others.
 fn skew(demand: &mut Demand, random: &Random) {
     let weight = |subject: u32| {
         let draw = random.uniform(subject, Purpose::Destination, 0);

@@ -33,7 +33,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// What became of a trial.
+/// The result of a trial.
 struct Outcome {
     map: String,
     /// Demand as a multiple of the estimated capacity.

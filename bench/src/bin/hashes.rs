@@ -21,14 +21,14 @@ use laneweave_bench::trial::{STEP_S, Trial};
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 const DURATION_S: f64 = 600.0;
-/// Vehicles that come to a map of a file, and to a random one [veh/h].
+/// Demand on a map from a file, and on a random one [veh/h].
 const DEMANDS: [f64; 2] = [1500.0, 3000.0];
 const RANDOM_DEMAND: f64 = 600.0;
 const RANDOM_MAPS: u64 = 20;
 const TRIALS: u32 = 21;
 const TRUCKS: f64 = 0.1;
 
-/// How a run is carried out, which must not change it.
+/// How a run is carried out; this must not change it.
 #[derive(Clone, Copy)]
 struct Way {
     threads: usize,

@@ -1,7 +1,7 @@
-//! How fast maps are read, and what memory that takes.
+//! How fast maps are read, and how much memory this takes.
 //!
-//! `cargo run --release -p laneweave-bench --bin maps -- MAP.osm [MB]` reads the map as it is, and then tiled to this
-//! size: copies of it, side by side, with ids of their own.
+//! `cargo run --release -p laneweave-bench --bin maps -- MAP.osm [MB]` reads the map unchanged, and then tiled to
+//! this size: copies of it, side by side, with ids of their own.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -122,7 +122,7 @@ fn write_copy(out: &mut String, body: &str, number: i64, tile: [f64; 2]) {
     out.push_str(rest);
 }
 
-/// Memory of the process as the system tells it under `key` [MB]; 0 where it does not.
+/// Memory of the process that the system reports under `key` [MB]; 0 where it does not.
 fn resident_mb(key: &str) -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix(key));

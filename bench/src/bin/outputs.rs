@@ -1,10 +1,10 @@
-//! What it costs to write results: the same hour with nothing written, and with more and more of it.
+//! The cost of writing results: the same hour with no output, and with more and more of it.
 //!
 //! `cargo run --release -p laneweave-bench --bin outputs [-- DIR]` runs a motorway of 20 km and the town of the demo,
-//! on one thread and on two, into a temporary folder in DIR, and prints what each kind of output adds to the time of
-//! the run that leaves none: of the best rounds, and in the median of the differences within a round. For comparison
-//! there is the run that leaves none while another core is busy with what has nothing to do with it. `… -- short DIR`
-//! runs twenty minutes of the motorway once, with everything, to count instructions under callgrind.
+//! on one thread and on two, into a temporary folder in DIR. It prints how much time each kind of output adds to that
+//! of the run without output: of the best rounds, and in the median of the differences within a round. For
+//! comparison, a run without output is made while another core does unrelated work. `… -- short DIR` runs twenty
+//! minutes of the motorway once, with all outputs, to count instructions under callgrind.
 
 use std::error::Error;
 use std::num::NonZero;
@@ -26,23 +26,23 @@ use laneweave_bench::say;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 const HOUR_S: f64 = 3600.0;
-/// Length of the motorway [m], and vehicles that come [veh/h].
+/// Length of the motorway [m], and demand [veh/h].
 const MOTORWAY_M: f64 = 20_000.0;
 const DEMAND: f64 = 5000.0;
 const SHORT_S: f64 = 1200.0;
 
-/// What a run leaves.
+/// The output of a run.
 #[derive(Clone, Copy, PartialEq)]
 enum Leaves {
-    /// Nothing: no observer looks at it.
+    /// None: there is no observer.
     Nothing,
-    /// Nothing, but another core is busy.
+    /// None, but another core is busy.
     NothingBesideABusyCore,
     /// The report, its figures and all tables but trajectories.
     NoTrajectories,
-    /// Beside it where every vehicle was in each second.
+    /// In addition, the trajectories at every second.
     Trajectories,
-    /// Beside that all lanelets in each minute, and all of SUMO's files.
+    /// In addition, all lanelets in each minute, and all of SUMO's files.
     Everything,
 }
 
@@ -129,12 +129,12 @@ fn measure(is_short: bool, dir: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The shortest time: whatever else the machine does only ever slows a round down.
+/// The shortest time: other work of the machine only ever slows a round down.
 fn best(times: &[f64]) -> f64 {
     times.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The middle one of the ratios of times within a round.
+/// The median of the ratios of times within a round.
 fn median_ratio(times: &[f64], others: &[f64]) -> f64 {
     let mut ratios: Vec<f64> = times.iter().zip(others).map(|(it, other)| it / other).collect();
     ratios.sort_by(f64::total_cmp);
@@ -149,7 +149,7 @@ fn run(
     leaves: Leaves,
     dir: &Path,
 ) -> Result<f64, Box<dyn Error>> {
-    // What an earlier run left is not replaced: to take that away costs time of its own.
+    // The results of an earlier run are not replaced: their removal costs time.
     let dir = dir.join("run");
     let mut scenario = leaves.of(scenario, &dir);
     scenario.run.duration_s = duration_s;

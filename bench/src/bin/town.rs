@@ -19,14 +19,14 @@ use laneweave_bench::{Rates, say};
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// A grid of streets, and when it is full.
+/// A grid of streets, and the number of vehicles at which it is full.
 #[derive(Clone, Copy)]
 struct Town {
     /// Streets in both directions.
     streets: usize,
-    /// Vehicles that come [veh/h].
+    /// Demand [veh/h].
     demand: f64,
-    /// Vehicles from which on is measured.
+    /// Number of vehicles at which measuring begins.
     vehicles: usize,
 }
 
@@ -57,7 +57,7 @@ struct Measured {
     world: World,
     town: Town,
     threads: usize,
-    /// When it was full [s].
+    /// Time at which it was full [s].
     filled_s: f64,
     rates: Rates,
 }

@@ -1,4 +1,4 @@
-//! All drivers of a run: for what they changed, and for what not.
+//! All drivers of a run: the reasons of their lane changes, and the reasons against.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -12,22 +12,22 @@ use crate::words::reason;
 pub struct Commonest {
     /// Changes from this time on are counted, by when their centre crossed the line [s].
     pub since_s: f64,
-    /// Completed changes by style and by the row that spoke most for them.
+    /// Completed changes by style and by the row with the largest contribution in favour.
     pub changes: BTreeMap<(String, String), u64>,
     /// Times that drivers considered lanes and stayed, or waited for a second, by reason.
     pub refusals: BTreeMap<String, u64>,
 }
 
 impl Commonest {
-    /// None yet, from now on in `world`.
+    /// No counts; counting begins now in `world`.
     pub fn since_now(world: &World) -> Commonest {
         Commonest { since_s: world.clock().time(), changes: BTreeMap::new(), refusals: BTreeMap::new() }
     }
 
-    /// Asks everybody whose turn it is in the next step, then steps.
+    /// Asks all drivers who consider lanes in the next step, then steps.
     pub fn step(&mut self, world: &mut World) {
         let clock = world.clock();
-        // Who waits is asked once a second.
+        // A driver who waits is asked once a second.
         let asks_those_who_wait = clock.step.is_multiple_of(clock.steps(1.0));
         let asked: Vec<Spot> = world
             .vehicles()
@@ -59,7 +59,7 @@ impl Commonest {
         }
     }
 
-    /// Tables of both, the commonest first.
+    /// Tables of both, the most frequent first.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         let all: u64 = self.changes.values().sum();

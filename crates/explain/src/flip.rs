@@ -1,15 +1,14 @@
-//! The smallest change of one number that would have turned a decision.
+//! Flips: the smallest change of one number that would have changed a decision.
 //!
-//! A gain is linear in the weights, so that for each there is one place on either side, if any, where the decision
-//! turns. It is found by bisection to the last bit, which also does for speeds and gaps, and for two sides that
-//! compete.
+//! A gain is linear in the weights, so for each weight there is at most one point on either side where the decision
+//! changes. Bisection finds it to the last bit; this also works for speeds and gaps, and for two sides that compete.
 
 use laneweave_models::change::{Appraisal, Driver, Row, Situation};
 use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::Side;
 use laneweave_sim::{Account, Act, Hindrance, Pairing, SideAccount};
 
-/// A number that a decision depends on.
+/// A number on which a decision depends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Knob {
     /// Weight of the incentive of this row.
@@ -30,16 +29,16 @@ pub enum Knob {
     FollowerSpeed,
 }
 
-/// A change that turns the decision.
+/// A change that changes the decision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flip {
-    /// Of what.
+    /// The number.
     pub knob: Knob,
-    /// What it is.
+    /// Its value.
     pub value: f64,
-    /// By how much it would have to be more, or less; half of that would not do.
+    /// By how much it would have to be larger or smaller; half of that would not be enough.
     pub by: f64,
-    /// The side to which the driver would have changed, or gone; none: it would have stayed, or waited.
+    /// The side to which the driver would have changed; `None`: it would have stayed, or waited.
     pub to: Option<Side>,
 }
 
@@ -50,11 +49,11 @@ impl Flip {
     }
 }
 
-/// What would have turned the decision in `account`, made with time step `dt` [s]: the change that is smallest relative
-/// to its number first. Empty where there was nothing to decide, or no single number decides.
+/// The flips of the decision in `account`, made with time step `dt` [s]: the change that is smallest relative to its
+/// number first. Empty where there was nothing to decide, or where no single number decides.
 pub fn flips(account: &Account, dt: f64) -> Vec<Flip> {
     let mut found = match account.act {
-        // At the last place for a change no number decides.
+        // At the last place for a change no single number decides.
         Act::Wants(..) if account.wants_its_last_chance() => Vec::new(),
         Act::Stays | Act::Wants(..) => of_desire(account),
         Act::Goes(side) | Act::Waits(side, Hindrance::Ahead(..) | Hindrance::Behind(..)) => {
@@ -66,12 +65,12 @@ pub fn flips(account: &Account, dt: f64) -> Vec<Flip> {
     found
 }
 
-/// The sides that the driver weighs.
+/// The sides that the driver considers.
 fn weighed<'s, 'a>(account: &'s Account<'a>) -> [Option<&'s SideAccount<'a>>; 2] {
     account.sides.each_ref().map(|it| it.as_ref().filter(|it| !it.is_out_of_question))
 }
 
-/// The side that is desired if the sides are appraised so.
+/// The desired side with these appraisals.
 fn desired(account: &Account, appraised: impl Fn(&SideAccount) -> Appraisal) -> Option<Side> {
     let sides = weighed(account);
     let appraisals = sides.map(|it| it.map(&appraised));
@@ -88,7 +87,7 @@ fn of_desire(account: &Account) -> Vec<Flip> {
             continue;
         }
         let outcome = |by| desired(account, |it| with_weight(account, it, row, by));
-        // Nobody weighs less than not at all, unless it does already.
+        // A weight stays at least zero, unless it is already negative.
         flips.extend(flip(Knob::Weight(row), *weight, [-weight.max(0.0), f64::INFINITY], outcome));
     }
     let desired_speed = any.situation.me.pace.desired;
@@ -112,16 +111,16 @@ fn of_desire(account: &Account) -> Vec<Flip> {
     flips
 }
 
-/// The appraisal of a side where the incentive of `row` weighs more by `by`.
+/// The appraisal of a side with the weight of the incentive of `row` changed by `by`.
 fn with_weight(account: &Account, side: &SideAccount, row: usize, by: f64) -> Appraisal {
     let mut rows = side.appraisal.rows;
     rows[row].weight += by;
-    // What is out of the question for another reason stays so.
+    // A side that is excluded for another reason stays excluded.
     let gain = if side.appraisal.gain.is_finite() { account.change.gain(&rows) } else { side.appraisal.gain };
     Appraisal { rows, gain, ..side.appraisal }
 }
 
-/// The appraisal of a side where something is otherwise.
+/// The appraisal of a side with one number changed.
 fn reappraised(account: &Account, side: &SideAccount, change: impl Fn(&mut Situation)) -> Appraisal {
     let mut situation = side.situation;
     change(&mut situation);
@@ -169,8 +168,8 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
             (suits(slower_ahead(by)) && suits(faster_behind(by)) && own + by <= account.fastest)
                 .then_some(side)
         };
-        // The slower, the better for the gap ahead; the faster, the better for the one behind. Where one refuses, its
-        // own turning point is the only one, and the other has to agree there.
+        // A lower speed is better for the gap ahead, a higher speed for the gap behind. If one of the gaps is
+        // refused, only its own limit can be the flip, and the other gap has to be accepted there.
         let found = match account.act {
             Act::Waits(_, Hindrance::Ahead(..)) => {
                 flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(slower_ahead(by)).then_some(side))
@@ -186,7 +185,7 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
     flips
 }
 
-/// The smaller of the changes of `knob`, which is `value`, up and down within `bounds`, that turns the `outcome`.
+/// The smaller of the changes of `knob`, up and down from `value` within `bounds`, that changes the `outcome`.
 fn flip(
     knob: Knob,
     value: f64,
@@ -200,7 +199,7 @@ fn flip(
     Some(Flip { knob, value, by: nearest, to: outcome(nearest) })
 }
 
-/// The least positive number up to `most`, to the last bit, for which `turns` holds, of which the half does not.
+/// The smallest positive number up to `most`, to the last bit, for which `turns` holds but not for its half.
 fn turning_point(most: f64, turns: impl Fn(f64) -> bool) -> Option<f64> {
     const LEAST: f64 = 1e-6;
     const DOUBLINGS: i32 = 40;

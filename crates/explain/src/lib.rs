@@ -1,4 +1,5 @@
-//! Why a driver changed lanes, waited, or stayed. Nothing is logged for it: the run is repeated, and the driver asked.
+//! Explanations: why a driver changed lanes, waited, or stayed. They need no log: the run is repeated, and the driver
+//! is asked.
 
 mod commonest;
 mod flip;

@@ -3,7 +3,7 @@
 use laneweave_network::Network;
 use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
 
-/// What holds a vehicle, as one sentence.
+/// The reason, as one sentence.
 pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
     match it {
         StandsFor::Leader { vehicle, gap } => format!("it stands behind vehicle {vehicle}, {gap:.1} m ahead"),

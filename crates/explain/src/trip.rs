@@ -1,4 +1,4 @@
-//! One driver: its whole trip in lines, or one moment of it.
+//! One driver: its whole trip line by line, or one moment of it.
 
 use std::fmt::Write;
 
@@ -10,32 +10,31 @@ use crate::flip::flips;
 use crate::standing::stands_for;
 use crate::words::{act, flip_in_words, story};
 
-/// What a driver made of its lanes at a moment, as far as it was on the road.
+/// The explanation of a driver at a moment, if it was on the road.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Moment {
     /// Its account, in words.
     Told(String),
     /// It was on the road at other times only [s].
     At(f64, f64),
-    /// It never came.
+    /// It never entered.
     Never,
 }
 
 /// Slower than this a vehicle stands [m/s].
 const STANDS: f64 = 0.1;
-/// A standstill is told after this time [s]. Ours.
+/// A standstill is reported after this time [s]. Ours.
 const TOLD_AFTER: f64 = 10.0;
 
-/// Where the main entry of vehicle `id` stands, if it is on the road.
+/// The position of vehicle `id`'s main entry, if it is on the road.
 fn spot_of(world: &World, id: VehicleId) -> Option<Spot> {
     world.vehicles().find(|it| it.id() == id).map(|it| it.spot)
 }
 
-/// What the driver of `id` made of its lanes when it last considered them, or waited for a gap, at or before `time`
-/// [s]: the `world` is driven there, and not beyond `steps` steps. `with_flips`: with what would have turned its
-/// decision.
+/// The account of the driver of `id` when it last considered lanes, or waited for a gap, at or before `time` [s]. The
+/// `world` is simulated up to there, but at most `steps` steps. `with_flips`: including the flips of its decision.
 pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flips: bool) -> Moment {
-    /// Nobody considers lanes less often [s].
+    /// Maximum time between two considerations of lanes [s].
     const LONGEST_EPOCH: f64 = 60.0;
     let (mut told, mut seen) = (None, None);
     for _ in 0..steps {
@@ -80,8 +79,8 @@ fn full(world: &World, account: &Account, with_flips: bool) -> String {
     told
 }
 
-/// The trip of the driver of `id`, line by line: what it did from when to when, and why. `None` if it never came within
-/// `steps` steps.
+/// The trip of the driver of `id`, line by line: its actions with their times and reasons. `None` if it did not enter
+/// within `steps` steps.
 pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> Option<String> {
     let mut lines = Lines::default();
     let told_after = world.clock().steps(TOLD_AFTER);
@@ -138,11 +137,11 @@ fn place(network: &Network, spot: Spot, world: &World) -> String {
     format!("on lanelet {}, {along:.1} m, at {:.1} km/h", lanelet.id, motion.speed * KMH_PER_MPS)
 }
 
-/// Lines, of which those of one kind that follow each other are one.
+/// Lines; successive ones of the same kind become one.
 #[derive(Default)]
 struct Lines {
     text: String,
-    /// The present one: its kind, from when to when, how many moments, what is said last.
+    /// The present line: its kind, begin and end, number of moments, last text.
     open: Option<(std::mem::Discriminant<Act>, f64, f64, u32, String)>,
 }
 

@@ -10,7 +10,7 @@ use laneweave_study::units::KMH_PER_MPS;
 
 use crate::flip::{Flip, Knob};
 
-/// What a driver does, in one line.
+/// The action of a driver, in one line.
 pub fn act(account: &Account) -> String {
     match account.act {
         Act::DrivesOn => "drives on: it does not consider lane changes at this step".into(),
@@ -69,7 +69,7 @@ fn stays(account: &Account) -> String {
     format!("stays: {gain}")
 }
 
-/// Why a driver stays or waits, in a few words that others share.
+/// Why a driver stays or waits, in a few words that are the same for many drivers.
 pub fn reason(account: &Account) -> String {
     if let Act::Waits(_, hindrance) = account.act {
         return match hindrance {
@@ -114,8 +114,8 @@ fn above(side: &SideAccount) -> f64 {
     if side.is_out_of_question { f64::NEG_INFINITY } else { side.appraisal.gain - side.appraisal.theta }
 }
 
-/// Whether nothing but what was drawn kept the driver from wanting to go there: what is above the threshold is only
-/// likely where choices are drawn, and who changes without a reason has no threshold.
+/// Whether only the random number prevented the desire for that side. Above the threshold a desire is only likely if
+/// choices are random. A driver who changes without a reason has no threshold.
 fn is_by_chance(account: &Account, side: &SideAccount) -> bool {
     let needs_no_reason = matches!(&*account.change, LaneChangeModel::ConstantHazard(_));
     above(side) > 0.0 || (needs_no_reason && side.chance > 0.0)
@@ -125,13 +125,13 @@ fn product(row: &Row) -> f64 {
     row.weight * row.earning
 }
 
-/// The row that speaks most against a side.
+/// The row with the largest contribution against a side.
 fn worst(side: &SideAccount) -> usize {
     let rows = side.appraisal.rows.iter().enumerate();
     rows.min_by(|a, b| product(a.1).total_cmp(&product(b.1))).map_or(0, |(index, _)| index)
 }
 
-/// What speaks most for the side that a driver wants.
+/// The row with the largest contribution in favour of the desired side.
 fn leading(account: &Account, side: Side) -> String {
     let Some(wanted) = account.sides.iter().flatten().find(|it| it.side == side) else {
         return String::new();
@@ -189,7 +189,7 @@ fn refused(refusal: Refusal, pair: &GapPair) -> String {
     }
 }
 
-/// The whole account: where and how the driver is, what it makes of both sides, and what it does.
+/// The whole account: place and state of the driver, its appraisal of both sides, and its action.
 pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: &[Flip]) -> String {
     let mut text = String::new();
     let (x, speed) = position;
@@ -263,7 +263,7 @@ fn table(account: &Account, side: &SideAccount) -> Vec<String> {
     lines
 }
 
-/// What would have turned a decision, and to what.
+/// The flips of a decision, each with the new decision.
 pub(crate) fn flip_in_words(account: &Account, flip: &Flip) -> String {
     let Flip { knob, value, by, to } = flip;
     let what = match knob {

@@ -1,5 +1,5 @@
-//! A run as it stands, in a file: what moves, and what observers keep. A run that broke off goes on from there, and
-//! ends as it would have ended.
+//! Checkpoints: the state of a run and of its observers in a file. An interrupted run continues from there, and ends
+//! with the same results.
 
 use std::fs;
 use std::io::{self, Write};
@@ -14,33 +14,33 @@ use crate::folder::{CHECKPOINT, PAGES};
 use crate::outcome::{Queues, ShortTrips};
 use crate::pack::{pack, unpack};
 
-/// A run as it stands.
+/// The state of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Hash of all that the run depends on.
+    /// Hash of everything on which the run depends.
     pub fingerprint: String,
-    /// Hash of [what is written](crate::record::outputs).
+    /// Hash of [the settings of the output](crate::record::outputs).
     pub outputs: String,
     /// Simulated time at which measuring began [s].
     pub measured_from_s: f64,
-    /// Steps that were measured.
+    /// Number of measured steps.
     pub measured_steps: u32,
     /// The world.
     pub world: Vec<u8>,
     /// The queues at the entrances so far.
     pub queues: Queues,
-    /// The trips of one lanelet so far.
+    /// The trips within one lanelet so far.
     pub short_trips: ShortTrips,
-    /// What each observer keeps.
+    /// The state of each observer.
     pub observers: Vec<Vec<u8>>,
 }
 
-/// Where and how often a run is kept as it stands.
+/// Where and how often a run writes checkpoints.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keeper {
     /// The file.
     pub path: PathBuf,
-    /// After so many measured steps each.
+    /// Number of measured steps between two checkpoints.
     pub every: u32,
     /// See [`Checkpoint::fingerprint`].
     pub fingerprint: String,
@@ -48,9 +48,9 @@ pub struct Keeper {
     pub outputs: String,
 }
 
-/// The name of the file among the results.
+/// The name of the checkpoint file in the folder of results.
 pub const FILE: &str = CHECKPOINT;
-/// The name of the file of what was written so far.
+/// The name of the log of written pages.
 pub const LOG: &str = PAGES;
 /// The names of both.
 pub const FILES: [&str; 2] = [FILE, LOG];
@@ -58,7 +58,7 @@ pub const FILES: [&str; 2] = [FILE, LOG];
 const HASH: usize = 8;
 
 impl Checkpoint {
-    /// Writes the file at `path`, in place of a former one: it is whole or not there.
+    /// Writes the file at `path` and replaces a former one; the file is complete or not there.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -77,7 +77,7 @@ impl Checkpoint {
     /// The checkpoint at `path`, if there is one.
     ///
     /// # Errors
-    /// If it cannot be read, or is not whole.
+    /// If it cannot be read, or is not complete.
     pub fn read(path: &Path) -> Result<Option<Checkpoint>, Fault> {
         let bytes = match fs::read(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),

@@ -1,4 +1,4 @@
-//! The folder of results: one program writes into it at a time, and what lies in it is of one run.
+//! The folder of results: one program at a time writes into it, and all its files belong to one run.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 
 use laneweave_scenario::Fault;
 
-/// Every name that a run gives to a file of results, in the order in which they are to go: without its summary no run
-/// has ended.
+/// Every file name of the results of a run, in the order of removal: a run without a summary has not ended.
 pub const RESULTS: [&str; 21] = [
     "summary.json",
     CHECKPOINT,
@@ -31,19 +30,19 @@ pub const RESULTS: [&str; 21] = [
     "lane_change_rate.svg",
     "time_space.svg",
 ];
-/// The folder in it for what twins of the run differ in.
+/// The folder in it for the differences between twins.
 pub const BRANCH: &str = "branch";
 /// Every name of a table there.
 pub const DIFFERENCES: [&str; 4] =
     ["differences.parquet", "differences.csv", "instants.parquet", "instants.csv"];
-/// The name of a run as it stands, and of what was written so far.
+/// The names of a checkpoint, and of the log of pages.
 pub(crate) const CHECKPOINT: &str = "checkpoint";
 pub(crate) const PAGES: &str = "checkpoint.pages";
 /// The name of a report.
 pub const REPORT: &str = "report.html";
 
-/// A folder into which no other laneweave writes as long as this lives; where the system does not lock folders, others
-/// do.
+/// A folder that no other laneweave process can claim while this value lives; on systems that do not lock folders
+/// they can.
 #[derive(Debug)]
 pub struct Claim {
     dir: PathBuf,
@@ -71,12 +70,12 @@ impl Claim {
         }
     }
 
-    /// Where the folder is.
+    /// The path of the folder.
     pub fn dir(&self) -> &Path {
         &self.dir
     }
 
-    /// Removes the files of these `names` from the folder, and what of them was only begun.
+    /// Removes the files with these `names`, and their unfinished versions, from the folder.
     ///
     /// # Errors
     /// If one is there and cannot be removed.
@@ -88,7 +87,7 @@ impl Claim {
         Ok(())
     }
 
-    /// Removes the [differences](DIFFERENCES) that former twins left in the folder, and their report, if they left any.
+    /// Removes the [differences](DIFFERENCES) that former twins left in the folder, and their report.
     ///
     /// # Errors
     /// If one is there and cannot be removed.
@@ -100,22 +99,22 @@ impl Claim {
         self.clear(&DIFFERENCES)
     }
 
-    /// Returns when these `files` of the folder, and their names, are where not even a loss of power takes them.
+    /// Waits until these `files` of the folder, and their names, are on disk, so that they survive a loss of power.
     ///
     /// # Errors
-    /// If the system cannot have them there.
+    /// If the system cannot do this.
     pub fn settle(&self, files: &[PathBuf]) -> Result<(), Fault> {
         for path in files {
             let settled = File::options().append(true).open(path).and_then(|it| it.sync_all());
             settled.map_err(|error| Fault::refused(path, "written", &error))?;
         }
-        // Not every system lets folders be asked for it.
+        // Some systems cannot do this for folders.
         let _ = self.folder.as_ref().map(File::sync_all);
         Ok(())
     }
 }
 
-/// Removes the file at `path`, if it is there.
+/// Removes the file at `path`, if it exists.
 fn remove(path: &Path) -> Result<(), Fault> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(Fault::refused(path, "removed", &error)),

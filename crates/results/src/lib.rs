@@ -1,5 +1,5 @@
-//! What a run leaves: tables, a summary, checkpoints, a record by which it can be run again, and reports. Observers
-//! read the world and never write it; a file that they write is complete or not there.
+//! The results of a run: tables, a summary, checkpoints, a record from which it can be repeated, and reports.
+//! Observers read the world and never write it; a file that they write is complete or not there.
 
 pub mod checkpoint;
 pub mod folder;

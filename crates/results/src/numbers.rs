@@ -1,8 +1,8 @@
-//! Numbers as people read them.
+//! Numbers in a form for people.
 
 use laneweave_study::Interval;
 
-/// A number with so many significant digits, without an exponent; a dash for what is not finite.
+/// A number with so many significant digits, without an exponent; a dash for values that are not finite.
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -23,7 +23,7 @@ pub fn signed(value: f64, decimals: usize) -> String {
 
 /// A count, with its digits in groups of three.
 pub fn counted(count: u64) -> String {
-    /// A narrow space at which no line is broken.
+    /// A narrow no-break space.
     const BETWEEN: char = '\u{202f}';
     let digits = count.to_string();
     let mut text = String::new();
@@ -41,7 +41,7 @@ pub fn percent(share: f64) -> String {
     number(100.0 * share, if share < 0.1 { 2 } else { 3 }) + " %"
 }
 
-/// A value with the interval around it, both with so many significant digits of the value.
+/// A value with its interval, both with so many significant digits of the value.
 pub fn with_interval(value: f64, Interval { lower, upper }: Interval, digits: usize) -> String {
     if !(lower.is_finite() && upper.is_finite()) {
         return number(value, digits);

@@ -1,4 +1,4 @@
-//! What watches a run.
+//! Observers of a run.
 
 use std::path::PathBuf;
 
@@ -7,31 +7,32 @@ use laneweave_sim::World;
 
 use crate::outcome::Summary;
 
-/// Something that watches a run; most leave files. One that keeps nothing from step to step needs `observe` only.
+/// An observer of a run; most of them write files. One without a state needs `observe` only.
 pub trait Observer {
-    /// Sees the world after a step.
+    /// Observes the world after a step.
     ///
     /// # Errors
-    /// If what it sees cannot be written.
+    /// If its data cannot be written.
     fn observe(&mut self, world: &World) -> Result<(), Fault>;
 
-    /// What it keeps in memory, as bytes; what it has collected for the files it hands over first. By default nothing.
+    /// Its state as bytes, for a checkpoint. Before, it sends the data that it has collected to its files. By default
+    /// it is empty.
     ///
     /// # Errors
-    /// If what is handed over cannot be written.
+    /// If the data cannot be written.
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         Ok(Vec::new())
     }
 
-    /// Goes on from what it kept.
+    /// Restores its state.
     ///
     /// # Errors
-    /// If it is not what it kept.
+    /// If the bytes are not such a state.
     fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
         Ok(())
     }
 
-    /// Completes its files after a run that amounts to `summary`, and names them. By default it leaves none.
+    /// Completes its files after a run with this `summary`, and returns their names. By default there are none.
     ///
     /// # Errors
     /// If a file cannot be written.

@@ -1,4 +1,4 @@
-//! What observers keep, as bytes in a checkpoint.
+//! The state of observers, as bytes in a checkpoint.
 
 use laneweave_scenario::Fault;
 use serde::Serialize;
@@ -6,12 +6,12 @@ use serde::de::DeserializeOwned;
 
 use crate::folder::CHECKPOINT;
 
-/// What is to be kept, as bytes.
+/// The state as bytes.
 pub(crate) fn pack(kept: &impl Serialize) -> Result<Vec<u8>, Fault> {
     postcard::to_allocvec(kept).map_err(|error| Fault::new(CHECKPOINT, error, "report this as a bug"))
 }
 
-/// What was kept.
+/// The state from bytes.
 pub(crate) fn unpack<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Fault> {
     postcard::from_bytes(bytes).map_err(|error| {
         Fault::new(

@@ -1,4 +1,5 @@
-//! What was run, kept with its results so that it can be run again: to be explained, to go on, or to go otherwise.
+//! The record of a run, stored with its results, so that it can be repeated: to explain it, to resume it, or to
+//! change it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,44 +16,45 @@ use crate::checkpoint;
 use crate::folder::{BRANCH, Claim, RESULTS};
 use crate::whole_file::write_whole;
 
-/// The numbers of a run, among its results.
+/// The name of the summary in the results.
 pub const SUMMARY: &str = "summary.json";
-/// The scenario among them.
+/// The name of the scenario in them.
 pub const SCENARIO: &str = "scenario.toml";
-/// The folder of its style files, and the name of the map that came with the program, without its extension.
+/// The folder of its style files, and the name of a built-in map, without its extension.
 const STYLES: &str = "styles";
 const MAP: &str = "map";
-/// The line below the command in it: by it the scenario of a run is told from one that somebody has written.
+/// The line below the command: it distinguishes the scenario of a run from one that a user has written.
 const MARK: &str = "# What ran, with all defaults and options: kept with its results, and replaced by the next run into this folder.";
 
-/// A run that has left its results.
+/// A run with stored results.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// What was run.
+    /// The run.
     pub scenario: Scenario,
-    /// Where its values came from.
+    /// The source of its values.
     pub origin: Origin,
     /// What is known of its end.
     pub end: End,
 }
 
-/// What the summary of a run says of its end.
+/// The end of a run, from its summary.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct End {
     /// Hash of all vehicles.
     pub state_hash: String,
-    /// Hash of all that the run depended on.
+    /// Hash of everything on which the run depended.
     pub fingerprint: String,
     /// Simulated and measured time [s].
     pub duration_s: f64,
-    /// Simulated time before [s].
+    /// Simulated time before it [s].
     pub warmup_s: f64,
 }
 
-/// Makes the claimed folder ready for another run: what a former one left goes. Nothing that no run has left does.
+/// Prepares the claimed folder for another run: removes the results of a former run, and nothing else.
 ///
 /// # Errors
-/// If a scenario lies there that no run has left and that this one would replace, or if something cannot be removed.
+/// If the folder has a scenario that comes from no run and that this run would replace, or if something cannot be
+/// removed.
 pub fn clear(claim: &Claim) -> Result<(), Fault> {
     let path = claim.dir().join(SCENARIO);
     let former = match fs::read(&path) {
@@ -68,15 +70,15 @@ pub fn clear(claim: &Claim) -> Result<(), Fault> {
     let branch = claim.dir().join(BRANCH);
     if branch.is_dir() {
         Claim::on(&branch)?.clear_differences()?;
-        // Whatever else lies there stays, and the folder with it.
+        // Other files stay, and the folder with them.
         let _ = fs::remove_dir(&branch);
     }
     claim.clear(&RESULTS)?;
     claim.clear(&[SCENARIO])
 }
 
-/// Writes `scenario` into the folder of its results, `dir`, with its style files and the `command` that gave it: run
-/// from there it is the same. Returns the text that was written.
+/// Writes `scenario` into the folder of its results, `dir`, with its style files and its `command`; a run of this
+/// file is the same. Returns the written text.
 ///
 /// # Errors
 /// If a file cannot be read or written.
@@ -93,7 +95,7 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> 
     Ok(text)
 }
 
-/// The styles of `scenario`, whose files are copied.
+/// The styles of `scenario` with copies of their files.
 fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTreeMap<String, f64>, Fault> {
     let mut kept = BTreeMap::new();
     for (name, weight) in &scenario.styles {
@@ -112,8 +114,8 @@ fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTree
     Ok(kept)
 }
 
-/// Has `text` in a file of `folder`, and names it: `STEM.EXTENSION`, or `STEM-2.EXTENSION` and so on where that is
-/// taken or has another text, which stays.
+/// Stores `text` in a file of `folder`, and returns its name: `STEM.EXTENSION`, or `STEM-2.EXTENSION` and so on if
+/// that name is taken by another text, which stays.
 fn keep_text(
     folder: &Path,
     [stem, extension]: [&str; 2],
@@ -143,12 +145,12 @@ fn keep_text(
     }
 }
 
-/// The path to `file` from `dir` on.
+/// The relative path to `file` from `dir`.
 fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
     let whole = |path: &Path| fs::canonicalize(path).map_err(|error| Fault::refused(path, "found", &error));
     let [file, dir] = [whole(file)?, whole(dir)?];
     let shared = file.components().zip(dir.components()).take_while(|(a, b)| a == b).count();
-    // On another drive there is no way from one to the other.
+    // There is no relative path to another drive.
     if shared == 0 {
         return Ok(file);
     }
@@ -156,8 +158,8 @@ fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
     Ok(up.chain(file.components().skip(shared)).collect())
 }
 
-/// Hash of all that a run depends on: the program's version, the scenario but for its output, its threads and its
-/// largest map, the styles, the map.
+/// Hash of everything on which a run depends: the program's version, the scenario without its output, its threads and
+/// its size limit of the map, the styles, the map.
 ///
 /// # Errors
 /// If the map or a style file cannot be read.
@@ -184,8 +186,8 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     Ok(format!("{:016x}", hash.digest()))
 }
 
-/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: the names of the
-/// files do not matter.
+/// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: file names do not
+/// matter.
 ///
 /// # Errors
 /// If a style file cannot be read.
@@ -199,10 +201,10 @@ pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, 
     Ok(styles)
 }
 
-/// Hash of what a run writes, and how: all that its output says but for the folder.
+/// Hash of the output of a run: all its output settings except the folder.
 ///
 /// # Errors
-/// None, as long as every output can be written down.
+/// None, as long as every output setting can be serialized.
 pub fn outputs(scenario: &Scenario) -> Result<String, Fault> {
     let output = Output { dir: PathBuf::new(), ..scenario.output.clone() };
     let toml =
@@ -211,10 +213,10 @@ pub fn outputs(scenario: &Scenario) -> Result<String, Fault> {
 }
 
 impl Record {
-    /// The run that left its results in `dir`.
+    /// The run with its results in `dir`.
     ///
     /// # Errors
-    /// If there are none, or what the run depended on has changed since.
+    /// If there are none, or if something on which the run depended has changed since.
     pub fn open(dir: &Path) -> Result<Record, Fault> {
         let remedy =
             "give the results folder of a run (its --out), which contains summary.json and scenario.toml";

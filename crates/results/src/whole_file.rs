@@ -1,4 +1,4 @@
-//! Files that are whole or not there.
+//! Files that are complete or not there.
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 
-/// The observed time: consecutive intervals of equal duration. What happens outside is not counted.
+/// The observed time: consecutive intervals of equal duration. Events outside are not counted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Begin of the first interval [s].
@@ -42,7 +42,7 @@ pub enum EdieError {
     },
 }
 
-/// Boxes of road sections × intervals, and what vehicles did in them.
+/// Boxes of road sections × intervals, and the traffic in them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EdieGrid {
     window: Window,
@@ -51,7 +51,7 @@ pub struct EdieGrid {
     boxes: Vec<Totals>,
 }
 
-/// What happened in one box.
+/// The traffic in one box.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Totals {
     /// Σt: time spent by all vehicles [s].
@@ -62,7 +62,7 @@ struct Totals {
     changes: u64,
 }
 
-/// The measures of one box. Where a section's length is that of all its lanes together, they are per lane.
+/// The measures of one box. If a section's length is that of all its lanes together, the measures are per lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdieRow {
     /// Index of the section.
@@ -122,7 +122,7 @@ impl EdieGrid {
         let duration_s = f64::from(vehicles) * duration_s;
         let first = begin.max(0.0) as usize;
         if begin >= 0.0 && end <= (first + 1) as f64 && first < self.window.intervals {
-            // As nearly all do, it lies within one interval.
+            // Like most pieces, it lies within one interval.
             let totals = self.totals(section, first);
             totals.time_s += duration_s;
             totals.distance_m += distance_m;

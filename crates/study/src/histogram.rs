@@ -8,7 +8,7 @@ pub struct Histogram {
     from: f64,
     width: f64,
     bins: Vec<u64>,
-    /// Values below the first bin, and from the end of the last one on.
+    /// Values below the first bin, and values from the end of the last one on.
     outside: [u64; 2],
 }
 
@@ -18,7 +18,7 @@ impl Histogram {
         Histogram { from, width, bins: vec![0; bins.max(1)], outside: [0; 2] }
     }
 
-    /// Counts a value; one that is not finite lies beyond, and what is no number is not counted.
+    /// Counts a value. An infinite one lies beyond the bins; NaN is not counted.
     #[inline]
     pub fn add(&mut self, value: f64) {
         let place = (value - self.from) / self.width;
@@ -43,7 +43,7 @@ impl Histogram {
         }
     }
 
-    /// Number of all values, those outside the bins too.
+    /// Number of all values, including those outside the bins.
     pub fn total(&self) -> u64 {
         self.bins.iter().sum::<u64>() + self.outside[0] + self.outside[1]
     }
@@ -75,8 +75,8 @@ impl Histogram {
         self.bins.iter().map(move |it| *it as f64 / total)
     }
 
-    /// The histogram without its empty bins at either end, as far as `others` have none there either, and nobody lies
-    /// beyond; from a first bin at zero on none are left out. The bins are all the same.
+    /// The histogram without its empty bins at either end, if `others` have none there either and no value lies
+    /// beyond; if the first bin is at zero, it stays. All histograms have the same bins.
     pub fn trimmed(&self, others: &[&Histogram]) -> Histogram {
         let all = || others.iter().copied().chain([self]);
         let is_used = |bin: &usize| all().any(|it| it.bins.get(*bin).is_some_and(|count| *count > 0));
@@ -91,8 +91,8 @@ impl Histogram {
         Histogram { from, bins: self.bins[first..=last].to_vec(), ..*self }
     }
 
-    /// The value below which a `share` of all lies, within its bin as if they were spread evenly; `None` without any
-    /// value, or outside the bins.
+    /// The value below which a `share` of all values lies; within a bin, values count as evenly spread. `None`
+    /// without any value, or outside the bins.
     pub fn quantile(&self, share: f64) -> Option<f64> {
         let mut left = share * self.total() as f64 - self.outside[0] as f64;
         if left < 0.0 || self.total() == 0 {

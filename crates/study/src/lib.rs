@@ -1,6 +1,6 @@
 //! From observations of traffic to evidence: statistics, Edie's density and flow, figures, tables.
 //!
-//! Knows no simulator: plain numbers come in; numbers, SVG text and files go out.
+//! This crate knows no simulator: plain numbers come in; numbers, SVG text and files go out.
 
 mod edie;
 #[cfg(feature = "figures")]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::edie::EdieRow;
 use crate::statistics::{Interval, poisson_interval};
 
-/// Boxes of like density, taken together.
+/// Boxes of similar density, pooled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RatePoint {
     /// ρ: mean density of the boxes, weighted by their size [veh/km per lane].
@@ -29,7 +29,7 @@ impl RatePoint {
     }
 }
 
-/// One curve: a model, a style, a recording.
+/// One curve, of a model, a style or a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSeries {
     /// Its name in the legend.

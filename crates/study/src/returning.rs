@@ -1,22 +1,22 @@
-//! How readily drivers come back to a lane, from whether they did: α of P = 1 − e^(−αx) by maximum likelihood.
+//! Maximum likelihood estimate of α in P = 1 − e^(−αx), from observations whether drivers came back to a lane.
 //!
 //! x = T_h S, headway times remaining distance. A generalized linear model with complementary log-log link and the
-//! offset ln x, which has one parameter: its likelihood has one maximum, where the score Σ [y x e^(−αx)/(1 − e^(−αx)) −
-//! (1 − y) x] vanishes.
+//! offset ln x, which has one parameter: its likelihood has one maximum, where the score Σ [y x e^(−αx)/(1 − e^(−αx))
+//! − (1 − y) x] vanishes.
 
 use libm::expm1;
 
-/// Somebody who had to come back.
+/// A driver who had to come back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attempt {
     /// x = T_h S [s·m], above 0.
     pub exposure: f64,
-    /// y: 1 who came back, 0 who did not; of several with the same exposure the share that did.
+    /// y: 1 if the driver came back, 0 if not; of several with the same exposure the share that did.
     pub came_back: f64,
 }
 
-/// α [1/(s·m)] that makes the `attempts` likeliest; `None` where all came back or nobody did, or there are none: any
-/// larger, or smaller, α would do better.
+/// α [1/(s·m)] of maximum likelihood for the `attempts`. `None` without attempts, or if all or none came back: then
+/// every larger, or smaller, α would be better.
 pub fn returning_rate(attempts: &[Attempt]) -> Option<f64> {
     const HALVINGS: u32 = 200;
     let score = |alpha: f64| -> f64 {

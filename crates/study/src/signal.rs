@@ -1,11 +1,11 @@
-//! The queue at a traffic light whose arrivals and departures are even (D/D/1): what a simulated queue is held against.
+//! The queue at a traffic light with constant arrivals and departures (D/D/1), the reference for a simulated queue.
 //!
 //! During red, r = C − g, the queue grows to q r; in green it shrinks with s − q and is gone after q r/(s − q). Mean
-//! delay over all who come: r²/(2 C (1 − q/s)), the first term of Webster (1958, from memory).
+//! delay over all vehicles: r²/(2 C (1 − q/s)), the first term of Webster (1958, from memory).
 
 use crate::units::SECONDS_PER_HOUR;
 
-/// A light, and who comes to it.
+/// A light and its traffic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Signal {
     /// C: length of a cycle [s].
@@ -18,10 +18,10 @@ pub struct Signal {
     pub saturation_veh_h: f64,
 }
 
-/// What becomes of the queue in each cycle.
+/// The queue in each cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalQueue {
-    /// Mean delay over all who come [s].
+    /// Mean delay over all vehicles [s].
     pub mean_delay_s: f64,
     /// Longest queue, at the end of red [veh].
     pub longest_veh: f64,
@@ -30,7 +30,8 @@ pub struct SignalQueue {
 }
 
 impl Signal {
-    /// The queue of each cycle; `None` if more come in a cycle than can leave in its green: then it grows for ever.
+    /// The queue of each cycle; `None` if more vehicles arrive in a cycle than can leave in its green: then the queue
+    /// grows without bound.
     pub fn queue(&self) -> Option<SignalQueue> {
         let [arrivals, saturation] =
             [self.arrivals_veh_h, self.saturation_veh_h].map(|it| it / SECONDS_PER_HOUR);

@@ -1,4 +1,4 @@
-//! What few replications and small counts allow to be said: intervals at 95 % confidence.
+//! Statistics of few replications and small counts: intervals at 95 % confidence.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -9,7 +9,7 @@ const CONFIDENCE: f64 = 0.95;
 /// Two-sided quantile of the normal distribution at 95 %.
 const NORMAL_QUANTILE: f64 = 1.96;
 
-/// With more degrees of freedom Student's quantile is had from the normal one, to 10⁻⁹.
+/// Above this number of degrees of freedom, Student's quantile is computed from the normal one, to 10⁻⁹.
 const NEARLY_NORMAL: usize = 200;
 
 /// A range of plausible values, in the unit of what it bounds.
@@ -28,7 +28,7 @@ pub struct Estimate {
     pub replications: usize,
     /// Sample mean.
     pub mean: f64,
-    /// Sample standard deviation (n − 1); infinite for a single replication, which tells nothing of the spread.
+    /// Sample standard deviation (n − 1); infinite for a single replication.
     pub standard_deviation: f64,
     /// Half of the 95 % confidence interval (Student's t); infinite for a single replication.
     pub half_width: f64,
@@ -48,7 +48,7 @@ pub fn mean(replications: &[f64]) -> Option<Estimate> {
     moments.estimate()
 }
 
-/// What is kept of values for their mean and spread (Welford, 1962).
+/// Running sums for the mean and spread of values (Welford, 1962).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Moments {
     count: usize,
@@ -66,7 +66,7 @@ impl Moments {
         self.squares += off * (value - self.mean);
     }
 
-    /// The mean of what was added, if it is independent; `None` without any.
+    /// The mean of the added values, if these are independent; `None` without any.
     pub fn estimate(&self) -> Option<Estimate> {
         let Moments { count: n, mean, squares } = *self;
         if n == 0 {
@@ -129,10 +129,10 @@ fn student_quantile(degrees_of_freedom: usize) -> f64 {
 
 /// The same for many degrees of freedom ν, as a series in 1/ν (Abramowitz and Stegun, 26.7.5).
 fn nearly_normal_quantile(degrees_of_freedom: usize) -> f64 {
-    /// Where the normal distribution has 97.5 % below it.
+    /// The quantile of the normal distribution at 97.5 %.
     const X: f64 = 1.959_963_984_540_054;
     const X2: f64 = X * X;
-    /// What goes with 1, 1/ν, 1/ν² and 1/ν³.
+    /// The coefficients of 1, 1/ν, 1/ν² and 1/ν³.
     const TERMS: [f64; 4] = [
         X,
         X * (X2 + 1.0) / 4.0,

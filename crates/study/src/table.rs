@@ -45,7 +45,7 @@ use self::parquet::ParquetSink;
 
 pub use self::partial::PartialFile;
 
-/// What the cells of a column hold.
+/// The type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// 64-bit floating-point numbers.
@@ -59,38 +59,38 @@ pub enum Kind {
 /// A column of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name; by the house's habit with its unit: `speed_mps`.
+    /// Its name, with its unit by convention: `speed_mps`.
     pub name: &'static str,
-    /// What its cells hold.
+    /// The type of its cells.
     pub kind: Kind,
-    /// Its values come again and again, so that a dictionary saves room.
+    /// Whether its values repeat, so that a dictionary saves space.
     pub repeats: bool,
 }
 
 impl Column {
-    /// A column of floating-point numbers, most of which come once.
+    /// A column of floating-point numbers, most of which occur once.
     pub const fn real(name: &'static str) -> Column {
         Column { name, kind: Kind::F64, repeats: false }
     }
 
-    /// A column of integers, which come again and again.
+    /// A column of integers, which repeat.
     pub const fn integer(name: &'static str) -> Column {
         Column { name, kind: Kind::I64, repeats: true }
     }
 
-    /// A column of text, which comes again and again.
+    /// A column of text, which repeats.
     pub const fn text(name: &'static str) -> Column {
         Column { name, kind: Kind::Text, repeats: true }
     }
 
-    /// The same column, whose values come again and again.
+    /// The same column with values that repeat.
     pub const fn repeating(self) -> Column {
         Column { repeats: true, ..self }
     }
 }
 
-/// A simulated time [s] as it is written: to the microsecond, without the dust of its steps, of which 1236 of 0.1 s are
-/// 123.60000000000001 s.
+/// A simulated time [s] as it is written: rounded to the microsecond, without the rounding errors of its steps (1236
+/// steps of 0.1 s are 123.60000000000001 s).
 pub fn seconds(time: f64) -> f64 {
     (time * 1e6).round() / 1e6
 }
@@ -149,14 +149,14 @@ impl<'a, T: Into<Cell<'a>>> From<Option<T>> for Cell<'a> {
     }
 }
 
-/// The values of one column in several rows, none of them missing but for NaN.
+/// The values of one column in several rows; none is missing except NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cells<'a> {
     /// Numbers; NaN is written as missing.
     F64(&'a [f64]),
     /// Integers.
     I64(&'a [i64]),
-    /// For each row the place of its text in a list.
+    /// For each row the index of its text in a list.
     Text(&'a [u32], &'a [&'a str]),
 }
 
@@ -179,7 +179,7 @@ impl<'a> Cells<'a> {
     }
 }
 
-/// How a table is written.
+/// The format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Comma-separated values with a header; numbers in their shortest form that reads back exactly.
@@ -208,7 +208,7 @@ pub enum TableError {
     Create {
         /// The table's file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: io::Error,
     },
     /// Writing fails.
@@ -216,7 +216,7 @@ pub enum TableError {
     Write {
         /// The table's file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: io::Error,
     },
     /// A row is too short or too long.
@@ -229,24 +229,25 @@ pub enum TableError {
         /// Columns of the table.
         columns: usize,
     },
-    /// A cell does not hold what its column does.
+    /// A cell has not the type of its column.
     #[error("{}: column {column} holds {kind:?}, not {cell}", path.display())]
     Cell {
         /// The table's file.
         path: PathBuf,
         /// Name of the column.
         column: &'static str,
-        /// What the column holds.
+        /// The type of the column.
         kind: Kind,
         /// The cell.
         cell: String,
     },
 }
 
-/// Writes one table. Until [`TableWriter::finish`] the file is called `NAME.partial`; dropped before, it is removed.
+/// Writes one table. Until [`TableWriter::finish`] the file is called `NAME.partial`; it is removed if the writer is
+/// dropped before.
 pub struct TableWriter {
     columns: Vec<Column>,
-    /// Stands before the file, so that it is closed when the file is removed.
+    /// This comes before the file, so that the file is closed when it is removed.
     sink: Sink,
     file: PartialFile,
 }
@@ -258,7 +259,7 @@ enum Sink {
 }
 
 impl TableWriter {
-    /// Begins a table of `columns` that will be at `path`, in place of what is there.
+    /// Begins a table of `columns` that will be at `path` and replaces an existing file.
     ///
     /// # Errors
     /// If the file cannot be created or written.

@@ -1,4 +1,4 @@
-//! What was seen of a vehicle on its way: samples, and where it changed lanes.
+//! Observations of a vehicle: samples, and its lane changes.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub struct Sample {
     pub speed_mps: f64,
 }
 
-/// Where and when a vehicle changed lanes.
+/// Place and time of a vehicle's lane change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// Time [s].

@@ -1,4 +1,4 @@
-//! Units of what is shown to people, against those of what is measured.
+//! Units of displayed values.
 
 /// Metres in a kilometre.
 pub const METRES_PER_KM: f64 = 1000.0;

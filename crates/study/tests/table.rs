@@ -1,4 +1,4 @@
-//! Tables as they are read back.
+//! Tables that are written and read again.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -71,7 +71,7 @@ impl Trajectory<'_> {
     }
 }
 
-/// The row of one of a hundred vehicles; every third is without height, every fifth without state.
+/// The row of one of a hundred vehicles; every third has no height, every fifth no state.
 fn trajectory(index: usize) -> Trajectory<'static> {
     let (second, vehicle) = (index / 100, index % 100);
     let along = second as f64 * 23.7 + vehicle as f64 / 3.0;
@@ -95,7 +95,7 @@ fn trajectory(index: usize) -> Trajectory<'static> {
     }
 }
 
-/// A folder that is empty and the test's own.
+/// An empty folder for this test.
 fn folder(name: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&folder);

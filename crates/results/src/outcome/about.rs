@@ -1,4 +1,4 @@
-//! What ran.
+//! A description of a run.
 
 use laneweave_maps::Problem;
 use laneweave_network::Network;
@@ -8,18 +8,18 @@ use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 
 use crate::numbers::{number, percent};
 
-/// What ran: plain data, kept from the begin of a run for its report.
+/// A description of a run: plain data, stored at its begin for its report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct About {
     /// The name of the map's file.
     pub map: String,
     /// Number of lanelets, length of all lanes [km], least and greatest speed limit [km/h].
     pub roads: (usize, f64, [f64; 2]),
-    /// Whose speed limits hold where the map gives none.
+    /// The law whose speed limits apply where the map gives none.
     pub law: Law,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
-    /// Names and shares of the classes of vehicles that there are.
+    /// Names and shares of the classes of vehicles.
     pub classes: Vec<(&'static str, f64)>,
     /// Demand over all origins [veh/h], and their number.
     pub demand: (f64, usize),
@@ -27,14 +27,14 @@ pub struct About {
     pub capacity: (f64, Option<String>),
     /// Length of a step, of the warm-up, of the time to be measured [s].
     pub times: [f64; 3],
-    /// What in the map could not be used as it stands.
+    /// Elements of the map that could not be used unchanged.
     pub problems: Vec<Problem>,
-    /// What in the map makes traffic look odd.
+    /// Properties of the map with which traffic looks odd.
     pub remarks: Vec<Remark>,
 }
 
 impl About {
-    /// What is about to run.
+    /// The description of a run before it begins.
     pub fn of(scenario: &Scenario, prepared: &Prepared) -> About {
         let shares = prepared.world.demand().fleet.shares();
         let classes = shares.into_iter().filter(|(_, share)| *share > 0.0);
@@ -61,7 +61,7 @@ fn roads(network: &Network) -> (usize, f64, [f64; 2]) {
 }
 
 impl About {
-    /// It in words: names and what they stand for.
+    /// The description in words: names and their values.
     pub fn facts(&self) -> Vec<(String, String)> {
         let About { map, roads, law, styles, classes, demand, capacity, times, .. } = self;
         let (lanelets, lane_km, [slowest, fastest]) = roads;

@@ -10,10 +10,10 @@ pub struct Ending {
     pub measured_from_s: f64,
     /// Simulated and measured time [s].
     pub measured_s: f64,
-    /// It was called off before its time.
+    /// Whether it was interrupted before its end.
     pub is_interrupted: bool,
-    /// The queues that are left at the entrances, the longest first.
+    /// The remaining queues at the entrances, the longest first.
     pub queues: Vec<Queue>,
-    /// The trips of one lanelet.
+    /// The trips within one lanelet.
     pub short_trips: ShortTrips,
 }

@@ -8,13 +8,13 @@ use serde::Serialize;
 /// The first incident of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FirstIncident {
-    /// When it was seen [s].
+    /// When it was detected [s].
     pub time_s: f64,
     /// `collision` or `overlap`.
     pub kind: &'static str,
-    /// The lanelet of the first of the two.
+    /// The lanelet of the first of the two vehicles.
     pub lanelet: i64,
-    /// Both, the smaller id first.
+    /// Both vehicles, the smaller id first.
     pub vehicles: [VehicleId; 2],
 }
 

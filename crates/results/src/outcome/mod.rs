@@ -1,4 +1,4 @@
-//! What a run was, and what it amounts to.
+//! A run and its results in numbers.
 
 mod about;
 mod ending;

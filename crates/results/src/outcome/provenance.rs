@@ -1,24 +1,24 @@
-//! Where results come from: noted in every file that has a place for it.
+//! The provenance of results, which is written into every file with a place for it.
 
 use serde::Serialize;
 
-/// What was run, so that a file can be made again.
+/// The description of a run by which its files can be made again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Provenance {
     /// Version of the program.
     pub version: String,
     /// The command line, beginning with the name of the program.
     pub command: String,
-    /// Seed of all random draws.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Hash of all that the run depends on.
+    /// Hash of everything on which the run depends.
     pub fingerprint: String,
-    /// The scenario with all defaults and options, as TOML, as it was kept with the results.
+    /// The scenario with all defaults and options, as TOML, as stored with the results.
     pub scenario: String,
 }
 
 impl Provenance {
-    /// Of the run whose scenario was [kept](crate::record::keep) as `scenario`, with its seed and its
+    /// The provenance of a run with the [stored](crate::record::keep) `scenario`, with its seed and its
     /// [fingerprint](crate::record::fingerprint).
     pub fn of(scenario: String, seed: u64, fingerprint: String) -> Provenance {
         let command = scenario.lines().next().and_then(|it| it.strip_prefix("# ")).unwrap_or_default();
@@ -43,13 +43,13 @@ impl Provenance {
     }
 }
 
-/// The command line with these arguments, on one line, as a shell takes it.
+/// The command line with these arguments, on one line, for a shell.
 pub fn command_line(arguments: impl IntoIterator<Item = String>) -> String {
     let words = ["laneweave".into()].into_iter().chain(arguments.into_iter().map(quoted));
     words.collect::<Vec<String>>().join(" ").replace(char::is_control, " ")
 }
 
-/// An argument as a shell takes it for one.
+/// An argument, quoted for a shell if necessary.
 fn quoted(argument: String) -> String {
     let is_plain = |it: char| it.is_alphanumeric() || "-_=./:,+%@".contains(it);
     if !argument.is_empty() && argument.chars().all(is_plain) {

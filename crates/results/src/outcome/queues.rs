@@ -1,13 +1,13 @@
-//! Who waits at the entrances, and what holds them: a part of the summary.
+//! The queues at the entrances, and what blocks them: a part of the summary.
 
 use laneweave_network::Position;
 use laneweave_sim::{EntryQueue, Held, World, entry_queues};
 use serde::{Deserialize, Serialize};
 
-/// Time between two looks at the queues [s].
+/// Time between two observations of the queues [s].
 const SAMPLING: f64 = 1.0;
 
-/// Watches the queues at all lanes of all entrances.
+/// Observes the queues at all lanes of all entrances.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Queues {
     /// In the order of the demand.
@@ -19,31 +19,31 @@ pub struct Queues {
 pub struct Queue {
     /// The entrance's name: the smallest id of its lanelets.
     pub entrance: i64,
-    /// The lanelet onto which they come.
+    /// The lanelet on which its vehicles enter.
     pub lanelet: i64,
     /// Vehicles that wait at the end.
     pub waiting: usize,
-    /// The most that ever waited.
+    /// Maximum of waiting vehicles.
     pub most_waiting: usize,
-    /// How long the first in the queue was held, and by what.
+    /// How long the first in the queue was blocked, and by what.
     pub held_s: HeldFor,
 }
 
-/// Times for which the first in a queue was held [s].
+/// Times for which the first vehicle in a queue was blocked [s].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeldFor {
     /// The traffic on the lane moved, but left no gap.
     pub traffic: f64,
-    /// The vehicles ahead stood, for none of the following reasons.
+    /// The vehicles ahead stood, for another reason than the following ones.
     pub queue: f64,
     /// They stood because of a red light.
     pub red_light: f64,
-    /// They stood because others went first at a junction, or a sign stopped them.
+    /// They stood because others had priority at a junction, or because of a stop sign.
     pub priority: f64,
-    /// They stood because there was no room beyond a junction; or the room at a place inside the map was kept for
-    /// others.
+    /// They stood because there was no storage space beyond a junction; or the space at a place inside the map was
+    /// reserved for others.
     pub room: f64,
-    /// The whole map was full: no trip began within it.
+    /// Perimeter control: the whole map was full, and no trip began within it.
     pub full_map: f64,
 }
 
@@ -86,12 +86,12 @@ impl HeldFor {
 }
 
 impl Queues {
-    /// Of `world`, before anybody was held.
+    /// The queues of `world`, before any vehicle was blocked.
     pub fn of(world: &World) -> Queues {
         Queues { lanes: entry_queues(world).map(|it| Queue::at(world, &it)).collect() }
     }
 
-    /// Looks at them after a step.
+    /// Observes them after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
         if !clock.step.is_multiple_of(clock.steps(SAMPLING)) {
@@ -105,7 +105,7 @@ impl Queues {
         }
     }
 
-    /// Those in which vehicles wait now, the longest first.
+    /// The queues in which vehicles wait now, the longest first.
     pub fn left(self, world: &World) -> Vec<Queue> {
         let now = self.lanes.into_iter().zip(entry_queues(world));
         let with_numbers = now.map(|(lane, now)| Queue {

@@ -1,10 +1,11 @@
-//! Trips that begin and end on one lanelet: counted, and left out of means, to which they would say nothing of traffic.
+//! Trips that begin and end on one lanelet: they are counted, but left out of means, because they show nothing of
+//! traffic.
 
 use laneweave_network::Position;
 use laneweave_sim::{Counts, Event, World};
 use serde::{Deserialize, Serialize};
 
-/// The trips of one lanelet so far, with their parts of what is counted of all trips.
+/// The trips within one lanelet so far, with their part of the counters of all trips.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShortTrips {
     /// Their number.
@@ -15,19 +16,19 @@ pub struct ShortTrips {
     stops: u64,
 }
 
-/// Means over the trips that ended, but for those of one lanelet.
+/// Means over the completed trips, without those within one lanelet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TripMeans {
     /// Time on the map [s].
     pub duration: Option<f64>,
-    /// What they took beyond the time on a free road, of those who had somewhere to go [s].
+    /// Delay beyond the time on a free road, over the trips that had a distance to drive [s].
     pub delay: Option<f64>,
-    /// Times that they came to a halt.
+    /// Number of stops.
     pub stops: Option<f64>,
 }
 
 impl ShortTrips {
-    /// Looks at those who left in the last step.
+    /// Counts the trips that were completed in the last step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {
             let Event::Left { duration, chain, motion, trip: Some(trip), .. } = event else { continue };

@@ -1,4 +1,4 @@
-//! What a run amounts to, in numbers: the file `summary.json`, and the table on screen.
+//! The summary of a run in numbers: the file `summary.json`, and the table on screen.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -14,19 +14,19 @@ use super::first_incident::FirstIncident;
 use super::provenance::Provenance;
 use super::queues::Queue;
 
-/// Queues that are named on the screen.
+/// Maximum of queues that are named on the screen.
 const LISTED_QUEUES: usize = 3;
 
-/// The numbers of a run. Fields are added, never renamed; what cannot be known (a mean of nothing) is null.
+/// The numbers of a run. Fields are added, never renamed; unknown values (a mean of nothing) are null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Vehicles that entered while it was measured; those on the road at its begin count as entered.
+    /// Vehicles that entered in the measured time; those on the road at its begin count as entered.
     pub entered: u64,
     /// Vehicles that completed their trip; old name of `completed`.
     pub left: u64,
     /// Vehicles that completed their trip.
     pub completed: u64,
-    /// Of them, those whose trip began and ended on one lanelet, which are left out of the means over trips.
+    /// Of them, those with a trip within one lanelet, which are left out of the means over trips.
     pub trips_of_one_lanelet: u64,
     /// Vehicles on the road at the end.
     pub on_road: u64,
@@ -38,7 +38,7 @@ pub struct Summary {
     pub entrance_capacity: f64,
     /// The estimated capacity of the map [veh/h].
     pub estimated_capacity_veh_h: f64,
-    /// What is full first when the demand grows.
+    /// The bottleneck: what is full first when the demand grows.
     pub bottleneck: Option<String>,
     /// Lane changes.
     pub lane_changes: u64,
@@ -52,10 +52,10 @@ pub struct Summary {
     pub lane_changes_per_veh_km: Option<f64>,
     /// Distance driven [veh km].
     pub veh_km: f64,
-    /// Times that a vehicle came to touch the one ahead on its way, or two vehicles met while they came closer to each
-    /// other.
+    /// Times that a vehicle touched the one ahead on its path, or that two vehicles met while they came closer to
+    /// each other.
     pub collisions: u64,
-    /// Other times that two vehicles came to overlap.
+    /// Other times that two vehicles began to overlap.
     pub overlaps: u64,
     /// Collisions and overlaps.
     pub incidents: u64,
@@ -67,9 +67,9 @@ pub struct Summary {
     pub stuck: u64,
     /// Drivers who missed a turn.
     pub missed_turns: u64,
-    /// Drivers who had no way left to any destination.
+    /// Drivers without any route left to a destination.
     pub lost: u64,
-    /// Drivers who took another route: all who missed a turn do.
+    /// Drivers who took another route, including all who missed a turn.
     pub rerouted: u64,
     /// Times that a driver left its route for a better one.
     pub route_changes: u64,
@@ -79,25 +79,25 @@ pub struct Summary {
     pub updates: u64,
     /// Wall time of the process up to this summary [s].
     pub wall_s: f64,
-    /// Of it, until measuring began: reading the inputs, and the warm-up [s].
+    /// Of it, the time until measuring began: reading the inputs, and the warm-up [s].
     pub load_s: f64,
-    /// Updates per second of the time since.
+    /// Updates per second of the remaining time.
     pub updates_per_s: f64,
     /// Mean speed over all vehicles and steps [m/s].
     pub mean_speed_mps: Option<f64>,
-    /// Mean time on the map of those that left [s].
+    /// Mean time on the map of the completed trips [s].
     pub mean_trip_duration_s: Option<f64>,
-    /// Mean of what the trips of those that left took beyond the time on a free road [s].
+    /// Mean delay of the completed trips beyond the time on a free road [s].
     pub mean_delay_s: Option<f64>,
-    /// Mean number of times that those that left came to a halt.
+    /// Mean number of stops of the completed trips.
     pub mean_stops: Option<f64>,
-    /// The queues that are left at the entrances, the longest first.
+    /// The remaining queues at the entrances, the longest first.
     pub queues: Vec<Queue>,
-    /// Most memory that the process held [MB]; 0 where the system does not tell.
+    /// Maximum memory of the process [MB]; 0 where the system does not report it.
     pub peak_rss_mb: f64,
     /// Hash of all vehicles' states at the end, 16 hexadecimal digits.
     pub state_hash: String,
-    /// Hash of all that the run depended on: version, scenario, styles, map.
+    /// Hash of everything on which the run depended: version, scenario, styles, map.
     pub fingerprint: String,
     /// The command line.
     pub command: String,
@@ -105,11 +105,11 @@ pub struct Summary {
     pub demand_veh_h: f64,
     /// Simulated and measured time [s].
     pub duration_s: f64,
-    /// Simulated time before [s].
+    /// Simulated time before it [s].
     pub warmup_s: f64,
-    /// The run was called off before its time.
+    /// Whether the run was interrupted before its end.
     pub interrupted: bool,
-    /// Seed of all random draws.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Number of threads.
     pub threads: usize,
@@ -119,7 +119,7 @@ pub struct Summary {
     pub map: String,
 }
 
-/// What a summary is made from, beside the world.
+/// The inputs of a summary beside the world.
 #[derive(Clone, Copy)]
 pub struct Inputs<'a> {
     /// The scenario.
@@ -130,12 +130,12 @@ pub struct Inputs<'a> {
     pub wall_s: f64,
     /// See [`Summary::load_s`].
     pub load_s: f64,
-    /// Where it comes from.
+    /// The provenance.
     pub provenance: &'a Provenance,
 }
 
 impl Summary {
-    /// The summary of `prepared` after it has run.
+    /// The summary of `prepared` after its run.
     pub fn of(prepared: &Prepared, inputs: Inputs) -> Summary {
         let Inputs { scenario, ending, wall_s, load_s, provenance } = inputs;
         let world: &World = &prepared.world;
@@ -204,7 +204,7 @@ impl Summary {
         self
     }
 
-    /// The summary for the screen, with the files that the run left.
+    /// The summary for the screen, with the files of the run.
     pub fn to_text(&self, styles: &[(String, f64)], files: &[PathBuf]) -> String {
         let mut text = String::new();
         let total: f64 = styles.iter().map(|(_, weight)| weight).sum();
@@ -241,7 +241,7 @@ impl Summary {
                 self.entered, self.left, self.on_road, self.waiting
             ),
         );
-        // The longest queues say enough.
+        // The longest queues are enough.
         for (number, queue) in self.queues.iter().take(LISTED_QUEUES).enumerate() {
             line(if number == 0 { "waiting" } else { "" }, queue.to_text());
         }
@@ -287,7 +287,7 @@ impl Summary {
         )
     }
 
-    /// What should not happen, in words.
+    /// Problems of the run, in words.
     fn safety(&self) -> String {
         let &Summary { collisions, overlaps, stuck, emergency_brakings, missed_turns, lost, .. } = self;
         format!(

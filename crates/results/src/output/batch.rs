@@ -1,5 +1,4 @@
-//! What was seen, in batches of plain numbers: who fills them hands them over by a sender, who makes files of them is a
-//! writer.
+//! Batches of observations in plain numbers: observers send them through a sender, and writers make files of them.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Sender, SyncSender, sync_channel};
@@ -14,39 +13,39 @@ use super::names::Names;
 use super::traffic::Traffic;
 use super::trip::Trip;
 
-/// What was seen, in plain numbers.
+/// A batch of observations in plain numbers.
 #[derive(Serialize, Deserialize)]
 pub(super) enum Batch {
     /// All vehicles at some instants.
     Frame(Frame),
-    /// Lane changes that ended.
+    /// Completed and aborted lane changes.
     LaneChanges(Vec<LaneChange>),
-    /// Vehicles that came to touch each other.
+    /// Vehicles that touched each other.
     Incidents(Vec<Incident>),
-    /// Trips that ended, or that go on when the run ends.
+    /// Trips that ended, or that continue when the run ends.
     Trips(Vec<Trip>),
-    /// What happened on all lanelets in an interval.
+    /// The traffic on all lanelets in an interval.
     Flows(Traffic),
-    /// What happened on all lanelets in the whole run.
+    /// The traffic on all lanelets in the whole run.
     Lanelets(Traffic),
-    /// The log of batches is to be complete up to here; its length is told, or why it is not.
+    /// A mark: the log must be complete up to here; the answer is its length, or an error.
     #[serde(skip)]
     Mark(Sender<Result<u64, Fault>>),
-    /// The run is over, and files are to be completed.
+    /// The run is over, and the files are completed.
     #[serde(skip)]
     End,
 }
 
-/// Makes one file of those batches that concern it.
+/// Makes one file from the batches that it needs.
 pub(super) trait Writer: Send {
-    /// Writes what concerns it.
+    /// Writes the data of a batch, if it needs it.
     fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault>;
 
-    /// Completes its file, and names it.
+    /// Completes its file, and returns its name.
     fn finish(self: Box<Self>) -> Result<PathBuf, Fault>;
 }
 
-/// Hands batches to a thread that writes.
+/// Sends batches to a writer thread.
 #[derive(Clone)]
 pub(super) struct BatchSender {
     batches: SyncSender<Arc<Batch>>,
@@ -54,28 +53,28 @@ pub(super) struct BatchSender {
 }
 
 impl BatchSender {
-    /// Hands them over by `batches`; when that is closed, `fault` says why.
+    /// A sender for `pages`; if this channel is closed, `fault` has the reason.
     pub(super) fn new(batches: SyncSender<Arc<Batch>>, fault: Arc<OnceLock<Fault>>) -> BatchSender {
         BatchSender { batches, fault }
     }
 
-    /// Hands `batch` over, as soon as there is room for it.
+    /// Sends `page`, as soon as the channel has space for it.
     pub(super) fn hand_over(&self, batch: impl Into<Arc<Batch>>) -> Result<(), Fault> {
         self.batches.send(batch.into()).map_err(|_| self.fault())
     }
 
-    /// Why nobody takes batches any more.
+    /// Why no thread receives batches any more.
     pub(super) fn fault(&self) -> Fault {
         self.fault.get().cloned().unwrap_or_else(broke_off)
     }
 
-    /// Hands no more batches over.
+    /// Ends sending.
     pub(super) fn close(&mut self) {
         self.batches = sync_channel(0).0;
     }
 }
 
-/// A thread that writes ended without a word.
+/// The fault of a writer thread that ended without a reason.
 pub(super) fn broke_off() -> Fault {
     Fault::new("a writer thread", "stopped early", "report this as a bug")
 }

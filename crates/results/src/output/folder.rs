@@ -1,4 +1,4 @@
-//! Where the files of a run go.
+//! The folder for the files of a run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use laneweave_study::{Column, Format, TableWriter};
 
 use crate::outcome::Provenance;
 
-/// The folder of the results, and what is the same for all files in it.
+/// The folder of the results, and the data that all its files share.
 pub(super) struct Folder<'a> {
     pub(super) dir: &'a Path,
     pub(super) format: Format,
@@ -16,7 +16,7 @@ pub(super) struct Folder<'a> {
 }
 
 impl Folder<'_> {
-    /// Makes it, if it is not there.
+    /// Creates it, if it does not exist.
     pub(super) fn make(&self) -> Result<(), Fault> {
         let Folder { dir, .. } = self;
         fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "created as the results folder", &error))

@@ -1,6 +1,6 @@
-//! All vehicles at some instants, as they are sampled: a copy of what the world holds, and then where their bodies are.
+//! Samples of all vehicles at some instants: a copy of the world's data, and then the positions of the vehicles.
 //!
-//! The world is copied while it waits; what it takes to find the bodies is left to the thread that writes.
+//! The world waits only for the copy; the writer thread computes the positions.
 
 use laneweave_network::{ChainIndex, LaneletIndex, Point, Pose};
 use laneweave_sim::{Class, Kinematics, Phase, PreviousLanes, World, bumpers_in_lane, pose_between};
@@ -8,23 +8,23 @@ use serde::{Deserialize, Serialize};
 
 use super::names::Names;
 
-/// Vehicles in a batch, or a few more: those of one instant are not parted. Few, so that little is left to write when
-/// the run ends.
+/// Vehicles in a batch; those of one instant stay together, so there may be a few more. The number is small, so that
+/// little is left to write when the run ends.
 const BATCH: usize = 1 << 11;
 
 /// Vehicles at some instants.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Frame {
-    /// Each instant by its step, with the number of seen vehicles up to it.
+    /// Each instant by its step, with the number of sampled vehicles up to it.
     instants: Vec<(u32, usize)>,
     seen: Vec<Seen>,
     across: Vec<Across>,
-    /// Where the bodies of those seen are; empty until they are located.
+    /// The positions of the sampled vehicles; empty until they are located.
     #[serde(skip)]
     bodies: Vec<Body>,
 }
 
-/// A vehicle as the world holds it.
+/// A vehicle in the world's data.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Seen {
     pub(super) motion: Kinematics,
@@ -37,22 +37,22 @@ pub(super) struct Seen {
 
 const _: () = assert!(size_of::<Seen>() == 64, "what is copied of a vehicle fills one cache line");
 
-/// Where the body of a vehicle between two lanes is: it takes both to tell.
+/// The position of a vehicle between two lanes: both lanes are needed for it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Across {
-    /// Its place in the list of those seen.
+    /// Its index in the list of samples.
     place: usize,
     bumpers: [Point; 2],
     offset: f64,
 }
 
-/// Where a vehicle is.
+/// The position of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Body {
-    /// Where its front bumper is: on which lanelet, and how far along that [m].
+    /// Its front bumper: the lanelet, and the station on it [m].
     pub(super) lanelet: LaneletIndex,
     pub(super) along: f64,
-    /// How far its centre is to the left of the centre of the lane [m].
+    /// Distance of its centre to the left of the centre of the lane [m].
     pub(super) offset: f64,
     /// The middle of its front bumper.
     pub(super) front: Point,
@@ -73,7 +73,7 @@ impl Frame {
                 let (bumpers, offset) = (vehicle.bumpers(), vehicle.lateral_offset());
                 across.push(Across { place: seen.len(), bumpers, offset });
             }
-            // Whose rear is on its chain has nothing behind it.
+            // A vehicle with its rear on its own chain needs no previous chains.
             let previous_lanes =
                 if motion.rear() < 0.0 { vehicle.lane_change.previous_lanes } else { PreviousLanes::NONE };
             let (chain, parameters) = (vehicle.spot.chain, car.parameters);
@@ -82,7 +82,7 @@ impl Frame {
         instants.push((world.clock().step, seen.len()));
     }
 
-    /// Finds the bodies of all, if that is not done.
+    /// Computes the positions of all vehicles, if this is not done.
     pub(super) fn locate(&mut self, names: &Names) {
         let Frame { seen, across, bodies, .. } = self;
         if bodies.len() == seen.len() {
@@ -107,22 +107,22 @@ impl Frame {
         places.map(|((step, end), begin)| (*step, &self.seen[begin..*end], &self.bodies[begin..*end]))
     }
 
-    /// All that were seen, one instant after the other.
+    /// All samples, one instant after the other.
     pub(super) fn seen(&self) -> &[Seen] {
         &self.seen
     }
 
-    /// Their bodies, which must be located.
+    /// Their positions, which must be computed.
     pub(super) fn bodies(&self) -> &[Body] {
         &self.bodies
     }
 
-    /// It saw nothing yet.
+    /// Whether it has no samples.
     pub(super) fn is_empty(&self) -> bool {
         self.instants.is_empty()
     }
 
-    /// It is a batch.
+    /// Whether it is a full batch.
     pub(super) fn is_full(&self) -> bool {
         self.seen.len() >= BATCH
     }

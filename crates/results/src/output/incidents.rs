@@ -33,19 +33,19 @@ const COLUMNS: [Column; 17] = [
     Column::real("depth_m"),
 ];
 
-/// Incidents in a batch, at most those of one step more.
+/// Incidents in a batch; those of one step more at most.
 const BATCH: usize = 256;
 
 /// Collects incidents.
 pub(super) struct Incidents {
-    /// Time from which on they count [s].
+    /// Start time of counting [s].
     begin: f64,
     seen: Vec<Incident>,
     sender: BatchSender,
 }
 
 impl Incidents {
-    /// Collects those from the time `begin` [s] on.
+    /// Collects incidents from the time `begin` [s] on.
     pub(super) fn new(begin: f64, sender: BatchSender) -> Incidents {
         Incidents { begin, seen: Vec::new(), sender }
     }

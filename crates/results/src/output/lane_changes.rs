@@ -51,19 +51,19 @@ const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
     ["urgency_yield", "urgency_weight"],
 ];
 
-/// Lane changes in a batch, at most those of one step more.
+/// Lane changes in a batch; those of one step more at most.
 const BATCH: usize = 256;
 
 /// Collects the lane changes that are completed or aborted.
 pub(super) struct LaneChanges {
-    /// Time from which on they count [s].
+    /// Start time of counting [s].
     begin: f64,
     ended: Vec<LaneChange>,
     sender: BatchSender,
 }
 
 impl LaneChanges {
-    /// Collects those from the time `begin` [s] on.
+    /// Collects lane changes from the time `begin` [s] on.
     pub(super) fn new(begin: f64, sender: BatchSender) -> LaneChanges {
         LaneChanges { begin, ended: Vec::new(), sender }
     }
@@ -174,7 +174,7 @@ fn place(names: &Names, change: &LaneChange) -> Point {
     on(change.from).towards(&on(change.to), 0.5)
 }
 
-/// What is infinite, as there is nobody or no closing, is no value.
+/// An infinite value, where there is no vehicle or no closing speed, is a missing one.
 fn known(value: f64) -> Cell<'static> {
     if value.is_finite() { value.into() } else { Cell::Missing }
 }

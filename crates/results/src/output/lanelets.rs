@@ -1,4 +1,5 @@
-//! The tables `lanelets`, of what happened on every lanelet in the whole run, and `flows`, in each interval.
+//! The tables `lanelets`, with aggregates of every lanelet over the whole run, and `flows`, with those of each
+//! interval.
 
 use std::path::PathBuf;
 
@@ -15,24 +16,24 @@ use crate::observer::Observer;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
 
-/// Measures what happens on the lanelets.
+/// Measures the traffic on the lanelets.
 pub(super) struct Lanelets {
-    /// Lane changes count from this time on [s].
+    /// Start time for counting lane changes [s].
     begin: f64,
     /// Length of an interval of the flows, in steps, if they are wanted.
     every: Option<u32>,
-    /// The steps with which the present interval and the run end.
+    /// The steps at which the present interval and the run end.
     until: [u32; 2],
-    /// The intervals that are over.
+    /// The completed intervals.
     past: Traffic,
     interval: Traffic,
-    /// What vehicles did on the lanelets before the present interval.
+    /// The traffic on the lanelets before the present interval.
     before: Vec<LaneletAggregate>,
     sender: BatchSender,
 }
 
 impl Lanelets {
-    /// Measures from the step `first` to the step `last`, and intervals of `every` steps, if they are wanted.
+    /// Measures from the step `first` to the step `last`, and in intervals of `every` steps, if they are wanted.
     pub(super) fn new(
         world: &World,
         every: Option<u32>,
@@ -90,7 +91,7 @@ const FLOWS: [Column; 6] = [
     Column::real("speed_mps"),
 ];
 
-/// Writes all lanelets after every interval. Of an interval that was broken off there are no rows.
+/// Writes all lanelets after every interval. An incomplete interval has no rows.
 pub(super) struct FlowTable {
     table: TableWriter,
     path: PathBuf,
@@ -147,7 +148,7 @@ const LANELETS: [Column; 15] = [
     Column::integer("changes_from_right"),
 ];
 
-/// Writes all lanelets when the run is over.
+/// Writes all lanelets at the end of the run.
 pub(super) struct LaneletTable {
     table: TableWriter,
     path: PathBuf,
@@ -166,7 +167,7 @@ impl Writer for LaneletTable {
         let Batch::Lanelets(traffic) = batch else { return Ok(()) };
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
             let (lanelet, counts) = (&names.network.lanelets[place], &traffic.counts[place]);
-            // Who changes to the left comes from the right.
+            // A vehicle that changes to the left comes from the right.
             let ([to_left, to_right], [from_right, from_left]) = (counts.away, counts.onto);
             self.table.row(&[
                 lanelet.id.into(),

@@ -1,10 +1,10 @@
-//! The batches of a run in one file, so that a run that is resumed can have its tables and XML files written anew from
-//! the beginning.
+//! The log: all batches of a run in one file, so that a resumed run can write its tables and XML files again from the
+//! beginning.
 //!
-//! Until the first mark the file has a provisional name; a log that is already there, and that batches come from again,
-//! stays until then. Pages that come again are the same bytes, so that a former mark holds in the new log as well.
+//! Until the first mark the file has a provisional name. An existing log, from which batches are read again, stays
+//! until then. Repeated batches are the same bytes, so that a former mark is valid in the new log as well.
 //!
-//! Each batch stands after its head: its length and its hash.
+//! Each batch follows its head: its length and its hash.
 
 use std::fs::File;
 use std::io::{self, BufRead, Read, Write};
@@ -16,16 +16,16 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::batch::Batch;
 
-/// Text that is collected before it is written [bytes].
+/// Text is collected up to this length before it is written [bytes].
 const BUFFER: usize = 1 << 18;
-/// No batch is longer [bytes].
+/// Maximum length of a batch [bytes].
 const LONGEST: u32 = 1 << 30;
 
 /// Writes batches one after the other.
 pub(super) struct PageLog {
     path: PathBuf,
     file: File,
-    /// Its provisional name, as long as it has it; stands after the file, which is closed when it is removed.
+    /// Its provisional name, as long as it has it. It comes after the file, which is closed when it is removed.
     partial: Option<PartialFile>,
     buffer: Vec<u8>,
     length: u64,
@@ -52,7 +52,7 @@ impl PageLog {
         self.flush().map_err(|error| Fault::refused(&self.path, "written", &error))
     }
 
-    /// Everything up to here is in the file, which has its name now; returns its length [bytes].
+    /// Writes everything up to here into the file and gives it its final name; returns its length [bytes].
     pub(super) fn mark(&mut self) -> Result<u64, Fault> {
         let marked =
             self.flush().and_then(|()| self.file.sync_data()).and_then(|()| match self.partial.take() {

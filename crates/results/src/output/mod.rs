@@ -1,5 +1,5 @@
-//! What a run leaves behind: tables, figures, a report and a summary, each made by an observer that reads the world and
-//! never writes it.
+//! The output of a run: tables, figures, a report and a summary. An observer makes each of them; it reads the world
+//! and never writes it.
 
 mod batch;
 mod folder;

@@ -1,4 +1,4 @@
-//! What the numbers in batches stand for: lanelets, styles, origins and destinations, and lanes as SUMO names them.
+//! Names for the numbers in batches: lanelets, styles, origins and destinations, and SUMO's names of lanes.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use laneweave_sim::{Place, World};
 
 use super::sumo::Lanes;
 
-/// What all writers look up.
+/// The data that all writers look up.
 pub(super) struct Names {
     /// The roads.
     pub(super) network: Arc<Network>,
-    /// For each set of driver parameters the name of its style, and its factor on the speed limit.
+    /// For each set of driver parameters the name of its style, and its speed factor.
     driver_parameters: Vec<(String, f64)>,
     /// The ids of the origins and of the destinations, in the order of the demand.
     origins: Vec<i64>,
@@ -38,7 +38,7 @@ impl Names {
         }
     }
 
-    /// The lanelet at a place, and how far along it that is [m].
+    /// The lanelet at a place, and the station on it [m].
     pub(super) fn lanelet(&self, at: Position) -> (LaneletIndex, &Lanelet, f64) {
         let (index, along) = self.network.chain(at.chain).lanelet(at.x);
         (index, &self.network.lanelets[index.at()], along)
@@ -54,7 +54,7 @@ impl Names {
         self.driver_parameters.iter().map(|(style, _)| style.as_str())
     }
 
-    /// Factor of a set of driver parameters on the speed limit.
+    /// Speed factor of a set of driver parameters: multiple of the speed limit.
     pub(super) fn speed_factor(&self, parameters: u32) -> f64 {
         self.driver_parameters[parameters as usize].1
     }

@@ -1,4 +1,4 @@
-//! Who watches a run, and what they write.
+//! The observers of a run, and their output.
 
 use std::num::NonZero;
 use std::thread::available_parallelism;
@@ -23,11 +23,11 @@ use crate::checkpoint;
 use crate::observer::Observer;
 use crate::outcome::Provenance;
 
-/// The observers of `scenario`; makes the folder of its results. The last of them completes what the others began, and
-/// finishes after them.
+/// The observers of `scenario`; creates the folder of its results. The last of them completes the files of the
+/// others, and finishes after them.
 ///
 /// # Errors
-/// If the folder or a file in it cannot be made.
+/// If the folder or a file in it cannot be created.
 pub fn observers(
     scenario: &Scenario,
     prepared: &Prepared,
@@ -59,7 +59,7 @@ pub fn observers(
     Ok(observers)
 }
 
-/// What writes the tables.
+/// The writers of the tables.
 fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
     let mut writers: Vec<Box<dyn Writer>> = Vec::new();
     if prepared.record_steps.is_some() {
@@ -75,7 +75,7 @@ fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, 
     Ok(writers)
 }
 
-/// What writes the files of SUMO that `scenario` asks for.
+/// The writers of SUMO's files that `scenario` asks for.
 fn xml(scenario: &Scenario, prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
     let network = prepared.world.network();
     let writer = |file: &SumoFile| -> Result<Box<dyn Writer>, Fault> {

@@ -1,5 +1,5 @@
-//! The report `report.html`: what a run was and what came of it, on one page; and two of its figures as files of their
-//! own, `lane_change_rate.svg` and `time_space.svg`.
+//! The report `report.html`: a run and its results on one page; and two of its figures as files of their own,
+//! `lane_change_rate.svg` and `time_space.svg`.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use crate::pack::{pack, unpack};
 use crate::report::{Record, RunReport};
 use crate::whole_file::write_whole;
 
-/// Collects what the report of a run shows.
+/// Collects the data of the report of a run.
 pub(super) struct Report {
     path: PathBuf,
     rate: PathBuf,
@@ -25,7 +25,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// For the report in `folder`.
+    /// The observer for the report in `folder`.
     pub(super) fn new(folder: &Folder, scenario: &Scenario, prepared: &Prepared) -> Report {
         Report {
             path: folder.file("report.html"),

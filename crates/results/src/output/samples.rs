@@ -1,4 +1,4 @@
-//! Samples of all vehicles, every few steps.
+//! Samples of all vehicles at regular steps.
 
 use std::mem;
 use std::path::PathBuf;
@@ -12,21 +12,21 @@ use super::frame::Frame;
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
-/// Samples all vehicles every few steps.
+/// Samples all vehicles at regular steps.
 pub(super) struct Samples {
     every: u32,
     frame: Frame,
-    /// The machine has no core to spare for the writers while the world moves on all its threads.
+    /// Whether no core is free for the writers while the world uses all its threads.
     is_machine_full: bool,
     sender: BatchSender,
     written: Receiver<Frame>,
-    /// Frames that are handed over and not yet written, and one to go on with.
+    /// Frames that were sent and not yet written, and one to continue with.
     under_way: usize,
     spare: Frame,
 }
 
 impl Samples {
-    /// Samples at every `every`-th step. Frames that are `written` come back.
+    /// Samples at every `every`-th step. Written frames come back through `written`.
     pub(super) fn new(
         every: u32,
         is_machine_full: bool,
@@ -37,15 +37,15 @@ impl Samples {
         Samples { every, frame, is_machine_full, sender, written, under_way: 0, spare }
     }
 
-    /// Hands the frame over. Threads that move the world spin while they wait for each other: where the writers would
-    /// take the core of one of them, it is better to wait until they have written.
+    /// Sends the frame. Threads of the world spin while they wait for each other. Where the writers would take the
+    /// core of one of them, it is better to wait until they have written.
     fn hand_over(&mut self, world: &World) -> Result<(), Fault> {
         let full = mem::replace(&mut self.frame, mem::take(&mut self.spare));
         self.sender.hand_over(Batch::Frame(full))?;
         self.under_way += 1;
         let must_wait = self.is_machine_full && world.moves_on_all_threads();
         while self.under_way > 0 {
-            // If the writers broke off, that is known when the next frame is handed over.
+            // If the writers failed, the next send reports it.
             let frame = if must_wait { self.written.recv().ok() } else { self.written.try_recv().ok() };
             let Some(frame) = frame else { break };
             self.under_way -= 1;

@@ -1,26 +1,26 @@
-//! What happened on every lanelet between two instants: plain counts.
+//! Aggregates of every lanelet between two instants: plain counts.
 //!
-//! Density, flow and speed by Edie's generalised definitions (as in `laneweave_study::edie`), with the time and the way
-//! of every vehicle as the simulator puts them down.
+//! Density, flow and speed by Edie's generalised definitions (as in `laneweave_study::edie`), from the time and the
+//! distance of every vehicle that the simulator records.
 
 use laneweave_network::{Network, Side};
 use laneweave_sim::{Event, LaneChange, LaneletAggregate, World};
 use laneweave_study::units::{METRES_PER_KM, SECONDS_PER_HOUR};
 use serde::{Deserialize, Serialize};
 
-/// What happened on all lanelets between two instants.
+/// The traffic on all lanelets between two instants.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Traffic {
-    /// From when to when [s].
+    /// Begin and end [s].
     pub(super) during: [f64; 2],
     /// By lanelet.
     pub(super) counts: Vec<Counts>,
 }
 
-/// What happened on one lanelet.
+/// The traffic on one lanelet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Counts {
-    /// What vehicles did on it.
+    /// The aggregates of the vehicles on it.
     pub(super) stay: LaneletAggregate,
     /// Trips that began and ended on it.
     pub(super) begun: u32,
@@ -35,7 +35,7 @@ impl Traffic {
         Traffic { during: [from; 2], counts: vec![Counts::default(); network.lanelets.len()] }
     }
 
-    /// Adds what happened in the interval that follows.
+    /// Adds the traffic of the interval that follows.
     pub(super) fn add(&mut self, next: &Traffic) {
         self.during[1] = next.during[1];
         for (sum, it) in self.counts.iter_mut().zip(&next.counts) {
@@ -49,7 +49,7 @@ impl Traffic {
         }
     }
 
-    /// Counts what happened in the last step.
+    /// Counts the last step.
     pub(super) fn observe(&mut self, world: &World, is_measured: impl Fn(&LaneChange) -> bool) {
         let network = world.network();
         for event in world.events() {
@@ -70,7 +70,7 @@ impl Traffic {
         }
     }
 
-    /// Ends now; what vehicles did is what was added `before`, which becomes what there is now.
+    /// Ends now; its traffic is the difference to `before`, which is set to the present totals.
     pub(super) fn close(&mut self, world: &World, before: &mut Vec<LaneletAggregate>) {
         self.during[1] = world.clock().time();
         let now = world.lanelet_aggregates();
@@ -88,7 +88,7 @@ impl Traffic {
         self.counts[to].onto[side(change.side)] += 1;
     }
 
-    /// Each lanelet's place with density [veh/km], flow [veh/h], and speed [m/s] if anybody was there.
+    /// The index of each lanelet with density [veh/km], flow [veh/h], and speed [m/s] if there were vehicles.
     pub(super) fn measures<'a>(
         &'a self,
         network: &'a Network,

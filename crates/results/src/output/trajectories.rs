@@ -1,4 +1,4 @@
-//! Where every vehicle was: the table `trajectories`.
+//! The table `trajectories`: the positions of all vehicles.
 
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ const COLUMNS: [Column; 16] = [
     Column::text("state"),
 ];
 
-/// What the phases are called, in their order.
+/// The names of the phases, in their order.
 const STATES: [&str; 4] = ["cruises", "wants", "changes", "aborts"];
 
 const _: () = assert!(Phase::Wants as u32 == 1 && Phase::Changes as u32 == 2 && Phase::Aborts as u32 == 3);
@@ -39,10 +39,10 @@ const _: () = assert!(Phase::Wants as u32 == 1 && Phase::Changes as u32 == 2 && 
 pub(super) struct Trajectories {
     table: TableWriter,
     path: PathBuf,
-    /// Room for the columns of numbers and of integers.
+    /// Buffers for the columns of numbers and of integers.
     numbers: [Vec<f64>; 11],
     integers: [Vec<i64>; 2],
-    /// And for those of texts, by their places in lists.
+    /// Buffers for those of texts, by their indices in lists.
     places: [Vec<u32>; 3],
 }
 
@@ -113,7 +113,7 @@ impl Writer for Trajectories {
     }
 }
 
-/// Empties `values`, and makes room for so many.
+/// Empties `values`, and reserves space for so many.
 fn empty<T>(values: &mut Vec<T>, room: usize) {
     values.clear();
     values.reserve_exact(room);

@@ -14,7 +14,7 @@ use super::trip::{End, Trip};
 use crate::observer::Observer;
 use crate::outcome::Summary;
 
-/// Trips in a batch, at most those of one step more.
+/// Trips in a batch; those of one step more at most.
 const BATCH: usize = 256;
 
 /// Collects trips when they end.
@@ -55,7 +55,7 @@ impl Observer for Trips {
         self.sender.hand_over(Batch::Trips(std::mem::take(&mut self.ended)))
     }
 
-    /// Those on the road come last, in the order of their ids.
+    /// Vehicles on the road come last, in the order of their ids.
     fn finish(mut self: Box<Self>, world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
         let on_road = world.vehicles().filter_map(|vehicle| {
             let mut record = *world.trip(vehicle.id())?;
@@ -80,7 +80,7 @@ const COLUMNS: [Column; 22] = [
     Column::integer("to_lanelet"),
     Column::real("arrived_s"),
     Column::real("entered_s"),
-    // Beside its old name each.
+    // Each beside its old name.
     Column::real("left_s"),
     Column::real("completed_s"),
     Column::real("waiting_s"),

@@ -1,8 +1,8 @@
-//! Tables and XML files are written by threads of their own. What observers see reaches them in batches of plain
-//! numbers, through channels that hold few of them: an observer that is too fast waits, so that memory is bounded.
+//! Writer threads for tables and XML files. They receive the observations in batches of plain numbers, through
+//! channels with a small capacity: an observer that is too fast waits, so that memory is bounded.
 //!
-//! Each kind of batch comes from one observer, in the order in which it was seen, and each file is made from one kind:
-//! what is in a file does not depend on when it is written.
+//! Each kind of batch comes from one observer, in the order of observation, and each file is made from one kind: the
+//! contents of a file do not depend on when it is written.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
@@ -20,16 +20,16 @@ use crate::observer::Observer;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
 
-/// Pages that wait for a thread: as many as are filled while a row group of a table is encoded.
+/// Batches that wait for a thread: as many as are filled while a row group of a table is encoded.
 const WAITING: usize = 16;
-/// Frames that wait to be filled again, at most: of batches that come again there are more.
+/// Maximum of frames that wait for reuse: a log that is read again gives more.
 const SPARES: usize = 24;
-/// The thread for the tables, which keeps the log too, and that for the XML files.
+/// The thread for the tables, which also writes the log, and the thread for the XML files.
 const TABLES: &str = "tables";
 const XML: &str = "xml";
 
-/// The threads that write, as the last of the observers: it sees nothing of the world, and has all files completed when
-/// the others have finished.
+/// The writer threads, as the last of the observers: it observes nothing, and completes all files after the others
+/// have finished.
 pub(super) struct WriterThreads {
     sender: BatchSender,
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
@@ -38,9 +38,9 @@ pub(super) struct WriterThreads {
 }
 
 impl WriterThreads {
-    /// Begins to write with `xml` and `tables`: on two threads if so many `cores` are free, of which that for the
-    /// tables passes all batches on to that for the XML files, and else on one. The receiver gives frames back that are
-    /// written, to be used again.
+    /// Begins to write with `xml` and `tables`. If so many `cores` are free, there are two threads, and the one for
+    /// the tables passes all batches on to the one for the XML files; otherwise there is one. The receiver returns
+    /// written frames for reuse.
     pub(super) fn begin(
         mut xml: Vec<Box<dyn Writer>>,
         mut tables: Vec<Box<dyn Writer>>,
@@ -62,12 +62,12 @@ impl WriterThreads {
             let stage =
                 Stage { next: next.replace(sender), names: Arc::clone(&names), written: written.clone() };
             let fault = Arc::clone(&fault);
-            // The first to get the batches logs them.
+            // The first thread that receives the batches writes the log.
             let log = if name == TABLES { log.take() } else { None };
             let work = move || {
                 let outcome = stage.write(&received, writers, log);
                 if let Err(error) = &outcome {
-                    // The first fault is the one that counts. It is known before a channel closes.
+                    // The first fault counts. It is stored before a channel closes.
                     let _ = fault.set(error.clone());
                 }
                 drop((received, stage));
@@ -86,7 +86,7 @@ impl WriterThreads {
         self.threads.len()
     }
 
-    /// What hands batches over to it.
+    /// The sender of batches to it.
     pub(super) fn sender(&self) -> BatchSender {
         self.sender.clone()
     }
@@ -102,7 +102,7 @@ impl WriterThreads {
 }
 
 impl Observer for WriterThreads {
-    /// All batches up to now are in the log, whose length is kept.
+    /// Writes all batches up to now into the log, and stores its length.
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         let (told, length) = channel();
         self.sender.hand_over(Batch::Mark(told))?;
@@ -110,7 +110,7 @@ impl Observer for WriterThreads {
         pack(&length?)
     }
 
-    /// Pages that were logged come again.
+    /// Sends the batches of the log again.
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
         let Some(log) = &self.log else { return Ok(()) };
         for batch in batches(log, unpack(saved)?)? {
@@ -131,24 +131,24 @@ impl Observer for WriterThreads {
 }
 
 impl Drop for WriterThreads {
-    /// Without an end, files that are not complete are gone when this returns.
+    /// Without a regular end, incomplete files are removed when this returns.
     fn drop(&mut self) {
         self.sender.close();
         let _ = WriterThreads::join(std::mem::take(&mut self.threads));
     }
 }
 
-/// What a thread works with, beside its writers.
+/// The data of a thread, beside its writers.
 struct Stage {
-    /// To whom it passes batches on.
+    /// The thread to which it passes batches on.
     next: Option<BatchSender>,
     names: Arc<Names>,
-    /// Where frames go back that all have written.
+    /// Channel that returns frames after all threads have written them.
     written: SyncSender<Frame>,
 }
 
 impl Stage {
-    /// Writes batches until the end, or until nobody is left to hand one over.
+    /// Writes batches until the end, or until there is no sender left.
     fn write(
         &self,
         batches: &Receiver<Arc<Batch>>,
@@ -156,7 +156,7 @@ impl Stage {
         mut log: Option<PageLog>,
     ) -> Result<Vec<PathBuf>, Fault> {
         for mut batch in batches {
-            // Only the first thread has the batch for itself.
+            // Only the first thread owns the batch alone.
             if let Some(Batch::Frame(frame)) = Arc::get_mut(&mut batch) {
                 frame.locate(&self.names);
             }
@@ -167,7 +167,7 @@ impl Stage {
                 match &*batch {
                     Batch::Mark(told) => {
                         let marked = log.mark();
-                        // Who asked has gone if nobody hears it.
+                        // If this fails, the thread that asked has ended.
                         let _ = told.send(marked.clone());
                         marked?;
                     }
@@ -183,7 +183,7 @@ impl Stage {
             }
             if let Some(Batch::Frame(mut frame)) = Arc::into_inner(batch) {
                 frame.clear();
-                // Nobody takes it when the run is over.
+                // When the run is over, nothing receives it.
                 let _ = self.written.try_send(frame);
             }
         }

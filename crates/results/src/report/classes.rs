@@ -1,4 +1,4 @@
-//! What was measured in boxes of traffic, over classes of density.
+//! Measures of boxes of traffic, over classes of density.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use laneweave_study::{Estimated, Interval, Moments};
 
 /// Width of the classes of density over which means are taken [veh/km].
 pub const CLASS: f64 = 5.0;
-/// A mean of fewer boxes is not drawn.
+/// Minimum number of boxes for a mean in a figure.
 pub const LEAST_BOXES: usize = 3;
 
 /// Means of the second values over classes of the first ones.
@@ -18,7 +18,7 @@ pub fn means(points: &[[f64; 2]]) -> Vec<Estimated> {
     }
     let estimates = classes.into_values().filter_map(|it| Some((it[0].estimate()?, it[1].estimate()?)));
     let enough = estimates.filter(|(_, it)| it.replications >= LEAST_BOXES);
-    // Neither flow nor speed is below zero, and so is no plausible value of their mean.
+    // Flow and speed are not negative, so no plausible value of their mean is.
     let positive = |it: Interval| Interval { lower: it.lower.max(0.0), ..it };
     enough
         .map(|(at, it)| Estimated { at: at.mean, value: it.mean, interval: positive(it.interval()) })

@@ -1,4 +1,4 @@
-//! Reports as single HTML files: parts of a page that any report is made of, and the report of a run.
+//! Reports as single HTML files: the parts of a page that all reports use, and the report of a run.
 //!
 //! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the
 //! page.

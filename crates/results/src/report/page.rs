@@ -1,4 +1,4 @@
-//! A page: title, sections, and what stands in them, as one HTML file that is well-formed XML too.
+//! A page: a title, and sections with their contents, as one HTML file that is also well-formed XML.
 
 use std::fmt::Write as _;
 
@@ -24,7 +24,7 @@ pub struct Section {
     parts: Vec<Part>,
 }
 
-/// What stands in a section.
+/// A part of a section.
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
     Text(String),
@@ -36,12 +36,12 @@ enum Part {
     Listing(String),
 }
 
-/// A number that stands out.
+/// A key number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile {
     /// The number with its unit.
     pub value: String,
-    /// What it is.
+    /// Its meaning.
     pub name: String,
     /// More about it, such as its interval; may be empty.
     pub more: String,
@@ -52,9 +52,9 @@ pub struct Tile {
 pub struct Figure {
     /// The drawing, a figure of `laneweave_study` for a column.
     pub svg: String,
-    /// What it shows, in a few words.
+    /// Its contents in a few words.
     pub title: String,
-    /// What is counted and how, and of how many.
+    /// What is counted and how, and the number of values.
     pub caption: String,
 }
 
@@ -107,19 +107,19 @@ impl Section {
         self.with(Part::Text(text.into()))
     }
 
-    /// A paragraph in small print: how something was measured, or why it is not there.
+    /// A paragraph in small print: how something was measured, or why it is missing.
     #[must_use]
     pub fn note(self, text: impl Into<String>) -> Section {
         self.with(Part::Note(text.into()))
     }
 
-    /// Names and what they stand for.
+    /// Names and their values.
     #[must_use]
     pub fn facts(self, facts: Vec<(String, String)>) -> Section {
         self.with(Part::Facts(facts))
     }
 
-    /// Numbers that stand out.
+    /// Key numbers.
     #[must_use]
     pub fn tiles(self, tiles: Vec<Tile>) -> Section {
         self.with(Part::Tiles(tiles))
@@ -131,7 +131,7 @@ impl Section {
         self.with(Part::Table(table))
     }
 
-    /// A table, or, where it has no rows, a paragraph that says so, if it says anything.
+    /// A table; or, if it has no rows, the given paragraph, if it is not empty.
     #[must_use]
     pub fn table_unless_empty(self, table: Table, otherwise: &str) -> Section {
         match (table.is_empty(), otherwise) {
@@ -141,13 +141,13 @@ impl Section {
         }
     }
 
-    /// A text of a file, with its lines as they are.
+    /// A text of a file, with its lines unchanged.
     #[must_use]
     pub fn listing(self, text: impl Into<String>) -> Section {
         self.with(Part::Listing(text.into()))
     }
 
-    /// Figures side by side, as far as there is room.
+    /// Figures side by side, as far as there is space.
     #[must_use]
     pub fn figures(self, figures: Vec<Figure>) -> Section {
         if figures.is_empty() { self } else { self.with(Part::Figures(figures)) }
@@ -178,7 +178,7 @@ impl Section {
     }
 }
 
-/// A text with its breaks of lines.
+/// A text with its line breaks.
 fn lines(text: &str) -> String {
     text.lines().map(escaped).collect::<Vec<String>>().join("\n")
 }

@@ -6,10 +6,10 @@ use super::Figure;
 use crate::numbers::counted;
 use crate::seen::Traces;
 
-/// More trajectories, and more lane changes, than this are not drawn: of them only every second, third … one.
+/// Maximum of trajectories, and of lane changes, in a figure: beyond it, only every second, third … one is drawn.
 const MOST: [usize; 2] = [300, 300];
 
-/// Time and space on the lane of `traces`; nothing where nobody drove.
+/// Time and space on the lane of `traces`; `None` without vehicles.
 pub fn time_and_space(traces: &Traces, title: String) -> Option<Figure> {
     let changes = &traces.changes;
     let driven = || traces.trajectories().filter(|it| it.len() > 1);

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 
 use laneweave_study::escaped;
 
-/// How a column is set.
+/// The alignment of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// Words: from the left.
+    /// Words: on the left.
     Words,
-    /// Numbers: to the right.
+    /// Numbers: on the right.
     Numbers,
 }
 
@@ -33,7 +33,7 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    /// There are no rows.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
@@ -63,7 +63,7 @@ impl Table {
             for (column, cell) in row.iter().enumerate() {
                 let (class, cell, name) = (class(column), escaped(cell), self.name(column));
                 let (tag, scope) = if column == 0 { ("th", " scope=\"row\"") } else { ("td", "") };
-                // On a narrow screen cells stand one below the other, each with the name of its column.
+                // On a narrow screen the cells stand one below the other, each with the name of its column.
                 let _ = write!(html, "<{tag}{scope} data-name=\"{name}\"{class}>{cell}</{tag}>");
             }
             *html += "</tr>\n";

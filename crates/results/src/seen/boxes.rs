@@ -9,7 +9,7 @@ use super::road::Sections;
 
 /// Duration of a box [s].
 const INTERVAL: f64 = 60.0;
-/// Time between two looks at the traffic [s].
+/// Time between two samples of the traffic [s].
 const SAMPLING: f64 = 1.0;
 /// Width of a class of density [veh/km].
 const BIN: f64 = 2.0;
@@ -25,17 +25,17 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// Over `duration` [s] from the time `begin` [s] on.
+    /// Collects over `duration` [s] from the time `begin` [s] on.
     pub fn new(world: &World, begin: f64, duration: f64) -> Boxes {
         let sections = Sections::of(world.network());
         let intervals = ((duration / INTERVAL) as usize).max(1);
         let window = Window { from_s: begin, interval_s: INTERVAL.min(duration), intervals };
-        // No section at all, or a duration of nothing, is a figure without points.
+        // Without a section, or with a duration of zero, the figure has no points.
         let grid = EdieGrid::new(sections.lane_lengths.clone(), window).ok();
         Boxes { sections, window, grid, changes: Vec::new() }
     }
 
-    /// Looks at the world after a step.
+    /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {
             if let Event::LaneChange(change) = event
@@ -55,7 +55,7 @@ impl Boxes {
             for (chain, lane) in (0..).map(ChainIndex).zip(scene.lanes) {
                 let entries = lane.motions().iter().zip(lane.drivers());
                 let mut vehicles = entries.filter(|(_, car)| !car.is_shadow).map(|(it, _)| it).peekable();
-                // They stand in driving order: those in one section follow each other.
+                // Vehicles are in driving order: those in one section follow each other.
                 while let Some(first) = vehicles.peek() {
                     let (section, end) = self.sections.span(chain, first.x);
                     let (mut number, mut speeds) = (0, 0.0);
@@ -71,7 +71,7 @@ impl Boxes {
         }
     }
 
-    /// The boxes that were over by `end` [s].
+    /// The boxes that were complete at `end` [s].
     pub fn rows(&self, end: f64) -> impl Iterator<Item = EdieRow> + '_ {
         self.grid.iter().flat_map(move |it| complete(it, self.window, end))
     }
@@ -81,7 +81,7 @@ impl Boxes {
         self.sections.limits[section]
     }
 
-    /// The boxes that were over by `end` [s], with the changes that are `chosen`.
+    /// The boxes that were complete at `end` [s], with the changes that are `chosen`.
     pub fn with_changes(&self, end: f64, chosen: impl Fn(Kind) -> bool) -> Vec<EdieRow> {
         let Some(mut grid) = self.grid.clone() else { return Vec::new() };
         for (section, time, _) in self.changes.iter().filter(|(_, _, kind)| chosen(*kind)) {
@@ -90,12 +90,12 @@ impl Boxes {
         complete(&grid, self.window, end).collect()
     }
 
-    /// A curve of the changes that are `chosen`, from the boxes that were over by `end` [s].
+    /// A curve of the changes that are `chosen`, from the boxes that were complete at `end` [s].
     pub fn series(&self, name: &str, end: f64, chosen: impl Fn(Kind) -> bool) -> RateSeries {
         RateSeries { name: name.into(), points: Boxes::pooled(self.with_changes(end, chosen)) }
     }
 
-    /// Boxes of like density taken together.
+    /// Boxes of similar density, pooled.
     pub fn pooled(rows: impl IntoIterator<Item = EdieRow>) -> Vec<RatePoint> {
         rate_by_density(rows, BIN)
     }

@@ -1,4 +1,4 @@
-//! What is seen of traffic along its roads: boxes of road and time, and the vehicles of one lane.
+//! Traffic along roads: boxes of road and time, and the vehicles of one lane.
 
 mod boxes;
 mod road;

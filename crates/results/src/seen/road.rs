@@ -1,27 +1,27 @@
-//! A network seen lengthwise: lanes side by side share their sections, and one lane after the other makes a road.
+//! The longitudinal structure of a network: lanes side by side share their sections; successive lanes form a road.
 
 use laneweave_network::{ChainIndex, Network, Position, Side};
 use serde::{Deserialize, Serialize};
 
-/// Length of a section, about [m].
+/// Approximate length of a section [m].
 const SECTION: f64 = 500.0;
-/// Sections with less lane than this are left out: their density would be chance [m].
+/// Minimum length of lane in a section: in a shorter one the density would be random [m].
 const LEAST_LANE: f64 = 200.0;
 
-/// A network cut across into sections, each with all its parallel lanes.
+/// A network divided into sections, each with all its parallel lanes.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Sections {
     /// Length of all lanes of each section together [m].
     pub(super) lane_lengths: Vec<f64>,
     /// Mean speed limit on them [m/s].
     pub(super) limits: Vec<f64>,
-    /// For each chain its place along its carriageway.
+    /// For each chain its position along its carriageway.
     places: Vec<Place>,
     /// For each carriageway its cells.
     carriageways: Vec<Carriageway>,
 }
 
-/// Where a chain lies along its carriageway.
+/// The position of a chain along its carriageway.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Place {
     carriageway: usize,
@@ -54,7 +54,7 @@ impl Sections {
         let (places, mut carriageways) = lay_out(network);
         let (mut lane_lengths, mut limits) = (Vec::new(), Vec::new());
         for (index, carriageway) in carriageways.iter_mut().enumerate() {
-            // Of each cell the length of its lanes, and over them the sum of the limits.
+            // The length of the lanes in each cell, and the sum of the limits over them.
             let mut lengths = vec![[0.0; 2]; carriageway.sections.len()];
             for (place, chain) in places.iter().zip(&network.chains).filter(|(it, _)| it.carriageway == index)
             {
@@ -84,7 +84,7 @@ impl Sections {
         self.span(chain, x).0
     }
 
-    /// The same, and up to where on the chain that is so [m], which is beyond `x`.
+    /// The same, and the station on the chain up to which it is the section [m], which is beyond `x`.
     pub(super) fn span(&self, chain: ChainIndex, x: f64) -> (Option<usize>, f64) {
         let place = self.places[chain.at()];
         let carriageway = &self.carriageways[place.carriageway];
@@ -99,7 +99,7 @@ impl Sections {
     }
 }
 
-/// The place of each chain, found from its neighbours, and all carriageways with their cells.
+/// The position of each chain, found from its neighbours, and all carriageways with their cells.
 fn lay_out(network: &Network) -> (Vec<Place>, Vec<Carriageway>) {
     let mut places: Vec<Option<Place>> = vec![None; network.chains.len()];
     let mut carriageways = Vec::new();
@@ -132,7 +132,7 @@ fn lay_out(network: &Network) -> (Vec<Place>, Vec<Carriageway>) {
     (places.into_iter().flatten().collect(), carriageways)
 }
 
-/// One lane after the other, as somebody drives who changes lanes only where a lane ends.
+/// Successive lanes, as a driver uses them who changes lanes only where a lane ends.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Road {
     pieces: Vec<Piece>,
@@ -170,19 +170,19 @@ impl Road {
         self.pieces.last().map_or(0.0, |it| it.offset + network.chain(it.chain).length)
     }
 
-    /// Whether a chain belongs to both.
+    /// Whether both roads have a chain in common.
     pub(super) fn meets(&self, other: &Road) -> bool {
         self.pieces.iter().any(|it| other.pieces.iter().any(|other| other.chain == it.chain))
     }
 
-    /// How far along the road a place is [m], if that belongs to it.
+    /// Position of a place along the road [m], if the place belongs to it.
     pub(super) fn position(&self, at: Position) -> Option<f64> {
         let piece = self.pieces.iter().find(|it| it.chain == at.chain && it.from <= at.x)?;
         Some(piece.offset + at.x)
     }
 }
 
-/// What a road goes on with: the longest following chain, or the one beside the end.
+/// The continuation of a road: the longest following chain, or the one beside the end.
 fn after(network: &Network, last: &Piece) -> Option<Piece> {
     let chain = network.chain(last.chain);
     let length = |it: &ChainIndex| network.chain(*it).length;

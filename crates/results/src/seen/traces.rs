@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use super::road::Road;
 
-/// Longest road that is drawn [m].
+/// Maximum length of a road in a figure [m].
 const LONGEST_ROAD: f64 = 10_000.0;
-/// Longest time that is drawn [s]; of longer runs the end is left out.
+/// Maximum time in a figure [s]; the end of longer runs is left out.
 const LONGEST_TIME: f64 = 3600.0;
-/// Least time between two samples [s], and the most samples of a vehicle: a figure is no finer.
+/// Minimum time between two samples [s], and maximum of samples of a vehicle: a figure is no finer.
 const SAMPLING: f64 = 1.0;
 const MOST_SAMPLES: f64 = 600.0;
 
@@ -31,13 +31,13 @@ pub struct Traces {
     current: BTreeMap<VehicleId, Vec<Sample>>,
     /// Those of vehicles that left it.
     past: Vec<Vec<Sample>>,
-    /// The changes onto and off it.
+    /// The lane changes onto it and off it.
     pub changes: Vec<Mark>,
 }
 
 impl Traces {
-    /// Of up to `number` slow lanes from the `origins` that have no part in common, those with the most way to be
-    /// driven first.
+    /// Up to `number` slow lanes from the `origins` that have no part in common, those with the largest expected
+    /// distance driven first.
     pub fn most_driven(
         number: usize,
         world: &World,
@@ -45,7 +45,7 @@ impl Traces {
         begin: f64,
         duration: f64,
     ) -> Vec<Traces> {
-        /// Of more origins only those with the largest demand are looked at.
+        /// Of more origins only those with the largest demand are used.
         const LOOKED_AT: usize = 100;
         let mut origins: Vec<&(Place, f64)> = origins.iter().collect();
         origins.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -76,7 +76,7 @@ impl Traces {
         }
     }
 
-    /// Looks at the world after a step.
+    /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
         for event in world.events() {
@@ -108,7 +108,7 @@ impl Traces {
         self.past.extend(self.current.extract_if(.., |_, it| has_left(it)).map(|(_, samples)| samples));
     }
 
-    /// All trajectories so far, those that are over first.
+    /// All trajectories so far, the completed ones first.
     pub fn trajectories(&self) -> impl Iterator<Item = &[Sample]> {
         self.past.iter().chain(self.current.values()).map(Vec::as_slice)
     }
@@ -132,7 +132,7 @@ impl Course {
     }
 }
 
-/// The gate's lane on the slow side; not one that ends, as long as there is another.
+/// The gate's lane on the slow side; if possible one that does not end.
 fn slow_lane(network: &Network, gate: &Gate) -> Option<ChainIndex> {
     let slow = network.driving_side.overtaking().opposite();
     let goes_on = |chain: ChainIndex| !network.chain(chain).is_lane_drop;

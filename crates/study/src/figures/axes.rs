@@ -3,17 +3,17 @@
 /// A range of values with its round steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
-    /// What it shows, with its unit.
+    /// Its quantity, with the unit.
     pub(super) label: String,
     /// First value.
     pub(super) from: f64,
     /// Last value.
     pub(super) to: f64,
-    /// How its ticks follow on each other.
+    /// The spacing of its ticks.
     pub(super) ticks: Ticks,
 }
 
-/// How the ticks of an axis follow on each other.
+/// The spacing of the ticks of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Ticks {
     /// At equal distances in value.
@@ -47,7 +47,7 @@ impl Axis {
         Axis { label: label.into(), from, to, ticks: Ticks::Decades }
     }
 
-    /// Distance of ticks that are equally far from each other; of decades the whole.
+    /// Distance between ticks, if it is constant; for decades the whole axis.
     pub(super) fn step(&self) -> f64 {
         match self.ticks {
             Ticks::Every(step) => step,
@@ -55,11 +55,11 @@ impl Axis {
         }
     }
 
-    /// Where `value` lies between the ends: 0 to 1.
+    /// Position of `value` between the ends: 0 to 1.
     pub(super) fn share(&self, value: f64) -> f64 {
         match self.ticks {
             Ticks::Every(_) => (value - self.from) / (self.to - self.from),
-            // What is below stands at the end.
+            // A value below stands at the end.
             Ticks::Decades if value <= self.from => 0.0,
             Ticks::Decades => libm::log10(value / self.from) / libm::log10(self.to / self.from),
         }

@@ -1,4 +1,4 @@
-//! Values of named rows with their intervals, lying.
+//! Horizontal bars: values of named rows with their intervals.
 
 use super::axes::Axis;
 use super::drawing::{Anchor, Around, Drawing};
@@ -8,7 +8,7 @@ use super::sheet::Sheet;
 /// Height of a bar with its margin, and margin between rows [px].
 const PITCH: f64 = 18.0;
 const BETWEEN: f64 = 14.0;
-/// Least height of a plot, so that the label of its rows has room [px].
+/// Minimum height of a plot, so that the label of its rows fits [px].
 const LEAST_HEIGHT: f64 = 150.0;
 /// Height of a bar [px].
 const HEIGHT: f64 = 9.0;
@@ -18,12 +18,13 @@ const HEIGHT: f64 = 9.0;
 pub struct BarRow {
     /// Its name.
     pub name: String,
-    /// One value for each series; what is not finite is left out. Where they stand does not count.
+    /// One value for each series; values that are not finite are left out. The position of an estimate does not
+    /// count.
     pub values: Vec<Estimated>,
 }
 
-/// Draws rows of bars from zero, each with its interval, under each other. `labels` are those of the values and of the
-/// rows.
+/// Draws rows of bars from zero, each with its interval, one below the other. `labels` are those of the values and of
+/// the rows.
 pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -> String {
     /// Longer names are shortened.
     const LONGEST: usize = 20;

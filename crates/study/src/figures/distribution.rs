@@ -9,26 +9,26 @@ use crate::histogram::Histogram;
 /// A distribution.
 #[derive(Clone, Copy, Debug)]
 pub struct Distributed<'a> {
-    /// Its name in the legend; none where it is empty.
+    /// Its name in the legend; empty: none.
     pub name: &'a str,
     /// What was counted.
     pub histogram: &'a Histogram,
 }
 
-/// How shares go upwards.
+/// The scale of the shares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Upwards {
-    /// From zero on.
+    /// Linear, from zero on.
     Linear,
-    /// By powers of ten, so that what is rare is seen too; what is not there at all stands at the bottom.
+    /// Logarithmic, so that rare values are visible, too; empty bins stand at the bottom.
     Logarithmic,
 }
 
-/// Least share on a logarithmic axis [%].
+/// Minimum share on a logarithmic axis [%].
 const LEAST_SHARE: f64 = 0.001;
 
-/// Draws for each distribution the share of all its values [%] that lies in each bin; those outside the bins count for
-/// the whole, and are not seen. Histograms without a value are left out.
+/// Draws for each distribution the share of all its values [%] that lies in each bin. Values outside the bins count
+/// for the whole, but are not drawn. Histograms without a value are left out.
 pub fn distribution(sheet: Sheet, labels: [&str; 2], upwards: Upwards, all: &[Distributed]) -> String {
     let all: Vec<&Distributed> = all.iter().filter(|it| it.histogram.total() > 0).collect();
     let ends = |it: &&Distributed| it.histogram.range();

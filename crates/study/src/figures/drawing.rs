@@ -1,7 +1,7 @@
 //! An SVG page with a title, a frame, a grid, labelled axes and a legend.
 //!
-//! Colours stand in the elements, for a file of its own; classes beside them let the style sheet of a document have its
-//! own way with the same elements: `sheet`, `grid`, `frame`, and those of the parts that figures add.
+//! The elements have colours, for a file of its own. They also have classes, so that the style sheet of a document
+//! can change the colours: `sheet`, `grid`, `frame`, and those of the parts that figures add.
 
 use super::axes::Axis;
 use super::sheet::{Layout, Sheet};
@@ -14,12 +14,12 @@ const MIDDLE_TO_BASE: f64 = 0.35;
 const CHARACTER_WIDTH: f64 = 0.62;
 /// Right margin of a column [px].
 const MARGIN: f64 = 14.0;
-/// Line pitch of a legend beside and above the plot, room of a mark, and between two entries above it [px].
+/// Line pitch of a legend beside and above the plot, space for a mark, and between two entries above it [px].
 const PITCH: [f64; 2] = [24.0, 19.0];
 const MARK: f64 = 18.0;
 const BETWEEN: f64 = 16.0;
 
-/// Where a text stands relative to its point.
+/// The anchor of a text relative to its point.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
     Start,
@@ -33,18 +33,18 @@ pub(super) struct Key {
     pub(super) text: String,
 }
 
-/// What stands around a plot.
+/// The parts around a plot.
 #[derive(Default)]
 pub(super) struct Around<'a> {
     /// The title; a column has none.
     pub(super) title: &'a str,
     /// The legend.
     pub(super) keys: Vec<Key>,
-    /// Room for more to the right of the plot [px].
+    /// Space for more to the right of the plot [px].
     pub(super) right: f64,
     /// Width of names to the left of the plot, in place of numbers [px].
     pub(super) names: Option<f64>,
-    /// Height of the plot, where it is not the usual one [px].
+    /// Height of the plot, where it is not the default [px].
     pub(super) height: Option<f64>,
 }
 
@@ -76,13 +76,13 @@ pub(super) struct Drawing {
     svg: String,
 }
 
-/// Width that a text of the usual size needs in a figure, about [px].
+/// Approximate width of a text of the usual size in a figure [px].
 pub fn text_width(text: &str) -> f64 {
     width(text, Sheet::Page.layout().text)
 }
 
 fn width(text: &str, size: f64) -> f64 {
-    /// What is set wider than most, as a multiple of the usual width.
+    /// Factor of the width for characters that are wider than most.
     const WIDE: f64 = 1.6;
     let characters = text.chars().map(|it| if "mwMW%".contains(it) { WIDE } else { 1.0 });
     characters.sum::<f64>() * CHARACTER_WIDTH * size
@@ -195,7 +195,7 @@ impl Drawing {
         ));
     }
 
-    /// An element as it stands.
+    /// An element as given.
     pub(super) fn add(&mut self, element: &str) {
         self.svg += element;
         self.svg.push('\n');

@@ -6,7 +6,7 @@ use super::series::{Estimated, curve, key};
 use super::sheet::Sheet;
 use crate::rate::{RatePoint, RateSeries};
 
-/// Series stand this far apart at the same density, so that their bars do not hide each other [px].
+/// Horizontal offset between series at the same density, so that their bars do not hide each other [px].
 const STAGGER: f64 = 3.0;
 
 /// Draws the lane-change rate [1/(km h)] against the density [veh/km per lane], each point with the exact Poisson

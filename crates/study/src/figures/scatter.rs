@@ -9,13 +9,13 @@ use super::sheet::Sheet;
 
 /// Size of a point [px].
 const POINT: f64 = 3.2;
-/// Observations on the same pixel are one point; up to so many of them, it is so opaque.
+/// Observations on the same pixel are one point; up to each number of them, the point has this opacity.
 const OPACITIES: [(usize, f64); 3] = [(1, 0.4), (4, 0.65), (usize::MAX, 0.9)];
 
 /// A group of observations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scattered {
-    /// Its name in the legend, which there is for several groups only.
+    /// Its name in the legend, which exists only for several groups.
     pub name: String,
     /// Its observations (x, y).
     pub points: Vec<[f64; 2]>,
@@ -23,8 +23,8 @@ pub struct Scattered {
     pub means: Vec<Estimated>,
 }
 
-/// Draws the points of all groups, those on the same pixel as one that is the more opaque the more there are, and over
-/// them the means; both axes begin at zero. What is not finite is left out.
+/// Draws the points of all groups, and over them the means. Points on the same pixel are one, which is the more
+/// opaque the more there are. Both axes begin at zero. Values that are not finite are left out.
 pub fn scatter(sheet: Sheet, labels: [&str; 2], groups: &[Scattered]) -> String {
     let groups: Vec<Scattered> = groups.iter().map(finite).collect();
     let points = || groups.iter().flat_map(|it| &it.points);
@@ -67,7 +67,7 @@ fn finite(group: &Scattered) -> Scattered {
     }
 }
 
-/// Points at pixels, as lines of no length, by how many there are at each.
+/// Points at pixels, as lines of no length, grouped by the number of observations at each.
 fn dots(places: impl Iterator<Item = [i64; 2]>) -> String {
     let mut pixels: BTreeMap<[i64; 2], usize> = BTreeMap::new();
     places.for_each(|it| *pixels.entry(it).or_default() += 1);

@@ -3,16 +3,16 @@
 use super::drawing::Key;
 use crate::statistics::Interval;
 
-/// Colours of the series in turn (Okabe and Ito: told apart by colour-blind eyes too).
+/// Colours of the series in turn (Okabe and Ito: distinguishable for colour-blind readers, too).
 pub(super) const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 /// Radius of a marker, and half the cap of an error bar [px].
 const RADIUS: f64 = 4.5;
 const CAP: f64 = 4.0;
 
-/// A value with its interval, at its place along the other axis.
+/// A value with its interval, at its position along the other axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimated {
-    /// Where it stands.
+    /// Its position.
     pub at: f64,
     /// The value.
     pub value: f64,
@@ -26,7 +26,7 @@ impl Estimated {
     }
 }
 
-/// Colour of a series, and the class by which a style sheet knows it.
+/// Colour of a series, and its class in a style sheet.
 pub(super) fn colour(index: usize) -> (&'static str, String) {
     (COLOURS[index % COLOURS.len()], format!("series s{}", index % COLOURS.len()))
 }
@@ -54,13 +54,13 @@ pub(super) fn curve(
     )
 }
 
-/// An error bar upwards with its caps.
+/// A vertical error bar with its caps.
 fn upright_bar(x: f64, [low, high]: [f64; 2]) -> String {
     let (west, cap) = (x - CAP, 2.0 * CAP);
     format!("M{x:.1} {low:.1}V{high:.1}M{west:.1} {low:.1}h{cap}M{west:.1} {high:.1}h{cap}")
 }
 
-/// An error bar across with its caps.
+/// A horizontal error bar with its caps.
 pub(super) fn level_bar(y: f64, [low, high]: [f64; 2]) -> String {
     let (north, cap) = (y - CAP, 2.0 * CAP);
     format!("M{low:.1} {y:.1}H{high:.1}M{low:.1} {north:.1}v{cap}M{high:.1} {north:.1}v{cap}")
@@ -86,7 +86,7 @@ pub(super) fn line_key(text: &str, index: usize) -> Key {
     Key { mark, text: text.into() }
 }
 
-/// How the lines of series are broken, so that they can be told apart without colours.
+/// Dash patterns of lines, so that series can be distinguished without colours.
 pub(super) fn dashes(index: usize) -> &'static str {
     match index % 4 {
         0 => "",

@@ -1,25 +1,24 @@
-//! What a figure is made for, and what room its parts have there.
+//! The use of a figure, and the sizes of its parts.
 
-/// What a figure is made for.
+/// The use of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sheet {
     /// A file of its own: with a title, its legend beside the plot.
     Page,
-    /// A column of an HTML document, whose caption says what it shows: narrow, without a title, its legend above the
-    /// plot.
+    /// A column of an HTML document: narrow, without a title, its legend above the plot; a caption describes it.
     Column,
 }
 
 /// Sizes on a sheet [px].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// Room to the left of the plot, for the texts of its axis.
+    /// Space to the left of the plot, for the texts of its axis.
     pub(super) left: f64,
-    /// Room above the plot.
+    /// Space above the plot.
     pub(super) top: f64,
-    /// Size of the plot; a column as a whole is as wide as the plot and its room to the left.
+    /// Size of the plot; a column as a whole is as wide as the plot and the space to its left.
     pub(super) plot: [f64; 2],
-    /// Room below the plot.
+    /// Space below the plot.
     pub(super) foot: f64,
     /// Base line of the upright label of the vertical axis.
     pub(super) upright: f64,
@@ -27,7 +26,7 @@ pub(super) struct Layout {
     pub(super) below: [f64; 2],
     /// Size of texts.
     pub(super) text: f64,
-    /// Most steps between ticks across and upwards.
+    /// Maximum of steps between ticks, horizontally and vertically.
     pub(super) steps: [f64; 2],
 }
 

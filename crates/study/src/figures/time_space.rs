@@ -6,18 +6,18 @@ use super::sheet::Sheet;
 use crate::trace::{Mark, Sample};
 use crate::units::{KMH_PER_MPS, METRES_PER_KM};
 
-/// Coordinates within the plot are whole numbers of this many a pixel: short text, fine enough for print.
+/// Coordinates within the plot are whole numbers of this fraction of a pixel: short text, fine enough for print.
 const UNITS_PER_PX: f64 = 10.0;
-/// A drawn line stays this close to the samples, vertically [px].
+/// Maximum distance of a drawn line from the samples, vertically [px].
 const TOLERANCE: f64 = 0.3;
 /// Half the size of the cross that marks a lane change [px].
 const CROSS: f64 = 2.5;
-/// The colour bar: room for it, from the plot to it, its width, and from the plot to its label [px].
+/// The colour bar: space for it, from the plot to it, its width, and from the plot to its label [px].
 const BARS: [Bar; 2] = [
     Bar { room: 112.0, gap: 24.0, width: 18.0, label: 98.0 },
     Bar { room: 66.0, gap: 10.0, width: 12.0, label: 63.0 },
 ];
-/// What a cross stands for.
+/// The legend text of a cross.
 const KEY: &str = "lane change";
 /// Colours from standstill to the highest speed.
 const RAMP: [[f64; 3]; 5] = [
@@ -28,7 +28,7 @@ const RAMP: [[f64; 3]; 5] = [
     [36.0, 70.0, 150.0],
 ];
 
-/// Where a colour bar stands.
+/// Position of a colour bar.
 struct Bar {
     room: f64,
     gap: f64,
@@ -37,8 +37,8 @@ struct Bar {
 }
 
 /// Draws `trajectories`, each the samples of one vehicle in order of time, coloured by speed [km/h], and a cross at
-/// each of the `changes` that lies within their time and road. What a vehicle that leaves the lane and comes back
-/// does there are two trajectories. Samples that are not finite are left out.
+/// each of the `changes` that lies within their time and road. A vehicle that leaves the lane and comes back has two
+/// trajectories. Samples that are not finite are left out.
 pub fn time_space(
     sheet: Sheet,
     title: &str,
@@ -95,7 +95,7 @@ fn classes(speeds: &Axis) -> usize {
     (speeds.to / speeds.step()).round() as usize
 }
 
-/// Mixed from the ramp's neighbouring colours.
+/// Mixed from the two nearest colours of the scale.
 fn colour(class: usize, classes: usize) -> String {
     let place = class as f64 / (classes.max(2) - 1) as f64 * (RAMP.len() - 1) as f64;
     let lower = (place as usize).min(RAMP.len() - 2);
@@ -108,7 +108,7 @@ fn is_finite(it: &&Sample) -> bool {
     it.time_s.is_finite() && it.position_m.is_finite() && it.speed_mps.is_finite()
 }
 
-/// One path for each class of speed, of all that was driven in it.
+/// One path for each class of speed, with all lines in it.
 fn paths(trajectories: &[impl AsRef<[Sample]>], plot: &Plot, [x, y, speeds]: [&Axis; 3]) -> Vec<String> {
     let mut paths = vec![String::new(); classes(speeds)];
     let last = paths.len() - 1;
@@ -131,8 +131,8 @@ fn paths(trajectories: &[impl AsRef<[Sample]>], plot: &Plot, [x, y, speeds]: [&A
     paths
 }
 
-/// The fewest of a line's points, in one pass, that keep within the tolerance of all: from a kept point a cone
-/// narrows with each further one, and the point before the first outside it is kept.
+/// The fewest points of a line, found in one pass, that stay within the tolerance of all. From a kept point, a cone
+/// narrows with each further point; the point before the first one outside is kept.
 fn thinned(line: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = line.first().copied().into_iter().collect();
     let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -174,7 +174,7 @@ fn append(path: &mut String, line: &[(f64, f64)]) {
     }
 }
 
-/// Crosses as they look.
+/// The style of crosses.
 fn crosses_of(path: &str) -> String {
     in_units(path, "black", 1.2, "mark")
 }

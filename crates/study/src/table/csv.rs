@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use super::{Cell, Cells, Column};
 
-/// Text that is collected before it is written [bytes].
+/// Text is collected up to this length before it is written [bytes].
 const BUFFER: usize = 1 << 16;
 
 /// Writes rows of cells that fit the columns.
@@ -54,7 +54,7 @@ impl CsvSink {
         self.flush()
     }
 
-    /// Quoted where it must be; an empty text too, as nothing at all is a missing one.
+    /// Quoted where necessary; an empty text is quoted, too, because an empty field is a missing value.
     fn text(&mut self, value: &str) {
         let is_special = |byte: u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
         if value.is_empty() || value.bytes().any(is_special) {
@@ -66,7 +66,7 @@ impl CsvSink {
         }
     }
 
-    /// In place of the comma after the last cell.
+    /// This replaces the comma after the last cell.
     fn end_line(&mut self) {
         self.buffer.pop();
         self.buffer.push(b'\n');

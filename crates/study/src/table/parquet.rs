@@ -1,5 +1,5 @@
-//! Apache Parquet: columns that may be null, in groups of rows; integers by their differences, what repeats by
-//! dictionaries, and nothing compressed beyond that.
+//! Apache Parquet: columns that may be null, in groups of rows. Integers are stored by their differences, repeating
+//! values by dictionaries; there is no other compression.
 
 use std::fs::File;
 use std::io;
@@ -15,13 +15,13 @@ use parquet::schema::types::{ColumnPath, Type};
 
 use super::{Cell, Cells, Column, Kind};
 
-/// Rows held in memory and written together.
+/// Rows that are held in memory and written together.
 const ROW_GROUP: usize = 1 << 14;
-/// Values in a page: encoded pages grow to their size, and small ones find their memory where the last ones had it.
+/// Values in a page. Encoded pages grow to their size; small ones reuse the memory of the previous ones.
 const PAGE: usize = 1 << 12;
-/// A column with more distinct values in a group than this holds goes on without a dictionary [bytes].
+/// A column with more distinct values in a group than fit into this continues without a dictionary [bytes].
 const DICTIONARY_SIZE: usize = 1 << 16;
-/// Definition levels of an optional column: the value is there, or null.
+/// Definition levels of an optional column: for a present value, and for null.
 const PRESENT: i16 = 1;
 const NULL: i16 = 0;
 
@@ -30,16 +30,16 @@ pub(super) struct ParquetSink {
     writer: SerializedFileWriter<File>,
     columns: Vec<Buffer>,
     rows: usize,
-    /// The levels of columns that miss nothing.
+    /// The levels of columns without missing values.
     all_present: Vec<i16>,
 }
 
-/// The values of one column that are not written yet.
+/// The values of one column that are not yet written.
 struct Buffer {
-    /// One a row; empty as long as no value is missing.
+    /// One for each row; empty as long as no value is missing.
     levels: Vec<i16>,
     rows: usize,
-    /// Those present.
+    /// The present values.
     values: Values,
 }
 
@@ -49,12 +49,12 @@ enum Values {
     Text(Vec<ByteArray>, Texts),
 }
 
-/// Texts that have come, so that one that comes again takes no memory of its own.
+/// Texts so far, so that a repeated text takes no memory of its own.
 #[derive(Default)]
 struct Texts(Vec<ByteArray>);
 
 impl Texts {
-    /// More are not remembered: to look for one would take too long.
+    /// Maximum of remembered texts: the search would take too long.
     const MOST: usize = 32;
 
     fn get(&mut self, text: &str) -> ByteArray {
@@ -88,7 +88,7 @@ impl ParquetSink {
         self.go_on(1)
     }
 
-    /// Writes `count` rows at once; a group may get so many more.
+    /// Writes `count` rows at once; a group may exceed its size by as many.
     pub(super) fn rows(&mut self, count: usize, columns: &[Cells<'_>]) -> io::Result<()> {
         for (column, cells) in self.columns.iter_mut().zip(columns) {
             column.extend(*cells);
@@ -122,7 +122,7 @@ impl ParquetSink {
     }
 }
 
-/// How the columns are written, and what is noted about them.
+/// The encoding of the columns, and its metadata.
 fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
     let notes = notes.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), (*value).to_owned()));
     let properties = WriterProperties::builder()
@@ -133,10 +133,10 @@ fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
     let properties = columns.iter().fold(properties, |it, column| {
         let name = || ColumnPath::from(column.name);
         match (column.kind, column.repeats) {
-            // Times, above all: by its extremes a reader finds the groups with the rows that it looks for.
+            // Mainly times: by their minimum and maximum a reader finds the groups with the rows that it needs.
             (Kind::F64, true) => it.set_column_statistics_enabled(name(), EnabledStatistics::Chunk),
             (Kind::F64, false) => it.set_column_dictionary_enabled(name(), false),
-            // From one row to the next the number of a vehicle or lanelet differs by little.
+            // The number of a vehicle or lanelet changes little from row to row.
             (Kind::I64, _) => it
                 .set_column_dictionary_enabled(name(), false)
                 .set_column_encoding(name(), Encoding::DELTA_BINARY_PACKED),
@@ -161,7 +161,7 @@ fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
 }
 
 impl Values {
-    /// Makes room for many, at once for a group and as many more: to grow step by step would leave memory behind.
+    /// Reserves memory for a group and a further batch at once: growing step by step would fragment memory.
     fn reserve(&mut self, more: usize) {
         fn make_room<T>(values: &mut Vec<T>, more: usize) {
             if values.capacity() < values.len() + more {

@@ -29,7 +29,7 @@ impl PartialFile {
         &self.target
     }
 
-    /// Gives the file its name.
+    /// Gives the file its final name.
     ///
     /// # Errors
     /// If it cannot be renamed.
@@ -40,7 +40,7 @@ impl PartialFile {
 
 impl Drop for PartialFile {
     fn drop(&mut self) {
-        // Gone already when complete; a drop has nobody to tell of another failure.
+        // A complete file is already renamed. A drop cannot report another error.
         let _ = fs::remove_file(&self.partial);
     }
 }

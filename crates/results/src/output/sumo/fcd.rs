@@ -1,4 +1,4 @@
-//! `fcd.xml`: where every vehicle was, as SUMO's `--fcd-output` with `--fcd-output.acceleration`.
+//! `fcd.xml`: the positions of all vehicles, in the format of SUMO's `--fcd-output` with `--fcd-output.acceleration`.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ const ROOT: &str = "<fcd-export xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-ins
 /// Writes an element for each instant, with one for each vehicle.
 pub(in crate::output) struct Fcd {
     file: XmlFile,
-    /// Whether heights are written: only where there are any.
+    /// Whether heights are written: only if the map has any.
     has_heights: bool,
 }
 
@@ -73,14 +73,14 @@ impl Writer for Fcd {
     }
 }
 
-/// A heading, counter-clockwise from east [rad], as SUMO has it [°].
+/// A heading, counter-clockwise from east [rad], in SUMO's convention [°].
 fn clockwise_from_north(heading: f64) -> f64 {
     let angle = (90.0 - heading.to_degrees()).rem_euclid(360.0);
-    // What would be rounded to a full turn is none.
+    // An angle that would be rounded to a full turn is zero.
     if angle < 359.995 { angle } else { 0.0 }
 }
 
-/// By how much the road rises from the centre of a vehicle to its front [°].
+/// Slope of the road from the centre of a vehicle to its front [°].
 fn slope(front: &Point, centre: &Point) -> f64 {
     (front.z - centre.z).atan2(front.distance(centre)).to_degrees()
 }

@@ -1,4 +1,4 @@
-//! `lanechanges.xml`: every completed lane change, as SUMO's `--lanechange-output`.
+//! `lanechanges.xml`: every completed lane change, in the format of SUMO's `--lanechange-output`.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use crate::output::names::Names;
 /// Writes an element for each lane change that was completed.
 pub(in crate::output) struct LaneChangeOutput {
     file: XmlFile,
-    /// The side to which indices of lanes grow.
+    /// The side towards which indices of lanes grow.
     overtaking: Side,
 }
 
@@ -50,7 +50,7 @@ impl LaneChangeOutput {
     }
 }
 
-/// A gap [m], if there is anybody.
+/// A gap [m], if there is a vehicle.
 fn known(file: &mut XmlFile, gap: f64) {
     if gap.is_finite() {
         file.number(gap)
@@ -59,7 +59,7 @@ fn known(file: &mut XmlFile, gap: f64) {
     };
 }
 
-/// SUMO's word for why lanes are changed.
+/// SUMO's name of the reason for a lane change.
 fn reason(kind: Kind) -> &'static str {
     match kind {
         Kind::Discretionary => "speedGain",

@@ -1,5 +1,5 @@
-//! Lanelets as lanes of SUMO: `EDGE_INDEX`. An edge is lanelets side by side, named by the smallest of their ids; lanes
-//! count from 0 on the slow side.
+//! Lanelets as lanes of SUMO: `EDGE_INDEX`. An edge is a group of lanelets side by side, named by the smallest of
+//! their ids; lanes count from 0 on the slow side.
 
 use laneweave_network::{LaneletIndex, Network, Sections, Side};
 
@@ -14,7 +14,7 @@ impl Lanes {
             let id = |it: &LaneletIndex| network.lanelets[it.at()].id;
             let Some(edge) = section.lanelets.iter().map(id).min() else { continue };
             let mut lanes = section.lanelets.clone();
-            // Where the map contradicts itself the ids decide.
+            // Where the map contradicts itself, the ids decide.
             lanes.sort_by_key(|it| (lanes_beyond(network, *it, slow, section.lanelets.len()), id(it)));
             for (index, lanelet) in lanes.iter().enumerate() {
                 names[lanelet.at()] = format!("{edge}_{index}");
@@ -29,7 +29,7 @@ impl Lanes {
     }
 }
 
-/// Number of lanelets beside each other to one side, `most` at most.
+/// Number of lanelets side by side to one side, `most` at most.
 fn lanes_beyond(network: &Network, from: LaneletIndex, side: Side, most: usize) -> usize {
     let beside = |it: &LaneletIndex| {
         let lanelet = &network.lanelets[it.at()];

@@ -1,5 +1,5 @@
-//! Files as SUMO (Eclipse SUMO 1.28) writes them, for whoever has scripts that read those: names, units and order of
-//! the attributes as in its files and schemas. Numbers have two decimals, as there.
+//! Files in the format of SUMO (Eclipse SUMO 1.28), for scripts that read SUMO's output. Names, units and order of
+//! the attributes are those of its files and schemas. Numbers have two decimals, as in SUMO.
 
 mod fcd;
 mod lanechange;

@@ -1,4 +1,4 @@
-//! `tripinfo.xml`: every trip that ended, as SUMO's `--tripinfo-output`.
+//! `tripinfo.xml`: every trip that ended, in the format of SUMO's `--tripinfo-output`.
 
 use std::path::PathBuf;
 
@@ -45,7 +45,8 @@ impl TripInfo {
         file.raw("\" waitingCount=\"").integer(record.stops);
         file.raw("\" stopTime=\"0.00");
         if let Some(delay) = trip.delay() {
-            // It cannot be negative in such a file; by rounding, and behind nobody, it is by fractions of a second.
+            // In such a file it cannot be negative. By rounding, and for a vehicle without a leader, it can be
+            // negative by fractions of a second.
             file.raw("\" timeLoss=\"").number(delay.max(0.0));
         }
         file.raw("\" rerouteNo=\"").integer(record.route_changes + record.missed_turns);

@@ -1,4 +1,4 @@
-//! XML text, quickly: elements with attributes that are numbers or names without special characters.
+//! Fast XML output: elements with attributes that are numbers, or names without special characters.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -9,7 +9,7 @@ use laneweave_study::PartialFile;
 
 use crate::outcome::Provenance;
 
-/// Text that is collected before it is written [bytes].
+/// Text is collected up to this length before it is written [bytes].
 const BUFFER: usize = 1 << 18;
 /// Digits of a number, with sign and point.
 const DIGITS: usize = 24;
@@ -23,19 +23,19 @@ const PAIRS: [[u8; 2]; 100] = {
     }
     pairs
 };
-/// Room for a line, so that the text never has to move [bytes].
+/// Space for a line, so that the text never has to move [bytes].
 const LINE: usize = 1 << 10;
 
 /// An XML file under a provisional name until it is complete.
 pub(super) struct XmlFile {
     text: Vec<u8>,
-    /// Stands before the file, so that it is closed when the file is removed.
+    /// This comes before the file, so that the file is closed when it is removed.
     output: File,
     file: PartialFile,
 }
 
 impl XmlFile {
-    /// Begins the file at `path` with where it comes from and with `root`, the begin tag of its outermost element.
+    /// Begins the file at `path` with its provenance and with `root`, the begin tag of its outermost element.
     pub(super) fn create(path: &Path, root: &str, provenance: &Provenance) -> Result<XmlFile, Fault> {
         let (file, output) =
             PartialFile::create(path).map_err(|error| Fault::refused(path, "created", &error))?;
@@ -44,7 +44,7 @@ impl XmlFile {
         Ok(XmlFile { text, output, file })
     }
 
-    /// Goes on with `markup`, which is XML already.
+    /// Appends `markup`, which is already XML.
     pub(super) fn raw(&mut self, markup: &str) -> &mut XmlFile {
         self.text.extend_from_slice(markup.as_bytes());
         self
@@ -58,11 +58,11 @@ impl XmlFile {
 
     /// A number with two decimals.
     pub(super) fn number(&mut self, value: f64) -> &mut XmlFile {
-        // To the nearer one; the library's rounding takes as long as all the rest.
+        // Rounded to the nearest; the library's rounding takes as long as everything else.
         self.hundredths((100.0 * value + 0.5_f64.copysign(value)) as i64)
     }
 
-    /// A time [s] with two decimals, or with three where a step takes no whole hundredths.
+    /// A time [s] with two decimals, or with three if a step is no whole number of hundredths.
     pub(super) fn time(&mut self, seconds: f64) -> &mut XmlFile {
         let thousandths = (1000.0 * seconds).round() as i64;
         self.hundredths(thousandths.div_euclid(10));
@@ -73,7 +73,7 @@ impl XmlFile {
     }
 
     fn hundredths(&mut self, value: i64) -> &mut XmlFile {
-        // Written from the end on: most of a file is such numbers, and this is the shortest way.
+        // Digits are written from the end: most of a file are such numbers, and this is the fastest method.
         let (mut whole, decimals) = (value.unsigned_abs() / 100, value.unsigned_abs() % 100);
         let mut digits = [0; 2 * DIGITS];
         let mut at = DIGITS - 3;
@@ -87,19 +87,19 @@ impl XmlFile {
                 break;
             }
         }
-        // A pair begins with a zero too many where an odd number of digits stands before the point.
+        // A pair begins with a superfluous zero if the number of digits before the point is odd.
         at += usize::from(digits[at] == b'0');
         if value < 0 {
             at -= 1;
             digits[at] = b'-';
         }
-        // To copy a fixed number of bytes takes less time than to copy just those that are needed.
+        // Copying a fixed number of bytes is faster than copying only the necessary ones.
         self.text.extend_from_slice(&digits[at..at + DIGITS]);
         self.text.truncate(self.text.len() - at);
         self
     }
 
-    /// An element ends. Now and then what is collected is written.
+    /// Ends an element. At times the collected text is written.
     pub(super) fn end(&mut self, markup: &str) -> Result<(), Fault> {
         self.raw(markup);
         if self.text.len() < BUFFER {
@@ -114,7 +114,7 @@ impl XmlFile {
         Ok(())
     }
 
-    /// Ends the outermost element, and gives the file its name.
+    /// Ends the outermost element, and gives the file its final name.
     pub(super) fn finish(mut self, root: &str) -> Result<PathBuf, Fault> {
         self.raw(root);
         let path = self.file.target().to_owned();
@@ -136,7 +136,7 @@ fn header(root: &str, provenance: &Provenance) -> String {
     )
 }
 
-/// Text as a comment can hold it: no control characters, and no double minus, which SUMO's tools write as we do.
+/// Text for a comment: without control characters, and with a double minus written as SUMO's tools write it.
 fn in_comment(text: &str) -> String {
     let can_be_held = |it: char| it == '\n' || !(it.is_control() || matches!(it, '\u{fffe}' | '\u{ffff}'));
     let held: String = text.chars().map(|it| if can_be_held(it) { it } else { ' ' }).collect();

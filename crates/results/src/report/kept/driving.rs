@@ -1,4 +1,4 @@
-//! How drivers of each style drive: distances to the leader, times to collision, accelerations; looked at every five
+//! Driving behaviour by style: distances to the leader, times to collision, accelerations; sampled every five
 //! seconds.
 
 use laneweave_models::Style;
@@ -10,7 +10,7 @@ use laneweave_study::Histogram;
 use laneweave_study::units::KMH_PER_MPS;
 use serde::{Deserialize, Serialize};
 
-/// Time between two looks at the traffic [s]: sooner, a vehicle is much as it was.
+/// Time between two samples [s]: in less time a vehicle changes little.
 const SAMPLING: f64 = 5.0;
 /// Bins of time gaps and of times to collision [s]: their width and number.
 const TIME_GAPS: (f64, usize) = (0.25, 32);
@@ -19,32 +19,32 @@ const TIMES_TO_COLLISION: (f64, usize) = (0.5, 30);
 const SPEEDS: (f64, usize) = (5.0, 60);
 /// Bins of accelerations [m/s²]: the first, their width and number.
 const ACCELERATIONS: (f64, f64, usize) = (-8.0, 0.25, 48);
-/// Slower than this, a time gap says nothing [m/s]; ours.
+/// Minimum speed for a time gap [m/s]; ours.
 const MOVES: f64 = 2.0;
 
-/// Watches the drivers.
+/// Observes the drivers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Driving {
     /// Style of each set of driver parameters.
     style_of: Vec<u16>,
-    /// What was seen, by style.
+    /// The samples, by style.
     pub styles: Vec<StyleDriving>,
 }
 
-/// How drivers of a style drive.
+/// The driving behaviour of a style.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StyleDriving {
     /// The style.
     pub name: String,
     /// Samples: one for each vehicle on the road every five seconds.
     pub samples: u64,
-    /// Way driven, from the speeds at the samples [m].
+    /// Distance driven, from the speeds at the samples [m].
     pub distance: f64,
     /// Samples of vehicles with a leader within sight.
     pub following: u64,
     /// Speeds [km/h].
     pub speeds: Histogram,
-    /// Net time gaps to the leader of those of them that move [s].
+    /// Net time gaps to the leader, of the moving vehicles among them [s].
     pub time_gaps: Histogram,
     /// Times to collision of those that close in on their leaders [s].
     pub times_to_collision: Histogram,
@@ -53,13 +53,13 @@ pub struct StyleDriving {
 }
 
 impl Driving {
-    /// Of the styles of `world`.
+    /// The observer for the styles of `world`.
     pub fn of(world: &World) -> Driving {
         let styles = names(world).into_iter().map(StyleDriving::new).collect();
         Driving { style_of: styles_of(world.demand()), styles }
     }
 
-    /// Looks at the world after a step.
+    /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
         if !clock.step.is_multiple_of(clock.steps(SAMPLING)) {
@@ -104,7 +104,7 @@ impl StyleDriving {
     }
 
     fn see(&mut self, speed: f64, ahead: Option<Ahead>) {
-        /// As far as a leader counts [m]: drivers see no further.
+        /// Maximum distance of a leader [m]: drivers see no further.
         const SIGHT: f64 = laneweave_models::change::SIGHT;
         let Some(ahead) = ahead.filter(|it| it.gap < SIGHT) else { return };
         self.following += 1;
@@ -128,7 +128,7 @@ pub(super) fn typical(world: &World) -> impl Iterator<Item = &Style> {
     world.demand().population.iter().map(|it| &driver_parameters[it.first as usize])
 }
 
-/// For each set of driver parameters the place of its style in the demand.
+/// For each set of driver parameters the index of its style in the demand.
 pub(super) fn styles_of(demand: &Demand) -> Vec<u16> {
     let styles = demand.population.iter().zip(0..);
     styles.flat_map(|(share, style)| std::iter::repeat_n(style, share.count as usize)).collect()

@@ -1,4 +1,4 @@
-//! What is kept of a run for its report.
+//! The data of a run for its report.
 
 mod driving;
 mod reasons;
@@ -15,32 +15,32 @@ pub use driving::{Driving, StyleDriving};
 pub use reasons::Reasons;
 pub use trip_times::{Crowd, TripTimes};
 
-/// Lanes of which there are time–space diagrams.
+/// Number of lanes with time–space diagrams.
 const ROADS: usize = 2;
-/// Incidents that are listed.
+/// Maximum of incidents in the list.
 const INCIDENTS: usize = 10;
 
-/// What is kept of a run for its report.
+/// The data of a run for its report.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Record {
     /// Density, flow, speed and lane changes in boxes.
     pub boxes: Boxes,
-    /// The lanes on which most way is driven.
+    /// The lanes with the largest distance driven.
     pub roads: Vec<Traces>,
-    /// How drivers follow.
+    /// Driving behaviour.
     pub driving: Driving,
-    /// Why they changed lanes.
+    /// Reasons of lane changes.
     pub reasons: Reasons,
     /// Times of trips.
     pub trips: TripTimes,
-    /// Vehicles in the course of time.
+    /// Numbers of vehicles over time.
     pub crowd: Crowd,
     /// The first incidents.
     pub incidents: Vec<Incident>,
 }
 
 impl Record {
-    /// Nothing yet, of what is about to run.
+    /// Empty data for a run before it begins.
     pub(crate) fn of(scenario: &Scenario, prepared: &Prepared) -> Record {
         let Prepared { world, origins, warmup_steps, steps, .. } = prepared;
         let [begin, duration] = [*warmup_steps, *steps].map(|it| f64::from(it) * scenario.run.step_s);
@@ -55,7 +55,7 @@ impl Record {
         }
     }
 
-    /// Looks at the world after a step.
+    /// Observes the world after a step.
     pub(crate) fn observe(&mut self, world: &World) {
         let Record { boxes, roads, driving, reasons, trips, crowd, incidents } = self;
         boxes.observe(world);
@@ -71,14 +71,14 @@ impl Record {
         incidents.extend(seen.take(INCIDENTS - incidents.len()));
     }
 
-    /// Lane changes against density, of the boxes that were over by `end` [s].
+    /// Lane changes against density, of the boxes that were complete at `end` [s].
     pub(crate) fn rate_figure(&self, end: f64) -> String {
         let all = self.boxes.series("all", end, |_| true);
         let discretionary = self.boxes.series("discretionary", end, |kind| kind == Kind::Discretionary);
         rate_density(Sheet::Page, "Lane changes against density", &[all, discretionary])
     }
 
-    /// Time and space on the lane on which most way is driven.
+    /// The time–space data of the lane with the largest distance driven.
     pub(crate) fn time_space_figure(&self) -> String {
         let traces = self.roads.first();
         let all: Vec<&[Sample]> = traces.iter().flat_map(|it| it.trajectories()).collect();

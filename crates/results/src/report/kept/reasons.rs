@@ -1,4 +1,4 @@
-//! Lane changes by style, kind and leading incentive, and the gaps that were taken.
+//! Lane changes by style, kind and leading incentive, and the accepted gaps.
 
 use laneweave_models::change::INCENTIVES;
 use laneweave_sim::{Event, Kind, LaneChange, World};
@@ -13,32 +13,32 @@ const TIMES_TO_COLLISION: (f64, usize) = (1.0, 20);
 /// Bins of gains of speed [m/s]: the first, their width and number.
 const GAINS: (f64, f64, usize) = (-20.0, 1.0, 60);
 
-/// In place of the leading incentive where nothing spoke for the change.
+/// The name where no incentive was in favour of the change.
 const NONE: &str = "none";
 
-/// Counts the lane changes that are over.
+/// Counts the lane changes that ended.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Reasons {
     begin: f64,
     style_of: Vec<u16>,
     /// The styles.
     pub styles: Vec<String>,
-    /// The incentives of each style's model; one that is not used has no name.
+    /// The incentives of each style's model; an unused one has no name.
     incentives: Vec<[String; INCENTIVES]>,
-    /// Completed changes by style, by kind and by the place of the leading incentive, the last of which is none.
+    /// Completed changes by style, by kind and by the index of the leading incentive; the last index is none.
     completed: Vec<[[u64; INCENTIVES + 1]; 2]>,
-    /// Changes that were called off.
+    /// Aborted changes.
     pub aborted: u64,
-    /// Gaps ahead and behind at the begin of the completed changes, where anybody is there [m].
+    /// Gaps ahead and behind at the begin of the completed changes, where there is a vehicle [m].
     pub gaps: [Histogram; 2],
-    /// Times to collision there, where somebody closes in [s].
+    /// Times to collision there, where a vehicle closes in [s].
     pub times_to_collision: [Histogram; 2],
-    /// Gains of speed that were anticipated when the desire came, by kind [m/s].
+    /// Gains of speed that were anticipated when the desire began, by kind [m/s].
     pub gains: [Histogram; 2],
 }
 
 impl Reasons {
-    /// Of changes from the time `begin` [s] on.
+    /// Counts changes from the time `begin` [s] on.
     pub fn new(world: &World, begin: f64) -> Reasons {
         let styles = names(world);
         let incentives = typical(world).map(|it| it.change.row_names().map(String::from)).collect();
@@ -56,7 +56,7 @@ impl Reasons {
         }
     }
 
-    /// Looks at what happened in a step.
+    /// Observes the events of a step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {
             if let Event::LaneChange(change) = event

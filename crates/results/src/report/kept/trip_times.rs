@@ -1,4 +1,4 @@
-//! How long trips took, and how many vehicles were there in the course of time.
+//! Durations of trips, and numbers of vehicles over time.
 
 use laneweave_sim::{Event, World};
 use laneweave_study::{Histogram, Moments};
@@ -8,18 +8,18 @@ use super::driving::{names, styles_of};
 
 /// Bins of times: their first width [s] and their number.
 const BINS: (f64, usize) = (1.0, 60);
-/// Time between two counts of vehicles at first [s], and the most counts that are kept: with more, every second one
-/// goes.
+/// Initial time between two counts of vehicles [s], and the maximum of stored counts: beyond it, every second one is
+/// removed.
 const COUNTING: f64 = 5.0;
 const MOST_COUNTS: usize = 400;
 
-/// Collects the trips that are over.
+/// Collects the trips that ended.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TripTimes {
     style_of: Vec<u16>,
     /// Times on the map [s].
     pub durations: Histogram,
-    /// Of the time on the map, what is beyond that on a free road [s].
+    /// Delays: of the time on the map, the part beyond that on a free road [s].
     pub delays: Histogram,
     /// The times' means.
     pub duration: Moments,
@@ -30,7 +30,7 @@ pub struct TripTimes {
 }
 
 impl TripTimes {
-    /// Of the styles of `world`.
+    /// The collector for the styles of `world`.
     pub fn of(world: &World) -> TripTimes {
         let empty = Histogram::new(0.0, BINS.0, BINS.1);
         TripTimes {
@@ -43,7 +43,7 @@ impl TripTimes {
         }
     }
 
-    /// Looks at what happened in a step.
+    /// Observes the events of a step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {
             let Event::Left { duration, trip: Some(trip), .. } = event else { continue };
@@ -52,7 +52,7 @@ impl TripTimes {
             self.duration.add(*duration);
             if let Some(delay) = trip.free_time.map(|it| duration - it) {
                 self.delays.reach(delay);
-                // Who drives faster than planned, as over a gentle limit, has no delay.
+                // A driver who is faster than the planned time, for example over a short lower limit, has no delay.
                 self.delays.add(delay.max(0.0));
                 self.delay.add(delay);
                 self.of_styles[usize::from(self.style_of[trip.parameters as usize])].1.add(delay);
@@ -61,23 +61,23 @@ impl TripTimes {
     }
 }
 
-/// Vehicles in the course of time.
+/// Numbers of vehicles over time.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Crowd {
     every: f64,
-    /// Time [s], vehicles on the road, vehicles that wait at the entrances.
+    /// Time [s], vehicles on the road, vehicles that wait to enter.
     pub counts: Vec<(f64, usize, usize)>,
 }
 
 impl Default for Crowd {
-    /// None counted yet.
+    /// No counts yet.
     fn default() -> Crowd {
         Crowd { every: COUNTING, counts: Vec::new() }
     }
 }
 
 impl Crowd {
-    /// Looks at the world after a step.
+    /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
         if !clock.step.is_multiple_of(clock.steps(self.every)) {

@@ -1,4 +1,4 @@
-//! What ran.
+//! The section that describes the run.
 
 use super::RunReport;
 use crate::numbers::number;
@@ -23,7 +23,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     Section::new("what", "What ran").facts(facts)
 }
 
-/// The scenario with all that was set, so that the run can be repeated from the report alone.
+/// The scenario with all its settings, so that the report alone is enough to repeat the run.
 pub(super) fn scenario(run: &RunReport) -> Section {
     Section::new("scenario", "The scenario")
         .note("All settings and defaults, as in scenario.toml in the same folder; laneweave run runs it again. Paths are relative to that folder.")

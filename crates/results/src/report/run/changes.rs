@@ -1,4 +1,4 @@
-//! Lane changes: when, by whom, why, and into which gaps.
+//! Lane changes: when, by which styles, why, and into which gaps.
 
 use laneweave_sim::Kind;
 use laneweave_study::units::METRES_PER_KM;
@@ -13,9 +13,9 @@ use crate::report::kept::Reasons;
 use crate::report::{Align, Figure, Section, Table, counted, number};
 
 const KINDS: [(Kind, &str); 2] = [(Kind::Discretionary, "discretionary"), (Kind::Route, "route-driven")];
-/// Incentives are counted per so many vehicle-kilometres.
+/// Incentives are counted per this number of vehicle-kilometres.
 const MANY_KM: f64 = 100.0;
-/// A distribution of fewer values says nothing.
+/// Minimum number of values in a distribution.
 const LEAST: u64 = 20;
 
 pub(super) fn section(run: &RunReport) -> Section {

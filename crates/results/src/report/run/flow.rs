@@ -7,7 +7,7 @@ use super::{NOBODY, RunReport};
 use crate::report::classes::{CLASS, LEAST_BOXES, means};
 use crate::report::{Figure, Section, counted};
 
-/// Speed limits up to which roads are alike [km/h]: streets, main roads, motorways; ours.
+/// Classes of roads by speed limit [km/h]: streets, main roads, motorways; ours.
 const LIMITS: [(f64, &str); 3] = [
     (40.0, "speed limit up to 40 km/h"),
     (75.0, "speed limit 40 to 75 km/h"),
@@ -40,7 +40,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     ])
 }
 
-/// Points by the speed limits of their roads [km/h], as far as there are any.
+/// Points by the class of speed limit of their roads [km/h], if there are any.
 fn grouped(points: impl Iterator<Item = (f64, [f64; 2])>) -> Vec<Scattered> {
     let mut groups = LIMITS.map(|(_, name)| Scattered { name: name.into(), points: vec![], means: vec![] });
     for (limit, point) in points {

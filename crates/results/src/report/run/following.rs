@@ -6,7 +6,7 @@ use super::{NOBODY, RunReport};
 use crate::report::kept::StyleDriving;
 use crate::report::{Align, Figure, Section, Table, counted, number, percent};
 
-/// Styles that are drawn: the most frequent ones.
+/// Number of styles that are drawn: the most frequent ones.
 const MOST_STYLES: usize = 4;
 const SECONDS_PER_HOUR: f64 = 3600.0;
 

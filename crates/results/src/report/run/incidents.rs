@@ -1,4 +1,4 @@
-//! Vehicles that touched each other: the first of them, and what to do.
+//! Vehicles that touched each other: the first incidents, and the remedy.
 
 use laneweave_sim::Incident;
 use laneweave_study::seconds;

@@ -16,16 +16,16 @@ use super::Page;
 use crate::outcome::{About, Provenance, Summary};
 use crate::report::kept::Record;
 
-/// All that is known of a run when it is over.
+/// All data of a run after its end.
 #[derive(Clone, Copy)]
 pub struct RunReport<'a> {
-    /// What ran.
+    /// The description of the run.
     pub about: &'a About,
-    /// Where its results come from.
+    /// The provenance of the results.
     pub provenance: &'a Provenance,
-    /// What it amounts to.
+    /// The summary.
     pub summary: &'a Summary,
-    /// What was seen of it.
+    /// The observations.
     pub record: &'a Record,
     /// The roads.
     pub network: &'a Network,
@@ -55,5 +55,5 @@ impl RunReport<'_> {
     }
 }
 
-/// What was measured without a value is said rather than drawn: an empty figure says nothing.
+/// A measure without values gets a paragraph instead of an empty figure.
 const NOBODY: &str = "No vehicle drove in the measured time.";

@@ -72,7 +72,7 @@ fn tile(value: String, name: &str, more: String) -> Tile {
     Tile { value, name: name.into(), more }
 }
 
-/// What should not happen, and changes of plan.
+/// Problems, and changes of route.
 fn troubles(summary: &Summary) -> Vec<Tile> {
     vec![
         tile(counted(summary.collisions), "collisions", "two vehicles touch while approaching".into()),

@@ -1,4 +1,4 @@
-//! What went wrong, or may mislead, with the remedy where there is one; and how things were measured.
+//! Problems and possible misunderstandings, with the remedy where there is one; and the methods of measurement.
 
 use std::collections::HashMap;
 
@@ -53,7 +53,7 @@ pub(super) fn section(run: &RunReport) -> Section {
         )
 }
 
-/// The first problem of each kind, with their number, in the order in which they came up.
+/// The first problem of each kind, with their number, in the order in which they occurred.
 fn kinds(problems: &[Problem]) -> Vec<(&Problem, u64)> {
     let mut kinds: Vec<(&Problem, u64)> = Vec::new();
     let mut places: HashMap<(&str, &str), usize> = HashMap::new();

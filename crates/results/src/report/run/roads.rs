@@ -1,4 +1,4 @@
-//! Time–space diagrams of the lanes on which most way is driven.
+//! Time–space diagrams of the lanes with the largest distance driven.
 
 use super::RunReport;
 use crate::report::{Figure, Section, time_and_space};

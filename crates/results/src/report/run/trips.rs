@@ -1,4 +1,4 @@
-//! Trips: how long they took, what they lost, and who never got in.
+//! Trips: their durations and delays, and the vehicles that could not enter.
 
 use laneweave_study::{
     BarRow, Distributed, Estimated, Histogram, Moments, Sheet, TimeLine, Upwards, bars, distribution,
