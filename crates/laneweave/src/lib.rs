@@ -1,7 +1,8 @@
-//! laneweave: traffic whose drivers change lanes for human reasons. The library behind the command of this name.
+//! laneweave: a traffic simulator; its drivers change lanes for human reasons. This is the library of the command
+//! with the same name.
 //!
-//! A [`scenario`] names a map, [`style`]s and a demand; prepared, it is a world that a [`simulation`] steps through
-//! while [`output`]s observe it.
+//! A [`scenario`] names a map, [`style`]s and a demand. It is prepared into a world. A [`simulation`] steps through
+//! the world while [`output`]s observe it.
 
 pub mod branch;
 pub mod check;

@@ -1,4 +1,4 @@
-//! A run from its first step to its last, watched by observers.
+//! A run from its first step to its last, with observers.
 
 use laneweave_results::checkpoint::{Checkpoint, FILE, Keeper};
 use laneweave_results::output::{Observer, Queues, ShortTrips};
@@ -8,12 +8,12 @@ use laneweave_sim::{CheckpointError, World};
 
 pub use laneweave_results::Ending;
 
-/// Runs `prepared` through its warm-up and its measured time, or on from a checkpoint. `observers` see the world after
-/// each measured step; `goes_on` is asked before every step; `when_warm` is called once, when measuring begins or goes
-/// on. If there is a `keeper`, it gets checkpoints.
+/// Runs `prepared` through its warm-up and its measured time, or continues from a checkpoint. `observers` see the
+/// world after each measured step. `goes_on` is asked before every step. `when_warm` is called once, when measuring
+/// begins or continues. A `keeper` gets checkpoints, if there is one.
 ///
 /// # Errors
-/// If an observer cannot write what it sees, or the checkpoint is none of this run.
+/// If an observer cannot write its data, or if the checkpoint belongs to another run.
 pub fn simulate(
     prepared: &mut Prepared,
     observers: &mut [Box<dyn Observer>],
@@ -52,7 +52,7 @@ pub fn simulate(
     Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world), short_trips })
 }
 
-/// A run on its way.
+/// A run in progress.
 struct Run {
     /// Simulated time at which measuring began [s].
     measured_from_s: f64,
@@ -63,7 +63,7 @@ struct Run {
 }
 
 impl Run {
-    /// After the warm-up.
+    /// The state after the warm-up.
     fn warmed_up(prepared: &mut Prepared, mut goes_on: impl FnMut(&World) -> bool) -> Run {
         let Prepared { world, warmup_steps, .. } = prepared;
         let mut is_interrupted = false;
@@ -84,7 +84,7 @@ impl Run {
         }
     }
 
-    /// As it was kept.
+    /// The state of a checkpoint.
     fn resumed(
         prepared: &mut Prepared,
         observers: &mut [Box<dyn Observer>],

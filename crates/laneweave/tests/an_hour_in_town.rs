@@ -1,11 +1,11 @@
-//! An hour on real maps with more traffic than they bear: nobody is stuck, and traffic goes on.
+//! An hour on real maps with a demand above their capacity: nobody is stuck, and traffic keeps moving.
 
 use std::path::Path;
 
 use laneweave::scenario::{Origin, Scenario, prepare};
 use laneweave::sim::World;
 
-/// The vehicles after an hour at 1,500 veh/h on a map of the shared data, if it is there; nobody was stuck.
+/// The vehicles after an hour at 1,500 veh/h on a map of the shared data, if it is available; no vehicle was stuck.
 fn an_hour(map: &str, seed: u64) -> Option<World> {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/lanelet2").join(map);
     if !map.exists() {

@@ -1,5 +1,5 @@
-//! Twins: with nothing changed they stay the same to the last bit; with one thing changed they part where it matters,
-//! not before.
+//! Twins: with nothing changed they stay the same to the last bit; with one thing changed they differ where it
+//! matters, not before.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use laneweave::sim::World;
 /// The end of the runs [s].
 const END: f64 = 240.0;
 
-/// A run on one of our maps, guided, with the usual drivers.
+/// A run on a built-in map, with guidance, with the usual drivers.
 fn record(map: &str, demand: f64) -> Record {
     let mut scenario =
         Scenario::of_map(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map));
@@ -76,7 +76,7 @@ fn with_one_weight_changed_nothing_differs_before_and_something_after() {
     let first = differences.vehicles.values().map(|it| it.since_s).fold(f64::INFINITY, f64::min);
     assert!((AT..AT + 20.0).contains(&first), "{first}");
     let last = differences.instants.last().expect("there is one");
-    // Who gains from speed changes more often.
+    // With a larger weight of speed, drivers change lanes more often.
     assert!(last.lane_changes[1] > last.lane_changes[0] + 10, "{last:?}");
     assert_eq!(twins.base.arrived(), twins.branch.arrived(), "the same come at the same times");
 }

@@ -1,4 +1,4 @@
-//! What maps bear, and that it is true: just below it hardly anybody waits, above it about as many enter.
+//! The estimated capacity of maps is right: just below it hardly any vehicle waits; above it about as many enter.
 
 use laneweave::maps::generate::{Control, Grid, Motorway, grid, motorway};
 use laneweave::maps::{Drawing, regulations};
@@ -31,7 +31,7 @@ fn usual() -> (Vec<(Style, f64)>, Vec<Style>, Vec<Share>) {
     (typical, driver_parameters, shares)
 }
 
-/// The estimated capacity of `network` for a demand that `skew` changes.
+/// The estimated capacity of `network` for a demand modified by `skew`.
 fn capacity(network: &Network, skew: impl Fn(&mut Demand)) -> Capacity {
     let (typical, _, shares) = usual();
     let mut demand = Demand::even(network, 1000.0, TRUCKS, shares);
@@ -41,7 +41,7 @@ fn capacity(network: &Network, skew: impl Fn(&mut Demand)) -> Capacity {
     Capacity::new(network, &assignment, &demand, &typical)
 }
 
-/// Lets only the origins with these places in the list have drivers, and only the destinations of theirs.
+/// Only the origins with these indices have demand, and only their destinations.
 fn only(demand: &mut Demand, [origins, destinations]: [&[usize]; 2]) {
     for (number, origin) in demand.origins.iter_mut().enumerate() {
         let comes = origins.contains(&number);
@@ -56,7 +56,7 @@ fn lanes_bear_as_much_as_there_are_of_them_where_fewest_are_left() {
     let plain = |lanes| capacity(&road(lanes, Motorway::default()), |_| ()).veh_h;
     let lane = plain(1);
     assert!((1700.0..2000.0).contains(&lane), "{lane} veh/h");
-    // Changes of lane take a part of it.
+    // Lane changes take a part of it.
     let [two, four] = [2, 4].map(plain);
     assert!((0.85..=1.0).contains(&(two / (2.0 * lane))), "{two} of {lane} veh/h a lane");
     assert!((0.85..1.0).contains(&(four / (4.0 * lane))), "{four} of {lane} veh/h a lane");
@@ -105,13 +105,13 @@ fn a_light_bears_what_of_a_queue_drives_off_at_green() {
     let network = cross(Control::Signals);
     let even = capacity(&network, |_| ());
     assert!(matches!(even.bottleneck, Some(Bottleneck::Light { .. })), "{even:?}");
-    // Each arm has its turn of some ten seconds a minute.
+    // Each arm has a phase of some ten seconds in a minute.
     let green: f64 = network.junctions.lights.iter().map(|it| it.program.green_share()).sum::<f64>()
         / network.junctions.lights.len() as f64;
     let lanes: usize = network.entrances.iter().map(|it| it.chains.len()).sum();
     let at_green = even.veh_h / (lanes as f64 * green);
     assert!((800.0..1800.0).contains(&at_green), "{at_green} veh/h of green and lane");
-    // All from one arm have its green alone.
+    // If all come from one arm, they have only its green.
     let one = capacity(&network, |it| only(it, [&[0], &[0, 1, 2, 3]]));
     assert!(one.veh_h < 0.5 * even.veh_h, "{one:?} {even:?}");
 }
@@ -123,13 +123,13 @@ fn who_crosses_takes_the_time_of_others_and_who_does_not_takes_none() {
     let alone: Vec<f64> = (0..4).map(|it| from(&[it]).veh_h).collect();
     let all = from(&[0, 1, 2, 3]);
     assert!(matches!(all.bottleneck, Some(Bottleneck::Junction(_))), "{all:?}");
-    // Four arms bear more than one, but by far not four times as much.
+    // Four arms have more capacity than one, but far less than four times as much.
     assert!(all.veh_h > alone[0] && all.veh_h < 2.0 * alone[0], "{all:?} {alone:?}");
     assert!(alone.iter().all(|it| (it / alone[0] - 1.0).abs() < 0.02), "{alone:?}");
 }
 
-/// Vehicles per hour that enter in a quarter of an hour when `load` times the estimated capacity of `network` comes,
-/// and those that wait then.
+/// Vehicles per hour that enter in a quarter of an hour at `load` times the estimated capacity of `network`, and
+/// vehicles that wait then.
 fn driven(network: &Network, load: f64) -> (f64, usize) {
     const STEP_S: f64 = 0.1;
     const DURATION_S: f64 = 900.0;

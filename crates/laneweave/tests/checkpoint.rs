@@ -1,4 +1,4 @@
-//! A world that is saved and restored goes on bit for bit, wherever it was saved and on any number of threads.
+//! A world that is saved and restored continues bit for bit, from any time and on any number of threads.
 
 use std::num::NonZero;
 use std::path::Path;
@@ -7,7 +7,7 @@ use laneweave::scenario::{MadeSignals, Origin, Scenario, prepare};
 use laneweave::sim::{CheckpointError, World};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// A world on one of our maps, with guidance every 30 s and actuated lights.
+/// A world on a built-in map, with guidance every 30 s and actuated lights.
 fn world(map: &str, demand: f64, threads: usize) -> World {
     prepare(&scenario(map, demand, threads), &Origin::default()).expect("the map is sound").world
 }
@@ -36,7 +36,7 @@ const MAPS: [(&str, f64); 5] = [
 fn a_restored_world_goes_on_bit_for_bit() {
     for (map, demand) in MAPS {
         let mut undisturbed = world(map, demand, 1);
-        // At 0 s, then in the midst of lane changes, of a measurement of travel times, of yellow lights.
+        // At 0 s, then during lane changes, a measurement of travel times, and yellow lights.
         for (steps, threads) in [(0, 1), (613, 2), (587, 1), (1200, 2)] {
             (0..steps).for_each(|_| undisturbed.step());
             let saved = undisturbed.save().expect("it can be saved");
@@ -87,7 +87,7 @@ fn the_state_of_a_world_with_other_drivers_is_refused() {
     assert_eq!(error.to_string(), "it is the state of another world, with other drivers");
 }
 
-/// A saved world in which much is under way, and one to give it to.
+/// A saved world in which many processes are in progress, and one into which it is restored.
 fn busy() -> (Vec<u8>, World) {
     let mut busy = world("town.osm", 6000.0, 1).with_trip_log();
     (0..1800).for_each(|_| busy.step());
@@ -95,7 +95,7 @@ fn busy() -> (Vec<u8>, World) {
     (busy.save().expect("it can be saved"), world("town.osm", 6000.0, 1))
 }
 
-/// Numbers that look like chance, the same ones every time.
+/// Pseudo-random numbers, the same ones every time.
 fn numbers() -> impl Iterator<Item = u64> {
     let next =
         |it: &u64| Some(it.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407));

@@ -1,11 +1,11 @@
-//! The crates of the project: what each is made of lies below it.
+//! The crates of the project: each depends only on those of lower levels.
 
 use std::fs;
 use std::path::Path;
 
 use toml::Table;
 
-/// The crates, each level above those that it may depend on.
+/// The crates by level; each level comes above those on which it may depend.
 const LEVELS: [&[&str]; 7] = [
     &["network", "models", "study"],
     &["maps", "sim"],

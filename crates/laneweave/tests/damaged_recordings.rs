@@ -1,4 +1,4 @@
-//! Whatever the bytes, reading, cleaning, matching and perceiving end without a panic.
+//! Reading, cleaning, matching and perceiving do not panic, whatever the bytes.
 
 use std::sync::LazyLock;
 
@@ -42,7 +42,7 @@ fn use_it(recording: Recording) {
     }
 }
 
-/// Looks at a recording as its drivers see it.
+/// Perceives every frame of a recording.
 fn perceive(network: &Network, recording: &Recording) {
     let matched = Matched::new(network, recording);
     let navigator = Navigator::new(network);

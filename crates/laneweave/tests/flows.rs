@@ -1,4 +1,4 @@
-//! The table `flows` holds what vehicles drove, and nothing else.
+//! The table `flows` agrees with the distances that vehicles drove.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -7,8 +7,8 @@ use laneweave::output::{Inputs, Provenance, Summary, observers};
 use laneweave::scenario::{Origin, Scenario, TableFormat, prepare};
 use laneweave::simulation::simulate;
 
-/// Seconds that all vehicles spent on the lanelets, and metres that they drove there, from the rows of the table; and
-/// the same as the world counted them, with the number of those who left.
+/// Time of all vehicles on the lanelets [s], and their distance there [m], from the rows of the table; the same from
+/// the world's counters; and the number of completed trips.
 fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
     let mut scenario = Scenario::of_map(path);
@@ -58,10 +58,11 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
 
 #[test]
 fn times_and_ways_add_up_to_what_was_driven() {
-    // Of intervals of 30 s the last is shorter.
+    // If intervals are 30 s long, the last one is shorter.
     for (map, demand, every) in [("ramps.osm", 4000.0, 300), ("grid.osm", 4000.0, 600)] {
         let (table, counted, left) = totals(map, demand, every);
-        // Those who left ended their last step beyond the road; a stop within a step is a few centimetres off.
+        // Vehicles that left ended their last step beyond the road; a stop within a step causes an error of a few
+        // centimetres.
         let missing = [counted[0] - table[0], counted[1] - table[1]];
         assert!(left > 50.0 && (0.0..0.1 * left).contains(&missing[0]), "{map}: {missing:?} of {counted:?}");
         assert!((0.0..4.0 * left).contains(&missing[1]), "{map}: {missing:?} of {counted:?}, {left} left");

@@ -1,4 +1,4 @@
-//! Maps that are hard to drive on: nobody is hit, stuck or lost, whatever the elements.
+//! Maps that are difficult to drive on: no vehicle collides, is stuck or lost, whatever the elements.
 
 use std::path::Path;
 
@@ -6,8 +6,8 @@ use laneweave::maps::{generate, lanelet2};
 use laneweave::scenario::{Origin, Prepared, Scenario, prepare};
 use laneweave::sim::World;
 
-/// The world of a map file with this seed and so many vehicles an hour, or with `share` of its estimated capacity if
-/// that is less, audited.
+/// The world of a map file with this seed and this demand [veh/h], or with `share` of its estimated capacity if that
+/// is less, with audit.
 fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
     let mut scenario = Scenario::of_map(map.into());
     scenario.run.audit = true;
@@ -19,7 +19,7 @@ fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
     prepared(&scenario).world
 }
 
-/// Drives for so many seconds. Nobody may be hit, stuck or lost, and hardly anybody misses a turn.
+/// Simulates for so many seconds. No vehicle may collide, be stuck or lost; hardly any driver may miss a turn.
 fn drive(world: &mut World, seconds: u32, name: &str) {
     (0..10 * seconds).for_each(|_| world.step());
     let counters = world.counters();
@@ -32,7 +32,7 @@ fn drive(world: &mut World, seconds: u32, name: &str) {
     assert!(missed <= 0.02, "{name}: {missed}");
 }
 
-/// A minimal map of the shared data, if these are there.
+/// A minimal map of the shared data, if available.
 fn minimal(name: &str) -> Option<std::path::PathBuf> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/minimal");
     if !data.exists() {
@@ -51,7 +51,7 @@ fn an_hour_on(names: &[&str]) {
     }
 }
 
-/// Vehicles that leave a minimal map within an hour at this demand [veh/h].
+/// Vehicles that complete their trips on a minimal map within an hour at this demand [veh/h].
 fn left(name: &str, seed: u64, demand: f64) -> Option<f64> {
     let mut world = world(&minimal(name)?, seed, [demand, f64::INFINITY]);
     drive(&mut world, 3600, name);
@@ -106,7 +106,7 @@ fn a_short_window_for_a_lane_change_is_used() {
 
 #[test]
 fn a_window_of_16_m_passes_nearly_what_one_of_60_m_does_where_more_come_than_it_takes() {
-    // Of single hours the share varies by 0.02 about its mean.
+    // In single hours the share varies by 0.02 about its mean.
     const SEEDS: std::ops::RangeInclusive<u64> = 1..=20;
     let all = |name: &str| SEEDS.map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
     if let (Some(short), Some(long)) = (all("window16"), all("window60")) {
@@ -114,7 +114,7 @@ fn a_window_of_16_m_passes_nearly_what_one_of_60_m_does_where_more_come_than_it_
     }
 }
 
-/// The world of a random map at 70 % of its estimated capacity, audited.
+/// The world of a random map at 70 % of its estimated capacity, with audit.
 fn random_world(number: u64) -> World {
     let map = std::env::temp_dir().join(format!("laneweave-random-map-{}-{number}.osm", std::process::id()));
     std::fs::write(&map, lanelet2::write(&generate::random(number).drawing)).expect("there is room");
@@ -123,7 +123,7 @@ fn random_world(number: u64) -> World {
     world
 }
 
-/// Drives so many seconds on a random map: nobody is hit, stuck or lost.
+/// Simulates so many seconds on a random map: no vehicle collides, is stuck or lost.
 fn drive_randomly(number: u64, seconds: u32) {
     let mut world = random_world(number);
     (0..10 * seconds).for_each(|_| world.step());

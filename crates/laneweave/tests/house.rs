@@ -1,9 +1,9 @@
-//! What is written can be read: no file and no function of the project is long.
+//! Files and functions of the project are short.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Most lines of a file, and of a function; most columns of a comment.
+/// Maximum of lines of a file, and of a function; maximum of columns of a comment.
 const FILE: usize = 400;
 const FUNCTION: usize = 70;
 const COMMENT: usize = 120;
@@ -26,7 +26,7 @@ fn files() -> Vec<PathBuf> {
     files
 }
 
-/// The functions of a text in the usual format, each with the number of its lines.
+/// The functions of a text in the usual format, each with its number of lines.
 fn functions(text: &str) -> Vec<(&str, usize)> {
     const MODIFIERS: [&str; 6] = ["pub(crate) ", "pub(super) ", "pub ", "const ", "async ", "unsafe "];
     let lines: Vec<&str> = text.lines().collect();
@@ -36,7 +36,7 @@ fn functions(text: &str) -> Vec<(&str, usize)> {
         let bare = MODIFIERS.iter().fold(code, |code, it| code.strip_prefix(it).unwrap_or(code));
         let Some(head) = bare.strip_prefix("fn ") else { continue };
         let name = head.split(['(', '<']).next().unwrap_or_default();
-        // Its end stands as far to the right as its beginning; what has no body ends at once.
+        // Its end has the same indentation as its beginning; a function without a body ends at once.
         let end = format!("{}}}", &line[..line.len() - code.len()]);
         let length =
             if line.ends_with(';') { Some(0) } else { lines[number..].iter().position(|it| *it == end) };

@@ -1,5 +1,5 @@
-//! Vehicles that touch each other are told with their time and place: in the table `incidents`, and the first in the
-//! summary.
+//! Vehicles that touch each other are reported with their time and place: in the table `incidents`, and the first in
+//! the summary.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
 use laneweave::sim::{Class, NewVehicle};
 use laneweave::simulation::simulate;
 
-/// A run of half a minute on two lanes, on which only those drive who are put there; in a folder that goes with it.
+/// A run of half a minute on two lanes, with only the vehicles that the test places there; in a temporary folder.
 struct Run {
     scenario: Scenario,
     keeper: Keeper,
@@ -35,7 +35,7 @@ impl Run {
         Run { scenario, keeper: Keeper { path, every: 100, fingerprint: "f".into(), outputs: "o".into() } }
     }
 
-    /// Two cars, of which the second has its front 2 m within the first; and a third far ahead.
+    /// Two cars, the second with its front 2 m within the first; and a third far ahead.
     fn prepared(&self) -> Prepared {
         let mut prepared = prepare(&self.scenario, &Origin::default()).expect("the map is sound");
         let chain = prepared.world.network().entrances[0].chains[0];
@@ -55,8 +55,8 @@ impl Run {
         prepared
     }
 
-    /// Runs on from the last checkpoint, if there is one, and up to `end` [s], where it breaks off if that is before
-    /// its end.
+    /// Continues from the last checkpoint, if there is one, up to `end` [s]; if that is before its end, the run is
+    /// interrupted.
     fn until(&self, end: f64) -> Option<(Summary, Vec<PathBuf>)> {
         let Run { scenario, keeper } = self;
         let mut prepared = self.prepared();
@@ -136,7 +136,7 @@ fn where_nobody_touches_anybody_the_table_has_its_head_alone() {
     let mut run = Run::new();
     run.scenario.run.warmup_s = 10.0;
     let (summary, _) = run.until(f64::INFINITY).expect("it ends");
-    // What happened in the warm-up does not count.
+    // Events of the warm-up do not count.
     assert_eq!((summary.incidents, summary.first_incident), (0, None));
     assert_eq!(run.table().lines().count(), 1);
     let text = summary.to_text(&[], &[]);

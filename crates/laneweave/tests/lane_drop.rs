@@ -1,5 +1,5 @@
-//! Where a lane ends (catalogue V52): what passes is not above the capacity of the lanes that go on, a queue before it
-//! takes away at most 15 % of it, and nobody stands for good; and two lanes of equal inflow are equally full.
+//! A lane drop (catalogue V52): the flow is not above the capacity of the remaining lanes, a queue lowers it by at
+//! most 15 %, and no vehicle is stuck; and two lanes with equal inflow have equal densities.
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::models::Style;
@@ -18,7 +18,7 @@ fn road(lanes: usize, lane_drop_at: Option<f64>) -> Network {
     motorway(&road).expect("a road").build().expect("a network").network
 }
 
-/// The usual drivers, in cars, who come at `rate`.
+/// The usual drivers, in cars, with the demand `rate`.
 fn world(network: Network, rate: Rate, seed: u64) -> World {
     let Population { driver_parameters, shares } = Population::usual(seed).expect("built-in styles");
     let mut demand = Demand::even(&network, 0.0, 0.0, shares);
@@ -35,7 +35,7 @@ fn drive(world: &mut World, seconds: f64, mut watch: impl FnMut(&World)) {
     }
 }
 
-/// The mean over replications, said on screen.
+/// The mean over replications, printed on screen.
 fn over_seeds<T>(what: &str, found: &[T], of: impl Fn(&T) -> f64) -> Estimate {
     let estimate = mean(&found.iter().map(of).collect::<Vec<_>>()).expect("replications");
     eprintln!("{what}: {:.4} ± {:.4} over {SEEDS} seeds", estimate.mean, estimate.half_width);
@@ -63,13 +63,13 @@ fn equilibrium_of_two_lanes() -> f64 {
     2.0 * SECONDS_PER_HOUR * speeds.map(|it| it / spacing(it)).fold(0.0, f64::max)
 }
 
-/// Time before flows are measured, in which they are, and in which all drive out when nobody comes any more [s].
+/// Time before flows are measured, time of measuring, and time in which all leave after the end of demand [s].
 const BEGIN: f64 = 300.0;
 const MEASURED: f64 = 900.0;
 const DISSOLVES: f64 = 900.0;
 
-/// Vehicles that passed the end of one of three lanes, every 10 s, where `demand` [veh/h] comes. Afterwards nobody
-/// stands there for good.
+/// Vehicles that passed the end of one of three lanes, every 10 s, at `demand` [veh/h]. Afterwards no vehicle is
+/// stuck there.
 fn passed_a_drop(demand: f64, seed: u64) -> Vec<f64> {
     let rate = Rate::by_pieces(&[(0.0, demand), (BEGIN + MEASURED, 0.0)]).expect("a rate");
     let mut world = world(road(3, Some(2000.0)), rate, seed);
@@ -91,7 +91,7 @@ fn largest_flow(passed: &[f64], count: usize) -> f64 {
 
 #[test]
 fn v52_a_queue_at_a_lane_drop_discharges_at_most_15_percent_below_capacity_and_dissolves() {
-    /// Demands just below what makes a queue, and far above [veh/h].
+    /// Demand just below that with a queue, and far above it [veh/h].
     const NEAR: f64 = 4000.0;
     const ABOVE: f64 = 5000.0;
     let equilibrium = equilibrium_of_two_lanes();

@@ -1,4 +1,4 @@
-//! No mutation of a map makes `check` panic: not the report, the graph or the picture.
+//! `check` does not panic on any mutation of a map: neither the report, nor the graph, nor the picture.
 
 use std::path::Path;
 use std::thread;
@@ -8,12 +8,12 @@ use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::maps::{ReadOptions, lanelet2};
 use laneweave::sim::{Purpose, Random};
 
-/// Mutated maps in all.
+/// Total number of mutated maps.
 const MAPS: u32 = 10_000;
-/// Mutations of each.
+/// Number of mutations of each.
 const MUTATIONS: u32 = 100;
 
-/// Values that attributes do not expect.
+/// Values that are unexpected in attributes.
 const ODD: [&str; 14] = [
     "",
     "-1",
@@ -41,11 +41,11 @@ fn check_survives_mutated_maps() {
         let other = scope.spawn(move || run(1));
         (run(0), other.join().expect("it ends"))
     });
-    // Many are still maps, so what comes after reading is tried, too.
+    // Many are still maps, so the steps after reading are tested, too.
     assert!(first + second > MAPS as usize / 5, "only {} could be read", first + second);
 }
 
-/// A motorway of our own, and real junctions where they are at hand.
+/// A generated motorway, and real junctions if they are available.
 fn originals() -> Vec<String> {
     let small = Motorway {
         lanes: 2,
@@ -74,7 +74,7 @@ fn survives(maps: &[String], number: u32) -> usize {
     1
 }
 
-/// Two of three keep the markup whole and change values and lines only.
+/// Two of three keep the markup intact and change only values and lines.
 fn mutated(text: &str, number: u32) -> String {
     let random = Random::new(7);
     let draw =
@@ -84,7 +84,7 @@ fn mutated(text: &str, number: u32) -> String {
         let at = draw(4 * mutation, lines.len());
         let what = draw(4 * mutation + 1, if number.is_multiple_of(3) { 6 } else { 4 });
         match what {
-            // Another value, from a list or from elsewhere in the map.
+            // Another value, from a list or from another place in the map.
             0 | 1 => {
                 let mut parts: Vec<&str> = lines[at].split('"').collect();
                 let place = 2 * draw(4 * mutation + 2, parts.len() / 2 + 1) + 1;
@@ -95,7 +95,7 @@ fn mutated(text: &str, number: u32) -> String {
                     lines[at] = parts.join("\"");
                 }
             }
-            // A whole line is gone, or comes twice.
+            // A whole line is removed, or repeated.
             2 if lines.len() > 10 && lines[at].starts_with("<node") => {
                 lines.remove(at);
             }

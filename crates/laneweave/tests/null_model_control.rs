@@ -1,5 +1,6 @@
-//! Drivers, not coins: the signs that tell them apart on a two-lane motorway with 10 % trucks at 800–1,400 veh/h/lane
-//! (catalogue V50), over 20 seeds with 95 % intervals. A changer without a reason, the control, must fail them.
+//! Drivers against null-model controls: the signs that distinguish them on a two-lane motorway with 10 % trucks at
+//! 800–1,400 veh/h/lane (catalogue V50), over 20 seeds with 95 % intervals. Drivers who change lanes without a
+//! reason, the control, must fail them.
 
 use std::collections::HashMap;
 
@@ -19,7 +20,7 @@ const VEHICLES_PER_HOUR_AND_LANE: [f64; 3] = [800.0, 1100.0, 1400.0];
 /// A discretionary change back within this time undoes the one before [s].
 const BACK_WITHIN_S: f64 = 30.0;
 
-/// What one replication shows.
+/// The results of one replication.
 #[derive(Default)]
 struct Signs {
     changes: f64,
@@ -46,7 +47,7 @@ impl Signs {
     }
 }
 
-/// The usual drivers; as the control, the same drivers changing lanes without a reason.
+/// The usual drivers; as the control, the same drivers who change lanes without a reason.
 fn population(is_control: bool) -> Population {
     let mut population = Population::usual(1).expect("built-in styles");
     if is_control {
@@ -104,7 +105,7 @@ fn over_seeds(signs: &[Signs], of: impl Fn(&Signs) -> f64) -> Estimate {
     mean(&signs.iter().map(of).collect::<Vec<_>>()).expect("replications")
 }
 
-/// The replications at one flow, and what they say on screen.
+/// The replications at one flow, with their results printed on screen.
 fn replications(name: &str, population: &Population, flow: f64) -> Vec<Signs> {
     let signs: Vec<Signs> =
         (1..=SEEDS).map(|seed| replicate(population, flow * LANES as f64, seed)).collect();

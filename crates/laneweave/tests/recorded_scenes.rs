@@ -1,4 +1,4 @@
-//! What the drivers of a real road know, where the recording is at hand.
+//! The perceptions of drivers on a real road, if the recording is available.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
             let spot = frame.spot(vehicle).expect("it is there");
             let (scene, x) = (frame.scene(), frame.scene().motion(spot).x);
             between_lanes += usize::from(scene.driver(spot).phase.is_between_lanes());
-            // Where permitted changes do not lead where it went, another destination is assumed.
+            // Where permitted changes do not lead to its destination, another destination is assumed.
             let destination = scene.driver(spot).goal.destination();
             let waypoint = navigator.waypoint(destination, spot.chain);
             assert!(waypoint.leads_on(x) || navigator.reachable(spot.chain, x).next().is_none());
@@ -59,7 +59,7 @@ fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
          {led} led, {followed} followed, {close} too close",
         drivers.len()
     );
-    // Nearly all are there but those whose front bumper has passed an exit.
+    // Nearly all vehicles are in the scene, except those with a front bumper beyond an exit.
     assert!(there * 1000 >= recorded * 999 && between_lanes * 50 >= there, "{figures}");
     assert!(drivers.len() > 700 && situations > 8000, "{figures}");
     assert!(led * 10 > situations * 7 && followed * 10 > situations * 6, "{figures}");

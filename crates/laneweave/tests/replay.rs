@@ -1,4 +1,4 @@
-//! Frames of recordings made by hand as scenes: who is where, and what drivers know.
+//! Frames of small recordings as scenes: the positions of vehicles, and the knowledge of drivers.
 
 use laneweave::style::Population;
 use laneweave_maps::generate::{Motorway, motorway};
@@ -22,7 +22,7 @@ fn road(length_m: f64, off_ramp_at: Vec<f64>) -> Network {
     motorway(&road).expect("it fits").build().expect("it has lanes").network
 }
 
-/// A car 4.5 m long that goes to the east for some seconds, `aside(time)` from the road's edge.
+/// A car 4.5 m long that drives to the east for some seconds, `aside(time)` from the road's edge.
 fn car(id: i64, x: f64, speed: f64, seconds: f64, aside: impl Fn(f64) -> f64) -> Track {
     let states = (0..=(seconds / STEP).round() as i64).map(|frame| {
         let time = frame as f64 * STEP;
@@ -39,7 +39,7 @@ fn assumed(_: usize) -> Assumed {
     Assumed { parameters: 0, speed_factor: 0.9 }
 }
 
-/// Looks at a recording as its drivers see it.
+/// Shows a recording as its drivers see it.
 fn replay(network: &Network, tracks: Vec<Track>, look: impl FnOnce(&Replay)) {
     let recording = Recording { step: STEP, tracks };
     let matched = Matched::new(network, &recording);
@@ -210,7 +210,7 @@ fn a_front_bumper_beyond_a_fork_is_on_the_branch_that_is_driven_later() {
             let chain = network.chain(spot.chain);
             assert_eq!(chain.lanelets, [LaneletIndex(branch)]);
             assert_near(frame.scene().motion(spot).x, 0.65);
-            // Before the fork it is known where it will go.
+            // Its direction is known before the fork.
             let frame = replay.frame(0);
             let spot = frame.spot(1).expect("it is there");
             let destination = frame.scene().driver(spot).goal.destination();

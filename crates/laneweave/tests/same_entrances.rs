@@ -1,4 +1,4 @@
-//! `check` names the entrances and exits at which a run lets vehicles in and out.
+//! `check` names the same entrances and exits that a run uses.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use laneweave::check::Report;
 use laneweave::scenario::{MapOptions, Origin, Scenario, open_map, prepare};
 use laneweave::sim::Place;
 
-/// The maps in a folder beside the crates, if it is there.
+/// The maps in a folder beside the crates, if it exists.
 fn maps(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten();

@@ -1,6 +1,6 @@
-//! What characters of drivers do: tired ones change lanes less, keep to the lane of their route, and notice
-//! later; near altruists others lose less speed than near egoists. Over ten seeds or more, the 95 % intervals lie
-//! apart.
+//! Effects of driver parameters: tired drivers change lanes less, stay in the lane of their route, and notice later;
+//! near altruists others lose less speed than near egoists. Over ten seeds or more, the 95 % intervals do not
+//! overlap.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn own_map(name: &str) -> Network {
     load(&path, &ReadOptions::default()).expect("the map is sound").network
 }
 
-/// The drivers of built-in styles, as many of each.
+/// The drivers of built-in styles, with equal shares.
 fn population(styles: &[&str]) -> Population {
     let template = |name: &&str| {
         let source = find(name, Path::new(""), String::new).expect("it is built in");
@@ -45,7 +45,7 @@ fn drive(world: &mut World, seconds: u32, mut watch: impl FnMut(&World, u32)) {
     }
 }
 
-/// A mean that grows.
+/// A running mean.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     all: f64,
@@ -63,14 +63,14 @@ impl Sum {
     }
 }
 
-/// The interval of what was found for each seed, said on screen.
+/// The interval over the seeds, printed on screen.
 fn interval(what: &str, found: &[f64]) -> Interval {
     let estimate = mean(found).expect("replications");
     eprintln!("{what}: {:.4} ± {:.4} over {} seeds", estimate.mean, estimate.half_width, found.len());
     estimate.interval()
 }
 
-/// Asserts that the first is below the second, with intervals that lie apart.
+/// Asserts that the first is below the second, with intervals that do not overlap.
 #[track_caller]
 fn assert_below(what: [&str; 2], found: [Vec<f64>; 2]) {
     let [lower, upper] = [0, 1].map(|it| interval(what[it], &found[it]));
@@ -107,7 +107,7 @@ fn tired_drivers_change_lanes_less_than_others_in_the_same_traffic() {
     assert_below(["changes/veh-km of the tired", "of the others"], rates);
 }
 
-/// Gap to a truck at which drivers of `style` who come up to it on the empty slow lane want to overtake: mean of four
+/// Gap to a truck at which drivers of `style` who approach it on the empty slow lane want to overtake: mean of four
 /// [m].
 fn gap_when_noticed(style: &str, seed: u64) -> f64 {
     const PAIRS: u32 = 4;
@@ -147,7 +147,7 @@ fn tired_drivers_notice_a_slow_truck_later() {
     assert_below(["gap [m] at which the tired want to overtake", "at which others do"], gaps);
 }
 
-/// Changes per vehicle, in dense traffic before an off-ramp, to lanes from which more changes are to go than before.
+/// Changes per vehicle, in dense traffic before an off-ramp, to lanes from which more changes remain than before.
 fn changes_off_the_route(style: &str, seed: u64) -> f64 {
     let drivers = population(&[style]);
     let mut world = world(own_map("off_ramp.osm"), &drivers, &drivers.shares, 4500.0, seed);
@@ -177,7 +177,7 @@ fn tired_drivers_leave_the_lane_of_their_route_less() {
 #[test]
 fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_egoists_do() {
     const SEEDS: u64 = 10;
-    /// Time after which the loss is looked at [s], and distance up to which a follower is one [m].
+    /// Time after which the loss is measured [s], and maximum distance of a follower [m].
     const AFTER: u32 = 5;
     const NEAR: f64 = 100.0;
     let both = population(&["altruistic", "egoistic"]);
@@ -187,7 +187,7 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
         drive(&mut world, 180, |_, _| ());
         let mut lost = [Sum::default(); 2];
         let mut phases: HashMap<VehicleId, Phase> = HashMap::new();
-        // When to look, at whom, how fast it was, and who changed before it.
+        // Time of the measurement, follower, its earlier speed, and the driver who changed before it.
         let mut concerned: Vec<(u32, VehicleId, f64, usize)> = Vec::new();
         drive(&mut world, 600, |world, step| {
             let scene = world.scene();
@@ -213,7 +213,7 @@ fn those_before_whom_altruists_change_lose_less_speed_than_those_before_whom_ego
     assert_below(["speed [m/s] lost behind altruists who change", "behind egoists"], losses);
 }
 
-/// Share of its desired speed that a driver lacks.
+/// The missing share of a driver's desired speed.
 fn shortfall(it: &Vehicle) -> f64 {
     1.0 - it.speed() / f64::from(it.driver.desired)
 }

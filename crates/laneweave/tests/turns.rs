@@ -1,4 +1,4 @@
-//! Turning shares: drivers go where the counts of junctions send them.
+//! Turning shares: drivers follow the turning counts of junctions.
 
 use std::f64::consts::FRAC_PI_6;
 use std::path::Path;
@@ -22,7 +22,7 @@ fn heading(network: &Network, gate: &Gate, at_end: bool) -> f64 {
     chain.centre.heading(if at_end { chain.length } else { 0.0 })
 }
 
-/// The shares of the destinations of an entrance, to the left, straight on and to the right of it.
+/// The shares of the destinations to the left, straight on and to the right of an entrance.
 fn shares(prepared: &Prepared, entrance: usize) -> [f64; 3] {
     let (network, demand) = (prepared.world.network(), prepared.world.demand());
     let from = heading(network, &network.entrances[entrance], false);
@@ -53,7 +53,7 @@ fn at_one_junction_the_destinations_have_the_shares_of_the_turns() {
     }
 }
 
-/// At every junction of a map all go the way of the least cost by its angle.
+/// At every junction of a map all drivers take the movement of the least cost by its angle.
 fn everywhere(map: &str, cost: impl Fn(f64) -> f64) -> Scenario {
     let network = prepared(&scenario(map, &[])).world.network().clone();
     let sections = Sections::of(&network);
@@ -168,7 +168,8 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
 
 #[test]
 fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where_it_leads() {
-    // Nobody gets from -101122 to the left: it is refused unless there is somewhere else to go, or nobody comes.
+    // There is no route from -101122 to the left: the scenario is refused unless there is another destination, or no
+    // demand.
     let map = "../../shared/data/lanelet2/tianjin.osm";
     let turns = Turns { from: -101_122, left: 1.0, straight: 0.0, right: 0.0 };
     let mut scenario = scenario(map, &[turns]);

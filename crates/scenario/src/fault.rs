@@ -1,4 +1,4 @@
-//! What is wrong with what the user gave, where, and what to do about it.
+//! Faults: what is wrong with the user's input, where, and what to do about it.
 
 use std::fmt;
 use std::io;
@@ -9,11 +9,11 @@ use laneweave_study::TableError;
 /// Why a command fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// A mistake in what the user gave, or a file that the system refuses.
+    /// A mistake in the input, or a file that the system refuses.
     Input,
     /// Standard output cannot be written.
     Output,
-    /// Nobody reads standard output any more.
+    /// Nothing reads standard output any more.
     Closed,
 }
 
@@ -24,14 +24,14 @@ pub struct Fault {
     pub cause: Cause,
     /// Where: `FILE:LINE:COLUMN`, a file, or an option of the command.
     pub place: String,
-    /// What is wrong there.
+    /// The problem.
     pub what: String,
-    /// What mends it.
+    /// The remedy.
     pub remedy: String,
 }
 
 impl Fault {
-    /// `what` is wrong at `place`, and `remedy` mends it.
+    /// The fault `what` at `place`, with its `remedy`.
     pub fn new(place: impl fmt::Display, what: impl fmt::Display, remedy: impl fmt::Display) -> Fault {
         Fault {
             cause: Cause::Input,
@@ -68,7 +68,7 @@ impl Fault {
     }
 }
 
-/// The system's words without its error number.
+/// The system's message without its error number.
 fn plain(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_lowercase()
@@ -94,11 +94,11 @@ impl From<TableError> for Fault {
     }
 }
 
-/// A remedy for an unknown name: the nearest of those that are known, else all of them, if they are not too many.
+/// A remedy for an unknown name: the most similar known name, or else all of them, if there are not too many.
 pub fn did_you_mean<'a>(unknown: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    /// Names less alike than this are not meant.
+    /// Names with less similarity than this are not suggested.
     const ALIKE: f64 = 0.5;
-    /// Of more names only so many are listed.
+    /// Maximum of names in a list.
     const LISTED: usize = 30;
     let known: Vec<&str> = known.into_iter().collect();
     let likeness = |name: &&str| strsim::normalized_damerau_levenshtein(unknown, name);

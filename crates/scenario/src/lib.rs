@@ -1,5 +1,5 @@
-//! From files to a world that can run. A [`scenario`] names a map, [`style`]s and a demand; what is wrong in it becomes
-//! a [`Fault`] with its place and its remedy before anything is driven.
+//! From files to a world that can run. A [`scenario`] names a map, [`style`]s and a demand. A mistake in it becomes a
+//! [`Fault`] with its place and its remedy before the simulation begins.
 
 mod capacity;
 mod fault;

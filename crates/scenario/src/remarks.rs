@@ -1,4 +1,4 @@
-//! What a map lets traffic do that may look odd, although nothing in it is wrong: one function for each remark.
+//! Remarks on valid maps on which traffic may look odd: one function for each remark.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -9,10 +9,10 @@ use laneweave_sim::{Place, Places};
 use laneweave_study::units::KMH_PER_MPS;
 use serde::Serialize;
 
-/// Something to know before one looks at traffic on a map.
+/// A remark on the traffic of a map.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Remark {
-    /// What the map is like, and what that means for traffic.
+    /// The property of the map, and its effect on traffic.
     pub what: String,
     /// What to do about it.
     pub remedy: String,
@@ -24,32 +24,34 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Nobody reads more.
+/// Maximum of items in a list.
 const MOST_REMARKS: usize = 5;
-/// Limits up to this make traffic crawl, and often stand for limits that nobody knew [m/s]. Ours.
+/// Limits up to this make traffic very slow, and are often placeholders for unknown limits [m/s]. Ours.
 const CRAWL: f64 = 10.0 / KMH_PER_MPS;
-/// Nowhere is a higher limit in force [m/s]. Ours.
+/// No higher limit exists [m/s]. Ours.
 const HIGHEST: f64 = 200.0 / KMH_PER_MPS;
-/// Between successive lanelets a limit is odd if one is less than this part of the other. Ours.
+/// A limit is odd if the ratio of two successive limits is below this. Ours.
 const JUMP: f64 = 0.5;
 /// A comfortable deceleration [m/s²], that of the usual drivers.
 const BRAKING: f64 = 2.0;
-/// An entrance is short if it is less than this part of the way to brake from its limit. Ours.
+/// An entrance is short if it is less than this share of the braking distance from its limit. Ours.
 const MUCH_SHORTER: f64 = 0.5;
-/// A stretch that is driven in less time is too short to change lanes by choice: the change itself takes 3 to 5 s [s].
+/// A stretch with a shorter travel time is too short for discretionary lane changes: the change itself takes 3 to 5 s
+/// [s].
 const TIME_TO_CHANGE: f64 = 5.0;
-/// Chains along which a stretch is followed. Ours.
+/// Number of chains over which a stretch is followed. Ours.
 const MOST_CHAINS: usize = 6;
-/// Nobody drives with a greater lateral acceleration for long [m/s²]: twice what is felt to be comfortable (AASHTO's
-/// side friction of 0.2 at low speeds, from memory).
+/// Maximum lateral acceleration of drivers for a longer time [m/s²]: twice the comfortable one (AASHTO's side
+/// friction of 0.2 at low speeds, from memory).
 const LATERAL: f64 = 4.0;
-/// Directions for the curvature of a lane are compared over this distance [m]; corners of drawn lines are closer. Ours.
+/// The curvature of a lane is computed from its directions over this distance [m]; corners of drawn lines are closer.
+/// Ours.
 const SPAN: f64 = 10.0;
 /// The shortest distance for that [m]. Ours.
 const SHORTEST_SPAN: f64 = 4.0;
 
-/// All that applies to `map`, on whose network with its junctions trips start and end at `places`: what matters most
-/// comes first.
+/// All remarks on `map`; on its network with its junctions, trips start and end at `places`. The most important
+/// remark comes first.
 pub fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Remark> {
     let all = [
         closed(places),
@@ -69,7 +71,7 @@ fn remark(what: String, remedy: &str) -> Option<Remark> {
     Some(Remark { what, remedy: remedy.into() })
 }
 
-/// Nobody comes onto the map or leaves it.
+/// No vehicle enters the map or leaves it.
 fn closed(places: &Places) -> Option<Remark> {
     let inner_places = places.origins.iter().filter(|it| matches!(it, Place::Inside(_))).count();
     if inner_places == 0 {
@@ -81,7 +83,7 @@ fn closed(places: &Places) -> Option<Remark> {
     remark(what, "for through traffic, make roads begin and end with a lanelet of 10 m or more")
 }
 
-/// Stretches on which lanes may be changed are short, or there are none.
+/// Stretches with lane changes are short, or there are none.
 fn room_to_change(network: &Network) -> Option<Remark> {
     let chains = network.chains.iter();
     let stretches =
@@ -101,15 +103,15 @@ fn room_to_change(network: &Network) -> Option<Remark> {
     remark(what, "to study lane changes, choose a map with longer lanes")
 }
 
-/// The stretches of `chain` from which a change is allowed, to the one side and to the other.
+/// The stretches of `chain` from which a change is allowed, to either side.
 fn stretches(chain: &Chain) -> impl Iterator<Item = &Beside> {
     Side::BOTH.into_iter().flat_map(|side| chain.stretches(side))
 }
 
-/// How far, and how long at the limit, the longest stretch is that begins with `stretch` of `chain` and goes on along
-/// the chains that follow, at most so `many` [m, s].
+/// Length, and travel time at the limit, of the longest stretch that begins with `stretch` of `chain` and continues
+/// along the chains that follow, at most so `many` [m, s].
 fn run_of(network: &Network, chain: &Chain, stretch: &Beside, many: usize) -> (f64, f64) {
-    /// Stretches that are nearer to each other are one [m].
+    /// Stretches that are nearer to each other count as one [m].
     const NEAR: f64 = 1.0;
     let length = stretch.end - stretch.start;
     let time = length / chain.limit(stretch.start);
@@ -136,9 +138,9 @@ fn beside_another(chain: &Chain) -> f64 {
     total
 }
 
-/// Entrances that share ground with others that come onto the map, or leave it, there.
+/// Entrances that share a conflict area with other lanes at the edge of the map.
 fn shared_at_the_edge(network: &Network) -> Option<Remark> {
-    /// Ground that is entered right away begins within this distance [m].
+    /// Maximum distance from the edge to such a conflict area [m].
     const AT_ONCE: f64 = 15.0;
     let junctions = &network.junctions;
     let shares = |chain: &ChainIndex| {
@@ -190,7 +192,7 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
     )
 }
 
-/// The law gives limits that the map does not.
+/// Legal limits that replace missing ones.
 fn limits_of_law(map: &Map) -> Option<Remark> {
     let mut limits = map.contents.limits_of_law.clone();
     if limits.is_empty() {
@@ -207,7 +209,7 @@ fn limits_of_law(map: &Map) -> Option<Remark> {
     remark(what, "add speed_limit to them, or choose the law (--law, or map_options.law in a scenario)")
 }
 
-/// Limits that are hardly meant.
+/// Limits that are probably not intended.
 fn extreme_limits(lanelets: &[Lanelet]) -> Option<Remark> {
     let slow = lanelets.iter().filter(|it| it.speed_limit <= CRAWL);
     let fast = lanelets.iter().filter(|it| it.speed_limit > HIGHEST);
@@ -275,7 +277,7 @@ fn room(network: &Network, chain: ChainIndex) -> Option<f64> {
     stops.chain(zones).reduce(f64::min).map(|it| it.max(0.0))
 }
 
-/// Bends that are driven faster than anybody does.
+/// Bends where the limit is faster than any driver would drive.
 fn bends(network: &Network) -> Option<Remark> {
     let mut found: Vec<(&Lanelet, f64)> = Vec::new();
     for chain in &network.chains {
@@ -300,10 +302,10 @@ fn bends(network: &Network) -> Option<Remark> {
     remark(what, "reduce speed_limit there if this matters")
 }
 
-/// The greatest curvature of `line` from one station to another [1/m], as far as the line goes half a span before and
+/// The greatest curvature of `line` between two stations [1/m], as far as the line extends half a span before and
 /// after.
 fn curvature(line: &Polyline, from: f64, to: f64) -> f64 {
-    // A turn at a junction is often shorter than three spans; on what is shorter still, a corner is no bend.
+    // A turn at a junction is often shorter than three spans; on an even shorter line, a corner is not a bend.
     let span = SPAN.min(line.length() / 3.0);
     if span < SHORTEST_SPAN {
         return 0.0;
@@ -323,7 +325,7 @@ fn curvature(line: &Polyline, from: f64, to: f64) -> f64 {
     inner.map(turn).fold(0.0, f64::max)
 }
 
-/// After the first of some.
+/// The number of the others, after the first of some.
 fn and_more(count: usize) -> String {
     if count == 0 { String::new() } else { format!(" (and {count} more)") }
 }

@@ -1,4 +1,4 @@
-//! The text of a TOML file, and where in it a key stands.
+//! The text of a TOML file, and the positions of its keys.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ impl Source {
         Ok(Source { path: path.to_owned(), text })
     }
 
-    /// The folder that its relative paths begin at.
+    /// The folder to which its relative paths refer.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
@@ -40,8 +40,8 @@ impl Source {
         format!("{}:{line}:{column}", self.path.display())
     }
 
-    /// Where the key at `path` stands, or else the nearest table around it that does; the file if none does. The
-    /// elements of a list are called by their numbers from 0 on.
+    /// The position of the key at `path`, or else of the nearest existing table around it; the file if there is none.
+    /// The elements of a list are named by their numbers from 0 on.
     pub fn place(&self, path: &[&str]) -> String {
         let Ok(root) = DeTable::parse(&self.text) else { return self.path.display().to_string() };
         let mut names = path.iter();
@@ -58,12 +58,12 @@ impl Source {
         found.map_or(self.path.display().to_string(), |span| self.at(span.start))
     }
 
-    /// Whether it has this key beside its tables.
+    /// Whether it has this key in addition to its tables.
     pub(crate) fn has_key(&self, name: &str) -> bool {
         DeTable::parse(&self.text).is_ok_and(|root| entry(root.get_ref(), name).is_some())
     }
 
-    /// Where `text` stands as a value, if it does.
+    /// The position of `text` as a value, if there is one.
     pub(crate) fn place_of_value(&self, text: &str) -> Option<String> {
         fn find(table: &DeTable, text: &str) -> Option<Range<usize>> {
             table.iter().find_map(|(_, value)| match value.get_ref() {
@@ -79,12 +79,12 @@ impl Source {
     /// Reads the text as a `T`.
     ///
     /// # Errors
-    /// If it is no TOML, or not of that shape: with the place, and the nearest valid name.
+    /// If it is no TOML, or has another structure: with the place, and the most similar valid name.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, Fault> {
         toml::from_str(&self.text).map_err(|error| self.fault(&error))
     }
 
-    /// What serde or the parser say, with its place and a remedy.
+    /// The message of serde or of the parser, with its place and a remedy.
     pub(crate) fn fault(&self, error: &Error) -> Fault {
         let message = error.message();
         // An unknown name comes first in backticks, then the known ones.
@@ -112,13 +112,13 @@ impl Source {
     }
 }
 
-/// Where a key of `table` stands, and its value.
+/// The position of a key of `table`, and its value.
 fn entry<'t, 'i>(table: &'t DeTable<'i>, name: &str) -> Option<(Range<usize>, &'t DeValue<'i>)> {
     let (key, value) = table.iter().find(|(key, _)| key.get_ref() == name)?;
     Some((key.span(), value.get_ref()))
 }
 
-/// Where an element of `list` stands, and its value.
+/// The position of an element of `list`, and its value.
 fn element<'t, 'i>(list: &'t DeArray<'i>, number: &str) -> Option<(Range<usize>, &'t DeValue<'i>)> {
     let found = list.get(number.parse::<usize>().ok()?)?;
     Some((found.span(), found.get_ref()))

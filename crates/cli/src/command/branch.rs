@@ -55,7 +55,7 @@ impl Arguments {
         let settings = if texts.is_empty() { "nothing changed".into() } else { texts.join(", ") };
         let mut text = differences.to_text(&settings);
         if differences.are_none() {
-            // An empty folder says nothing; one that is not empty stays.
+            // An empty folder is misleading; one that is not empty stays.
             let _ = fs::remove_dir(&folder);
         } else {
             for (number, path) in
@@ -81,7 +81,7 @@ const VEHICLES: [Column; 10] = [
     Column::integer("branch_lane_changes"),
     Column::real("base_left_s"),
     Column::real("branch_left_s"),
-    // The two before are their old names.
+    // The two columns before have the old names.
     Column::real("base_completed_s"),
     Column::real("branch_completed_s"),
 ];
@@ -96,7 +96,7 @@ const INSTANTS: [Column; 7] = [
     Column::real("branch_mean_speed_mps"),
 ];
 
-/// Writes who differs, and how much second by second.
+/// Writes the vehicles that differ, and the differences second by second.
 fn tables(
     differences: &Differences,
     folder: &std::path::Path,

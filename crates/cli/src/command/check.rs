@@ -104,7 +104,7 @@ impl Arguments {
         }
         self.check_outputs()?;
         let map = open_map(&self.file, &self.options.options())?;
-        // A CommonRoad file may hold both.
+        // A CommonRoad file may contain both.
         let recording = if extension(&self.file) == "xml" { tracks(&self.file)? } else { None };
         let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
         let report = Report::of(&map);
@@ -122,7 +122,7 @@ impl Arguments {
         say(&(report.to_text() + &tracks.unwrap_or_default()))
     }
 
-    /// Before anything is written: no file goes in place of another that is wanted, and all have a folder to go to.
+    /// Checks before anything is written: no file replaces another one that is needed, and all have a folder.
     fn check_outputs(&self) -> Result<(), Fault> {
         let outputs = [("--graph", &self.graph), ("--svg", &self.svg)];
         let outputs: Vec<(&str, &PathBuf)> =

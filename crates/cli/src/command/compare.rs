@@ -17,7 +17,7 @@ use super::check::Limit;
 use super::run::model;
 use super::say;
 
-/// Models that are compared where nothing is said: the paper's, two others, and the two controls.
+/// The default models: the paper's, two others, and the two null-model controls.
 const USUAL: [Model; 5] = [Model::Mcdm, Model::Mobil, Model::Lmrs, Model::Null, Model::ConstantHazard];
 
 #[derive(Debug, Args)]
@@ -73,7 +73,7 @@ impl Arguments {
                 scenario.map_options.max_size_mb = Some(size);
                 origin.replaced("map_options.max_size_mb", "--max-map-size");
             }
-            // Nothing is driven before all of it has been checked.
+            // Nothing runs before everything has been checked.
             let prepared = prepare(&scenario, &origin)?;
             prepared.demand_note().iter().for_each(|it| eprintln!("{}: {it}", input.display()));
             let seeds = seeds_from(scenario.run.seed, seeds)?;
@@ -87,7 +87,7 @@ impl Arguments {
         let path = claim.dir().join("runs.csv");
         let mut table = TableWriter::create(&path, Format::Csv, &columns())?;
         let mut done = Vec::new();
-        // The files become whole even if nothing can be said of them.
+        // The files are completed even if standard output fails.
         let mut said = Ok(());
         for (input, scenario, origin, seeds) in asked {
             let comparison = compare(&scenario, &origin, &models, &seeds, threads)?;
@@ -123,7 +123,7 @@ fn seeds_from(first: u64, count: u64) -> Result<Vec<u64>, Fault> {
 fn columns() -> Vec<Column> {
     let named = [Column::text("input"), Column::text("model"), Column::integer("seed")];
     let measured = MEASURES.iter().map(|it| Column::real(it.column));
-    // Of `left` and `waiting`, which are their old names.
+    // The new names of the columns `left` and `waiting`.
     let renamed = [Column::real("completed"), Column::real("waiting_to_enter")];
     named.into_iter().chain(measured).chain(renamed).collect()
 }

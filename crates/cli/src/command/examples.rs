@@ -1,5 +1,5 @@
-//! Examples at the end of the help texts. A test runs every one of them in a folder with the maps and scenarios that
-//! come with the program; those of one text may build on each other.
+//! Examples at the end of the help texts. A test runs all of them in a folder with the built-in maps and scenarios;
+//! the examples of one text may build on each other.
 
 pub(super) const LANEWEAVE: &str = "\
 Examples:

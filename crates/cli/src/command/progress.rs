@@ -1,4 +1,4 @@
-//! How far a long run is: in one line on the terminal, or a line a minute where there is none.
+//! The progress of a long run: in one line on the terminal, or as a line a minute elsewhere.
 
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
@@ -23,7 +23,7 @@ impl Screen {
         Duration::from_secs(if self == Screen::Log { 60 } else { 2 })
     }
 
-    /// Time between two looks.
+    /// Time between two checks.
     fn period(self) -> Duration {
         if self == Screen::Log { Duration::from_secs(60) } else { Duration::from_millis(200) }
     }
@@ -63,11 +63,11 @@ impl Progress {
         }
         let time = world.clock().time();
         let Some(line) = self.line(Instant::now(), time, world.on_road()) else { return };
-        // A terminal that is gone needs no progress.
+        // An error is ignored: a closed terminal needs no progress.
         let _ = stderr().write_all(line.as_bytes());
     }
 
-    /// What to write at `now`, when `time` [s] is simulated, if it is time for it.
+    /// The text to write at `now`, at the simulated `time` [s], if it is due.
     fn line(&mut self, now: Instant, time: f64, vehicles: usize) -> Option<String> {
         // A run that is resumed does not begin at 0.
         let from = *self.from.get_or_insert(time);
@@ -89,7 +89,7 @@ impl Progress {
         Some(format!("\r\x1b[K{text}"))
     }
 
-    /// Takes the line off the terminal.
+    /// Removes the line from the terminal.
     pub(super) fn clear(&mut self) {
         if self.is_on_screen {
             let _ = stderr().write_all(b"\r\x1b[K");
@@ -101,8 +101,8 @@ impl Progress {
 mod tests {
     use super::*;
 
-    /// The lines that are written in a run that is watched every half of a second, and simulates five seconds in one,
-    /// each with its time on the wall [s].
+    /// The lines that are written in a run that is checked every half second, and simulates five seconds in one
+    /// second, each with its wall time [s].
     fn lines(screen: Screen, wall: u32) -> Vec<(f64, String)> {
         let began = Instant::now();
         let mut progress = Progress::on(screen, began, 1000.0);

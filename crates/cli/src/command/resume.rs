@@ -1,16 +1,16 @@
-//! Whether the options beside `--resume` are those of the run that is resumed.
+//! The check that the options beside `--resume` are those of the resumed run.
 
 use laneweave::Fault;
 use laneweave::record::{SCENARIO, style_texts};
 use laneweave::scenario::{Origin, Scenario};
 use toml::{Table, Value};
 
-/// A scenario, and where its values came from.
+/// A scenario, and the source of its values.
 type Sourced<'a> = (&'a Scenario, &'a Origin);
 
 /// Results do not depend on them.
 const FREE: [&str; 2] = ["run.threads", "map_options.max_size_mb"];
-/// What replaces the demand replaces these as well.
+/// An option that replaces the demand replaces these as well.
 const DEMANDS: [&str; 3] = ["demand.vehicles_per_hour", "demand.entrances", "demand.od"];
 
 /// Whether `asked`, the scenario of the run with the options of the command line, is that of the run itself.

@@ -150,7 +150,7 @@ impl Arguments {
         run(&scenario, &origin, screen, started)
     }
 
-    /// Goes on with the run that left its scenario in the folder that is named.
+    /// Resumes the run that left its scenario in the named folder.
     fn resume(mut self, started: Instant) -> Result<ExitCode, Fault> {
         let (dir, screen) = (&self.input.clone(), self.screen);
         let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
@@ -159,7 +159,7 @@ impl Arguments {
         })?;
         scenario.output.dir = dir.into();
         let whole = |path: &Path| path.canonicalize().ok();
-        // However its folder is written.
+        // The path of the folder may be written in another way.
         self.out = self.out.filter(|it| whole(it) != whole(dir));
         let (mut asked, mut options) = (scenario.clone(), Origin::default());
         self.replace(&mut asked, &mut options);
@@ -197,7 +197,7 @@ impl Arguments {
         drive(&scenario, prepared, provenance, kept, &claim, screen, started)
     }
 
-    /// Options go before what the scenario says.
+    /// Options override the scenario.
     fn replace(self, scenario: &mut Scenario, origin: &mut Origin) {
         fn replace<T>(
             origin: &mut Origin,
@@ -239,7 +239,7 @@ impl Arguments {
     }
 }
 
-/// Runs `scenario` and leaves its results; nothing is written before all of it has been checked.
+/// Runs `scenario` and writes its results; nothing is written before everything has been checked.
 pub(crate) fn run(
     scenario: &Scenario,
     origin: &Origin,
@@ -267,7 +267,7 @@ fn ended(summary: &Path) -> Result<Option<String>, Fault> {
     Ok((value["interrupted"] == false).then_some(text))
 }
 
-/// Runs what is prepared, from a checkpoint on if there is one, and leaves its results.
+/// Runs what is prepared, from a checkpoint if there is one, and writes its results.
 fn drive(
     scenario: &Scenario,
     mut prepared: Prepared,
@@ -319,7 +319,7 @@ fn drive(
     write_whole(&path, &json)?;
     files.push(path);
     if keeper.is_some() && !ending.is_interrupted {
-        // There is nothing to resume any more, once the results are sure to stay.
+        // Once the results are on disk, there is nothing to resume any more.
         claim.settle(&files)?;
         claim.clear(&checkpoint::FILES)?;
     }
@@ -331,7 +331,7 @@ fn drive(
     Ok(if ending.is_interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
 
-/// Lists what in the map could not be used as it stands, what makes traffic on it look odd, and what the demand is.
+/// Lists the problems of the map, its remarks, and the demand.
 fn warn(prepared: &Prepared) {
     let problems = &prepared.problems;
     for problem in problems.iter().take(LISTED_PROBLEMS) {

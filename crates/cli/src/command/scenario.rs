@@ -76,20 +76,20 @@ impl New {
     }
 }
 
-/// The name of a scenario file like that of `map`.
+/// The name of a scenario file after that of `map`.
 fn named_after(map: &Path) -> PathBuf {
     let name = map.file_name().unwrap_or_default().to_string_lossy();
     let name = name.strip_suffix(".gz").unwrap_or(&name);
     PathBuf::from(name).with_extension("toml")
 }
 
-/// The path of `map` from the folder of `file` on; `map` itself where there is none.
+/// The relative path of `map` from the folder of `file`; `map` itself where there is none.
 fn from_folder_of(file: &Path, map: &Path) -> PathBuf {
     let folder = file.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (Ok(folder), Ok(whole)) = (folder.canonicalize(), map.canonicalize()) else { return map.to_owned() };
     let [from, to] = [&folder, &whole].map(|it| it.components().collect::<Vec<Component>>());
     let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    // On another drive nothing is in common.
+    // There is no relative path to another drive.
     if common == 0 {
         return whole;
     }

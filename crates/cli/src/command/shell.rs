@@ -34,8 +34,7 @@ impl Completions {
     }
 }
 
-/// The command as completions show it: files may be given as styles, too, so that what is parsed cannot be a list of
-/// names.
+/// The command for completions: style arguments may also be files, so the parsed argument cannot be a list of names.
 fn naming_styles(command: Command) -> Command {
     let names = || PossibleValuesParser::new(BUILT_IN.iter().map(|it| it.name));
     let weighted = PossibleValuesParser::new(BUILT_IN.iter().map(|it| format!("{}=1", it.name)));
@@ -63,7 +62,7 @@ impl Pages {
     }
 }
 
-/// The page of `command` and those of its subcommands, with the files in which they go.
+/// The page of `command` and those of its subcommands, with their file names.
 fn collect(command: &Command, folder: &Path, pages: &mut Vec<(PathBuf, String)>) -> Result<(), Fault> {
     let page = Man::new(command.clone());
     let path = folder.join(page.get_filename());

@@ -1,4 +1,4 @@
-//! Signals that end a run with what it has.
+//! Signals that end a run; it keeps its results so far.
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -8,10 +8,11 @@ use laneweave::Fault;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// Exit code of a program that a signal ended, less the signal's number: a convention of shells.
+/// Base of the exit code of a program that a signal ended, to which the signal's number is added: a convention of
+/// shells.
 const SIGNALLED: i32 = 128;
 
-/// What the first Ctrl-C or SIGTERM raises. A second one ends the program at once, with the same exit code.
+/// The flag that the first Ctrl-C or SIGTERM sets. A second one ends the program at once, with the same exit code.
 pub(super) struct Stop {
     is_raised: Arc<AtomicBool>,
     code: Arc<AtomicUsize>,
@@ -32,7 +33,7 @@ impl Stop {
 
     fn listen_to(&self, signal: i32) -> std::io::Result<()> {
         let code = SIGNALLED + signal;
-        // What is registered first acts first: it finds the flag as a former signal left it.
+        // The handler registered first runs first: it finds the flag as a former signal left it.
         flag::register_conditional_shutdown(signal, code, Arc::clone(&self.is_raised))?;
         flag::register_usize(signal, Arc::clone(&self.code), code as usize)?;
         flag::register(signal, Arc::clone(&self.is_raised))?;

@@ -69,7 +69,7 @@ fn named(name: &str) -> Result<Source, Fault> {
     find(name, Path::new(""), || "styles".into())
 }
 
-/// Writes a file that is not there yet.
+/// Writes a file that does not exist yet.
 fn write_new(path: &Path, text: &str) -> Result<(), Fault> {
     let file = OpenOptions::new().write(true).create_new(true).open(path);
     file.and_then(|mut file| file.write_all(text.as_bytes()))

@@ -1,4 +1,4 @@
-//! What somebody meant who named a file or a style where a command is wanted.
+//! Suggestions for a user who gave a file or a style in place of a command.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue};
 use laneweave::maps::FORMATS;
 use laneweave::style::built_in;
 
-/// Adds what was probably meant to an error about an unknown command.
+/// Adds the suggestion to an error about an unknown command.
 pub(crate) fn with_tip(mut error: Error) -> Error {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     if let Some(line) = meant(word) {
@@ -18,7 +18,7 @@ pub(crate) fn with_tip(mut error: Error) -> Error {
     error
 }
 
-/// The command line that goes with `word`.
+/// The suggested command line for `word`.
 fn meant(word: &str) -> Option<String> {
     let typed: Vec<String> = std::env::args().skip(1).collect();
     let before = typed.iter().take_while(|it| *it != word).map(String::as_str).collect::<Vec<_>>();

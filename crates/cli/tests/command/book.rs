@@ -1,5 +1,5 @@
-//! The README and the book: what they tell to type works, what they show of it is what it prints, and their figures are
-//! what it draws.
+//! The README and the book: their commands work, their shown output is the real one, and their figures are those of
+//! the program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::golden::assert_golden;
 use crate::program::{Folder, at_home, maps, without_first_duration};
 
-/// Real maps and recordings, where they are at hand.
+/// Real maps and recordings, if they are available.
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
 
-/// Files that the reader has, each with one of ours in its place: under `DATA`, or with the maps.
+/// Files of the reader, each with a replacement from the project: under `DATA`, or with the maps.
 const THE_READERS: [(&str, &str); 4] = [
     ("my-map.osm", "lanelet2/town10.osm"),
     ("map.osm", "recordings/mona_east/map.osm"),
@@ -46,7 +46,7 @@ fn examples(page: &Path) -> Vec<Example> {
     let text = fs::read_to_string(page).unwrap().replace("\\\n", " ");
     let mut parts = text.split("```");
     let mut examples: Vec<Example> = Vec::new();
-    // Prose and blocks take turns.
+    // Prose and blocks alternate.
     while let (Some(_), Some(block)) = (parts.next(), parts.next()) {
         let (kind, body) = block.split_once('\n').unwrap_or_default();
         if kind == "sh" {
@@ -63,8 +63,8 @@ fn examples(page: &Path) -> Vec<Example> {
     examples
 }
 
-/// A command as it is run here: nothing goes by way of the shell, and few seconds stand for many where nobody asks what
-/// became of them.
+/// The command in the form that the test runs: without the shell, and with a short duration if nothing depends on its
+/// results.
 fn shortened(command: &str, is_asked_about: bool) -> String {
     let line = command.split(" > ").next().unwrap().replace("~/", "home/").replace("$seed", "1");
     let is_short = is_asked_about || line.contains("--resume");
@@ -83,7 +83,7 @@ fn shortened(command: &str, is_asked_about: bool) -> String {
     }
 }
 
-/// A folder with the maps and scenarios, and what the reader has; the names of what is missing here.
+/// A folder with the maps, the scenarios and the reader's files; and the names of missing ones.
 fn readers() -> (Folder, Vec<&'static str>) {
     let folder = at_home();
     let mut missing = Vec::new();
@@ -114,7 +114,7 @@ fn every_command_works_and_prints_what_is_shown() {
                 let line = shortened(command, is_asked_about && !command.contains("36000"));
                 let outcome = folder.laneweave(&line);
                 let errors = outcome.errors();
-                // What is odd about a map is said of any; a run that is resumed here was not killed.
+                // Remarks apply to any map; the run that is resumed here was not killed.
                 let is_demand =
                     |it: &str| it.contains("demand: ") && it.contains(" % of the estimated capacity of ");
                 let is_expected = |it: &str| {
@@ -127,7 +127,7 @@ fn every_command_works_and_prints_what_is_shown() {
                 printed = outcome.text();
                 run += 1;
             }
-            // Of runs that are shortened the figures are others.
+            // Shortened runs have other figures.
             let last = example.commands.last().map(String::as_str).unwrap_or_default();
             if let Some(text) =
                 example.shown.filter(|_| last.starts_with("explain") || last.starts_with("branch"))
@@ -146,7 +146,7 @@ fn every_command_works_and_prints_what_is_shown() {
     assert!(run > 40 && shown >= 2, "{run} commands, {shown} with what they print");
 }
 
-/// Each figure of the book with the command that draws it, and where it leaves it.
+/// Each figure of the book with its command, and the path of its output.
 const FIGURES: [(&str, &str, &str); 7] = [
     ("karlsruhe", "check DATA/lanelet2/karlsruhe.osm --svg map.svg", "map.svg"),
     ("tianjin", "check DATA/lanelet2/tianjin.osm --svg map.svg", "map.svg"),

@@ -13,7 +13,7 @@ fn what_differs_is_told_and_lies_in_tables_and_on_a_page() {
     for file in ["differences.csv", "instants.csv", "report.html"] {
         assert!(told.text().contains(&format!("out/branch/{file}")), "{}", told.text());
     }
-    // What has an old name says the same under both.
+    // A value with an old name is the same under both names.
     let differing = rows(&folder.read("out/branch/differences.csv"));
     let same = |run: &str| {
         differing.iter().all(|it| it[&format!("{run}_completed_s")] == it[&format!("{run}_left_s")])
@@ -39,7 +39,7 @@ fn what_differs_is_told_and_lies_in_tables_and_on_a_page() {
         assert!(page.contains(&format!("<dt>{name}</dt><dd>{value}</dd>")), "{name}: {value}");
     }
 
-    // Nothing differs now, and nothing says that anything does.
+    // There is no difference now, and the output names none.
     assert_eq!(folder.laneweave("branch out --at 80").code(), 0);
     assert!(!folder.holds("out/branch") && folder.holds("out/report.html"));
 }
@@ -63,7 +63,7 @@ fn what_cannot_be_set_is_refused_even_if_some_styles_could_have_it() {
         assert_eq!(run.code(), 2, "{setting}");
         run.errors()
     };
-    // The one of the threshold rule could do without noise, the one with the logit cannot.
+    // The threshold rule could work without noise; the rule with the logit cannot.
     assert!(refused("style.sigma=0").contains("a logit rule without choice noise"));
     assert!(refused("style.speeed.weight=2").contains("did you mean \"speed\"?"));
     assert!(refused("style.theta=high").contains("not a number"));

@@ -73,7 +73,7 @@ fn a_map_whose_lanelets_lack_borders_says_that_first() {
     let whole = fs::read_to_string(maps().join("motorway_2_lanes.osm")).unwrap();
     let parts: Vec<&str> = whole.split("role=\"left\"").collect();
     let lanelets = parts.len() - 1;
-    // Every second way in the role left gets another.
+    // Every second way with the role left gets another role.
     let roles = parts.iter().enumerate().skip(1).map(|(number, part)| {
         let role = if number % 2 == 0 { "centerline" } else { "left" };
         format!("role=\"{role}\"{part}")
@@ -108,7 +108,7 @@ fn a_map_whose_lanelets_lack_borders_says_that_first() {
 
 #[test]
 fn a_map_larger_than_its_limit_is_refused_before_it_is_in_memory() {
-    // A hundred megabytes of spaces, packed a thousand times smaller.
+    // A hundred megabytes of spaces, compressed to a thousandth.
     let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
     let blank = vec![b' '; 1 << 20];
     (0..100).for_each(|_| packed.write_all(&blank).unwrap());

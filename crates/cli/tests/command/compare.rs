@@ -55,7 +55,7 @@ fn the_report_shows_every_model_on_every_input_with_its_interval() {
     let figures = figures(&page);
     assert!(figures.len() >= 16, "{}", figures.len());
     assert!(figures.iter().all(|it| has_units(it)), "{figures:?}");
-    // Each row that is told is there cell by cell.
+    // Each printed row is there, cell by cell.
     let rows = told.text();
     let rows: Vec<(&str, Vec<&str>)> = rows
         .lines()
@@ -77,7 +77,7 @@ fn the_report_shows_every_model_on_every_input_with_its_interval() {
     }
 }
 
-/// What stands in columns of text, such as 0.1 ± 0.2.
+/// The contents of text columns, such as 0.1 ± 0.2.
 fn cells_of(row: &str) -> Vec<&str> {
     row.split("  ").map(str::trim).filter(|it| !it.is_empty()).collect()
 }
@@ -93,7 +93,7 @@ fn what_cannot_be_compared_is_refused_with_a_remedy() {
     assert!(refused("compare nowhere.osm").contains("nowhere.osm"));
     assert!(refused("compare MAPS/ramps.osm --model mobl").contains("mobil"));
     assert!(refused("compare MAPS/ramps.osm --seeds 0").contains("1..=10000"));
-    // Nothing is driven before all of it has been checked.
+    // Nothing runs before everything has been checked.
     let run = folder.laneweave("compare MAPS/ramps.osm nowhere.osm --duration 10 --seeds 1");
     assert_eq!((run.code(), run.text().as_str()), (2, ""));
     let far =

@@ -1,4 +1,4 @@
-//! How many vehicles come where nothing is said, and what is said of more than a map carries.
+//! The default demand, and the warning about a demand above capacity.
 
 use serde_json::Value;
 

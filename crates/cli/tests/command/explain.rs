@@ -57,7 +57,7 @@ fn everybody_can_be_asked() {
     let told = folder.laneweave("explain out --summary").text();
     assert!(told.contains("lane changes, by style and by the leading incentive"), "{told}");
     assert!(told.contains("no adjacent lane to which it may change"), "{told}");
-    // Those of the warm-up are left out, as in the table.
+    // Changes of the warm-up are left out, as in the table.
     let all: usize = told.split(' ').next().unwrap().parse().unwrap();
     let table = folder.read("out/lane_changes.csv");
     assert_eq!(all, table.lines().filter(|it| it.ends_with("completed")).count());

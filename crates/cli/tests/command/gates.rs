@@ -1,4 +1,4 @@
-//! Where vehicles come onto the map and leave it.
+//! Entrances and exits of a map.
 
 use std::fmt::Write;
 
@@ -40,7 +40,7 @@ fn a_lanelet_alone_is_neither_entrance_nor_exit() {
     let road = [0.0, 300.0];
     let lines = [(1, road, 4.0), (2, road, 0.0), (5, road, 54.0), (6, road, 50.0)];
     let two_roads = map(&lines, &[(101, 1, 2), (103, 5, 6)]);
-    // The first road goes on.
+    // The first road continues.
     let onward = "<node id='30' x='600' y='4'/><node id='40' x='600' y='0'/><way id='3'><nd ref='11'/><nd ref='30'/></way>\
                   <way id='4'><nd ref='21'/><nd ref='40'/></way><relation id='102'><member type='way' ref='3' role='left'/>\
                   <member type='way' ref='4' role='right'/><tag k='type' v='lanelet'/><tag k='subtype' v='highway'/>\

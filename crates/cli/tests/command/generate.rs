@@ -1,4 +1,4 @@
-//! Maps of one's own.
+//! `laneweave generate`.
 
 use laneweave::maps::generate::{Hazard, random};
 use laneweave::maps::lanelet2;

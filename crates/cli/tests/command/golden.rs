@@ -1,4 +1,4 @@
-//! Results that must not change unnoticed. With `LANEWEAVE_BLESS=1` in the environment the files are written anew.
+//! Results that must not change unnoticed. With `LANEWEAVE_BLESS=1` in the environment the files are written again.
 
 use std::fs;
 use std::path::Path;

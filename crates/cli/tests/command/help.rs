@@ -1,4 +1,4 @@
-//! Help texts: what they show can be done, and they can be read.
+//! Help texts: their examples work, and they are readable.
 
 use crate::program::{Folder, at_home, without_first_duration};
 
@@ -35,21 +35,21 @@ fn every_example_works() {
         let shown = examples(&help);
         assert!((1..=4).contains(&shown.len()), "{command}: {help}");
         for example in shown {
-            // What is written by way of the shell goes nowhere, and what lies at home lies here.
+            // Output to the shell is dropped; files of the home folder are in the test's folder.
             let line = example.split(" > ").next().unwrap().replace("~/", "home/");
             let line = match line.split_whitespace().next() {
-                // Others ask what became of it.
+                // For other commands the results are used.
                 Some("run") if ["explain", "branch"].contains(&command.as_str()) => line,
-                // A second stands for all.
+                // One second is enough for the test.
                 Some("run") => format!("{line} --duration 1 --warmup 0").replace("--warmup 240", ""),
                 None => "run scenarios/demo.toml --duration 1".into(),
                 Some(_) => line,
             };
-            // Said twice, the last one would not count: what the example says goes first.
+            // An option given twice would have its last value: that of the example has priority.
             let line = without_first_duration(&line);
             let run = folder.laneweave(&line);
             let errors = run.errors();
-            // In our towns drivers take turns at the limit, too; and where no demand is given, it is said.
+            // In our towns drivers take turns at the limit, too; and without a demand, the default is reported.
             let is_quiet =
                 errors.lines().all(|it| it.starts_with("warning: map: ") || it.contains("demand: "));
             assert!(run.code() == 0 && is_quiet, "{command}: laneweave {line}: {errors}");
@@ -63,7 +63,7 @@ fn help_texts_fit_on_a_hundred_columns() {
         for line in help.lines() {
             assert!(line.chars().count() <= WIDTH, "{command}: {line}");
         }
-        // A paragraph that was broken by hand and again by the program has a short line in its midst.
+        // A paragraph with line breaks by hand and by the program has a short line in its middle.
         let (_, notes) = help.split_once("-h, --help").unwrap();
         let prose = notes.split("\nExamples:").next().unwrap().lines().skip(1).collect::<Vec<_>>();
         for pair in prose.windows(2).filter(|it| it.iter().all(|line| !line.is_empty())) {

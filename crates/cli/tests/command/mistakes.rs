@@ -2,7 +2,7 @@
 
 use crate::program::{Folder, maps};
 
-/// Runs what must fail; returns the message.
+/// Runs a command line that must fail; returns the message.
 fn refusal(folder: &Folder, line: &str) -> String {
     let run = folder.laneweave(&format!("{line} --out results"));
     assert_eq!((run.code(), run.text().as_str()), (2, ""), "{line}: {}", run.errors());

@@ -63,7 +63,7 @@ pub(crate) fn maps() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps")
 }
 
-/// A folder with the maps and scenarios that come with the program.
+/// A folder with the built-in maps and scenarios.
 pub(crate) fn at_home() -> Folder {
     let folder = Folder::new();
     for name in ["maps", "scenarios"] {
@@ -87,7 +87,7 @@ pub(crate) fn without_first_duration(line: &str) -> String {
     }
 }
 
-/// A map of a ring of four lanelets: nobody comes onto it or leaves it.
+/// A map of a closed loop of four lanelets: no vehicle enters it or leaves it.
 pub(crate) fn closed() -> String {
     let mut map = String::from("<osm>");
     for (id, x, y) in [(1, 0, 0), (2, 90, 0), (3, 90, 90), (4, 0, 90)] {
@@ -111,7 +111,7 @@ pub(crate) fn closed() -> String {
     map + "</osm>"
 }
 
-/// What a run of the program left.
+/// The files of a run of the program.
 pub(crate) struct Run(Output);
 
 impl Run {

@@ -1,4 +1,4 @@
-//! What `check` and `run` say of maps on which traffic looks odd.
+//! The remarks of `check` and `run` on maps on which traffic looks odd.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::program::{Folder, closed};
 
-/// The remarks of `check` on the map that `generate` makes, with some of its text replaced.
+/// The remarks of `check` on a map of `generate`, with some of its text replaced.
 fn remarks(generate: &str, replaced: &[(&str, &str)]) -> Vec<String> {
     let folder = Folder::new();
     assert_eq!(folder.laneweave(&format!("generate {generate} m.osm")).code(), 0, "{generate}");
@@ -18,7 +18,7 @@ fn remarks(generate: &str, replaced: &[(&str, &str)]) -> Vec<String> {
     of(&folder)
 }
 
-/// The remarks on the map `m.osm`; a run says the same, unless it is to be quiet.
+/// The remarks on the map `m.osm`; a run prints the same, unless it is quiet.
 fn of(folder: &Folder) -> Vec<String> {
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
     let words = |it: &Value| format!("{}; {}", it["what"].as_str().unwrap(), it["remedy"].as_str().unwrap());

@@ -1,4 +1,4 @@
-//! The report of a run: one file that is well-formed, needs nothing else, and says what the other results say.
+//! The report of a run: one file that is well-formed, needs no other file, and agrees with the other results.
 
 use quick_xml::Reader;
 use quick_xml::events::Event;
@@ -53,7 +53,7 @@ pub(crate) fn figures(page: &str) -> Vec<&str> {
     page.split("<svg").skip(1).map(|it| it.split("</svg>").next().unwrap()).collect()
 }
 
-/// Both axes of a figure have a label: with a unit, but for counts and names, which have none.
+/// Both axes of a figure have a label: with a unit, except for counts and names, which have none.
 pub(crate) fn has_units(figure: &str) -> bool {
     const WITHOUT: [&str; 9] = [
         "Vehicles",
@@ -167,7 +167,7 @@ fn the_same_run_has_the_same_report_on_any_number_of_threads() {
     let report = |threads: u32| {
         folder.summary(&format!("MAPS/ramps.osm --demand 4200 --duration 90 --threads {threads}"));
         let page = folder.read("out/report.html");
-        // The command, and what it set.
+        // The command, and its settings.
         page.replace(&format!("--threads {threads}"), "").replace(&format!("threads = {threads}\n"), "")
     };
     assert!(report(1) == report(2), "the reports differ");

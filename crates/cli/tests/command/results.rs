@@ -121,7 +121,7 @@ fn a_scenario_and_styles_that_somebody_wrote_are_not_replaced() {
         assert!(!folder.holds("own/styles/mine-3.toml"), "what is kept already is not kept again");
         assert!(folder.read("own/scenario.toml").contains("\"styles/mine-2.toml\" = 1"));
     }
-    // What a run has left can be run into the same folder.
+    // A folder with the results of a run can be used for another run.
     folder.summary("own/scenario.toml --out own --record 0");
 }
 

@@ -1,4 +1,4 @@
-//! Runs that are killed at any moment, and resumed, end as if nothing had happened.
+//! Runs that are killed at any moment and resumed have the same results as uninterrupted ones.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -23,13 +23,13 @@ const FILES: [&str; 10] = [
     "scenario.toml",
 ];
 
-/// How many runs are killed: LANEWEAVE_KILLS, or a few.
+/// The number of killed runs: LANEWEAVE_KILLS, or a few.
 fn kills() -> u64 {
     const FEW: u64 = 8;
     std::env::var("LANEWEAVE_KILLS").ok().and_then(|it| it.parse().ok()).unwrap_or(FEW)
 }
 
-/// Evenly distributed from [0, 1), the same in each test.
+/// Uniformly distributed in [0, 1), the same numbers in each test.
 fn drawn(number: u64) -> f64 {
     let mixed = (number + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -56,7 +56,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
     let undisturbed = Folder::new();
     let started = Instant::now();
     let expected = undisturbed.summary(RUN);
-    // Kills fall within this time, which follows how fast the machine is now.
+    // Kills happen within this time, which depends on the present speed of the machine.
     let mut window = started.elapsed();
     let read = |folder: &Folder, file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap();
     let is_same = |folder: &Folder, file: &str| read(folder, file) == read(&undisturbed, file);
@@ -66,7 +66,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         let out = folder.path().join("out");
         killed(folder.path(), &format!("run {RUN} --json"), window.mul_f64(drawn(2 * number)));
         if !out.join("scenario.toml").exists() {
-            // Killed before anything was there.
+            // Killed before any file existed.
             window = window.mul_f64(1.05);
             continue;
         }
@@ -76,7 +76,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         }
         let has_ended = out.join("summary.json").exists();
         window = window.mul_f64(if has_ended { 0.85 } else { 1.02 });
-        // What has its name is whole.
+        // A file with its final name is complete.
         for file in &FILES[..9] {
             if out.join(file).exists() {
                 assert!(is_same(&folder, file), "{file} after kill {number}");
@@ -237,7 +237,7 @@ fn what_is_not_as_it_was_kept_is_not_resumed() {
     );
 }
 
-/// Runs the program where no file may become larger than some kilobytes.
+/// Runs the program with a limit of some kilobytes on file sizes.
 #[cfg(target_os = "linux")]
 fn on_a_small_disk(folder: &Folder, line: &str) -> String {
     let line = line.replace("MAPS", maps().to_str().unwrap());
@@ -254,7 +254,7 @@ fn on_a_small_disk(folder: &Folder, line: &str) -> String {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_checkpoint_that_cannot_be_written_is_told_and_nothing_half_written_is_left() {
-    // With samples the pages are too large at the first checkpoint, and without them the checkpoint is.
+    // With samples the batches are too large at the first checkpoint; without them the checkpoint is.
     for (record, file) in [(1, "checkpoint.pages"), (0, "checkpoint")] {
         let folder = Folder::new();
         let options = format!("--warmup 150 --checkpoint 20 --record {record}");

@@ -6,13 +6,13 @@ use serde_json::Value;
 
 use crate::program::Folder;
 
-/// The fields that everybody can rely on.
+/// The fields that users can rely on.
 const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
     lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
     lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
     state_hash route_changes completed waiting_to_enter estimated_capacity_veh_h lane_changes_route_driven";
 
-/// Fields of the summary, columns of `trips` and one of `lanelets` that have an old name, each with that.
+/// Fields of the summary, columns of `trips` and one of `lanelets` that have an old name, each with it.
 const RENAMED: [(&str, &str); 7] = [
     ("completed", "left"),
     ("waiting_to_enter", "waiting"),
@@ -196,7 +196,7 @@ fn trips_have_a_row_each_also_those_that_began_before_the_measured_time_and_thos
     for trip in ended {
         let [entered, left, duration] = ["entered_s", "left_s", "duration_s"].map(|it| of(trip, it).unwrap());
         assert!((left - entered - duration).abs() < 1e-9 && left > 60.0);
-        // Nobody is faster than on a free road by more than changes of the limit and of the lane make out.
+        // No vehicle is faster than on a free road, except for the effects of limits and of lane changes.
         assert!(
             of(trip, "delay_s").unwrap() > -5.0 && of(trip, "delay_s").unwrap() < 0.7 * duration,
             "{trip:?}"
@@ -230,8 +230,8 @@ fn who_drives_onto_a_lanelet_drives_off_it_or_is_still_there() {
     let changes =
         folder.read("out/lane_changes.csv").lines().filter(|it| it.ends_with(",completed")).count() as i64;
     assert_eq!([away, onto].map(|it| it.map(total).iter().sum::<i64>()), [changes; 2]);
-    // The road is two rows of lanelets, numbered row by row: whatever is between two of its ends entered and has not
-    // passed.
+    // The road is two rows of lanelets, numbered row by row: a vehicle between two of its ends has entered and has
+    // not passed.
     let trajectories = rows(&folder.read("out/trajectories.csv"));
     let last: Vec<&HashMap<String, String>> =
         trajectories.iter().filter(|it| it["time_s"] == "301.0").collect();
@@ -295,7 +295,7 @@ fn every_file_is_the_same_on_any_number_of_threads() {
 fn a_run_that_cannot_write_says_so_and_leaves_no_half_a_file() {
     let folder = Folder::new();
     std::fs::create_dir_all(folder.path().join("out")).unwrap();
-    // Whatever is written there finds no room.
+    // There is no space for any output.
     std::os::unix::fs::symlink("/dev/full", folder.path().join("out/fcd.xml.partial")).unwrap();
     let run = folder.laneweave("run MAPS/ramps.osm --demand 6000 --duration 200 --sumo fcd");
     assert_eq!(run.code(), 2);
@@ -305,7 +305,7 @@ fn a_run_that_cannot_write_says_so_and_leaves_no_half_a_file() {
         run.errors()
     );
     let left: Vec<_> = std::fs::read_dir(folder.path().join("out")).unwrap().flatten().collect();
-    // Whether the report is written before the fault is known is a matter of time; whatever has its name is whole.
+    // It depends on timing whether the report is written before the fault; a file with its final name is complete.
     let is_whole = |it: &std::fs::DirEntry| {
         it.path().extension().is_some_and(|it| ["html", "svg", "toml"].iter().any(|whole| it == *whole))
     };

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::program::{Folder, closed, maps};
 
-/// Maps on which the files are tried: with lights, with a table of forks, closed, driven on the left.
+/// Maps for these tests: with lights, with a table of forks, closed, with traffic on the left.
 fn tried(folder: &Folder) -> Vec<String> {
     fs::write(folder.path().join("closed.osm"), closed()).unwrap();
     assert_eq!(folder.laneweave("generate weaving --driving-side left left.osm").code(), 0);
@@ -23,7 +23,7 @@ fn a_scenario_as_it_was_written_runs_like_its_map() {
         let run = folder.laneweave(&format!("scenario new {map} --out s.toml --force"));
         assert_eq!((run.code(), run.errors().as_str()), (0, ""), "{map}");
         assert_eq!(run.text(), "s.toml is written; edit it, then run: laneweave run s.toml\n");
-        // Around the ring somebody starts every 50 s.
+        // On the closed loop a trip starts every 50 s.
         let duration = if map == "closed.osm" { 200 } else { 30 };
         let [bare, written] =
             [&map, "s.toml"].map(|it| folder.summary(&format!("{it} --duration {duration} --record 0")));
@@ -34,7 +34,7 @@ fn a_scenario_as_it_was_written_runs_like_its_map() {
     }
 }
 
-/// The file with every key that stood behind a `#`.
+/// The file with every key that was commented out.
 fn with_all_keys(text: &str) -> String {
     let line = |it: &str| match it.strip_prefix('#') {
         Some(key) if !key.starts_with(' ') => format!("{key}\n"),
@@ -64,7 +64,7 @@ fn each_default_behind_a_hash_changes_nothing() {
     let bare = folder.summary(&format!("{map} --duration 20 --record 0"))["state_hash"].clone();
     assert_eq!(folder.laneweave(&format!("scenario new {map} --out s.toml")).code(), 0);
     let text = folder.read("s.toml");
-    // All but what is an example, of which the text says so.
+    // All keys except the examples, which the text marks as such.
     let examples = ["model", "profile", "from", "to", "left", "straight", "right"];
     let mut is_example = false;
     let mut kept = String::new();
@@ -77,7 +77,7 @@ fn each_default_behind_a_hash_changes_nothing() {
         let is_kept = !is_example && !examples.contains(&name);
         kept += key.filter(|_| is_kept).unwrap_or(line);
         kept += "\n";
-        // What stands in no list comes after a blank line.
+        // Text outside of lists comes after a blank line.
         is_example = is_example && !line.is_empty();
     }
     fs::write(folder.path().join("all.toml"), &kept).unwrap();
@@ -85,7 +85,7 @@ fn each_default_behind_a_hash_changes_nothing() {
     assert_eq!(folder.summary("all.toml --duration 20 --record 0")["state_hash"], bare);
 }
 
-/// All keys of a schema, wherever they stand.
+/// All keys of a schema, at any depth.
 fn keys(schema: &Value, found: &mut BTreeSet<String>) {
     if let Some(properties) = schema["properties"].as_object() {
         found.extend(properties.keys().cloned());

@@ -1,4 +1,4 @@
-//! What a run is told to do.
+//! The settings of a run.
 
 use crate::program::Folder;
 use crate::run::number;
@@ -38,7 +38,7 @@ fn single_entrances_and_exits_can_be_told() {
         maps.display()
     );
     let folder = Folder::new().with("own.toml", &scenario);
-    // Of 2000 veh/h a quarter is the ramp's, which has one of four lanes.
+    // Of 2000 veh/h a quarter belongs to the ramp, which has one of four lanes.
     assert_eq!(folder.summary("own.toml")["demand_veh_h"], 3500.0);
 }
 
@@ -56,7 +56,7 @@ fn tables_of_origins_and_destinations_and_rates_over_time_are_the_demand() {
         format!("[[demand.od]]\nfrom = \"{from}\"\nto = \"{to}\"\nvehicles_per_hour = {rate}\n")
     };
     assert_eq!(demand(&(row(1, 91, 900) + &row(1, 94, 300))), 1200.0);
-    // Of 2000 veh/h a quarter is the ramp's, which keeps it.
+    // Of 2000 veh/h a quarter belongs to the ramp, which keeps it.
     assert_eq!(demand(&("vehicles_per_hour = 2000\n".to_owned() + &row(1, 91, 900))), 1400.0);
     // Measured from 20 to 60 s.
     assert_eq!(demand("vehicles_per_hour = 2000\nprofile = [[0, 1], [30, 0.5]]"), 1250.0);

@@ -12,7 +12,7 @@ fn every_shell_is_told_of_commands_styles_and_models() {
         let run = folder.laneweave(&format!("completions {shell}"));
         assert_eq!((run.code(), run.errors().as_str()), (0, ""));
         let expected: &[&str] = match shell {
-            // These complete names of options only.
+            // These shells complete only the names of options.
             "elvish" | "powershell" => &["scenario", "--warmup"],
             _ => &["scenario", "warmup", "altruistic=1", "paper-conservative", "lmrs-lanes", "parquet"],
         };
@@ -58,7 +58,7 @@ fn every_command_has_a_page() {
         for section in [".SH NAME", ".SH SYNOPSIS", ".SH OPTIONS"] {
             assert!(text.contains(section), "{:?}: {section}", page.path());
         }
-        // Warnings of the typesetter, where there is one.
+        // Warnings of the typesetter, if it is installed.
         let typeset = Command::new("groff").args(["-man", "-ww", "-z"]).arg(page.path()).output();
         if let Ok(typeset) = typeset {
             let warnings = String::from_utf8_lossy(&typeset.stderr).into_owned();

@@ -27,7 +27,7 @@ fn lights_follow_the_program_of_the_scenario() {
         "[[signals]]\noffset_s = 5\ncycle_s = 60\nphases = [\n  {{ green = {EAST_AND_WEST}, green_s = 25 }},\n  \
          {{ green = {NORTH_AND_SOUTH}, green_s = 24, yellow_s = 4 }},\n]"
     );
-    // The made program has a turn for each arm.
+    // The generated program has a phase for each arm.
     let [made, own] = [delay(""), delay(&two_phases)];
     assert!(own < 0.5 * made, "{own} s against {made} s");
 }

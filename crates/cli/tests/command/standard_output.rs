@@ -1,4 +1,4 @@
-//! What is said on standard output arrives there, or the command fails.
+//! All output arrives on standard output, or the command fails.
 
 use std::fs::File;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::program::{Folder, maps};
 
-/// Command lines that print something, with a file that each must leave whole.
+/// Command lines that print something, each with a file that must be complete afterwards.
 const LINES: [(&str, &str); 10] = [
     ("run MAPS/ramps.osm --duration 5", "out/summary.json"),
     ("run MAPS/ramps.osm --duration 5 --json", "out/report.html"),

@@ -18,7 +18,7 @@ fn long_run(folder: &Folder, options: &str) -> Child {
     while !folder.holds("out/trajectories.csv.partial") && !folder.holds("out/checkpoint") {
         std::thread::sleep(Duration::from_millis(10));
     }
-    // It listens a moment later, at the latest.
+    // The signal handler is installed a moment later, at the latest.
     std::thread::sleep(Duration::from_millis(300));
     child
 }

@@ -1,4 +1,4 @@
-//! What differs between twins: who, since when, and what came of it.
+//! The differences between twins: which vehicles differ, since when, and with what effect.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -7,19 +7,19 @@ use laneweave_results::numbers::signed;
 use laneweave_sim::{Event, Phase, VehicleId, World};
 use laneweave_study::units::KMH_PER_MPS;
 
-/// Twins are held against each other after every step, and what comes of it is kept every so many seconds.
+/// Twins are compared after every step, and the result is stored at this interval [s].
 const EVERY: f64 = 1.0;
 
 /// The twins at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instant {
-    /// When [s].
+    /// Time [s].
     pub time_s: f64,
     /// Vehicles on the road in either.
     pub on_road: u32,
-    /// Of these, those that are elsewhere, or on the road in one only, or drive or wish otherwise.
+    /// Of these, those with another place, speed or desire, and those on the road in only one of the runs.
     pub differ: u32,
-    /// Lane changes since the twins parted, in the base and in the branch.
+    /// Lane changes since the branch time, in the base and in the branch.
     pub lane_changes: [u64; 2],
     /// Mean speeds over all vehicles [m/s].
     pub mean_speed_mps: [f64; 2],
@@ -28,38 +28,38 @@ pub struct Instant {
 /// A vehicle that differs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Vehicle {
-    /// Its style and class.
+    /// Its style.
     pub style: String,
     /// Its class.
     pub class: &'static str,
     /// Since when [s].
     pub since_s: f64,
-    /// Lane changes since the twins parted, in the base and in the branch.
+    /// Lane changes since the branch time, in the base and in the branch.
     pub lane_changes: [u32; 2],
-    /// When it left, where it did [s].
+    /// Time at which it completed its trip, in the base and in the branch [s].
     pub left_s: [Option<f64>; 2],
 }
 
-/// What differs.
+/// The differences.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
-    /// When the twins parted [s].
+    /// The branch time [s].
     pub since_s: f64,
-    /// Second by second, and the last.
+    /// Second by second, and the last instant.
     pub instants: Vec<Instant>,
-    /// Those who differ, by id.
+    /// Vehicles that differ, by id.
     pub vehicles: BTreeMap<VehicleId, Vehicle>,
-    /// Those who left in both, but at other times.
+    /// Vehicles that completed their trips in both, but at different times.
     changes: [u64; 2],
     by_vehicle: BTreeMap<VehicleId, [u32; 2]>,
     left: BTreeMap<VehicleId, [Option<f64>; 2]>,
 }
 
-/// How a vehicle is: its name, lane, place, speed and state.
+/// The state of a vehicle that is compared: its name, lane, place, speed and state.
 type State = (VehicleId, u32, u64, u64, Phase);
 
 impl Differences {
-    /// None yet, between `base` and its twin.
+    /// No differences yet, between `base` and its twin.
     pub(super) fn between(base: &World) -> Differences {
         Differences {
             since_s: base.clock().time(),
@@ -71,7 +71,7 @@ impl Differences {
         }
     }
 
-    /// Sees both after a step.
+    /// Compares both after a step.
     pub(super) fn observe(&mut self, base: &World, branch: &World) {
         for (which, world) in [base, branch].into_iter().enumerate() {
             for event in world.events() {
@@ -93,7 +93,7 @@ impl Differences {
         }
     }
 
-    /// Notes what came of those who differ, when the twins have ended.
+    /// Records the ends of the vehicles that differ, after the end of the twins.
     pub(super) fn complete(&mut self, base: &World, branch: &World) {
         if self.instants.last().is_none_or(|it| it.time_s < base.clock().time()) {
             let counts = self.compare(base, branch);
@@ -105,7 +105,7 @@ impl Differences {
         }
     }
 
-    /// How many vehicles are on the road in either, and how many of them differ: who does for the first time is noted.
+    /// Numbers of vehicles on the road in either, and of those that differ; a first difference is recorded.
     fn compare(&mut self, base: &World, branch: &World) -> [u32; 2] {
         let time_s = base.clock().time();
         if base.vehicles().map(state).eq(branch.vehicles().map(state)) {
@@ -130,18 +130,18 @@ impl Differences {
         [on_road, differ]
     }
 
-    /// Keeps this instant.
+    /// Stores this instant.
     fn keep(&mut self, base: &World, branch: &World, [on_road, differ]: [u32; 2]) {
         let (time_s, mean_speed_mps) = (base.clock().time(), [base, branch].map(mean_speed));
         self.instants.push(Instant { time_s, on_road, differ, lane_changes: self.changes, mean_speed_mps });
     }
 
-    /// Nothing differs.
+    /// Whether there are no differences.
     pub fn are_none(&self) -> bool {
         self.vehicles.is_empty()
     }
 
-    /// The differences for the screen, where `settings` were changed.
+    /// The differences for the screen, with changed `settings`.
     pub fn to_text(&self, settings: &str) -> String {
         let mut text = String::new();
         for (name, value) in self.facts(settings) {
@@ -151,7 +151,7 @@ impl Differences {
         text
     }
 
-    /// The differences in words, where `settings` were changed: names and what they stand for.
+    /// The differences in words, with changed `settings`: names and their values.
     pub(super) fn facts(&self, settings: &str) -> Vec<(&'static str, String)> {
         let mut facts = vec![("branch", format!("from {:.1} s on, with {settings}", self.since_s))];
         let first =
@@ -187,7 +187,7 @@ impl Differences {
         facts
     }
 
-    /// How much later than in the base those who left in both did so in the branch [s].
+    /// The delays in the branch relative to the base, of the vehicles that completed their trips in both [s].
     pub(super) fn later(&self) -> impl Iterator<Item = f64> {
         self.left.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?))
     }

@@ -1,5 +1,5 @@
-//! Twins: the same traffic twice from a time on, once with one thing changed. All draws are equal, so every difference
-//! between the two is caused by that change.
+//! Twins: the same traffic twice from a time on, once with one thing changed (a counterfactual). All random numbers
+//! are the same, so the change causes every difference between the two.
 
 mod differences;
 #[cfg(feature = "reports")]
@@ -19,13 +19,13 @@ pub use differences::{Differences, Instant, Vehicle};
 pub use page::page;
 pub use setting::Setting;
 
-/// Two worlds that were one.
+/// Two worlds that were one up to the branch time.
 pub struct Twins {
-    /// As it went on.
+    /// The unchanged run.
     pub base: World,
-    /// As it goes otherwise.
+    /// The changed run.
     pub branch: World,
-    /// The vehicles of the lane on which most way is driven, in either; none where nobody comes from anywhere.
+    /// The vehicles of the lane with the largest distance driven, in either; none where the demand has no origin.
     pub lanes: [Option<Traces>; 2],
     /// Steps until the run ends.
     steps_left: u32,
@@ -60,7 +60,7 @@ impl Twins {
         Ok(Twins { base, branch, lanes, steps_left: all - before })
     }
 
-    /// Drives both to the end of the run.
+    /// Runs both to the end.
     pub fn drive(&mut self) -> Differences {
         let mut differences = Differences::between(&self.base);
         for _ in 0..self.steps_left {

@@ -1,4 +1,4 @@
-//! The report of twins: what one thing changed, drawn.
+//! The report of twins: the effects of the change, in figures.
 
 use laneweave_results::report::{Align, Figure, Page, Section, Table, counted, time_and_space};
 use laneweave_study::units::KMH_PER_MPS;
@@ -6,13 +6,12 @@ use laneweave_study::{Distributed, Histogram, Sheet, TimeLine, Upwards, distribu
 
 use super::{Differences, Instant, Twins, Vehicle};
 
-/// Vehicles that are named.
+/// Maximum of vehicles that are named.
 const NAMED: usize = 25;
-/// Bins of how much later somebody left [s]: the first, their width and number.
+/// Bins of delays in the branch relative to the base [s]: the first, their width and number.
 const LATER: (f64, f64, usize) = (-60.0, 1.0, 120);
 
-/// The report of `twins` after they were driven, with their `differences`, which come of `settings`, as the `command`
-/// was given.
+/// The report of `twins` after their run, with the `differences` that `settings` caused, and the `command`.
 pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &str) -> Page {
     let lead = format!(
         "The same run twice (twins): from {:.1} s on, one of them with {settings}; compared by laneweave {}. Both use common random \
@@ -78,7 +77,7 @@ fn in_time(differences: &Differences) -> [Figure; 3] {
     ]
 }
 
-/// How much later vehicles left, where any did.
+/// Delays of vehicles in the branch relative to the base, if there are any.
 fn later(differences: &Differences) -> Option<Figure> {
     let (from, width, bins) = LATER;
     let mut histogram = Histogram::new(from, width, bins);
@@ -102,7 +101,7 @@ fn later(differences: &Differences) -> Option<Figure> {
     })
 }
 
-/// Those who differ, the first ones first.
+/// Vehicles that differ, the first ones first.
 fn vehicles(differences: &Differences) -> Table {
     use Align::{Numbers, Words};
     let columns = [

@@ -1,4 +1,4 @@
-//! What is changed: `STYLE.KEY=VALUE`.
+//! A changed setting: `STYLE.KEY=VALUE`.
 
 use std::str::FromStr;
 
@@ -9,20 +9,20 @@ use toml::Value;
 /// A key of one style, or of all, with another value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// As it was given.
+    /// The text as given.
     text: String,
-    /// The style; none: all.
+    /// The style; `None`: all.
     style: Option<String>,
-    /// The keys from the outermost in.
+    /// The keys, from the outermost to the innermost.
     path: Vec<String>,
     value: Value,
 }
 
 /// The name that stands for all styles.
 const ALL: &str = "style";
-/// Where keys are sought that are no sections of a style.
+/// The section in which keys are searched that are no sections of a style.
 const USUAL_SECTION: &str = "change";
-/// The sections and keys at the top of a style.
+/// The sections and keys at the top level of a style.
 const TOP: [&str; 8] =
     ["speed_factor", "follow", "change", "safety", "attention", "manner", "yielding", "guidance"];
 
@@ -46,7 +46,7 @@ impl FromStr for Setting {
         }
         let value = value.trim();
         let document: Result<toml::Table, _> = format!("value = {value}").parse();
-        // What is no TOML is a text.
+        // A value that is no TOML is a text.
         let value = document
             .ok()
             .and_then(|mut it| it.remove("value"))
@@ -57,12 +57,12 @@ impl FromStr for Setting {
 }
 
 impl Setting {
-    /// As it was given.
+    /// The text as given.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Changes the styles of `mixture` that it is about; of all styles those that have the key.
+    /// Changes the styles of `mixture` that the setting names; if it names all, those that have the key.
     pub(super) fn apply(&self, mixture: &mut [(StyleTemplate, f64)]) -> Result<(), Fault> {
         let place = format!("--set {}", self.text);
         let names: Vec<String> = mixture.iter().map(|(it, _)| it.typical().name.clone()).collect();
@@ -84,7 +84,7 @@ impl Setting {
         if let Some((any, _)) = mixture.first()
             && !mixture.iter().any(|(it, _)| is_meant(it))
         {
-            // Nobody has the key: what is wrong with it any style can say.
+            // No style has the key: any style gives the error message.
             return changed(any).map(drop);
         }
         for (template, _) in mixture.iter_mut().filter(|(it, _)| is_meant(it)) {

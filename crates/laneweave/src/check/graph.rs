@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 /// The routing graph of a map, which becomes one JSON object keyed by the id of each lanelet.
 pub struct GraphJson<'a>(pub &'a Map);
 
-/// What lies around a lanelet; ids, or null.
+/// The links of a lanelet; ids, or null.
 #[derive(Serialize)]
 struct Entry {
     following: Vec<i64>,
@@ -21,12 +21,12 @@ struct Entry {
     adjacent_right: Option<i64>,
     length_m: f64,
     speed_limit_mps: f64,
-    /// What lies around it when it is driven backwards; only of two-way lanelets.
+    /// The links of the lanelet driven backwards; only for two-way lanelets.
     #[serde(skip_serializing_if = "Option::is_none")]
     backward: Option<Links>,
 }
 
-/// What lies around a lanelet driven backwards.
+/// The links of a lanelet driven backwards.
 #[derive(Serialize)]
 struct Links {
     following: Vec<i64>,

@@ -1,4 +1,4 @@
-//! What a map or a recording holds, as far as one can tell without driving on it.
+//! Checks of a map or a recording without a simulation.
 
 mod graph;
 #[cfg(feature = "reports")]

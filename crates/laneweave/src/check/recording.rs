@@ -1,4 +1,4 @@
-//! What a recording holds: who was there, what was mended, and who changed lanes.
+//! The report on a recording: its road users, the corrections, and the lane changes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -16,17 +16,17 @@ use laneweave_scenario::Fault;
 use laneweave_study::units::METRES_PER_KM;
 use serde::Serialize;
 
-/// Lane changes that are listed in words.
+/// Maximum of lane changes in the text.
 const LISTED: usize = 20;
 
-/// What a recording holds. Fields are added, never renamed.
+/// The report on a recording. Fields are added, never renamed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordingReport {
     /// Time between frames [s].
     pub step_s: f64,
     /// From the first frame to the last [s].
     pub duration_s: f64,
-    /// Tracks by what they are of; a track that was interrupted counts for each part.
+    /// Tracks by class; each part of an interrupted track counts.
     pub tracks: BTreeMap<&'static str, usize>,
     /// States of vehicles.
     pub states: usize,
@@ -34,7 +34,7 @@ pub struct RecordingReport {
     pub unmatched: usize,
     /// Distance driven on the map [veh km].
     pub veh_km: f64,
-    /// What was mended or cut out, and how often.
+    /// The corrections by kind, and their numbers.
     pub cleaning: BTreeMap<&'static str, usize>,
     /// Lane changes by kind.
     pub lane_changes_by_kind: BTreeMap<&'static str, usize>,
@@ -44,11 +44,11 @@ pub struct RecordingReport {
     pub lane_changes_undone: usize,
     /// Lane changes in the order of their times.
     pub lane_changes: Vec<ChangeRow>,
-    /// What could not be read as it stands.
+    /// Problems in reading it.
     pub problems: Vec<Problem>,
 }
 
-/// A lane change that was recorded.
+/// A recorded lane change.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChangeRow {
     /// Id of the track.
@@ -63,15 +63,15 @@ pub struct ChangeRow {
     pub side: &'static str,
     /// `discretionary`, `route` or `unknown`.
     pub kind: &'static str,
-    /// Where [m].
+    /// Position [m].
     pub x_m: f64,
-    /// Where [m].
+    /// Position [m].
     pub y_m: f64,
-    /// How fast [m/s].
+    /// Speed [m/s].
     pub speed_mps: f64,
-    /// The map permits it.
+    /// Whether the map permits it.
     pub along_graph: bool,
-    /// How long the vehicle was seen afterwards [s].
+    /// Time for which the vehicle was observed afterwards [s].
     pub seen_after_s: f64,
 }
 
@@ -108,9 +108,9 @@ pub fn tracks(path: &Path) -> Result<Option<(Recording, Vec<Problem>)>, Fault> {
     }
 }
 
-/// The content of a file, or as much of it as tells that it is too large.
+/// The content of a file, or enough of it to see that it is too large.
 fn content(path: &Path) -> Result<Vec<u8>, Fault> {
-    /// A little more than any reader takes [B].
+    /// A little more than the limit of any reader [B].
     const MOST: u64 = 1 << 30;
     let mut bytes = Vec::new();
     let read = File::open(path).and_then(|it| it.take(MOST).read_to_end(&mut bytes));
@@ -119,7 +119,7 @@ fn content(path: &Path) -> Result<Vec<u8>, Fault> {
         let remedy = "download the recording again, or choose another file";
         return Err(Fault::new(path.display(), "the file is empty", remedy));
     }
-    // What is no text would be shown as it is where it is complained of.
+    // Bytes that are no text are shown unchanged in the message about them.
     if bytes.contains(&0) {
         let what = "this is not a text file, so it cannot be a recording";
         return Err(Fault::new(path.display(), what, "choose another file, or decompress it first"));
@@ -134,7 +134,7 @@ fn fault(path: &Path, error: &RecordingError) -> Fault {
 }
 
 impl RecordingReport {
-    /// What `recording` holds on a map with these roads; `problems` were found in reading it.
+    /// The report on `recording` on a map with these roads; `problems` were found in reading it.
     pub fn of(recording: Recording, problems: &[Problem], network: &Network) -> RecordingReport {
         let (recording, cleaning) = clean(recording);
         let matched = Matched::new(network, &recording);
@@ -236,7 +236,7 @@ fn counts(cleaning: &CleaningReport) -> BTreeMap<&'static str, usize> {
     found.map(|(name, it)| (name, it.count)).collect()
 }
 
-/// What vehicles drove on the map in all [m].
+/// Distance driven on the map by all vehicles [m].
 fn distance(matched: &Matched) -> f64 {
     let tracks = matched.recording.tracks.iter().zip(&matched.places);
     let moves = tracks.flat_map(|(track, places)| track.states.windows(2).zip(places.windows(2)));
@@ -244,7 +244,7 @@ fn distance(matched: &Matched) -> f64 {
     on_the_map.map(|(it, _)| (it[1].x - it[0].x).hypot(it[1].y - it[0].y)).sum()
 }
 
-/// A recording of another place, or in another frame, is on no lanelet.
+/// A recording of another place, or in another frame, has no vehicles on lanelets.
 fn elsewhere(recording: &Recording, network: &Network) -> Problem {
     let span = |points: &mut dyn Iterator<Item = (f64, f64)>| {
         points.fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |it, (x, y)| {

@@ -1,4 +1,4 @@
-//! What a map holds, in numbers and in words.
+//! The report on a map, in numbers and in words.
 
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Write};
@@ -11,10 +11,10 @@ use laneweave_sim::{Place, Places};
 use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 use serde::Serialize;
 
-/// Kinds of problems that are listed in words.
+/// Maximum of kinds of problems in the text.
 const LISTED: usize = 20;
 
-/// What a map holds. Fields are added, never renamed.
+/// The report on a map. Fields are added, never renamed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// Latitude and longitude of the local frame's origin [°]; null for maps with metric coordinates of their own.
@@ -31,19 +31,19 @@ pub struct Report {
     pub lane_km: f64,
     /// Least and greatest speed limit [km/h].
     pub speed_limits_kmh: [f64; 2],
-    /// Pairs of lanelets that follow on each other.
+    /// Pairs of lanelets that follow each other.
     pub following: usize,
     /// Lanelets from which a change to the left is allowed, and to the right.
     pub lane_changes: [usize; 2],
-    /// Pairs of lanelets that share ground.
+    /// Pairs of lanelets that conflict.
     pub conflicts: usize,
     /// Lanes of the simulation: runs of lanelets without a fork or a merge.
     pub chains: usize,
-    /// Where vehicles come onto the map and can drive to an exit; none on a closed map.
+    /// Entrances: places where vehicles enter and can drive to an exit; none on a closed map.
     pub entrances: Vec<Opening>,
-    /// Where they leave it; none on a closed map.
+    /// Exits; none on a closed map.
     pub exits: Vec<Opening>,
-    /// On a closed map, the lanelets along which trips start; in files it keeps its old name.
+    /// On a closed map, the lanelets along which trips start; in files the field keeps its old name.
     #[serde(rename = "kerbs")]
     pub inner_places: usize,
     /// Traffic lights.
@@ -52,9 +52,9 @@ pub struct Report {
     pub lane_drops: Vec<i64>,
     /// Regulatory elements by kind.
     pub rules: BTreeMap<String, usize>,
-    /// What could not be used as it stands, or is suspicious.
+    /// Elements that could not be used unchanged, or are suspicious.
     pub problems: Vec<Problem>,
-    /// What to know before one looks at traffic on the map.
+    /// Remarks on the traffic of the map.
     pub remarks: Vec<Remark>,
 }
 
@@ -77,7 +77,7 @@ pub struct Lit {
 }
 
 impl Report {
-    /// What `map` holds.
+    /// The report on `map`.
     pub fn of(map: &Map) -> Report {
         let Map { network, graph, rules, contents, problems, origin } = map;
         let Network { lanelets, chains, lane_drops, driving_side, .. } = network;
@@ -110,7 +110,7 @@ impl Report {
                 lanelets.iter().filter(|it| it.left.is_some()).count(),
                 lanelets.iter().filter(|it| it.right.is_some()).count(),
             ],
-            // A two-way lanelet is among its own.
+            // A two-way lanelet is in its own list.
             conflicts: (conflicts - two_way) / 2,
             chains: chains.len(),
             inner_places: origins.len() - entrances.len(),
@@ -137,7 +137,7 @@ impl Report {
     }
 
     fn write_to(&self, out: &mut String) -> fmt::Result {
-        // Little else counts on a map without borders.
+        // On a map without borders, the other problems matter little.
         if let Some(Problem { what, remedy, .. }) = self.problems.iter().find(|it| it.element == BORDERS) {
             writeln!(out, "{what}; {remedy}.\n")?;
         }
@@ -226,7 +226,7 @@ fn lights(network: &Network) -> Vec<Lit> {
     lights
 }
 
-/// Problems of one kind beside each other, in the order in which the kinds first came up.
+/// Problems grouped by kind, in the order in which the kinds first occurred.
 fn sorted(mut problems: Vec<Problem>) -> Vec<Problem> {
     let kind = |it: &Problem| (it.what.clone(), it.remedy.clone());
     let mut kinds: HashMap<(String, String), usize> = HashMap::new();

@@ -1,4 +1,4 @@
-//! Lane-change models side by side: the same traffic for each of them, over several seeds.
+//! Comparison of lane-change models: the same traffic for each of them, over several seeds.
 
 mod outcome;
 #[cfg(feature = "reports")]
@@ -18,38 +18,38 @@ pub use outcome::{MEASURES, Measure, Outcome};
 #[cfg(feature = "reports")]
 pub use page::page;
 
-/// What a number behind a mean says.
+/// The explanation of the number after a mean.
 const OF_FEW: &str = "(n): mean of n seeds only; the other seeds had nothing to measure";
 
 /// One run of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Who decides on lane changes.
+    /// Its lane-change model.
     pub model: Model,
-    /// Seed of all draws.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// What came out.
+    /// Its outcome.
     pub outcome: Outcome,
-    /// The traffic in boxes, with the changes by choice in them.
+    /// The traffic in boxes, with the discretionary lane changes in them.
     pub boxes: Vec<EdieRow>,
 }
 
 /// All runs of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What ran, but for the model and the seed.
+    /// The description of the run, without the model and the seed.
     pub about: About,
-    /// The models in the order in which they were asked for.
+    /// The models in the given order.
     pub models: Vec<Model>,
     /// By model, and by seed.
     pub trials: Vec<Trial>,
 }
 
-/// Drives `scenario` with each of the `models`, once however often it is named, and each of the `seeds`, so many runs
-/// at once as there are `threads`.
+/// Runs `scenario` with each of the `models`, repeated names only once, and each of the `seeds`, with as many
+/// parallel runs as `threads`.
 ///
 /// # Errors
-/// If the scenario cannot be driven.
+/// If the scenario cannot run.
 pub fn compare(
     scenario: &Scenario,
     origin: &Origin,
@@ -93,15 +93,15 @@ fn trial(scenario: &Scenario, origin: &Origin, model: Model, seed: u64) -> Resul
 }
 
 impl Comparison {
-    /// A measure over the seeds of `model`: those in which there is something to measure.
+    /// A measure over the seeds of `model` that have a value.
     pub fn estimate(&self, model: Model, measure: &Measure) -> Option<Estimate> {
         let of = self.trials.iter().filter(|it| it.model == model);
         let values: Vec<f64> = of.filter_map(|it| (measure.of)(&it.outcome)).collect();
         mean(&values)
     }
 
-    /// How much more of a measure `model` has than `other`, over the seeds in which there is something to measure for
-    /// both: the traffic that is to come is the same for both.
+    /// The difference of a measure between `model` and `other`, over the seeds in which both have a value. The
+    /// arriving traffic is the same for both.
     pub fn difference(&self, model: Model, other: Model, measure: &Measure) -> Option<Estimate> {
         let of = |model: Model| self.trials.iter().filter(move |it| it.model == model);
         let pairs = of(model).zip(of(other)).filter(|(a, b)| a.seed == b.seed);
@@ -115,7 +115,7 @@ impl Comparison {
         self.estimate(model, measure).map(|it| cell(&it, measure.digits, self.seeds().len()))
     }
 
-    /// The seeds that each model was driven with.
+    /// The seeds of each model.
     fn seeds(&self) -> Vec<u64> {
         let first = self.models.first();
         self.trials.iter().filter(|it| Some(&it.model) == first).map(|it| it.seed).collect()
@@ -144,7 +144,7 @@ impl Comparison {
     }
 }
 
-/// A mean with half its interval, and with the number of seeds it is of if that is not all `seeds`.
+/// A mean with half its interval, and with its number of seeds if that is not all `seeds`.
 fn cell(estimate: &Estimate, digits: usize, seeds: usize) -> String {
     let Estimate { mean, half_width, replications, .. } = estimate;
     let mut text = format!("{mean:.digits$}");

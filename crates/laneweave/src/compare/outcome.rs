@@ -1,4 +1,4 @@
-//! What comes out of a run, as far as lane-change models can be told apart by it.
+//! The outcome of a run: measures in which lane-change models differ.
 
 use std::collections::BTreeMap;
 
@@ -9,46 +9,47 @@ use laneweave_sim::{Event, Kind, VehicleId};
 use laneweave_study::EdieRow;
 use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 
-/// Who changes to the other side within this time [s] goes back.
+/// A change to the opposite side within this time undoes the one before [s].
 const BACK_WITHIN: f64 = 30.0;
 
-/// What came out of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Lane changes between lanes of equal worth for the route, and all others, per vehicle-kilometre.
     pub per_veh_km: [f64; 2],
-    /// Share of the former that gain anticipated speed; and that go back within 30 s.
+    /// Share of the former that gain anticipated speed.
     pub gaining: Option<f64>,
-    /// The share that goes back within 30 s.
+    /// The share that is undone within 30 s.
     pub going_back: Option<f64>,
-    /// How many times as likely a driver who is held up beside a free lane is to want a change as one on a free road.
+    /// Ratio of the probabilities of a desire to change: of a driver behind a slower one beside a free lane, and of a
+    /// driver on a free road.
     pub held_up_ratio: Option<f64>,
     /// Mean speed [m/s].
     pub speed_mps: Option<f64>,
-    /// Mean delay of those who left [s].
+    /// Mean delay of the completed trips [s].
     pub delay_s: Option<f64>,
     /// Missed turns for each vehicle that entered.
     pub missed_turns: f64,
     /// Emergency brakings per vehicle-kilometre.
     pub emergencies: f64,
-    /// Vehicles that were stuck.
+    /// Vehicles that became stuck.
     pub stuck: f64,
-    /// Vehicles that left.
+    /// Vehicles that completed their trips.
     pub left: f64,
     /// Vehicles that wait to enter at the end.
     pub waiting: f64,
 }
 
-/// Something that is measured in every run.
+/// A measure of every run.
 #[derive(Clone, Copy)]
 pub struct Measure {
     /// Its column in tables.
     pub column: &'static str,
     /// Its name, with the unit.
     pub title: &'static str,
-    /// Digits worth showing.
+    /// Number of significant digits.
     pub digits: usize,
-    /// What it is of.
+    /// Its value in an outcome.
     pub of: fn(&Outcome) -> Option<f64>,
 }
 
@@ -61,7 +62,7 @@ const fn measure(
     Measure { column, title, digits, of }
 }
 
-/// What is measured.
+/// All measures.
 pub const MEASURES: [Measure; 12] = [
     measure("discretionary_per_veh_km", "discretionary lane changes [1/veh-km]", 3, |it| {
         Some(it.per_veh_km[0])
@@ -82,7 +83,7 @@ pub const MEASURES: [Measure; 12] = [
 ];
 
 impl Outcome {
-    /// Drives `prepared` to its end; also the traffic in boxes, with the changes by choice in them.
+    /// Runs `prepared` to its end; also returns the traffic in boxes, with the discretionary lane changes in them.
     pub(super) fn of(prepared: &mut Prepared) -> (Outcome, Vec<EdieRow>) {
         let Prepared { world, warmup_steps, steps, .. } = prepared;
         (0..*warmup_steps).for_each(|_| world.step());

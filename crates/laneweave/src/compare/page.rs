@@ -13,7 +13,7 @@ use laneweave_study::{
 
 use super::{Comparison, MEASURES, Measure, OF_FEW, cell};
 
-/// The report of all `comparisons`, each of the input of that name, with the `command` that made them.
+/// The report of all `comparisons`, each with the name of its input, and with the `command` that made them.
 pub fn page(comparisons: &[(String, Comparison)], command: &str) -> Page {
     let lead = format!(
         "Lane-change models on the same traffic, compared by laneweave {}. All results follow from the maps, the scenarios and the \
@@ -111,7 +111,7 @@ fn diagrams(comparison: &Comparison) -> [Figure; 2] {
     ]
 }
 
-/// A measure by model; nothing where no model has any of it.
+/// A measure by model; `None` if no model has a value.
 fn measured(comparison: &Comparison, measure: &Measure) -> Option<Figure> {
     let row = |model: &Model| {
         let estimate = comparison.estimate(*model, measure)?;
@@ -140,7 +140,7 @@ fn measured(comparison: &Comparison, measure: &Measure) -> Option<Figure> {
     })
 }
 
-/// The interval as it is drawn: no measure is below zero; one seed has none.
+/// The interval in a figure: no measure is negative; with one seed there is none.
 fn drawn(estimate: &Estimate) -> Interval {
     let Interval { lower, upper } = estimate.interval();
     if upper.is_finite() {
@@ -169,7 +169,7 @@ fn table(comparison: &Comparison) -> Table {
     table
 }
 
-/// What the other models have more than the first; nothing where there is only one seed or model.
+/// The differences of the other models to the first; `None` with only one seed or one model.
 fn differences(comparison: &Comparison) -> Table {
     let (reference, others) = match &comparison.models[..] {
         [reference, others @ ..] if comparison.seeds().len() > 1 => (*reference, others),

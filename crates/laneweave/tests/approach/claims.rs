@@ -1,4 +1,4 @@
-//! In free traffic drivers in a wrong lane reach theirs.
+//! In free traffic, drivers in a wrong lane reach a right one.
 
 use std::collections::HashMap;
 
@@ -17,8 +17,8 @@ const HEADWAY: u32 = 6;
 /// Free traffic beside them [veh/h].
 const BESIDE: f64 = 600.0;
 
-/// How many drivers who came in a wrong lane, A for the straight road's own exit or C for the left road's, left the
-/// map, and how many of them elsewhere.
+/// Number of drivers who entered in a wrong lane and completed their trips, and the number of them who left
+/// elsewhere. The wrong lane is A for the straight road's own exit, or C for the left road's.
 fn missed(seed: u64) -> (u64, u64) {
     let Approach { network, lanes: [a, _, c], exits: [north, south, _] } = Approach::drawn();
     let Population { driver_parameters, shares } = Population::usual(seed).expect("built-in styles");

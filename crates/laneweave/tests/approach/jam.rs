@@ -1,5 +1,5 @@
-//! A jam on the straight road: who leaves its route for the left one. A first look at the paper's third claim, that
-//! changes grow sharply with the weight of the route.
+//! A jam on the straight road: which drivers leave their route for the left road. A first test of the paper's third
+//! claim, that changes grow sharply with the weight of the route.
 
 use std::collections::{HashMap, HashSet};
 
@@ -18,20 +18,20 @@ const STEP_S: f64 = 0.1;
 const SEEDS: u64 = 10;
 /// Interval of guidance [s].
 const INTERVAL_S: f64 = 30.0;
-/// When drivers begin to come, after the jam has built up, and how long they come [s].
+/// Begin of the drivers' arrivals, after the jam has built up, and their duration [s].
 const BEGIN: u32 = 120;
 const COME_FOR: u32 = 180;
-/// Time in which the last of them pass the junction [s].
+/// Time in which the last drivers pass the junction [s].
 const AFTER: u32 = 60;
 /// Seconds between two of them.
 const HEADWAY: u32 = 4;
 /// Weights of the route.
 const WEIGHTS: [f64; 3] = [0.0, 0.05, 0.4];
-/// Desired speed of those who make the jam, as a share of the limit, and how many there are on each lane [veh/h].
+/// Desired speed of the drivers who cause the jam, as a share of the limit, and their flow on each lane [veh/h].
 const CRAWL: f64 = 0.15;
 const CRAWLERS: f64 = 240.0;
 
-/// What drivers did per head.
+/// Mean actions of drivers.
 struct Found {
     lane_changes: f64,
     route_changes: f64,
@@ -39,7 +39,7 @@ struct Found {
     left: f64,
 }
 
-/// The usual drivers, each with another table of incentives.
+/// The usual drivers, with another table of incentives.
 fn drivers(seed: u64, table: impl Fn(Mcdm) -> Mcdm) -> Vec<Style> {
     let mut driver_parameters = Population::usual(seed).expect("built-in styles").driver_parameters;
     for it in &mut driver_parameters {
@@ -49,17 +49,17 @@ fn drivers(seed: u64, table: impl Fn(Mcdm) -> Mcdm) -> Vec<Style> {
     driver_parameters
 }
 
-/// The usual weights, but for that of the route.
+/// The usual weights, except that of the route.
 fn with_route_weight(weight: f64) -> impl Fn(Mcdm) -> Mcdm {
     move |usual| Mcdm { route: Route { weight, ..usual.route }, ..usual }
 }
 
-/// No weights, by the threshold rule.
+/// No weights, with the threshold rule.
 fn without_weights(usual: Mcdm) -> Mcdm {
     Mcdm { rule: Rule::Threshold, theta: usual.theta, ..Mcdm::default() }
 }
 
-/// Drivers to the common exit come in lanes B and C; their own way is straight on, where `crawlers` come on each lane
+/// Drivers to the common exit enter in lanes B and C; their route is straight on, where `crawlers` enter on each lane
 /// [veh/h].
 fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
     let approach = Approach::drawn();

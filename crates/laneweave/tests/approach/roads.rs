@@ -1,4 +1,4 @@
-//! The road of the paper's figure as it is drawn, and its lanes by their letters.
+//! The road of the paper's figure, and its lanes by their letters.
 
 use laneweave::maps::generate::approach;
 use laneweave::maps::regulations;
@@ -11,7 +11,7 @@ pub(crate) enum Road {
     Straight,
 }
 
-/// How far the junction reaches from its middle at most [m].
+/// Maximum distance of the junction's edge from its middle [m].
 const JUNCTION: f64 = 20.0;
 
 /// The approach: three lanes, two roads beyond, three exits.
@@ -19,7 +19,7 @@ pub(crate) struct Approach {
     pub(crate) network: Network,
     /// Lanes A, B and C.
     pub(crate) lanes: [ChainIndex; 3],
-    /// Places of the exits in the list of destinations: that of the left road, that of the straight road, and the
+    /// Indices of the exits in the list of destinations: that of the left road, that of the straight road, and the
     /// common one.
     pub(crate) exits: [u16; 3],
 }
@@ -50,7 +50,7 @@ impl Approach {
         if at.y > JUNCTION { Some(Road::Left) } else { (at.x > JUNCTION).then_some(Road::Straight) }
     }
 
-    /// The station on `chain` where it comes to `road` beyond the junction [m].
+    /// The station on `chain` where it joins `road` beyond the junction [m].
     pub(crate) fn begin_of(&self, road: Road, chain: ChainIndex) -> Option<f64> {
         let metres = 0..self.network.chain(chain).length as u32;
         let first = metres.map(f64::from).find(|it| self.road(chain, *it).is_some())?;

@@ -1,5 +1,5 @@
-//! Explanations agree with what drivers do, with what is worked out by hand, and with what would have happened
-//! otherwise.
+//! Explanations agree with the actions of drivers, with an independent computation, and with the run of the changed
+//! situation.
 
 mod twin;
 
@@ -15,9 +15,9 @@ use twin::{Otherwise, Twin};
 
 /// Length of a step [s].
 const DT: f64 = 0.1;
-/// How many refusals are worked out by hand.
+/// Number of refusals that are computed independently.
 const REFUSALS: usize = 1000;
-/// What rounding may make of a yield.
+/// Largest change of a yield by rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// A busy straight motorway of three lanes with the usual drivers.
@@ -33,7 +33,7 @@ fn phase(world: &World, id: u32) -> Option<Phase> {
     world.vehicles().find(|it| it.id() == id).map(|it| it.driver.phase)
 }
 
-/// Those who consider lanes or wait for a gap in the next step.
+/// The drivers who consider lanes or wait for a gap in the next step.
 fn deciding(world: &World) -> Vec<Spot> {
     let step = world.clock().step;
     let decides = |phase, due| match phase {
@@ -44,7 +44,7 @@ fn deciding(world: &World) -> Vec<Spot> {
     world.vehicles().filter(|it| decides(it.driver.phase, it.driver.due)).map(|it| it.spot).collect()
 }
 
-/// What a driver said, and did.
+/// The account of a driver, and its action.
 struct Said {
     id: u32,
     act: Act,
@@ -55,7 +55,7 @@ fn assert_near(value: f64, expected: f64) {
     assert!((value - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{value} is not {expected}");
 }
 
-/// The account of a driver who considers lanes is what comes out by hand.
+/// The account of a driver who considers lanes agrees with the independent computation.
 fn assert_weighed_as_by_hand(twin: &Twin, account: &Account) {
     let by_hand = twin.weigh(account.vehicle, Otherwise::default());
     assert_eq!(account.sides.iter().flatten().count(), by_hand.len());
@@ -77,7 +77,7 @@ fn assert_weighed_as_by_hand(twin: &Twin, account: &Account) {
     }
 }
 
-/// So is the reason of a driver who waits.
+/// The reason of a driver who waits agrees, too.
 fn assert_refused_as_by_hand(twin: &Twin, account: &Account) {
     let Act::Waits(side, hindrance) = account.act else { return };
     let by_hand = twin.refusal(account.vehicle, side, Otherwise::default(), DT);
@@ -125,7 +125,7 @@ fn every_change_and_a_thousand_refusals_are_explained_as_by_hand() {
             let Some(phase) = phase(&world, id) else { continue };
             match act {
                 Act::Wants(..) | Act::Waits(..) => assert_eq!(phase, Phase::Wants, "{id} at {step}: {act:?}"),
-                // Another may have taken the gap.
+                // Another vehicle may have taken the gap.
                 Act::Goes(_) => assert!(matches!(phase, Phase::Changes | Phase::Wants), "{id} at {step}"),
                 Act::Stays | Act::GivesUp(_) => assert_eq!(phase, Phase::Cruises, "{id} at {step}: {act:?}"),
                 other => panic!("{other:?} on a straight road"),
@@ -157,8 +157,8 @@ fn with_weight(style: &Style, row: usize, weight: f64) -> Style {
     Style { change: LaneChangeModel::Mcdm(model), ..style.clone() }
 }
 
-/// The side to which the driver of `id` turns, who considers lanes in the next step of `saved`, where the incentive of
-/// `row` has another weight: it is driven.
+/// The side to which the driver of `id` turns, who considers lanes in the next step of `saved`, with another weight
+/// of the incentive of `row`: the step is simulated.
 fn driven(
     stage: &mut World,
     saved: &[u8],
@@ -182,7 +182,7 @@ fn at(side: Side) -> usize {
     usize::from(side == Side::Right)
 }
 
-/// What is otherwise by the share `share` of a flip of speeds or gaps.
+/// The change of the situation by the share `share` of a flip of speeds or gaps.
 fn otherwise(flip: &Flip, share: f64) -> Otherwise {
     let by = share * flip.by;
     let mut it = Otherwise::default();
@@ -199,13 +199,13 @@ fn otherwise(flip: &Flip, share: f64) -> Otherwise {
     it
 }
 
-/// Where a driver who waits would go at some other speed, tried one by one, a flip of its speed says so; whether there
-/// is one.
+/// If a driver who waits would go at one of the tested speeds, a flip of its speed says so; returns whether there is
+/// one.
 fn assert_window_is_found(twin: &Twin, account: &Account, side: Side) -> bool {
-    /// Speeds that are tried are so far apart [m/s].
+    /// Distance between the tested speeds [m/s].
     const APART: f64 = 0.1;
     let (id, own) = (account.vehicle, twin.speed(account.vehicle));
-    // At the end of the road a higher speed needs more of it than there is.
+    // At the end of the road a higher speed needs more of it than is left.
     if twin.road_left(id) < 500.0 {
         return false;
     }
@@ -224,7 +224,7 @@ fn assert_window_is_found(twin: &Twin, account: &Account, side: Side) -> bool {
 
 #[test]
 fn every_flip_flips_when_applied_and_half_of_it_does_not() {
-    /// A flip is found to the last bit of the program's own sums; by hand they may differ in it.
+    /// A flip is exact to the last bit of the program's own sums; the independent ones may differ in it.
     const BEYOND: f64 = 1.0 + 1e-6;
     let (mut world, mut stage) = (motorway(), motorway());
     let original = world.driver_parameters().to_vec();
@@ -270,7 +270,7 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
                         gaps += 1;
                     }
                     _ => {
-                        // As one side's chance falls, a draw may come to be the other's, and then nobody's.
+                        // As one side's chance falls, the random number may select the other side, and then none.
                         let wanted = |share| twin.desired(id, otherwise(&flip, share), account.draw);
                         let now = wanted(0.0);
                         assert_ne!(wanted(BEYOND), now, "{id} at {step}: {flip:?}");

@@ -1,12 +1,12 @@
-//! The decision of a driver on a straight road, worked out by hand: from a plain list of all vehicles, with the
-//! formulas as they are written in the book, by nothing that the program uses for it.
+//! An independent computation of a driver's decision on a straight road: from a plain list of all vehicles, with the
+//! formulas of the book, without code of the program.
 
 use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal};
 use laneweave::models::follow::FollowingModel;
 use laneweave::network::Side;
 use laneweave::sim::{Phase, World};
 
-/// A vehicle in a lane. Who is between two lanes stands in both.
+/// A vehicle in a lane. A vehicle between two lanes stands in both.
 #[derive(Clone, Copy)]
 pub(crate) struct Body {
     pub(crate) id: u32,
@@ -21,19 +21,19 @@ pub(crate) struct Body {
     urgency: f64,
 }
 
-/// What the driver is told of otherwise than it is.
+/// Changes of the situation that the driver sees.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Otherwise {
-    /// Speed anticipated in the own lane, and on the left and the right, more by so much [m/s].
+    /// Added to the anticipated speed of the own lane, of the left and of the right lane [m/s].
     pub(crate) here: f64,
     pub(crate) there: [f64; 2],
-    /// Gaps ahead and behind larger by so much [m].
+    /// Added to the gaps ahead and behind [m].
     pub(crate) gaps: [f64; 2],
-    /// Speeds of driver, new leader and new follower higher by so much [m/s].
+    /// Added to the speeds of driver, new leader and new follower [m/s].
     pub(crate) speeds: [f64; 3],
 }
 
-/// A side as it comes out.
+/// The result for a side.
 #[derive(Debug)]
 pub(crate) struct Weighed {
     pub(crate) side: Side,
@@ -50,7 +50,7 @@ pub(crate) struct Twin<'a> {
     bodies: Vec<Body>,
 }
 
-/// What is ahead and behind in a lane.
+/// The vehicles ahead and behind in a lane.
 struct Around {
     ahead: Option<(Body, f64)>,
     behind: Option<(Body, f64)>,
@@ -86,7 +86,7 @@ impl<'a> Twin<'a> {
         Twin { world, lanes: chains.len() as u32, length: chains[0].length, bodies }
     }
 
-    /// The vehicle with this name, where its centre is.
+    /// The vehicle with this name, in the lane of its centre.
     pub(crate) fn me(&self, id: u32) -> Body {
         *self.bodies.iter().find(|it| it.id == id).expect("it is on the road")
     }
@@ -106,7 +106,7 @@ impl<'a> Twin<'a> {
     fn around(&self, me: &Body, lane: u32) -> Around {
         let ahead: Vec<&Body> = self.others(me, lane).filter(|it| it.x > me.x).collect();
         let gap = |it: &Body| it.x - it.length - me.x;
-        // Nobody looks past the first who is further away than 295 m.
+        // No driver looks past the first vehicle that is more than 295 m away.
         let nearest_first = {
             let mut all = ahead.clone();
             all.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -179,7 +179,7 @@ impl<'a> Twin<'a> {
         }
     }
 
-    /// What `body` gains of its desired speed in a second with one leader instead of another.
+    /// The gain of desired speed of `body` in a second, with one leader instead of another.
     fn share(&self, body: &Body, now: Option<(f64, f64)>, then: Option<(f64, f64)>) -> f64 {
         let expected = |ahead| (body.speed + self.acceleration(body, ahead)).clamp(0.0, body.desired);
         let short = |speed: f64| (speed - body.desired).abs();
@@ -197,8 +197,8 @@ impl<'a> Twin<'a> {
             let without = here.ahead.map(|(ahead, further)| (gap + me.length + further, ahead.speed));
             self.share(&it, Some((gap, me.speed)), without)
         });
-        // Who signals a change into this lane: of the other side the one behind, or else the one ahead; of this side
-        // the new leader.
+        // Vehicles that signal a change into this lane: on the other side the one behind, or else the one ahead; on
+        // this side the new leader.
         let across = self.beside(me.lane, side.opposite()).map(|lane| self.around(me, lane));
         let room = |it: Body| {
             let forward = it.x - me.x;
@@ -226,7 +226,7 @@ impl<'a> Twin<'a> {
         harm + relief + from_across.unwrap_or(0.0) + from_there.unwrap_or(0.0)
     }
 
-    /// Both sides as they come out for the driver of `id`, the left one first.
+    /// Both sides for the driver of `id`, the left one first.
     pub(crate) fn weigh(&self, id: u32, otherwise: Otherwise) -> Vec<Weighed> {
         let me = self.me(id);
         let model = mcdm(&self.world.driver_parameters()[me.parameters].change);
@@ -252,7 +252,7 @@ impl<'a> Twin<'a> {
         .collect()
     }
 
-    /// The side that is desired where `draw` was drawn.
+    /// The desired side for the random number `draw`.
     pub(crate) fn desired(&self, id: u32, otherwise: Otherwise, draw: f64) -> Option<Side> {
         let model = mcdm(&self.world.driver_parameters()[self.me(id).parameters].change);
         let sides = self.weigh(id, otherwise);
@@ -268,8 +268,8 @@ impl<'a> Twin<'a> {
             .map(|it| it.side)
     }
 
-    /// What is wrong with the gap on `side`, ahead (0) or behind (1), with time step `dt`; the share of its time gap
-    /// that the driver accepts is that of a change by choice.
+    /// The problem of the gap on `side`, ahead (0) or behind (1), with time step `dt`. The accepted share of the time
+    /// gap is that of a discretionary change.
     pub(crate) fn refusal(
         &self,
         id: u32,
@@ -312,7 +312,7 @@ impl<'a> Twin<'a> {
         ahead.map(|it| (0, it)).or_else(|| behind().map(|it| (1, it)))
     }
 
-    /// The next ahead and behind, however far away.
+    /// The next vehicles ahead and behind, at any distance.
     fn around_far(&self, me: &Body, lane: u32) -> [Option<(Body, f64)>; 2] {
         let ahead = self
             .others(me, lane)
@@ -325,7 +325,7 @@ impl<'a> Twin<'a> {
         ]
     }
 
-    /// Road left to the end [m].
+    /// Remaining road to the end [m].
     pub(crate) fn road_left(&self, id: u32) -> f64 {
         self.length - self.me(id).x
     }

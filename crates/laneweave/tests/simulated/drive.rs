@@ -1,4 +1,4 @@
-//! Simulated traffic as a camera would see it, and what its drivers knew.
+//! Simulated traffic as a camera would record it, and the knowledge of its drivers.
 
 use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
@@ -21,33 +21,33 @@ const NOISE: f64 = 0.1;
 /// Vehicles per hour on the road and on the ramp.
 const ON_ROAD: f64 = 2300.0;
 const ON_RAMP: f64 = 220.0;
-/// Vehicles that stay on the road for one that leaves it.
+/// Number of vehicles that stay on the road for each one that leaves it.
 const STAYING: f64 = 9.0;
 /// Share of trucks.
 const TRUCKS: f64 = 0.1;
-/// Simulated time before the recording, of the recording, and after it until its last changes are done [s].
+/// Simulated time before the recording, of the recording, and after it until its last changes are completed [s].
 const WARM_UP: f64 = 120.0;
 const RECORDED: f64 = 660.0;
 const AFTERWARDS: f64 = 30.0;
-/// Between these times what drivers know is kept once in a while [s]. Before, changes are under way that began
-/// before the recording; after, it ends before all have left the map.
+/// Between these times the knowledge of drivers is sampled [s]. Before, there are changes that began before the
+/// recording; after, the recording ends before all vehicles have left the map.
 const FIRST_KEPT: f64 = 10.0;
 const LAST_KEPT: f64 = 480.0;
 const EVERY: f64 = 5.0;
 
-/// What the simulator knew.
+/// The true values in the simulator.
 pub(crate) struct Truth {
     pub(crate) network: Network,
     pub(crate) driver_parameters: Vec<Style>,
     /// For each vehicle its driver parameters.
     pub(crate) character_of: HashMap<i64, u32>,
-    /// The lane changes that were made, by the time of the recording.
+    /// The lane changes, by the time of the recording.
     pub(crate) changes: Vec<Made>,
-    /// What drivers knew.
+    /// The knowledge of drivers.
     pub(crate) instants: Vec<Instant>,
 }
 
-/// A lane change that was made: when it began, crossed the line and ended [s].
+/// A lane change: the times of its begin, its crossing and its end [s].
 pub(crate) struct Made {
     pub(crate) vehicle: i64,
     pub(crate) began: f64,
@@ -63,7 +63,7 @@ pub(crate) struct Instant {
     pub(crate) samples: Vec<Sample>,
 }
 
-/// Where a vehicle is.
+/// The position of a vehicle.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Stand {
     pub(crate) vehicle: i64,
@@ -71,7 +71,7 @@ pub(crate) struct Stand {
     pub(crate) is_between_lanes: bool,
 }
 
-/// What a driver knew of a side.
+/// The knowledge of a driver about a side.
 pub(crate) struct Sample {
     pub(crate) vehicle: i64,
     pub(crate) side: Side,
@@ -127,7 +127,7 @@ fn world(seed: u64) -> World {
         .expect("it makes sense")
 }
 
-/// What sees the road from above, not quite exactly.
+/// A camera above the road, with noise.
 struct Camera {
     noise: Random,
     /// By vehicle.
@@ -136,7 +136,7 @@ struct Camera {
 }
 
 impl Camera {
-    /// Writes down where everybody is.
+    /// Records the positions of all vehicles.
     fn see(&mut self, world: &World, frame: i64) {
         let mut vehicles: Vec<Vehicle> = world.vehicles().collect();
         vehicles.sort_by_key(Vehicle::id);
@@ -152,7 +152,7 @@ impl Camera {
     }
 }
 
-/// Independent normal numbers for both axes [m], by Box and Muller.
+/// Independent normal numbers for both axes [m], by the method of Box and Muller.
 fn error(noise: &Random, vehicle: VehicleId, frame: u32) -> [f64; 2] {
     let draw = |purpose| noise.uniform(vehicle, purpose, frame);
     let radius = NOISE * (-2.0 * draw(Purpose::Arrival).ln()).sqrt();
@@ -167,7 +167,7 @@ fn track(vehicle: &Vehicle) -> Track {
     Track { id: i64::from(vehicle.id()), class: road_user, length, width, states: Vec::new() }
 }
 
-/// Who stands where, and what everybody knows.
+/// The positions of all vehicles, and the knowledge of all drivers.
 fn instant(world: &World, frame: i64) -> Instant {
     let scene = world.scene();
     let mut vehicles: Vec<Vehicle> = world.vehicles().collect();

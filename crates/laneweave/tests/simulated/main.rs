@@ -1,5 +1,5 @@
 //! Simulated traffic, written as a recording with 10 cm of noise at 25 Hz and read again, shows its lane changes and
-//! what its drivers knew.
+//! the knowledge of its drivers.
 
 mod drive;
 mod view;
@@ -14,7 +14,7 @@ use laneweave_recordings::{
 use laneweave_sim::Navigator;
 use view::View;
 
-/// What was simulated, and what a reader of the file has of it.
+/// The true values, and those from the file.
 static DRIVEN: LazyLock<(Truth, Recording)> = LazyLock::new(|| {
     let (truth, seen) = drive(1);
     let mut file = Vec::new();
@@ -24,12 +24,12 @@ static DRIVEN: LazyLock<(Truth, Recording)> = LazyLock::new(|| {
     (truth, clean(recording).0)
 });
 
-/// A change is found if its crossing is off by so much at most [s].
+/// Maximum error of a crossing for a detected change [s].
 const FOUND_WITHIN: f64 = 0.5;
-/// A vehicle that is seen shorter after a crossing has not changed lanes [s].
+/// A vehicle that is observed for a shorter time after a crossing has not changed lanes [s].
 const STAY: f64 = 0.8;
 
-/// The change that was found for one that was made.
+/// The detected change for a true one.
 fn found<'a>(changes: &'a [LaneChange], made: &Made) -> Option<(usize, &'a LaneChange)> {
     let is_it = |it: &LaneChange| it.vehicle == made.vehicle && (it.time - made.time).abs() <= FOUND_WITHIN;
     changes.iter().enumerate().find(|(_, it)| is_it(it))
@@ -86,8 +86,8 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
     let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();
     for instant in &truth.instants {
         let frame = replay.frame(instant.frame);
-        // A change is known to have begun, crossed the line or ended a frame or two too early or late; one that leaves
-        // the map before it counts is not known.
+        // The observed begin, crossing or end of a change is a frame or two too early or late; a change whose vehicle
+        // leaves the map before it counts is not known.
         let differs = stands(&frame) != instant.stands;
         for sample in &instant.samples {
             let seen = frame.perceive(sample.vehicle, sample.side).as_ref().map(View::of);
@@ -95,9 +95,9 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
                 (None, None) => continue,
                 (Some(seen), Some(known)) if seen.agrees(known) => "agree",
                 _ if differs => "while a lane change begins, crosses or ends",
-                // Simulated drivers obey a new limit when they consider lanes next.
+                // Simulated drivers obey a new limit when they next consider lanes.
                 (Some(seen), Some(known)) if seen.desired != known.desired => "new limit",
-                // A vehicle is at the edge of what counts, or exactly alongside.
+                // A vehicle is at the edge of the range, or exactly alongside.
                 _ => "edge",
             };
             *outcomes.entry(outcome).or_default() += 1;
@@ -110,7 +110,7 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
     assert!((count("new limit") + count("edge")) * 200 <= samples, "{outcomes:?}");
 }
 
-/// Who stands where, and who is between lanes, in a recorded frame.
+/// The positions of vehicles, and those between lanes, in a recorded frame.
 fn stands(frame: &Frame<'_>) -> Vec<Stand> {
     let scene = frame.scene();
     let stand = |vehicle: i64| {

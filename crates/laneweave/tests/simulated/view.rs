@@ -1,9 +1,9 @@
-//! What a driver knows, in plain numbers.
+//! The knowledge of a driver, in plain numbers.
 
 use laneweave_models::change::{LaneView, Situation};
 
-/// How much gaps and distances to go [m], speeds [m/s] and times to go [s] may differ, and mean spacings relatively:
-/// what 10 cm of noise and smoothing allow.
+/// Tolerances of gaps and remaining distances [m], speeds [m/s] and remaining times [s], and relative tolerance of
+/// mean spacings: the effect of 10 cm of noise and smoothing.
 const GAP: f64 = 0.5;
 const REMAINING: f64 = 1.0;
 const SPEED: f64 = 0.3;
@@ -49,7 +49,7 @@ impl View {
         }
     }
 
-    /// Seen and known are the same but for noise.
+    /// Whether observed and true values are the same except for noise.
     pub(crate) fn agrees(&self, known: &View) -> bool {
         near(self.speed, known.speed, SPEED)
             && self.desired == known.desired
@@ -95,7 +95,7 @@ impl Neighbour {
     }
 }
 
-/// Infinite ones are near each other, too.
+/// Infinite values are equal, too.
 fn near(one: f64, other: f64, bound: f64) -> bool {
     one == other || (one - other).abs() <= bound
 }

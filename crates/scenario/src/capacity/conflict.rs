@@ -1,4 +1,4 @@
-//! How full junctions without lights are.
+//! The loads of junctions without lights.
 
 use std::collections::BTreeMap;
 
@@ -7,9 +7,9 @@ use laneweave_network::{ChainIndex, Network};
 use super::movement::Movement;
 use super::{Bottleneck, Load, Roads};
 
-/// The loads of junctions without lights: of movements that all get in each other's way, of which only one can be on
-/// the junction (the conflict technique of Wu, 2000, Brilon and Wu, 2001), and of the lanes from which drivers give
-/// way.
+/// The loads of junctions without lights. There are two kinds: groups of movements that all conflict with each other,
+/// so that only one of them can be on the junction (the conflict technique of Wu, 2000, Brilon and Wu, 2001); and the
+/// lanes from which drivers give way.
 pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
     let at =
         |movement: &Movement| Bottleneck::Junction(roads.lanelet(movement.chain, movement.start.max(0.0)));
@@ -26,7 +26,7 @@ pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
 /// A lane from which movements start.
 pub(super) struct Approach {
     pub(super) chain: ChainIndex,
-    /// Their numbers.
+    /// Their indices.
     movements: Vec<usize>,
 }
 
@@ -44,7 +44,7 @@ pub(super) fn approaches(network: &Network, movements: &[Movement]) -> Vec<Appro
 }
 
 impl Approach {
-    /// What comes over it, and of that what others go before [veh/s].
+    /// Its flow, and the part of this flow that gives way [veh/s].
     pub(super) fn flows(&self, movements: &[Movement]) -> [f64; 2] {
         let sum = |of: fn(&&Movement) -> bool| {
             self.movements.iter().map(|it| &movements[*it]).filter(of).map(|it| it.flow).sum()
@@ -52,13 +52,13 @@ impl Approach {
         [sum(|_| true), sum(|it| it.before > 0.0)]
     }
 
-    /// How full it is when all flows are `growth` times as large: each of its movements takes gaps in the streams that
-    /// go before it (Siegloch, 1973), and on one lane they take turns (Harders, 1968).
+    /// Its load when all flows are `growth` times as large. Each of its movements takes gaps in the streams with
+    /// priority over it (Siegloch, 1973); on one lane the movements take turns (Harders, 1968).
     pub(super) fn fullness(&self, movements: &[Movement], growth: f64) -> f64 {
         self.movements.iter().map(|it| taken_up(movements, *it, growth, RANKS)).sum()
     }
 
-    /// Of the growth of all flows that fills it, what is there.
+    /// Its load: the inverse of the growth of all flows that fills it.
     fn share(&self, movements: &[Movement]) -> f64 {
         const HALVINGS: u32 = 50;
         if self.movements.iter().all(|it| movements[*it].flow == 0.0) {
@@ -76,12 +76,12 @@ impl Approach {
     }
 }
 
-/// So many movements one after the other give way to the next.
+/// Longest sequence of movements in which each gives way to the next.
 const RANKS: u32 = 3;
 
-/// Of all the time, what a movement needs for its vehicles when all flows are `growth` times as large. It takes a gap
-/// only while none of those wait who go before it and give way to others (the impedance of the Highway Capacity Manual,
-/// from memory); up to `ranks` of them wait for each other.
+/// The share of time that a movement needs for its vehicles when all flows are `growth` times as large. It takes a
+/// gap only while no vehicle waits that has priority over it and gives way to others (the impedance of the Highway
+/// Capacity Manual, from memory); up to `ranks` movements wait for each other.
 fn taken_up(movements: &[Movement], number: usize, growth: f64, ranks: u32) -> f64 {
     let Movement { flow, before, gap, follow_up, ref waits_for, .. } = movements[number];
     if flow == 0.0 {
@@ -94,8 +94,8 @@ fn taken_up(movements: &[Movement], number: usize, growth: f64, ranks: u32) -> f
     growth * flow * follow_up / (gaps * free)
 }
 
-/// Movements that all get in each other's way: the `first`, and as many of the others as can be, those that take most
-/// of the time before the others.
+/// Movements that all conflict with each other: the `first`, and as many of the others as possible, those with the
+/// largest shares of time first.
 fn clique(movements: &[Movement], first: usize) -> Vec<usize> {
     let mut members = vec![first];
     for rival in &movements[first].rivals {

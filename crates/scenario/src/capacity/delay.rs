@@ -1,32 +1,33 @@
-//! What lights and other drivers make those wait who come to a junction.
+//! Delays of vehicles at a junction because of lights and of other drivers.
 //!
 //! Both are the control delays of the Highway Capacity Manual (2010, chapters 18 to 20, from memory) for a quarter of
 //! an hour.
 
 use super::SECONDS_PER_HOUR;
 
-/// How long the flows last [s].
+/// Duration of the flows [s].
 const PERIOD: f64 = 0.25 * SECONDS_PER_HOUR;
 
-/// Mean delay before a light [s] at which those who come at any time wait `mean_wait` [s] if nobody is there before
-/// them: `flow` of `capacity`, which passes during a `green` share of the time [veh/s].
+/// Mean delay before a light [s]. `mean_wait` [s] is the mean wait of a vehicle that arrives at a random time and
+/// finds no queue; the vehicles are a `flow` of `capacity` [veh/s], which passes during a `green` share of the time.
 pub(super) fn at_a_light(mean_wait: f64, green: f64, flow: f64, capacity: f64) -> f64 {
-    /// Of lights that do not depend on who comes.
+    /// For lights with fixed times.
     const FIXED: f64 = 4.0;
     let fullness = flow / capacity;
     mean_wait / (1.0 - green * fullness.min(1.0)).max(f64::EPSILON) + overflow(fullness, FIXED / capacity)
 }
 
-/// Mean delay of those who give way [s]: `flow` of `capacity` [veh/s].
+/// Mean delay of vehicles that give way [s]: `flow` of `capacity` [veh/s].
 pub(super) fn giving_way(flow: f64, capacity: f64) -> f64 {
-    /// Times at the head of the queue vary as if they had no memory.
+    /// Times at the head of the queue vary like those of a process without memory.
     const RANDOM: f64 = 8.0;
-    /// What braking and starting take beside the time in the queue and at its head [s].
+    /// Time for braking and starting, in addition to the time in the queue and at its head [s].
     const STOPPING: f64 = 5.0;
     1.0 / capacity + overflow(flow / capacity, RANDOM / capacity) + STOPPING
 }
 
-/// Mean time in a queue that is there because some come too close to each other, and grows if too many come [s].
+/// Mean time in a queue [s] that exists because the intervals between arrivals vary, and that grows if the flow is
+/// above capacity.
 fn overflow(fullness: f64, spread: f64) -> f64 {
     let excess = fullness - 1.0;
     0.25 * PERIOD * (excess + (excess * excess + spread * fullness / PERIOD).sqrt())

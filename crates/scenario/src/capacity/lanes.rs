@@ -1,15 +1,15 @@
-//! How full lanes and lights are.
+//! The loads of lanes and lights.
 
 use laneweave_network::{ChainIndex, Light, Position, Program, Side, Sign};
 use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
 use super::{Bottleneck, Load, Roads, once, side_by_side, weaving};
 
-/// A light at a place of a lane is that of lanes beside it, too, if it is no further away [m].
+/// A light at a place of a lane also belongs to the lanes beside it, if it is no further away [m].
 const BESIDE: f64 = 20.0;
 
-/// The loads of lanes: at the start of each part that is driven on and of each limit, and at each light. Those who may
-/// use several lanes side by side fill them together; those who are bound to one fill it alone.
+/// The loads of lanes: at the start of each part that is used and of each limit, and at each light. Vehicles that may
+/// use several lanes side by side fill them together; vehicles that need one lane fill it alone.
 pub(super) fn loads(roads: &Roads) -> Vec<Load> {
     let mut lanes = Lanes { roads, streams: Vec::new(), lights: Vec::new(), left: Vec::new() };
     let mut loads = Vec::new();
@@ -33,19 +33,19 @@ struct Lanes<'a> {
     streams: Vec<(f64, f64)>,
     /// Flows through lights [veh/s], by light and limit [m/s].
     lights: Vec<((usize, f64), f64)>,
-    /// What is left of lanes side by side, by their number and limit [m/s].
+    /// Remaining share of the capacity of lanes side by side, by their number and limit [m/s].
     left: Vec<((usize, f64), f64)>,
 }
 
 impl Lanes<'_> {
-    /// How full the lanes at a station of a chain [m] are.
+    /// The load of the lanes at a station of a chain [m].
     fn load(&mut self, chain: ChainIndex, station: f64) -> Load {
         let [bound, all] = self.roads.assignment.flow(chain, station);
         let (capacity, light) = self.capacity(chain, station);
         let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
         for Position { chain: beside, x: at } in self.beside(chain, station, light.is_some()) {
             let [_, flow] = self.roads.assignment.flow(beside, at);
-            // A lane that ends soon, or leads elsewhere, carries nobody.
+            // A lane that ends soon, or leads elsewhere, has no flow.
             if flow > 0.0 {
                 flows += flow;
                 capacities += self.capacity(beside, at).0;
@@ -60,13 +60,13 @@ impl Lanes<'_> {
         Load { share: (bound / capacity).max(flows / capacities), of }
     }
 
-    /// How full the lanes are at the last place at which some have to leave one of them; nothing before a light, where
-    /// there is time for it at red.
+    /// The load of the lanes at the last place at which some vehicles have to leave one of them; none before a light,
+    /// where there is time for this at red.
     fn load_by_changes(
         &mut self,
         Change { from: (chain, [start, last_place]), .. }: &Change,
     ) -> Option<Load> {
-        /// Shortly before the place lanes are side by side, and shortly after it all have changed [m].
+        /// Distance from the place to where lanes are still side by side, and to where all vehicles have changed [m].
         const SHORTLY: f64 = 0.5;
         let before = last_place - SHORTLY;
         let (_, light) = self.capacity(*chain, before);
@@ -94,14 +94,15 @@ impl Lanes<'_> {
         (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
     }
 
-    /// Whether a lane soon parts from all beside it, beyond a station [m]: who is bound to it has to be on it already.
+    /// Whether a lane soon parts from all lanes beside it, beyond a station [m]: vehicles that need it have to be on
+    /// it already.
     fn parts_soon(&self, chain: ChainIndex, station: f64) -> bool {
         let here = self.roads.network.chain(chain);
         let ends = Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).map(|it| it.end);
         ends.fold(station, f64::max) < station + TAKES_LANE_WITHIN
     }
 
-    /// What passes a station of a chain [veh/s], and the light there.
+    /// The flow at a station of a chain [veh/s], and the light there.
     fn capacity(&mut self, chain: ChainIndex, station: f64) -> (f64, Option<i64>) {
         let network = self.roads.network;
         let limit = network.chain(chain).limit(station);
@@ -115,12 +116,12 @@ impl Lanes<'_> {
         (self.through(light.at(), program, limit), Some(*id))
     }
 
-    /// What of a lane passes where no light is, under `limit` [m/s], if it is alone [veh/s].
+    /// The capacity of a single lane without a light under `limit` [m/s], if it is alone [veh/s].
     fn stream(&mut self, limit: f64) -> f64 {
         once(&mut self.streams, limit, || self.roads.mixture(limit).stream())
     }
 
-    /// What changes of lane leave of the capacity of so many `lanes` side by side under `limit` [m/s].
+    /// The share of the capacity of so many `lanes` side by side under `limit` [m/s] that lane changes leave.
     fn left(&mut self, lanes: usize, limit: f64) -> f64 {
         if lanes < 2 {
             return 1.0;
@@ -136,10 +137,10 @@ impl Lanes<'_> {
         once(&mut self.lights, (light, limit), || self.roads.mixture(limit).through(program))
     }
 
-    /// The lanes to which one may change at a station of a chain [m], or shortly before a light there, each with the
-    /// station there.
+    /// The lanes to which vehicles may change at a station of a chain [m], or shortly before a light there, each with
+    /// the station there.
     fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<Position> {
-        /// Before a light lanes may no longer be changed for so long [m].
+        /// Length without lane changes before a light [m].
         const BEFORE_A_LIGHT: f64 = 100.0;
         let network = self.roads.network;
         let since = |x: f64| if is_at_light { x - BEFORE_A_LIGHT } else { x };

@@ -1,8 +1,9 @@
-//! The estimated capacity of a map: how many vehicles an hour it carries.
+//! The estimated capacity of a map, in vehicles per hour.
 //!
-//! The demand grows, everywhere alike, until the first part of the map is full: a lane, a light, a junction, a place
-//! inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997). What each part has to
-//! carry is the demand along the usual ways; how much it can carry follows from the models of its drivers.
+//! The demand grows, by the same factor everywhere, until the first part of the map is full: a lane, a light, a
+//! junction, a place inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997).
+//! The load of each part comes from the demand along the usual routes; its capacity follows from the models of its
+//! drivers.
 
 mod conflict;
 mod delay;
@@ -27,11 +28,11 @@ use stream::Mixture;
 pub struct Capacity {
     /// Of all origins together [veh/h].
     pub veh_h: f64,
-    /// What is full first.
+    /// The bottleneck.
     pub bottleneck: Option<Bottleneck>,
 }
 
-/// What is full first when the demand grows.
+/// The bottleneck: what is full first when the demand grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bottleneck {
     /// The lanes side by side at this lanelet.
@@ -43,11 +44,11 @@ pub enum Bottleneck {
         /// A lanelet before it.
         lanelet: i64,
     },
-    /// The junction over which this lanelet leads.
+    /// The junction on the path of this lanelet.
     Junction(i64),
     /// The place inside the map along this lanelet.
     TripEnd(i64),
-    /// All roads that lead in rings.
+    /// The town core: all roads that form loops.
     Town,
 }
 
@@ -70,14 +71,14 @@ impl fmt::Display for Bottleneck {
     }
 }
 
-/// A part of the map with the share of its capacity that is taken up.
+/// A part of the map with its load, as a share of its capacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Load {
     share: f64,
     of: Bottleneck,
 }
 
-/// What is asked about a map: its roads, where the demand leads on them, and who drives.
+/// The inputs: the roads of a map, the routes of the demand on them, and the drivers.
 #[derive(Clone, Copy)]
 struct Roads<'a> {
     network: &'a Network,
@@ -87,7 +88,7 @@ struct Roads<'a> {
 }
 
 impl<'a> Roads<'a> {
-    /// Who drives under a limit [m/s].
+    /// The vehicles and drivers under a limit [m/s].
     fn mixture(&self, limit: f64) -> Mixture<'a> {
         Mixture::new(limit, self.drivers, self.fleet)
     }
@@ -103,13 +104,14 @@ impl<'a> Roads<'a> {
 }
 
 impl Capacity {
-    /// Of `network` for the demand of `assignment`, from the origins of `demand`, with the mixture of `drivers`, each
-    /// with its weight.
+    /// The estimated capacity of `network` for the demand of `assignment`, from the origins of `demand`, with the
+    /// mixture of `drivers`, each with its weight.
     ///
-    /// Lanes carry what a long queue sends off, and side by side what is driven on a road like that; lights let pass
-    /// what of a standing queue drives off at green; where ways meet without a light, drivers take turns and gaps; and
-    /// a town carries what it lets in. What is not looked at can only make it less: gaps that nobody finds to change
-    /// lanes, turns across oncoming traffic at green, queues that stand in each other's way.
+    /// The capacity of a lane is the flow from a long queue. That of lanes side by side comes from a simulation of
+    /// such a road. That of a light is the part of a standing queue that passes at green. Where paths meet without a
+    /// light, drivers take turns and gaps. A town has the capacity of its perimeter control. Effects that are not
+    /// considered can only lower the capacity: missing gaps for lane changes, turns across oncoming traffic at green,
+    /// queues that block each other.
     pub fn new(
         network: &Network,
         assignment: &Assignment,
@@ -122,7 +124,7 @@ impl Capacity {
             .into_iter()
             .chain(conflict::loads(&roads, &movements))
             .chain(town::inner_place_loads(&roads, demand));
-        // Of parts that are equally full the first counts, however their numbers are rounded.
+        // Of parts with equal loads the first counts, however their numbers are rounded.
         let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
         let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
         let Some(part) = fullest.filter(|it| it.share > 0.0) else {
@@ -133,7 +135,7 @@ impl Capacity {
     }
 }
 
-/// What was computed for `key`, or is now.
+/// The stored value for `key`; computed if there is none.
 fn once<K: PartialEq, T: Copy>(known: &mut Vec<(K, T)>, key: K, compute: impl FnOnce() -> T) -> T {
     if let Some((_, it)) = known.iter().find(|it| it.0 == key) {
         return *it;

@@ -1,4 +1,4 @@
-//! The ways through junctions without lights, and the time that they take.
+//! The movements through junctions without lights, and the time that they take.
 
 use std::collections::BTreeMap;
 
@@ -8,46 +8,46 @@ use laneweave_sim::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 
 use super::{Roads, once};
 
-/// A way through a junction.
+/// A movement through a junction.
 pub(super) struct Movement {
     pub(super) chain: ChainIndex,
-    /// Where its first zone begins, and its last one ends [m].
+    /// Begin of its first zone, and end of its last one [m].
     pub(super) start: f64,
     end: f64,
     /// Its zones, each with its side of it.
     zones: Vec<(usize, usize)>,
-    /// Those that get in its way.
+    /// The movements that conflict with it.
     pub(super) rivals: Vec<usize>,
-    /// Its vehicles [veh/s].
+    /// Its flow [veh/s].
     pub(super) flow: f64,
-    /// Those that go before it [veh/s].
+    /// The flow with priority over it [veh/s].
     pub(super) before: f64,
-    /// Those among them that give way to others.
+    /// The movements among them that give way to others.
     pub(super) waits_for: Vec<usize>,
-    /// Gap in them that each takes [s].
+    /// Critical gap in them [s].
     pub(super) gap: f64,
-    /// Time between two that go one after the other [s].
+    /// Follow-up time: between two vehicles that go one after the other [s].
     pub(super) follow_up: f64,
-    /// Time for which each keeps others away [s].
+    /// Time for which each vehicle keeps others away [s].
     time: f64,
 }
 
 impl Movement {
-    /// Of all the time, what its vehicles take.
+    /// The share of time that its vehicles take.
     pub(super) fn share(&self) -> f64 {
         self.flow * self.time
     }
 }
 
-/// What is the same for all under a limit.
+/// Values that are the same for all movements under a limit.
 #[derive(Clone, Copy)]
 struct Pace {
-    /// Headway of a stream, and of those who start from rest [s].
+    /// Headway of a stream, and of vehicles that start from rest [s].
     headway: f64,
     start: f64,
 }
 
-/// All movements through zones that no lights guard, those that take most of the time first.
+/// All movements through zones without lights, those with the largest shares of time first.
 pub(super) fn movements(roads: &Roads) -> Vec<Movement> {
     let mut all = in_order_of_chains(roads);
     let mut paces: Vec<(f64, Pace)> = Vec::new();
@@ -65,7 +65,7 @@ pub(super) fn movements(roads: &Roads) -> Vec<Movement> {
 }
 
 fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
-    /// Zones further apart are of different junctions [m].
+    /// Zones further apart belong to different junctions [m].
     const APART: f64 = 25.0;
     let junctions = &roads.network.junctions;
     let is_lit = junctions.lit_sides(roads.network);
@@ -73,7 +73,7 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
     for chain in roads.chains() {
         for crossing in &junctions.on(chain).crossings {
             let (zone, side) = (crossing.zone.at(), usize::from(crossing.side));
-            // Lights part those who meet.
+            // Lights separate vehicles whose paths meet.
             if junctions.zones[zone].touch != Touch::Any || is_lit[zone] == [true; 2] {
                 continue;
             }
@@ -106,12 +106,12 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
     all
 }
 
-/// Who gives way sees in the next step that the way is free, is given its passage at the end of that, and drives off in
-/// the one after: so long after on average, at the usual steps of 0.1 s [s].
+/// Mean delay before a start [s], at the usual steps of 0.1 s: a driver that gives way sees in the next step that the
+/// zones are free, gets its reservation at the end of that step, and starts in the one after.
 const NOTICES_AFTER: f64 = 0.15;
 
-/// Sets the times of `movement`: who goes first keeps its headway; the others come from rest, and keep others away
-/// until their rears are clear.
+/// Sets the times of `movement`: with priority, vehicles keep their headway; otherwise they start from rest, and keep
+/// others away until their rears are clear.
 fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Movement) {
     let zones = &roads.network.junctions.zones;
     let goes_first = |(zone, side): &(usize, usize)| zones[*zone].precedence == Precedence::Side(*side as u8);
@@ -128,9 +128,9 @@ fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Moveme
     movement.follow_up = start.max(headway) + NOTICES_AFTER;
 }
 
-/// How far before its first zone `movement` starts from rest: at the zone, or at a line before it [m].
+/// Distance before its first zone at which `movement` starts from rest: at the zone, or at a line before it [m].
 fn stands_before(roads: &Roads, movement: &Movement) -> f64 {
-    /// A line further away is not that of the junction [m].
+    /// A line further away does not belong to the junction [m].
     const NEAR: f64 = 30.0;
     let [before] = roads.network.chain(movement.chain).previous[..] else { return STANDS_BEFORE_A_ZONE };
     let length = roads.network.chain(before).length;
@@ -139,7 +139,8 @@ fn stands_before(roads: &Roads, movement: &Movement) -> f64 {
     distance.map_or(STANDS_BEFORE_A_ZONE, |it| it + STANDS_BEFORE_A_LINE)
 }
 
-/// Sets who gets in whose way, and what goes before whom: of those with whom it takes turns every other one.
+/// Sets the conflicts and the priorities of the movements. Of a movement with which one takes turns, every other
+/// vehicle has priority.
 fn meet(roads: &Roads, all: &mut [Movement]) {
     let zones = &roads.network.junctions.zones;
     let mut on_side = vec![[usize::MAX; 2]; zones.len()];

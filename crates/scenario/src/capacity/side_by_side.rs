@@ -1,8 +1,8 @@
-//! What lanes side by side carry.
+//! The capacity of lanes side by side.
 //!
-//! Drivers who change lanes stand in two of them for some seconds, and leave gaps that nobody fills: lanes side by side
-//! carry less than as many single ones. How much they carry is driven: on a straight road, by the same drivers, of whom
-//! more come than can enter.
+//! Drivers who change lanes stand in two of them for some seconds, and leave gaps that nobody fills: lanes side by
+//! side have less capacity than as many single ones. A simulation gives this capacity: a straight road, with the same
+//! drivers, and a demand above capacity.
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
@@ -10,17 +10,17 @@ use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
 
 use super::SECONDS_PER_HOUR;
 
-/// How long one drives along the road at the limit [s].
+/// Travel time along the road at the limit [s].
 const LENGTH_S: f64 = 40.0;
 const STEP_S: f64 = 0.25;
-/// Time until the road is full, and time for which is counted [s]: then it is told to some two percent.
+/// Time until the road is full, and time of counting [s]: the error is then some two percent.
 const UNTIL_FULL: f64 = 120.0;
 const COUNTED: f64 = 600.0;
-/// More than any lane carries [veh/h].
+/// More than the capacity of any lane [veh/h].
 const TOO_MANY: f64 = 3000.0;
 
-/// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, of whom more come
-/// than can enter [veh/s]; `None` if there is no such road.
+/// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, at a demand
+/// above capacity [veh/s]; `None` if there is no such road.
 pub(super) fn flow(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet) -> Option<f64> {
     let road = Motorway {
         lanes,

@@ -1,4 +1,4 @@
-//! What one lane carries: in a stream, of drivers who start from rest, and through a light.
+//! The flow of one lane: in a stream, of drivers who start from rest, and through a light.
 
 use laneweave_models::Style;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
@@ -15,7 +15,7 @@ struct Kind<'a> {
     desired: f64,
 }
 
-/// The vehicles on a lane under one limit, kind by kind.
+/// The vehicles on a lane under one limit, by kind.
 pub(super) struct Mixture<'a>(Vec<Kind<'a>>);
 
 impl<'a> Mixture<'a> {
@@ -33,12 +33,12 @@ impl<'a> Mixture<'a> {
         Mixture(all.filter(|it| it.share > 0.0).collect())
     }
 
-    /// The mean of something over all vehicles.
+    /// The mean of a quantity over all vehicles.
     fn mean(&self, of: impl Fn(&Kind) -> f64) -> f64 {
         self.0.iter().map(|it| it.share * of(it)).sum()
     }
 
-    /// Mean of what follows from a vehicle's length [m] and desired speed [m/s].
+    /// Mean of a function of a vehicle's length [m] and desired speed [m/s].
     pub(super) fn mean_of(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
         self.mean(|it| of(it.class.body().length, it.desired))
     }
@@ -48,14 +48,14 @@ impl<'a> Mixture<'a> {
         self.mean(|it| it.style.yielding.critical_gap)
     }
 
-    /// Flow of a long queue that drives off on an empty road [veh/s]: what a lane carries for good where nobody can
-    /// overtake.
+    /// Flow of a long queue that drives off on an empty road [veh/s]: the long-term flow of a lane without
+    /// overtaking.
     pub(super) fn stream(&self) -> f64 {
         const STEP_S: f64 = 0.2;
-        /// The first of a queue drive off slower.
+        /// The first vehicles of a queue drive off more slowly.
         const LEFT_OUT: usize = 20;
         const COUNTED: usize = 60;
-        /// However slow they are, it does not last longer [steps].
+        /// Maximum duration, for very slow vehicles [steps].
         const LONGEST: u32 = 100_000;
         let mut queue = Queue::default();
         (0..LEFT_OUT + COUNTED).for_each(|_| queue.push(self.drawn(0.0, queue.vehicles.len())));
@@ -71,7 +71,8 @@ impl<'a> Mixture<'a> {
         COUNTED as f64 / (to - from)
     }
 
-    /// Flow of those who start from rest, each as soon as the one before has left room for it on an empty road [veh/s].
+    /// Flow of vehicles that start from rest, each as soon as the one before has left space for it, on an empty road
+    /// [veh/s].
     pub(super) fn starts(&self) -> f64 {
         let time = |it: &Kind| {
             let free = Pace::new(0.0, it.desired);
@@ -90,14 +91,14 @@ impl<'a> Mixture<'a> {
         program.phases.iter().map(pass).sum::<f64>() / program.cycle
     }
 
-    /// How many of a standing queue pass in one green [s] and the yellow after it, on average over queues.
+    /// Number of vehicles of a standing queue that pass in one green [s] and the yellow after it, mean over queues.
     fn pass_at_green(&self, green: f64) -> f64 {
         const QUEUES: u32 = 16;
         let queues = (0..QUEUES).map(|it| self.queue_passes(f64::from(it) / f64::from(QUEUES), green));
         queues.sum::<f64>() / f64::from(QUEUES)
     }
 
-    /// The same of one queue, in which kinds follow on each other evenly from a place in their order (0 to 1) on.
+    /// The same for one queue; its kinds are in an even order that begins at a position of their cycle (0 to 1).
     fn queue_passes(&self, from: f64, green: f64) -> f64 {
         const STEP_S: f64 = 0.1;
         let mut queue = Queue::default();
@@ -110,8 +111,8 @@ impl<'a> Mixture<'a> {
         queue.passed()
     }
 
-    /// The kind of the vehicle of this `number` in a queue in which kinds follow on each other evenly, `from` a place
-    /// in their order (0 to 1) on.
+    /// The kind of the vehicle with this `number` in a queue; its kinds are in an even order that begins at the
+    /// position `from` of their cycle (0 to 1).
     fn drawn(&self, from: f64, number: usize) -> &Kind<'a> {
         let mut at = (from + number as f64 * GOLDEN_RATIO).fract();
         let chosen = self.0.iter().position(|it| {
@@ -122,7 +123,7 @@ impl<'a> Mixture<'a> {
     }
 }
 
-/// Its multiples spread evenly over the unit interval.
+/// Its multiples are evenly spread over the unit interval.
 const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
 
 /// A queue that starts from rest before a line.
@@ -136,12 +137,12 @@ struct Queued<'a> {
     /// Front beyond the line [m].
     x: f64,
     speed: f64,
-    /// Of the last step [m/s²].
+    /// Acceleration of the last step [m/s²].
     acceleration: f64,
 }
 
 impl<'a> Queue<'a> {
-    /// Where the front of the next one is [m].
+    /// Position of the next vehicle's front [m].
     fn next(&self) -> f64 {
         self.vehicles.last().map_or(-STANDS_BEFORE_A_LINE, |Queued { kind, x, .. }| {
             let standing = Pace::new(0.0, kind.desired);
@@ -153,16 +154,16 @@ impl<'a> Queue<'a> {
         self.vehicles.push(Queued { kind, x: self.next(), speed: 0.0, acceleration: 0.0 });
     }
 
-    /// Whether one more might reach the line at all in this time [s].
+    /// Whether one more vehicle might reach the line in this time [s].
     fn may_reach_the_line(&self, time: f64) -> bool {
-        /// Nobody is faster from rest [m/s²], and nobody follows closer [s].
+        /// Upper bound of the acceleration from rest [m/s²], and lower bound of the headway [s].
         const ACCELERATION: f64 = 5.0;
         const HEADWAY: f64 = 0.5;
         -self.next() < 0.5 * ACCELERATION * time * time && (self.vehicles.len() as f64) < time / HEADWAY + 2.0
     }
 
     fn drive(&mut self, dt: f64) {
-        // Where the rear bumper of the vehicle before is, and what its driver sees of it who comes next.
+        // The rear bumper of the vehicle before, and the speed that the next driver sees.
         let mut leader: Option<(f64, Ahead)> = None;
         for Queued { kind, x, speed, acceleration: chosen } in &mut self.vehicles {
             let ahead = leader.map(|(rear, it)| Ahead { gap: rear - *x, ..it });
@@ -181,7 +182,7 @@ impl<'a> Queue<'a> {
         self.vehicles.iter().filter(|it| it.x > 0.0).count()
     }
 
-    /// Those who are beyond the line, or too near and too fast to stop before it.
+    /// Vehicles that are beyond the line, or too near and too fast to stop before it.
     fn passed(&self) -> f64 {
         let goes = |it: &&Queued| it.x > 0.0 || it.speed * it.speed > 2.0 * STOPS_AT_YELLOW * -it.x;
         self.vehicles.iter().filter(goes).count() as f64

@@ -1,4 +1,4 @@
-//! How full a town is, and its places inside the map.
+//! The loads of a town core, and of places inside the map.
 
 use laneweave_network::{ChainIndex, Light, Sign};
 use laneweave_sim::{Demand, InnerPlace, PerimeterControl, Place};
@@ -8,9 +8,9 @@ use super::delay;
 use super::movement::Movement;
 use super::{Bottleneck, Load, Roads, once};
 
-/// The load of all roads that lead in rings, if they are full before all flows are `most` times as large: who drives on
-/// them takes up room as long as it is there (Little's law), at its desired speed and with the delays at lights and
-/// junctions, which grow with the flows.
+/// The load of the town core, all roads that form loops, if they are full before all flows are `most` times as large.
+/// Each vehicle on them takes up length as long as it is there (Little's law), at its desired speed and with the
+/// delays at lights and junctions, which grow with the flows.
 pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<Load> {
     const HALVINGS: u32 = 40;
     let perimeter = PerimeterControl::new(roads.network)?;
@@ -27,21 +27,21 @@ pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<L
     Some(Load { share: 1.0 / high, of: Bottleneck::Town })
 }
 
-/// Who is in a town, and what keeps them there.
+/// The vehicles in a town, and their delays.
 struct Town<'a> {
     movements: &'a [Movement],
-    /// What those who drive take up, without delays [m].
+    /// Length that driving vehicles take up, without delays [m].
     driving: f64,
-    /// What a vehicle takes up on average [m].
+    /// Mean length that a vehicle takes up [m].
     room: f64,
     lit: Vec<Lit<'a>>,
     approaches: Vec<Approach>,
 }
 
-/// Those who come to a light.
+/// The traffic at a light.
 struct Lit<'a> {
     light: &'a Light,
-    /// How many come, and how many pass [veh/s].
+    /// Demand and capacity [veh/s].
     flow: f64,
     capacity: f64,
 }
@@ -68,7 +68,7 @@ impl<'a> Town<'a> {
         Town { movements, driving, room, lit, approaches }
     }
 
-    /// What all in it take up on average when all flows are `growth` times as large [m].
+    /// Mean length that all vehicles in it take up when all flows are `growth` times as large [m].
     fn taken(&self, growth: f64) -> f64 {
         let before_lights = self.lit.iter().map(|Lit { light, flow, capacity }| {
             let program = &light.program;
@@ -86,7 +86,7 @@ impl<'a> Town<'a> {
     }
 }
 
-/// What those who drive on a chain take up on average, at their desired speeds [m].
+/// Mean length that driving vehicles on a chain take up, at their desired speeds [m].
 fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     let here = roads.network.chain(chain);
     let parts = roads.assignment.on(chain).iter();
@@ -95,7 +95,7 @@ fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     mixture.mean_of(|length, desired| PerimeterControl::taken_by(length) * metres / desired)
 }
 
-/// The loads of places inside the map: who starts from one makes room for the next.
+/// The loads of places inside the map: a vehicle that starts from one makes space for the next.
 pub(super) fn inner_place_loads(roads: &Roads, demand: &Demand) -> Vec<Load> {
     let mut known: Vec<(f64, f64)> = Vec::new();
     let inner_places = demand.origins.iter().filter_map(|it| match &it.place {

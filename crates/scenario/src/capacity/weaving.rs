@@ -1,11 +1,11 @@
-//! What lane changes leave of a section's capacity.
+//! The share of a section's capacity that lane changes leave.
 //!
-//! Who has to change lanes within a short section leaves gaps that nobody fills, the more the larger the share of those
-//! who do. The Highway Capacity Manual (2010, chapter 12, from memory) gives the capacity of a lane of a weaving
-//! section as c = c₀ − 438.2 (1 + VR)^1.6 + 0.0765 L + 119.8 N, with c₀ = 2,400 veh/h, VR the share of those who
-//! change, L the length of the section [ft], and N the number of lanes from which one change is enough, here 2; beyond
-//! L = 5728 (1 + VR)^1.6 − 1566 N it is no such section. Of what our drivers carry on a plain road we take the same
-//! share. Merges are looked at in the same way (ours).
+//! Drivers who have to change lanes within a short section leave gaps that nobody fills, the more the larger their
+//! share. The Highway Capacity Manual (2010, chapter 12, from memory) gives the capacity of a lane of a weaving
+//! section as c = c₀ − 438.2 (1 + VR)^1.6 + 0.0765 L + 119.8 N, with c₀ = 2,400 veh/h, VR the share of vehicles that
+//! change, L the length of the section [ft], and N the number of lanes from which one change is enough, here 2;
+//! beyond L = 5728 (1 + VR)^1.6 − 1566 N it is no such section. We apply the same share to the flow of our drivers on
+//! a plain road. Merges are treated in the same way (ours).
 
 use laneweave_network::Position;
 use laneweave_sim::{Assignment, Change};
@@ -15,16 +15,17 @@ const PLAIN: f64 = 2400.0;
 /// N.
 const LANES: f64 = 2.0;
 const METRES_PER_FOOT: f64 = 0.3048;
-/// Stretches are not told apart closer than this [m].
+/// Stretches are distinguished down to this length [m].
 const LEAST: f64 = 1.0;
 
-/// Of the capacity of lanes side by side, each at a station [m], on which `flow` [veh/s] drives, the share that is left
-/// at the end of a section of `length` [m]. Who has more road for its change makes a part of it there.
+/// The remaining share of the capacity of lanes side by side at the end of a section of `length` [m], each lane at a
+/// station [m], with a `flow` [veh/s] on them. Vehicles with more road for their change make only a part of it in the
+/// section.
 pub(super) fn left(assignment: &Assignment, lanes: &[Position], flow: f64, length: f64) -> f64 {
     let changing = |it: &Change| {
         let ((chain, [start, end]), (to, [beside, _])) = (it.from, it.to);
         let at = lanes.iter().find(|it| it.chain == chain).map(|it| it.x);
-        // Who comes onto a lane that nobody else is on, as onto one that leads off, finds it free.
+        // Vehicles that change to a lane without other vehicles, such as one that leads off, find it free.
         let at = at.filter(|_| assignment.flow(to, beside.max(0.0))[1] > 0.0)?;
         let within = end.min(at) - start.max(at - length);
         Some(it.flow * (within / (end - start).max(LEAST)).clamp(0.0, 1.0))
@@ -33,7 +34,7 @@ pub(super) fn left(assignment: &Assignment, lanes: &[Position], flow: f64, lengt
     if changing > 0.0 { left_by(changing / flow, length) } else { 1.0 }
 }
 
-/// The share that is left where a `share` of the vehicles changes within `length` [m].
+/// The remaining share if a `share` of the vehicles changes within `length` [m].
 fn left_by(share: f64, length: f64) -> f64 {
     let weaves = libm::pow(1.0 + share.min(1.0), 1.6);
     let feet = length / METRES_PER_FOOT;

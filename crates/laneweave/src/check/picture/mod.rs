@@ -1,5 +1,5 @@
-//! A picture of a map: lanes with their markings, where vehicles enter and leave, what shares ground, lights and
-//! problems. Parts that lie far from each other have panels of their own.
+//! A picture of a map: lanes with their markings, entrances and exits, conflict areas, lights and problems. Parts
+//! that lie far from each other have panels of their own.
 
 mod panel;
 mod parts;
@@ -20,12 +20,12 @@ const MARGIN: f64 = 30.0;
 const HEAD: f64 = 50.0;
 /// Below the panels, for the legend [px].
 const FOOT: f64 = 40.0;
-/// Highest panel of a page with one, and with several [px].
+/// Maximum height of the panel of a page with one, and of those with several [px].
 const HEIGHTS: [f64; 2] = [1400.0, 700.0];
-/// With more parts than this the map is drawn as one after all.
+/// Maximum of parts; with more, the map is drawn as one.
 const MOST_PANELS: usize = 8;
 
-/// What things look like.
+/// The style sheet.
 mod colours {
     pub(super) const ROAD: &str = "#d9dce0";
     pub(super) const CONFLICT: &str = "#e8871e";
@@ -38,7 +38,7 @@ mod colours {
     pub(super) const CROSSWALK: &str = "#8d99a6";
 }
 
-/// The picture of a map as SVG, with a ring around each lanelet that `problems` name.
+/// The picture of a map as SVG, with a circle around each lanelet that `problems` name.
 pub fn picture(title: &str, map: &Map, problems: &[Problem]) -> String {
     let (panels, height) = laid_out(map);
     let named: HashSet<&str> = problems.iter().map(|it| it.element.as_str()).collect();
@@ -53,7 +53,7 @@ pub fn picture(title: &str, map: &Map, problems: &[Problem]) -> String {
     svg + &legend(height - FOOT + 20.0) + "</svg>\n"
 }
 
-/// The panels in their places, and the height of the page [px].
+/// The panels with their positions, and the height of the page [px].
 fn laid_out(map: &Map) -> (Vec<Panel<'_>>, f64) {
     let mut parts = parts(&map.network.lanelets);
     if parts.len() > MOST_PANELS {

@@ -11,20 +11,20 @@ use super::parts::Bounds;
 
 /// Longest scale bar [px].
 const LONGEST_BAR: f64 = 160.0;
-/// Room below the map for the scale [px].
+/// Space below the map for the scale [px].
 const FOOT: f64 = 34.0;
 
-/// Where a part of the map lies on the page.
+/// The position of a part of the map on the page.
 pub(super) struct Panel<'a> {
     pub(super) map: &'a Map,
-    /// Places of its lanelets in the network.
+    /// Indices of its lanelets in the network.
     pub(super) lanelets: Vec<usize>,
     pub(super) bounds: Bounds,
     /// Upper left corner and width [px].
     pub(super) left: f64,
     pub(super) top: f64,
     pub(super) width: f64,
-    /// Pixels in a metre.
+    /// Pixels per metre.
     scale: f64,
 }
 
@@ -66,9 +66,9 @@ impl<'a> Panel<'a> {
         )
     }
 
-    /// The way along points, as SVG writes it, without points that nobody sees.
+    /// The path along points as SVG, without invisible points.
     fn path<'p>(&self, points: impl IntoIterator<Item = &'p Point>) -> String {
-        /// A point is seen if it lies so far from the straight way between those around it [px].
+        /// A point is visible at this distance from the straight line between its neighbours [px].
         const VISIBLE: f64 = 0.15;
         let places: Vec<(f64, f64)> = points.into_iter().map(|it| self.place(it)).collect();
         let mut path = String::new();
@@ -124,7 +124,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Stop lines in the colour of what orders to stop there, and the lights themselves.
+    /// Stop lines in the colour of their rule, and the lights themselves.
     fn rules(&self, svg: &mut String) {
         for rule in &self.map.rules {
             let colour = match rule.kind {
@@ -178,7 +178,7 @@ impl<'a> Panel<'a> {
             }
             let (x, y) = self.place(&at);
             let degrees = -chain.centre.heading(station).to_degrees();
-            // The arrow of an entrance ends where the road begins, that of an exit begins where it ends.
+            // The arrow of an entrance ends where the road begins; that of an exit begins where the road ends.
             let tip = if is_entrance { 0.0 } else { 14.0 };
             add(
                 svg,
@@ -190,7 +190,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// A ring around the middle of each lanelet with a problem.
+    /// A circle around the middle of each lanelet with a problem.
     fn problems(&self, svg: &mut String, named: &HashSet<&str>) {
         for lanelet in self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]) {
             if named.contains(format!("lanelet {}", lanelet.id).as_str()) {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use laneweave_network::{Lanelet, Point};
 
-/// Lanelets with less than about this between them belong together [m].
+/// Lanelets with a smaller distance than about this belong together [m].
 const APART: f64 = 150.0;
 
 /// A rectangle of the map [m].
@@ -31,7 +31,7 @@ impl Bounds {
         }
     }
 
-    /// Whether `point` lies inside, or not far outside.
+    /// Whether `point` lies inside, or close outside.
     pub(super) fn is_near(&self, point: &Point) -> bool {
         let near =
             |axis: usize, it: f64| self.low[axis] - it < APART / 3.0 && it - self.high[axis] < APART / 3.0;
@@ -44,14 +44,14 @@ impl Bounds {
     }
 }
 
-/// The parts of a map: where each lies and the places of its lanelets, the largest part first.
+/// The parts of a map: the rectangle of each and the indices of its lanelets, the largest part first.
 pub(super) fn parts(lanelets: &[Lanelet]) -> Vec<(Bounds, Vec<usize>)> {
     let bounds: Vec<Bounds> = lanelets
         .iter()
         .map(|it| Bounds::of(it.left_border.points().iter().chain(it.right_border.points())))
         .collect();
     let mut groups = Groups((0..lanelets.len()).collect());
-    // Who was the first to touch a cell of the ground.
+    // The first lanelet in each cell.
     let mut cells: HashMap<[i64; 2], usize> = HashMap::new();
     for (index, it) in bounds.iter().enumerate() {
         let cell = |metres: f64| (metres / APART).floor() as i64;
@@ -73,7 +73,7 @@ pub(super) fn parts(lanelets: &[Lanelet]) -> Vec<(Bounds, Vec<usize>)> {
     parts
 }
 
-/// Groups that grow together; each names another member, and the leader itself.
+/// Union-find: each group member names another member, and the leader names itself.
 struct Groups(Vec<usize>);
 
 impl Groups {
