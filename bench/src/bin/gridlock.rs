@@ -2,8 +2,8 @@
 //! capacity, from some entrances much more than from others, for two hours each.
 //!
 //! `cargo run --release -p laneweave-bench --bin gridlock -- [TRIALS] [FIRST]` runs so many trials (200), the first of
-//! which has the number FIRST (0), and prints a line for each. It fails if in one of them a vehicle is stuck, nobody
-//! leaves for ten minutes, or traffic does not stay free of collisions.
+//! which has the number FIRST (0), and prints a line for each. It fails if in one of them a vehicle is stuck, no
+//! vehicle leaves for ten minutes, or traffic does not stay free of collisions.
 
 use std::error::Error;
 use std::process::ExitCode;

@@ -24,7 +24,7 @@ fn v31_a_jam_takes_the_time_of_its_speed_though_its_flow_is_low() {
     // 500 m in 36 s when free; 900 of 1800 veh/h at 2.5 m/s.
     assert!((link_time(36.0, 0.5, 500.0, 2.5) - 200.0).abs() < 1e-12);
     assert_eq!(link_time(36.0, 0.5, 500.0, 500.0 / 36.0), bpr(36.0, 0.5));
-    // Where nobody moves it is finite.
+    // Where no vehicle moves it is finite.
     assert_eq!(link_time(36.0, 0.0, 500.0, 0.0), 500.0);
 }
 

@@ -22,7 +22,7 @@ pub enum RecordingError {
     MissingColumn {
         /// Its name.
         column: &'static str,
-        /// The header as it stands, cut if it is long.
+        /// The header, cut if it is long.
         found: String,
     },
     /// It is not valid XML of its format.

@@ -262,7 +262,7 @@ impl ArterialArguments {
 }
 
 impl RandomArguments {
-    /// What is hard about the map.
+    /// The difficulties of the map, for the screen.
     fn told(&self) -> String {
         let hazards: Vec<&str> = random(self.seed).hazards().into_iter().map(Hazard::name).collect();
         format!("random map {}: {}\n", self.seed, hazards.join(", "))

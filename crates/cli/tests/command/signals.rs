@@ -1,9 +1,9 @@
-//! Programs of lights from the scenario.
+//! Signal programs from the scenario.
 
 use crate::program::Folder;
 
-/// A folder with one junction whose four arms of two lanes have the lights 65 to 72, two an arm, and a scenario with
-/// `signals`.
+/// A folder with one junction and a scenario with `signals`. The junction has four arms of two lanes, with the lights
+/// 65 to 72, two for each arm.
 fn folder(signals: &str) -> Folder {
     let scenario = format!(
         "map = \"one.osm\"\n[demand]\nvehicles_per_hour = 2000\n[run]\nduration_s = 600\n[output]\nrecord_s = 0\n{signals}\n"

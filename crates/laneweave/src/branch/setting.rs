@@ -18,7 +18,7 @@ pub struct Setting {
     value: Value,
 }
 
-/// The name that stands for all styles.
+/// The name for all styles.
 const ALL: &str = "style";
 /// The section in which keys are searched that are no sections of a style.
 const USUAL_SECTION: &str = "change";

@@ -40,7 +40,7 @@ pub struct RecordingReport {
     pub lane_changes_by_kind: BTreeMap<&'static str, usize>,
     /// Lane changes that the map permits.
     pub lane_changes_along_graph: usize,
-    /// Lane changes whose vehicle came back within 30 s.
+    /// Lane changes after which the vehicle came back within 30 s.
     pub lane_changes_undone: usize,
     /// Lane changes in the order of their times.
     pub lane_changes: Vec<ChangeRow>,

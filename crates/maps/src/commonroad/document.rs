@@ -33,7 +33,7 @@ pub(super) struct LaneletElement {
     pub(super) adjacent_right: Option<Adjacent>,
     /// Its types, such as `urban`.
     pub(super) types: Vec<String>,
-    /// Who may use it in its direction, and who in both; often the file names nobody.
+    /// Its users in its direction, and those in both directions; often the file names none.
     pub(super) users: Vec<String>,
     pub(super) users_both_ways: Vec<String>,
     /// The element `speedLimit` of version 2018b [m/s]; NaN where it is unreadable.

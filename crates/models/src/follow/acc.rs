@@ -1,7 +1,7 @@
 //! Enhanced Intelligent Driver Model, as adaptive cruise control: a cut-in is no reason to panic.
 //!
 //! Kesting, Treiber, Helbing (2010), Phil. Trans. R. Soc. A 368, 4585, constants from memory: IDM, softened where the
-//! constant-acceleration heuristic finds the situation harmless, which takes it that nobody changes its acceleration.
+//! constant-acceleration heuristic (CAH) finds the situation harmless. It assumes that nobody changes its acceleration.
 //!
 //! ã_l = min(a_l, a)
 //! a_CAH = v² ã_l / (v_l² − 2s ã_l)           if v_l (v − v_l) ≤ −2s ã_l: the leader stands before the gap is gone

@@ -21,8 +21,8 @@ pub enum LateralModel {
 }
 
 impl LateralModel {
-    /// Share of the way across after the share `progress` of the time, both 0…1. Half of the way is done at half of the
-    /// time: then the vehicle's centre crosses the line.
+    /// Lateral progress after the share `progress` of the time, both 0…1. At half of the time it is one half: then the
+    /// vehicle's centre crosses the line.
     #[inline]
     pub fn moved_share(self, progress: f64) -> f64 {
         match self {
@@ -30,8 +30,8 @@ impl LateralModel {
         }
     }
 
-    /// Shares of the way across of the front and of the rear bumper after the share `progress` of the time. Both follow
-    /// one path, the rear bumper later, so that a long vehicle does not swing out.
+    /// Lateral progress of the front and of the rear bumper after the share `progress` of the time. Both follow one
+    /// path, the rear bumper later, so that a long vehicle does not swing out.
     #[inline]
     pub fn bumpers(self, crossing: Crossing, progress: f64) -> [f64; 2] {
         // Half the vehicle as a share of the distance that the change takes; it fades in and out with the change.

@@ -2,7 +2,7 @@
 //!
 //! y(t) = w (10 τ³ − 15 τ⁴ + 6 τ⁵), τ = t/T
 
-/// Share of the way across after the share `progress` of the time, both 0…1.
+/// Lateral progress after the share `progress` of the time, both 0…1.
 #[inline]
 pub fn moved_share(progress: f64) -> f64 {
     let p = progress.clamp(0.0, 1.0);

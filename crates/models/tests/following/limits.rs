@@ -1,4 +1,4 @@
-//! What holds of every model: it stays finite, and under the kinematic bound nobody collides.
+//! Properties of every model: it stays finite, and under the kinematic bound no vehicle collides.
 
 use laneweave_models::braking::{HARDEST_BRAKING, is_secure, secure_speed};
 use laneweave_models::follow::{
@@ -28,7 +28,7 @@ fn any_model() -> impl Strategy<Value = FollowingModel> {
     ]
 }
 
-/// One step of a driver whom the kinematic bound keeps secure, and who cannot brake harder than a vehicle can.
+/// One step of a driver; the kinematic bound keeps it secure, and its braking is limited to that of a vehicle.
 fn bounded_step(model: FollowingModel, desired: f64, car: Car, ahead: Ahead, dt: f64) -> Car {
     let wanted = car.speed + model.acceleration(Pace::new(car.speed, desired), Some(ahead)) * dt;
     let hardest = car.speed - HARDEST_BRAKING * dt;

@@ -21,7 +21,7 @@ static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
     reading: Literal,
 });
 
-/// A leader behind whom the literal optimal velocity is `speed` [m/s].
+/// A leader behind which the literal optimal velocity is `speed` [m/s].
 fn leader_allowing(speed: f64) -> Option<Ahead> {
     Some(Ahead::steady((((speed - 6.75) / 7.91_f64).atanh() + 1.57) / 0.13, 5.0))
 }
@@ -85,7 +85,7 @@ fn a_follower_at_its_desired_speed_does_not_make_courtesy_explode() {
 
 #[test]
 fn courtesy_is_nothing_where_nobody_is_concerned() {
-    // Slower than its lane, but with nobody behind.
+    // Slower than its lane, but without a follower.
     let alone = empty_road(driver(&IDM, 10.0, 14.0));
     for courtesy in READINGS {
         assert_eq!(courtesy.earning(&alone, chances(1.0)), 0.0);

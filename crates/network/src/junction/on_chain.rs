@@ -24,11 +24,11 @@ pub struct OnChain {
 pub struct Place {
     /// The line, or the beginning of the zone [m].
     pub station: f64,
-    /// What is there.
+    /// Its kind.
     pub what: PlaceKind,
 }
 
-/// What is at a place.
+/// The kind of a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlaceKind {
     /// A place to stop.

@@ -95,7 +95,7 @@ impl WriterThreads {
     fn join(threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>) -> Result<Vec<PathBuf>, Fault> {
         let ended: Vec<_> =
             threads.into_iter().map(|it| it.join().unwrap_or_else(|_| Err(broke_off()))).collect();
-        // The tables, whose thread was begun last, stand first.
+        // The tables come first; their thread was begun last.
         let files: Result<Vec<Vec<PathBuf>>, Fault> = ended.into_iter().rev().collect();
         Ok(files?.concat())
     }

@@ -8,19 +8,19 @@ use super::turns::set_turns;
 use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
 use crate::fault::{Fault, did_you_mean};
 
-/// Demand of a lane where nothing is said of it, but of others, or there is no estimate [veh/h].
+/// Default demand of a lane where the scenario gives that of others, or where there is no estimate [veh/h].
 const USUAL_DEMAND: f64 = 1000.0;
 /// The same along a kilometre of lanes on which trips start [veh/h]: some ten vehicles on it, if a trip
 /// takes three minutes. Ours.
 const USUAL_STARTS: f64 = 200.0;
-/// Nobody has seen more vehicles an hour on one lane than a quarter of this.
+/// Maximum flow of a lane [veh/h]; a quarter of it is more than was ever observed.
 const LARGEST_DEMAND: f64 = 10_000.0;
 
-/// The demand at each of `places`, and the weights of the destinations; a `total` of it where none is given [veh/h], or
-/// else the usual one.
+/// The demand at each of `places`, and the weights of the destinations. Where the scenario gives none, there is a
+/// `total` [veh/h], or else the default one.
 ///
 /// # Errors
-/// If an entrance or exit is not there, or a number makes no sense.
+/// If an entrance or exit does not exist, or a number is invalid.
 pub(super) fn demand(
     scenario: &Scenario,
     origin: &Origin,
@@ -31,7 +31,7 @@ pub(super) fn demand(
 ) -> Result<Demand, Fault> {
     let wanted = &scenario.demand;
     let lanes: usize = places.origins.iter().map(|place| place.chains().len()).sum();
-    // A table of origins and destinations is all there is, unless a total is given for the other origins.
+    // A table of origins and destinations is the whole demand, unless a total is given for the other origins.
     let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
     let total = wanted.vehicles_per_hour.or(total).unwrap_or_else(usual);
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
@@ -123,7 +123,7 @@ fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Res
     Ok(())
 }
 
-/// Whether there is a way for every row of the table of origins and destinations.
+/// Checks that every row of the table of origins and destinations has a route.
 ///
 /// # Errors
 /// The first row without one.
@@ -146,7 +146,7 @@ fn place_in_row(origin: &Origin, number: usize, key: &str) -> String {
     origin.place(&["demand", "od", &number.to_string(), key])
 }
 
-/// The places of a row's origin and destination in the lists of `demand`.
+/// The indices of a row's origin and destination in the lists of `demand`.
 fn ends(
     row: &OdRow,
     demand: &Demand,
@@ -158,7 +158,7 @@ fn ends(
     Ok((from, to))
 }
 
-/// Values over time, each from 0 to the largest, which is called `what` and has a `unit`.
+/// Values over time, each from 0 to the maximum; they have the name `what` and a `unit`.
 fn by_pieces(
     pieces: &[[f64; 2]],
     place: String,
@@ -178,7 +178,7 @@ fn by_pieces(
     })
 }
 
-/// Demand where nothing is said [veh/h].
+/// The default demand [veh/h].
 fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
     let of_place = |place: &Place| match place {
         Place::Gate(gate) => USUAL_DEMAND * gate.chains.len() as f64,
@@ -190,7 +190,7 @@ fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
     origins.iter().map(of_place).sum()
 }
 
-/// Which of `places` is called `id`.
+/// The index in `places` of the place `id`.
 fn named<'a>(
     places: impl Iterator<Item = &'a Place> + Clone,
     id: &str,

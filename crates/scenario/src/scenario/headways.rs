@@ -1,4 +1,4 @@
-//! The law of headways as a scenario has it.
+//! The distribution of headways in a scenario.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -53,27 +53,27 @@ pub enum Headways {
     },
 }
 
-/// Nobody follows closer [s], ours.
+/// Default of the minimum headway [s], ours.
 fn usual_minimum() -> f64 {
     0.5
 }
 
-/// Headway of who follows [s], ours.
+/// Default of the followers' headway [s], ours.
 fn usual_following() -> f64 {
     1.5
 }
 
-/// Share of free drivers, ours.
+/// Default share of free drivers, ours.
 fn usual_free() -> f64 {
     0.6
 }
 
-/// Half as wide as that of an exponential law, ours.
+/// Default: half as wide as an exponential distribution, ours.
 fn usual_variation() -> f64 {
     0.5
 }
 
-/// The fewest that are not exponential.
+/// Default: the smallest number for which the distribution is not exponential.
 fn usual_stages() -> u32 {
     2
 }
@@ -93,10 +93,10 @@ impl From<Headways> for sim::Headways {
     }
 }
 
-/// Whether the headways of `demand` can be at each of its origins.
+/// Checks that the headways of `demand` are possible at each of its origins.
 ///
 /// # Errors
-/// The first origin at which they cannot.
+/// The first origin at which they are not.
 pub(super) fn check(demand: &Demand, origin: &Origin) -> Result<(), Fault> {
     for it in &demand.origins {
         let Err(error) = demand.headways.check(it.rate_of_a_lane()) else { continue };

@@ -7,7 +7,7 @@ use crate::style::{StyleTemplate, find};
 /// The styles of a scenario with their weights.
 ///
 /// # Errors
-/// If a style is not known or wrong, or the weights make no mixture.
+/// If a style is unknown or wrong, or if the weights are invalid.
 pub fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplate, f64)>, Fault> {
     let mut mixture = Vec::new();
     for (name, weight) in &scenario.styles {
@@ -32,7 +32,7 @@ pub fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplat
             "give at least one of them a weight above 0",
         ));
     }
-    // Neither do the names of style files matter, nor where they are.
+    // The names and folders of style files do not matter.
     mixture.sort_by(|(a, _), (b, _)| a.typical().name.cmp(&b.typical().name));
     Ok(mixture)
 }

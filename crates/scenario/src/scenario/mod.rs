@@ -1,4 +1,4 @@
-//! Scenario files: what to simulate, in TOML. Every key but the map has a default.
+//! Scenario files: the input of a simulation, in TOML. Every key except the map has a default.
 
 mod basis;
 mod demand;

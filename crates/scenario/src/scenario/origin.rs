@@ -1,4 +1,4 @@
-//! Where each value of a scenario came from: its file, or an option of the command.
+//! The source of each value of a scenario: its file, or an option of the command.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,17 +7,17 @@ use super::Scenario;
 use crate::fault::Fault;
 use crate::source::Source;
 
-/// The demo scenario and its map, which come with the program.
+/// The demo scenario and its map, which are built in.
 const DEMO: &str = include_str!("../../../../scenarios/demo.toml");
 const DEMO_MAP: &str = include_str!("../../../../maps/town.osm");
 
-/// Where the values of a scenario came from.
+/// The source of the values of a scenario.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
     source: Option<Source>,
-    /// The map's text, if it comes with the program.
+    /// The map's text, if it is built in.
     pub(super) map: Option<&'static str>,
-    /// Options by the key that they replace.
+    /// Options by the key whose value they replace.
     options: BTreeMap<&'static str, &'static str>,
 }
 
@@ -25,7 +25,7 @@ impl Origin {
     /// The scenario in the file at `path`, or of the map there.
     ///
     /// # Errors
-    /// If the scenario file cannot be read or is no scenario. A map is not looked at yet.
+    /// If the scenario file cannot be read or is no scenario. A map is not read yet.
     pub fn open(path: &Path) -> Result<(Scenario, Origin), Fault> {
         if path.extension().is_none_or(|it| it != "toml") {
             return Ok((Scenario::of_map(path.to_owned()), Origin::default()));
@@ -52,12 +52,12 @@ impl Origin {
         Ok((scenario, Origin { source: Some(source), map: Some(DEMO_MAP), ..Origin::default() }))
     }
 
-    /// Notes that `option` has replaced the value of `key`.
+    /// Records that `option` has replaced the value of `key`.
     pub fn replaced(&mut self, key: &'static str, option: &'static str) {
         self.options.insert(key, option);
     }
 
-    /// The keys whose values were replaced, each with its option.
+    /// The keys with replaced values, each with its option.
     pub fn options(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
         self.options.iter().map(|(key, option)| (*key, *option))
     }
@@ -73,12 +73,12 @@ impl Origin {
         self.source.as_ref().map(|source| source.place(path))
     }
 
-    /// The map's text, if it comes with the program.
+    /// The map's text, if it is built in.
     pub fn built_in_map(&self) -> Option<&'static str> {
         self.map
     }
 
-    /// The folder from which the paths of style files are sought.
+    /// The folder for relative paths of style files.
     pub fn style_folder(&self) -> &Path {
         match &self.source {
             Some(source) if !self.options.contains_key("styles") => source.folder(),

@@ -21,17 +21,17 @@ use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
 use crate::style::Population;
 
-/// More threads than this are a mistake.
+/// Maximum of threads.
 const MOST_THREADS: usize = 256;
-/// Threads where nothing is said: what a small machine has.
+/// Default number of threads at most: that of a small machine.
 const USUAL_THREADS: usize = 2;
-/// Shortest and longest step [s].
+/// Minimum and maximum of the step [s].
 const STEPS: (f64, f64) = (0.01, 1.0);
-/// Shortest interval of guidance [s].
+/// Minimum interval of guidance [s].
 const SHORTEST_GUIDANCE: f64 = 1.0;
-/// Longest time that can be simulated [s].
+/// Maximum simulated time [s].
 const LONGEST: f64 = 1e7;
-/// What the intervals of the output are called.
+/// The names of the intervals of the output.
 const RECORDING: &str = "a recording interval";
 const FLOWS: &str = "an interval of flows";
 const CHECKPOINTS: &str = "an interval of checkpoints";
@@ -54,7 +54,7 @@ pub struct Prepared {
     pub demand_veh_h: f64,
     /// Where trips start, each with its demand [veh/h].
     pub origins: Vec<(Place, f64)>,
-    /// What it rests on.
+    /// The basis of the demand.
     pub basis: Basis,
     /// The estimated capacity of the map.
     pub capacity: Capacity,
@@ -62,9 +62,9 @@ pub struct Prepared {
     pub styles: Vec<(String, f64)>,
     /// Number of threads.
     pub threads: usize,
-    /// What in the map could not be used as it stands.
+    /// Elements of the map that could not be used unchanged.
     pub problems: Vec<Problem>,
-    /// What to know of the map before one looks at traffic on it.
+    /// Remarks on the traffic of the map.
     pub remarks: Vec<Remark>,
     /// Latitude and longitude of the map's (0, 0) [°], if it was projected.
     pub origin: Option<(f64, f64)>,
@@ -73,7 +73,7 @@ pub struct Prepared {
 /// Reads the map and the styles of `scenario`, and makes its world.
 ///
 /// # Errors
-/// If anything is missing, not readable, or makes no sense.
+/// If something is missing, not readable, or invalid.
 pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
     let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
@@ -86,7 +86,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let Population { driver_parameters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = read_map(scenario, origin)?;
     let (network, places) = driven(&map);
-    // Nobody can mend the map that comes with the program.
+    // A user cannot correct the built-in map.
     let remarks = if origin.map.is_some() { Vec::new() } else { remarks(&map, &network, &places) };
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
@@ -108,7 +108,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let capacity =
         |world: &World| Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
     let (world, basis) = if Basis::is_open(&scenario.demand) {
-        // The estimate depends on where a demand leads, not on how much it is: the least does.
+        // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
         let total = usual(&capacity(&build(Some(1.0))?));
         (build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual })
     } else {
@@ -160,7 +160,7 @@ pub fn driven(map: &Map) -> (Network, Places) {
     (network, places)
 }
 
-/// Where trips start and end: at the gates, or on a map without entrance or exit on every lane outside of junctions.
+/// Trip ends: the entrances and exits, or, on a map without one of them, every lane outside of junctions.
 fn places(network: &Network, graph: &Graph) -> Places {
     if !network.entrances.is_empty() && !network.exits.is_empty() {
         return Places::at_gates(network).reachable(network);
@@ -169,7 +169,7 @@ fn places(network: &Network, graph: &Graph) -> Places {
     Places::along(network, all.filter(|(others, _)| others.is_empty()).map(|(_, it)| LaneletIndex(it)))
 }
 
-/// Whether there are samples where a file needs them.
+/// Checks that there are samples if a file needs them.
 fn check_samples(scenario: &Scenario, origin: &Origin, record_steps: Option<u32>) -> Result<(), Fault> {
     if record_steps.is_none() && scenario.output.sumo.contains(&SumoFile::Fcd) {
         let what = "fcd.xml is sampled at output.record_s, which is 0";
@@ -209,7 +209,7 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["output", "flows_s"], FLOWS, output.flows_s, (0.0, LONGEST), " s")
 }
 
-/// The interval [s] that the `key` of the output gives, and that is called `what`, in steps; none for an interval of 0.
+/// The interval [s] of the output with this `key` and the name `what`, in steps; `None` for an interval of 0.
 fn whole_steps(
     step: f64,
     origin: &Origin,
@@ -217,7 +217,7 @@ fn whole_steps(
     what: &str,
     interval: f64,
 ) -> Result<Option<u32>, Fault> {
-    /// How far an interval may be off a whole number of steps, in steps.
+    /// Tolerance of an interval around a whole number of steps, in steps.
     const TOLERANCE: f64 = 1e-6;
     let steps = interval / step;
     if interval > 0.0 && steps < 1.0 - TOLERANCE {
@@ -228,7 +228,7 @@ fn whole_steps(
     if (steps - steps.round()).abs() <= TOLERANCE {
         return Ok(Some(steps.round() as u32).filter(|steps| *steps > 0));
     }
-    // Rounded, as 3 × 0.1 would be shown with all its digits.
+    // Rounded: otherwise 3 × 0.1 would be shown with all its digits.
     let above = (steps.ceil() * step * 1e6).round() / 1e6;
     let what = format!("{what} of {interval} s is not a multiple of the step of {step} s");
     let remedy = format!("choose a multiple of it, such as {above} s");
@@ -238,7 +238,7 @@ fn whole_steps(
 fn threads(scenario: &Scenario, origin: &Origin, records: bool) -> Result<usize, Fault> {
     let usual = || {
         let cores = available_parallelism().map_or(1, NonZero::get);
-        // What writes trajectories needs a core of its own: a thread that moves vehicles would wait for it.
+        // The writer of trajectories needs a core of its own: a thread of the simulation would wait for it.
         let free = cores - usize::from(records);
         free.clamp(1, USUAL_THREADS)
     };
@@ -259,7 +259,7 @@ fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
     read.map_err(|error| {
         let fault = map_fault(&error, &scenario.map, origin);
         match error {
-            // What is run may be either.
+            // The file may be a scenario or a map.
             MapError::UnknownFormat { .. } if origin.in_file(&["map"]).is_none() => {
                 Fault { remedy: fault.remedy + ", scenario (.toml)", ..fault }
             }
@@ -295,7 +295,8 @@ impl From<&MapOptions> for ReadOptions {
     }
 }
 
-/// What is wrong with the map at `path`: a wrong path has its place in the scenario file, a wrong content in the map.
+/// The fault of the map at `path`: for a wrong path, its place is in the scenario file; for a wrong content, in the
+/// map.
 fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     let line = match error {
         MapError::Xml(error) => Some(error.line()),

@@ -1,4 +1,4 @@
-//! Programs of lights as a scenario has them.
+//! Signal programs in a scenario.
 
 use laneweave_network::{Extension, LightConflict, LightIndex, Network, Position, SignalPlan, Turn};
 use schemars::JsonSchema;
@@ -53,25 +53,25 @@ pub struct SignalPhase {
     pub all_red_s: f64,
 }
 
-/// That of made programs [s].
+/// That of generated programs [s].
 fn usual_yellow() -> f64 {
     3.0
 }
 
-/// The least of made programs [s].
+/// The minimum of generated programs [s].
 fn usual_all_red() -> f64 {
     2.0
 }
 
-/// Lights that are named where one is not known.
+/// Maximum of lights in the list of known ones.
 const LISTED: usize = 8;
-/// Longest part of a phase [s].
+/// Maximum length of a part of a phase [s].
 const LONGEST: f64 = 3600.0;
 
-/// The plans of the lights of `network`.
+/// The signal plans of the lights of `network`.
 ///
 /// # Errors
-/// If a light is not there, a number makes no sense, or lights that get in each other's way are green together.
+/// If a light does not exist, a number is invalid, or lights whose movements conflict are green together.
 pub(super) fn plans(
     scenario: &Scenario,
     origin: &Origin,
@@ -99,7 +99,7 @@ pub(super) fn plans(
     Ok(plans)
 }
 
-/// Where a program stands in its scenario.
+/// The place of a program in its scenario.
 struct Place<'a> {
     origin: &'a Origin,
     number: usize,
@@ -140,7 +140,7 @@ fn plan(signal: &Signal, place: &Place, network: &Network) -> Result<SignalPlan,
         return Err(Fault::new(place.of(&["offset_s"]), what, "leave it out"));
     }
     match signal.cycle_s {
-        // A millisecond is no mistake.
+        // A difference of a millisecond is no mistake.
         Some(cycle) if cycle.is_nan() || (cycle - plan.cycle()).abs() > 1e-3 => {
             let what = format!("a cycle of {cycle} s, but its phases last {} s", plan.cycle());
             Err(Fault::new(place.of(&["cycle_s"]), what, "remove it, or change a phase"))
@@ -149,7 +149,7 @@ fn plan(signal: &Signal, place: &Place, network: &Network) -> Result<SignalPlan,
     }
 }
 
-/// The least value that a number may have.
+/// The smallest allowed value of a number.
 #[derive(Clone, Copy)]
 enum Least {
     From(f64),
@@ -167,7 +167,7 @@ fn check(place: String, what: &str, value: f64, least: Least, most: f64) -> Resu
     Err(Fault::new(place, format!("{what} of {value} s"), format!("choose {least} to {most} s")))
 }
 
-/// The green of a phase, the longest if traffic extends it, and how it does.
+/// The green of a phase, the maximum if traffic extends it, and how traffic extends it.
 fn green(phase: &SignalPhase, place: impl Fn(&str) -> String) -> Result<(f64, Option<Extension>), Fault> {
     let SignalPhase { green_s, max_green_s, min_green_s, gap_s, .. } = *phase;
     match (green_s, max_green_s) {
@@ -216,7 +216,7 @@ fn light(network: &Network, id: i64, place: String) -> Result<LightIndex, Fault>
     })
 }
 
-/// Whether no lights are green together that would send their drivers into each other, and none is left out that would.
+/// Checks that no conflicting lights are green together, and that no light is left out that conflicts with these.
 fn check_conflicts(
     plan: &SignalPlan,
     place: &Place,
@@ -260,7 +260,7 @@ fn name(network: &Network, light: LightIndex) -> i64 {
     network.junctions.lights[light.at()].id
 }
 
-/// The ways that meet, in words.
+/// The movements that conflict, in words.
 fn ways(network: &Network, conflict: &LightConflict) -> String {
     let zone = &network.junctions.zones[conflict.zone.at()];
     let lanelets = [conflict.side, 1 - conflict.side].map(|side| {

@@ -1,8 +1,9 @@
-//! Turning shares: where drivers go, by what was counted at junctions.
+//! Turning shares: destinations of drivers from turning counts at junctions.
 //!
 //! Shares are followed from each entrance through the network, as a Markov chain over its sections, to the exits: the
-//! part of the drivers that arrives at an exit is its weight as a destination. Drivers then go their best way there. So
-//! the counts come out again wherever one way leads from an entrance to an exit; of several ways all take the best.
+//! share of the drivers that arrives at an exit is its weight as a destination. Drivers then take their best route
+//! there. So the counts are reproduced where one route leads from an entrance to an exit; of several routes, all
+//! drivers take the best.
 
 use laneweave_network::{Branch, ChainIndex, Network, Sections, Side};
 use laneweave_sim::{Demand, Place, World};
@@ -29,20 +30,20 @@ pub struct Turns {
     pub right: f64,
 }
 
-/// Who changes its direction by less goes straight on [rad].
+/// A movement that changes its direction by less goes straight on [rad].
 const STRAIGHT: f64 = std::f64::consts::FRAC_PI_6;
-/// Of the drivers only so many may still be on their way in the end.
+/// Share of the drivers that may remain in the network at the end.
 const LEFT_OVER: f64 = 1e-6;
-/// Sections that are followed at most.
+/// Maximum number of sections that are followed.
 const LONGEST: usize = 100_000;
 
-/// Ways on from a section: other sections, each with the part of the drivers who go there.
+/// Continuations of a section: other sections, each with the share of the drivers who go there.
 type WaysOn = Vec<(usize, f64)>;
 
-/// Gives the origins of `demand` the weights of the destinations that follow from the scenario's turning shares.
+/// Sets the weights of the destinations for the origins of `demand`, from the scenario's turning shares.
 ///
 /// # Errors
-/// If a lanelet is not there, or leads to no junction, if shares make no sense, or drivers never arrive.
+/// If a lanelet does not exist, or leads to no junction, if shares are invalid, or if drivers never arrive.
 pub(super) fn set_turns(
     scenario: &Scenario,
     origin: &Origin,
@@ -114,10 +115,10 @@ fn reached(network: &Network, start: &[ChainIndex]) -> Vec<bool> {
     is_reached
 }
 
-/// Whether from each entrance where somebody comes a destination can be reached that turning shares send drivers to.
+/// Checks that each entrance with demand has a route to a destination to which turning shares send drivers.
 ///
 /// # Errors
-/// The first entrance from which none can.
+/// The first entrance without one.
 pub(super) fn check_arrivals(scenario: &Scenario, origin: &Origin, world: &World) -> Result<(), Fault> {
     if scenario.turns.is_empty() {
         return Ok(());
@@ -136,10 +137,10 @@ pub(super) fn check_arrivals(scenario: &Scenario, origin: &Origin, world: &World
     Ok(())
 }
 
-/// Part of the drivers who come to the end of each section that none continues, if they begin in `parts`.
+/// Share of the drivers that arrive at the end of each section without a continuation, if they begin in `parts`.
 ///
 /// # Errors
-/// The part that is on its way for ever.
+/// The share that never arrives.
 fn arrived(mut parts: Vec<f64>, ways_on: &[WaysOn]) -> Result<Vec<f64>, f64> {
     let mut arrived = vec![0.0; parts.len()];
     for _ in 0..LONGEST {
@@ -158,7 +159,7 @@ fn arrived(mut parts: Vec<f64>, ways_on: &[WaysOn]) -> Result<Vec<f64>, f64> {
     Err(parts.iter().sum())
 }
 
-/// For each section the ways on: where the scenario says nothing, by the number of lanes.
+/// For each section its continuations: where the scenario gives no shares, by the number of lanes.
 fn ways_on(
     scenario: &Scenario,
     origin: &Origin,
@@ -184,7 +185,7 @@ fn ways_on(
     Ok(ways_on)
 }
 
-/// The section that the lanelet with this id leads to, and from which more than one goes on.
+/// The section to which the lanelet with this id leads, and which has several continuations.
 fn fork_after(id: i64, network: &Network, sections: &Sections) -> Result<usize, (String, &'static str)> {
     let lanelets = sections.all().iter().flat_map(|it| &it.lanelets);
     let mut same = lanelets.filter(|it| network.lanelets[it.at()].id == id);
@@ -218,7 +219,7 @@ pub(super) fn forks(network: &Network) -> Vec<Turns> {
     named.collect()
 }
 
-/// Which way somebody turns.
+/// The direction of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
     Left,
@@ -237,7 +238,7 @@ impl Way {
         }
     }
 
-    /// Its key, and how it reads.
+    /// Its key, and its name.
     fn words(self) -> [&'static str; 2] {
         match self {
             Way::Left => ["left", "left"],
@@ -247,7 +248,7 @@ impl Way {
     }
 }
 
-/// The ways on over `branches` by the shares of `turns`; several that turn alike have their share by lanes.
+/// The continuations over `branches` by the shares of `turns`; several in the same direction share by lanes.
 fn by_shares(
     turns: &Turns,
     branches: &[Branch],

@@ -1,4 +1,4 @@
-//! The styles that come with the program, and styles by name or file.
+//! The built-in styles, and styles by name or file.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::template::StyleTemplate;
 use crate::fault::{Fault, did_you_mean};
 use crate::source::Source;
 
-/// A style file that comes with the program.
+/// A built-in style file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltIn {
     /// Its name.
@@ -23,7 +23,7 @@ macro_rules! built_in {
     };
 }
 
-/// The styles that come with the program.
+/// The built-in styles.
 pub const BUILT_IN: &[BuiltIn] = built_in![
     "aggressive",
     "conservative",
@@ -39,7 +39,7 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "constant-hazard"
 ];
 
-/// Who drives where nothing is said: the paper's mixture, one aggressive driver to 7.4 conservative ones.
+/// The default mixture: the paper's, one aggressive driver to 7.4 conservative ones.
 pub const DEFAULT_MIXTURE: [(&str, f64); 2] = [("aggressive", 1.0), ("conservative", 7.4)];
 
 /// The built-in style of this name.
@@ -47,10 +47,11 @@ pub fn built_in(name: &str) -> Option<&'static BuiltIn> {
     BUILT_IN.iter().find(|it| it.name == name)
 }
 
-/// The text of the style called `name`: a built-in one, or a file whose path ends in `.toml`, sought from `folder` on.
+/// The text of the style called `name`: a built-in one, or a file with a path that ends in `.toml`, relative to
+/// `folder`.
 ///
 /// # Errors
-/// If there is none, or the file cannot be read. The place is left to the caller where the name is at fault.
+/// If there is none, or the file cannot be read. If the name is wrong, the caller sets the place.
 pub fn find(name: &str, folder: &Path, place: impl Fn() -> String) -> Result<Source, Fault> {
     if let Some(it) = built_in(name) {
         return Ok(Source { path: format!("styles/{name}.toml").into(), text: it.text.into() });
@@ -76,10 +77,10 @@ pub fn find(name: &str, folder: &Path, place: impl Fn() -> String) -> Result<Sou
     Err(Fault::new(place(), format!("unknown style {name:?}"), remedy))
 }
 
-/// The text of a style file like `source`, comments and all, with the name `name`.
+/// The text of a style file like `source`, with its comments, and with the name `name`.
 ///
 /// # Errors
-/// If the name is not one, or `source` is no style.
+/// If the name is invalid, or `source` is no style.
 pub fn copy(source: &Source, name: &str) -> Result<String, Fault> {
     let is_name = |it: char| it.is_alphanumeric() || matches!(it, '-' | '_' | '.' | ' ');
     if name.trim().is_empty() || !name.chars().all(is_name) {

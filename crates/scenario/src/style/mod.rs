@@ -1,5 +1,5 @@
-//! Styles as data: files in TOML of the shape of [`laneweave_models::Style`], in which any number may be a
-//! distribution over the drivers instead.
+//! Styles as data: TOML files with the structure of [`laneweave_models::Style`], in which any number may instead be a
+//! distribution over the drivers.
 
 mod distribution;
 mod library;

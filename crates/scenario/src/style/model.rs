@@ -1,5 +1,5 @@
-//! One lane-change model for all drivers, so that models can be compared on the same traffic: everything else of their
-//! styles stays.
+//! One lane-change model for all drivers, so that models can be compared on the same traffic: the other parts of
+//! their styles stay.
 
 use std::path::Path;
 
@@ -58,7 +58,7 @@ impl Model {
         }
     }
 
-    /// It in words.
+    /// Its description.
     pub fn words(self) -> &'static str {
         match self {
             Model::Mcdm => "multi-criteria decision-making (Li et al.): the weights of the styles",
@@ -79,10 +79,10 @@ impl Model {
         }
     }
 
-    /// The style `template`, whose drivers change lanes by this model.
+    /// The style `template` with this lane-change model.
     ///
     /// # Errors
-    /// None for the styles that come with the program.
+    /// None for the built-in styles.
     pub fn drives(self, template: StyleTemplate) -> Result<StyleTemplate, Fault> {
         let lanes = RouteKeeping::Lanes;
         let change = match self {
@@ -104,7 +104,7 @@ impl Model {
     }
 }
 
-/// Who conservative drivers are.
+/// The style of conservative drivers.
 fn usual() -> Result<Mcdm, Fault> {
     let [_, (name, _)] = DEFAULT_MIXTURE;
     let template = StyleTemplate::parse(&find(name, Path::new(""), String::new)?)?;

@@ -21,7 +21,7 @@ impl Population {
     /// Draws the drivers of the styles in `mixture`, each with its weight.
     ///
     /// # Errors
-    /// If a distribution gives a value that a parameter cannot have.
+    /// If a distribution gives a value that is invalid for a parameter.
     pub fn draw(mixture: &[(StyleTemplate, f64)], seed: u64) -> Result<Population, Fault> {
         let random = Random::new(seed);
         let mut population = Population { driver_parameters: Vec::new(), shares: Vec::new() };
@@ -35,11 +35,10 @@ impl Population {
         Ok(population)
     }
 
-    /// The same drivers by the changed templates of the `mixture` that they were drawn of: each in the place of its
-    /// own.
+    /// The same drivers after a change of the templates of their `mixture`: each keeps its index.
     ///
     /// # Errors
-    /// If a distribution gives a value that a parameter cannot have.
+    /// If a distribution gives a value that is invalid for a parameter.
     pub fn redrawn(&self, mixture: &[(StyleTemplate, f64)], seed: u64) -> Result<Vec<Style>, Fault> {
         let random = Random::new(seed);
         let mut driver_parameters = Vec::new();
@@ -51,10 +50,10 @@ impl Population {
         Ok(driver_parameters)
     }
 
-    /// The drivers that come where nothing is said.
+    /// The default drivers.
     ///
     /// # Errors
-    /// None for the styles that come with the program.
+    /// None for the built-in styles.
     pub fn usual(seed: u64) -> Result<Population, Fault> {
         let built_in = |(name, weight): &(&str, f64)| {
             let source = find(name, Path::new(""), String::new)?;

@@ -1,4 +1,4 @@
-//! Which numbers of a style make sense.
+//! The valid ranges of the numbers of a style.
 
 /// The values that a number may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,8 +8,8 @@ pub(super) struct Range {
     pub(super) unit: &'static str,
 }
 
-/// Ranges by key; what is not listed, such as a weight or a threshold, may be any finite number. The limits are ours:
-/// wide enough for every driver, too narrow for a mistaken unit.
+/// Ranges by key; a number that is not listed, such as a weight or a threshold, may be any finite number. The limits
+/// are ours: wide enough for every driver, too narrow for a wrong unit.
 const RANGES: &[(&str, Range)] = &[
     ("speed_factor", range(0.1, 3.0, "")),
     ("follow.acceleration", range(0.1, 10.0, "m/s²")),
@@ -92,7 +92,7 @@ impl Range {
         self.from <= least && largest <= self.to
     }
 
-    /// The range in words: what to choose.
+    /// The range in words, as a remedy.
     pub(super) fn advice(&self) -> String {
         let Range { from, to, unit } = self;
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };

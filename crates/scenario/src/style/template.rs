@@ -1,7 +1,7 @@
 //! A style file: a style in which numbers may be distributed over its drivers.
 //!
-//! The file is held against the complete style of the models that it names, so that an unknown key, a wrong type or
-//! a number out of range is told with its place.
+//! The file is compared with the complete style of the models that it names, so that an unknown key, a wrong type or
+//! a number out of range is reported with its place.
 
 use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Rule};
@@ -13,9 +13,9 @@ use super::ranges::Range;
 use crate::fault::{Fault, did_you_mean};
 use crate::source::Source;
 
-/// How many different drivers stand for a style with distributions.
+/// Number of different drivers of a style with distributions.
 const CHARACTERS: u32 = 512;
-/// Draws that are kept apart for the parameters of one style.
+/// Maximum number of different random numbers for the parameters of one style.
 const PARAMETERS_PER_STYLE: u32 = 1 << 12;
 
 /// A style before its drivers are drawn.
@@ -31,9 +31,9 @@ pub struct StyleTemplate {
 pub struct Parameter {
     /// Its keys from the outermost in.
     pub path: Vec<String>,
-    /// How it is distributed.
+    /// Its distribution.
     pub distribution: Distribution,
-    /// Which draw of the style is its own.
+    /// The index of its random number in the style.
     number: u32,
 }
 
@@ -41,7 +41,7 @@ impl StyleTemplate {
     /// Reads a style file.
     ///
     /// # Errors
-    /// If it is no TOML, has an unknown key, lacks one, or has a value that makes no sense.
+    /// If it is no TOML, has an unknown key, lacks a key, or has an invalid value.
     pub fn parse(source: &Source) -> Result<StyleTemplate, Fault> {
         let table: Table = source.parse()?;
         let mut reader = Reader { source, path: Vec::new(), parameters: Vec::new() };
@@ -76,7 +76,7 @@ impl StyleTemplate {
         Ok(StyleTemplate { table, parameters, typical })
     }
 
-    /// Number of different drivers that stand for the style: one, or 512 where anything is distributed.
+    /// Number of different drivers of the style: one, or 512 if a number is distributed.
     pub fn driver_parameters(&self) -> u32 {
         if self.parameters.is_empty() { 1 } else { CHARACTERS }
     }
@@ -86,7 +86,7 @@ impl StyleTemplate {
         &self.parameters
     }
 
-    /// The style whose distributed numbers have their medians.
+    /// The style with the medians of its distributed numbers.
     pub fn typical(&self) -> &Style {
         &self.typical
     }
@@ -94,7 +94,7 @@ impl StyleTemplate {
     /// The same style with another lane-change model.
     ///
     /// # Errors
-    /// None, as long as every model can be written down.
+    /// None, as long as every model can be serialized.
     pub fn with_change(self, change: &LaneChangeModel) -> Result<StyleTemplate, Fault> {
         let StyleTemplate { mut table, mut parameters, typical } = self;
         let model = Table::try_from(change)
@@ -112,10 +112,11 @@ impl StyleTemplate {
         is_distributed || Table::try_from(&self.typical).is_ok_and(found)
     }
 
-    /// The same style with `value` at `path`, the keys from the outermost in. What is drawn of it stays as it was.
+    /// The same style with `value` at `path`, the keys from the outermost in. The random numbers of the others stay
+    /// the same.
     ///
     /// # Errors
-    /// If there is no such key, or the value does not fit; the place is `place`.
+    /// If there is no such key, or the value is invalid; its place is `place`.
     pub fn with_value(&self, path: &[String], value: Value, place: &str) -> Result<StyleTemplate, Fault> {
         let mut table = self.table.clone();
         let Some((last, outer)) = path.split_last() else { return Ok(self.clone()) };
@@ -153,7 +154,7 @@ impl StyleTemplate {
     /// Driver `number` of the style, which is number `style` of the run.
     ///
     /// # Errors
-    /// Only if a number that is drawn does not fit where it stands, which reading the file rules out.
+    /// Only if a random value is invalid at its key; reading the file excludes this.
     pub fn draw(&self, random: &Random, style: u32, number: u32) -> Result<Style, Fault> {
         let drawn = fill(&self.table, &self.parameters, |it| {
             let draw = style * PARAMETERS_PER_STYLE + it.number;
@@ -203,7 +204,7 @@ fn complete(table: &Table, source: &Source) -> Result<Table, Fault> {
     complete.map_err(|error| source.fault(&error))
 }
 
-/// Walks through a style file beside the complete style.
+/// Compares a style file with the complete style, key by key.
 struct Reader<'a> {
     source: &'a Source,
     path: Vec<String>,

@@ -27,7 +27,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// An entry of a legend: a mark around (0, 0) as SVG, and what it stands for.
+/// An entry of a legend: a mark around (0, 0) as SVG, and its meaning.
 pub(super) struct Key {
     pub(super) mark: String,
     pub(super) text: String,

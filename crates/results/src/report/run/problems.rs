@@ -134,7 +134,7 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
     found
 }
 
-/// How things were measured.
+/// The section on the methods of measurement.
 pub(super) fn method() -> Section {
     Section::new("method", "How it was measured")
         .text(

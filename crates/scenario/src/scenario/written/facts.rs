@@ -1,4 +1,4 @@
-//! What the map at hand says of the keys of a scenario.
+//! Values of a map for the keys of a scenario.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,9 @@ use super::super::turns::forks;
 use super::super::{Basis, Prepared};
 use crate::style::BUILT_IN;
 
-/// Places of a map that are named one by one.
+/// Maximum of places in a list.
 const LISTED: usize = 24;
-/// Forks that are named, as examples.
+/// Maximum of forks that are listed as examples.
 const LISTED_FORKS: usize = 3;
 
 /// Values and rows by the paths of their keys.
@@ -24,15 +24,15 @@ pub(super) struct Facts {
 /// A value on this map.
 pub(super) struct Fact {
     pub(super) value: Value,
-    /// What to know about it.
+    /// A note about it.
     pub(super) note: Option<String>,
 }
 
-/// What a table of names, or a list of tables, can hold on this map.
+/// Possible entries of a table of names, or of a list of tables, on this map.
 pub(super) struct Rows {
     pub(super) note: String,
     pub(super) rows: Vec<Row>,
-    /// How many more there are.
+    /// The number of the others.
     pub(super) omitted: usize,
 }
 
@@ -87,7 +87,7 @@ fn origin_note(prepared: &Prepared) -> &'static str {
     }
 }
 
-/// How much comes where nothing is said, and the estimated capacity.
+/// The default demand, and the estimated capacity.
 fn demand_note(prepared: &Prepared) -> String {
     match prepared.basis {
         Basis::Estimated => format!("Default: 70 % of the {}:", prepared.capacity),
@@ -117,7 +117,7 @@ fn exits(prepared: &Prepared) -> Rows {
     Rows { note, rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
 }
 
-/// As an example, the first entrance with the first exit to which a way leads.
+/// As an example, the first entrance with the first exit that it has a route to.
 fn od(prepared: &Prepared) -> Rows {
     let world = &prepared.world;
     let exits = &world.demand().destinations;
@@ -136,7 +136,7 @@ fn od(prepared: &Prepared) -> Rows {
     Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
 }
 
-/// The junctions with shares by the number of lanes, as they are where no row says anything.
+/// The junctions with their default shares, by the number of lanes.
 fn turns(prepared: &Prepared) -> Rows {
     if is_closed(prepared) {
         let note = "Not on this map: every lanelet is a destination. On other maps:".into();
@@ -163,7 +163,7 @@ fn turns(prepared: &Prepared) -> Rows {
     Rows { note, rows: all.iter().take(LISTED_FORKS).map(row).collect(), omitted }
 }
 
-/// The programs that were made for the lights of the map.
+/// The generated programs for the lights of the map.
 fn signals(prepared: &Prepared) -> Rows {
     let junctions = &prepared.world.network().junctions;
     let name = |light: &LightIndex| junctions.lights[light.at()].id;
@@ -192,7 +192,7 @@ fn signals(prepared: &Prepared) -> Rows {
     }
 }
 
-/// The styles beside those that drive already.
+/// The styles other than those of the scenario.
 fn styles() -> Rows {
     let names: Vec<&str> = BUILT_IN.iter().map(|it| it.name).collect();
     let note = format!("The built-in styles are {}. List them with: laneweave styles list", names.join(", "));

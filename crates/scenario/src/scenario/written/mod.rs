@@ -1,8 +1,8 @@
-//! A scenario file to begin from: every key with its meaning, and what it is on the map at hand.
+//! A scenario file as a start: every key with its meaning, and its value on the given map.
 //!
-//! Names, meanings and choices are those of the schema, defaults those of the scenario of a bare map, so that the text
-//! cannot say anything else than the program does. A line that begins with `#` and a letter or bracket is a key behind
-//! a `#`; prose begins with `#` and a blank.
+//! Names, meanings and choices come from the schema, defaults from the scenario of a bare map, so that the text
+//! always agrees with the program. A line that begins with `#` and a letter or bracket is a key that is commented
+//! out; prose begins with `#` and a blank.
 
 mod facts;
 mod prose;
@@ -51,8 +51,8 @@ const ORDER: [&str; 33] = [
     "map_options",
 ];
 
-/// The text of a scenario file that does what `scenario` does. It holds every key; those that are the default stand
-/// behind a `#`.
+/// The text of a scenario file that does the same as `scenario`. It contains every key; those with a default value
+/// are commented out.
 ///
 /// # Errors
 /// None, as long as scenarios can be written as JSON.
@@ -74,7 +74,7 @@ pub fn write(scenario: &Scenario, prepared: &Prepared) -> Result<String, Fault> 
     Ok(text)
 }
 
-/// What the text is made from.
+/// The sources of the text.
 struct Draft {
     schema: Value,
     values: Value,
@@ -126,7 +126,7 @@ impl Draft {
         let [own, default] = [&self.values, &self.defaults].map(|it| at(it, path));
         let is_given = own != default || path == "map";
         let value = if is_given { Some(own) } else { known.map(|it| &it.value).or(Some(own)) };
-        // Where nobody knows a value, the meaning has to do.
+        // Without a known value, the meaning is written.
         if let Some(value) = value.filter(|it| !it.is_null()) {
             let name = path.rsplit('.').next().unwrap_or(path);
             *text += &format!("{}{name} = {}\n", if is_given { "" } else { "#" }, inline(value));
@@ -135,14 +135,14 @@ impl Draft {
 
     /// The entries of a table whose keys are names.
     fn entries(&self, path: &str, text: &mut String) {
-        // Drivers of a style are few enough to be seen.
+        // The drivers of the styles: the list is short.
         if let Some(own) = at(&self.values, path).as_object().filter(|it| !it.is_empty()) {
             own.iter().for_each(|(name, value)| *text += &format!("{} = {}\n", key(name), inline(value)));
         }
         self.rows(path, text);
     }
 
-    /// What the keys of the tables in a list mean.
+    /// The meanings of the keys of the tables in a list.
     fn keys_of(&self, list: &str, path: &str, of: &Value, text: &mut String) {
         let Some(properties) = of["properties"].as_object() else { return };
         for (path, property) in sorted(path, properties) {
@@ -154,7 +154,7 @@ impl Draft {
         }
     }
 
-    /// What the map has for a table of names, or for a list, behind a `#`.
+    /// The map's values for a table of names, or for a list, commented out.
     fn rows(&self, path: &str, text: &mut String) {
         let Some(rows) = self.facts.rows.get(path) else { return };
         *text += &comment(&rows.note, "");

@@ -1,17 +1,17 @@
-//! How keys and values of a scenario read, after its schema.
+//! Texts for the keys and values of a scenario, from its schema.
 
 use serde_json::Value;
 
-/// Longest line of prose.
+/// Maximum length of a line of prose.
 const WIDTH: usize = 100;
 
-/// What a key holds.
+/// The kind of content of a key.
 pub(super) enum Kind<'a> {
     /// A plain value.
     Value,
     /// One of some words.
     Choice(&'a [Value]),
-    /// A table of one of some kinds, which one of its keys names.
+    /// A table of several kinds; one of its keys names the kind.
     Tagged(&'a [Value]),
     /// A table of keys.
     Table(&'a Value),
@@ -22,7 +22,7 @@ pub(super) enum Kind<'a> {
 }
 
 impl<'a> Kind<'a> {
-    /// The words, or the kinds of tables, to choose from.
+    /// The possible words, or the possible kinds of tables.
     pub(super) fn choices(&self) -> &'a [Value] {
         match self {
             Kind::Choice(all) | Kind::Tagged(all) => all,
@@ -31,7 +31,7 @@ impl<'a> Kind<'a> {
     }
 }
 
-/// What the key with the schema `property` holds, where `schema` has the definitions.
+/// The content of the key with the schema `property`, with the definitions in `schema`.
 pub(super) fn kind<'a>(schema: &'a Value, property: &'a Value) -> Kind<'a> {
     let of = resolved(schema, property);
     if of["properties"].is_object() {
@@ -51,7 +51,7 @@ pub(super) fn kind<'a>(schema: &'a Value, property: &'a Value) -> Kind<'a> {
     }
 }
 
-/// What a reference stands for; of something or nothing, something.
+/// The schema behind a reference; of an optional value, the schema of the value.
 fn resolved<'a>(schema: &'a Value, property: &'a Value) -> &'a Value {
     let some = property["anyOf"].as_array().and_then(|all| all.iter().find(|it| it["type"] != "null"));
     let it = some.unwrap_or(property);
@@ -59,12 +59,12 @@ fn resolved<'a>(schema: &'a Value, property: &'a Value) -> &'a Value {
     name.map_or(it, |name| &schema["$defs"][name])
 }
 
-/// What the schema says of a key.
+/// The description of a key in the schema.
 pub(super) fn meaning(property: &Value) -> String {
     property["description"].as_str().unwrap_or_default().replace('\n', " ")
 }
 
-/// One of the things to choose from, with what the schema says of it.
+/// One of the choices, with its description in the schema.
 pub(super) fn described(choice: &Value) -> String {
     let word = match choice["properties"].as_object() {
         None => inline(&choice["const"]),
@@ -87,7 +87,7 @@ pub(super) fn comment(text: &str, inset: &str) -> String {
         if line.chars().count() + 1 + word.chars().count() > WIDTH {
             lines += &line;
             lines += "\n";
-            // What goes on stands below what began.
+            // A continuation stands below the beginning.
             line = format!("#{inset}{inset}");
         }
         line += " ";
