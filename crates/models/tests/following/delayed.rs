@@ -1,5 +1,4 @@
-//! − u at its highest, u(t) = Σ_(k ≤ t) (−λ)^k (t − k)^k / k!; the next follower swings further, though gains are
-//! below 1.
+//! Drivers who react late: Newell's to the place of the leader, Herman's to its speed.
 
 use std::f64::consts::TAU;
 
@@ -79,6 +78,8 @@ fn v21_below_one_over_e_a_late_driver_does_not_oscillate() {
     let nervous = step_response(0.45, 60.0);
     assert!(!is_monotone(&nervous));
     let highest = |speeds: &[f64]| speeds.iter().copied().fold(0.0, f64::max);
+    // 1 − u at its highest, u(t) = Σ_(k ≤ t) (−λ)^k (t − k)^k / k!; the next follower swings further, though gains
+    // are below 1.
     assert_near(highest(&nervous), 1.013587, 2e-6);
     assert_near(highest(&herman(0.45, &nervous)), 1.017006, 2e-6);
 }
