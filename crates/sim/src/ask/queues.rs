@@ -6,8 +6,8 @@ use crate::demand::source::{Queue, Start};
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
-use crate::step::reserve::{Entry, applicant, entry};
+use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
+use crate::step::reserve_on_entering::{Entry, applicant, entry};
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
 

@@ -9,7 +9,7 @@ use crate::driver::window::Window;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{earlier, look, sight};
-use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
 use crate::right_of_way::survey::stop_ahead;
 use crate::state::lane::VehicleId;
 use crate::step::world::World;

@@ -20,9 +20,9 @@ use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Kind, Kinematics, LaneChangeState, Phase};
 use crate::state::moment::Moment;
+use crate::state::push_tight::push_tight;
 use crate::state::random::Purpose;
 use crate::state::standstill::STANDSTILL;
-use crate::state::tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
 /// A driver who stands this long [s], this near to the last place for a change [m], gives the change up.

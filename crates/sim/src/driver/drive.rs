@@ -10,7 +10,7 @@ use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
 use crate::state::clock::Clock;
 use crate::state::lane::{Kinematics, Lane};
-use crate::state::tight::push_tight;
+use crate::state::push_tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
 /// Accelerates and moves all vehicles of a lane.

@@ -10,7 +10,7 @@ use crate::driver::stopping::stopping_way;
 use crate::driver::window;
 use crate::junction::storage_section::StorageSection;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::conditions::Asking;
+use crate::right_of_way::may_pass::Asking;
 use crate::right_of_way::survey::is_place_ahead;
 use crate::state::clock::Clock;
 use crate::state::lane::Phase;

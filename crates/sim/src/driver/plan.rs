@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::junction::need::Survey;
 use crate::junction::storage_section::StorageSection;
-use crate::junction::waiting::Turn;
-use crate::junction::waiting::WaitingPriority;
+use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::WaitingPriority;
 use crate::record::counters::Counters;
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::incidents::Incident;

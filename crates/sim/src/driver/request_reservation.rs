@@ -6,10 +6,10 @@ use laneweave_network::{ChainIndex, LightIndex};
 
 use crate::driver::plan::{Outbox, Plan, RequestKind, ReservationRequest, Waiting};
 use crate::junction::need::Survey;
-use crate::junction::waiting::WaitingPriority;
+use crate::junction::waiting_priority::WaitingPriority;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{lets_go, sight};
-use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{sections, survey};
 use crate::right_of_way::turns::turns;

@@ -4,7 +4,7 @@ use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::look;
-use crate::right_of_way::conditions::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
 use crate::state::clock::Clock;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};

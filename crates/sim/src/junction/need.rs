@@ -3,7 +3,7 @@
 use laneweave_network::{ChainIndex, LightIndex};
 
 use crate::junction::storage_section::StorageSection;
-use crate::junction::waiting::ZoneReservation;
+use crate::junction::waiting_priority::ZoneReservation;
 
 /// Storage space that a vehicle needs beyond the zones, in addition to its length [m] (ours).
 pub(crate) const SPARE_SPACE: f64 = 2.0;

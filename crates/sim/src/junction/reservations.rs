@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::junction::need::Survey;
 use crate::junction::roundabouts::Roundabouts;
 use crate::junction::storage_section::{Numbers, StorageSection};
-use crate::junction::waiting::Turn;
-use crate::junction::waiting::{WaitingPriority, ZoneReservation};
+use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::state::clock::Clock;
 use crate::state::lane::VehicleId;
 

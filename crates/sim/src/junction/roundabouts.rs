@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::junction::need::SPARE_SPACE;
 use crate::junction::reservations::Reservations;
-use crate::junction::waiting::WaitingPriority;
+use crate::junction::waiting_priority::WaitingPriority;
 use crate::state::lane::Lane;
 
 /// A roundabout is no longer than this [m] (ours; a roundabout with two lanes has a diameter of some 60 m).

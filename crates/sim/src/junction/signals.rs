@@ -3,7 +3,7 @@
 use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Sign};
 use serde::{Deserialize, Serialize};
 
-use crate::junction::controller::Controller;
+use crate::junction::actuated_signals::Controller;
 use crate::state::clock::Clock;
 use crate::state::lane::Lane;
 

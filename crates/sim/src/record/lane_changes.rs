@@ -1,7 +1,7 @@
 //! Records of lane changes under way, in slots that are reused.
 
 use crate::record::events::LaneChange;
-use crate::state::tight::push_tight;
+use crate::state::push_tight::push_tight;
 use serde::{Deserialize, Serialize};
 
 /// The records.

@@ -4,7 +4,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
 
 use crate::junction::reservations::Reservation;
-use crate::junction::waiting::ZoneReservation;
+use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead, stops_before};
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;

@@ -5,7 +5,7 @@ use laneweave_network::ZoneKind;
 
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
-use crate::junction::waiting::ZoneReservation;
+use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::leader_into;
 use crate::right_of_way::survey::ROUNDING;

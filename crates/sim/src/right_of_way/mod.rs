@@ -12,7 +12,7 @@
 
 pub(crate) mod applicant;
 pub(crate) mod approach;
-pub(crate) mod conditions;
+pub(crate) mod may_pass;
 pub(crate) mod mergers;
 pub(crate) mod oncoming;
 pub(crate) mod storage_space;

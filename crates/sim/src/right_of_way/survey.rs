@@ -8,7 +8,7 @@ use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign
 
 use crate::junction::need::{SPARE_SPACE, Survey};
 use crate::junction::storage_section::StorageSection;
-use crate::junction::waiting::ZoneReservation;
+use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::storage_space::{Beyond, SPACE_SIGHT, space};
 use crate::route::walk::Leg;

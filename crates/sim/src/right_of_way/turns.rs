@@ -8,8 +8,8 @@ use laneweave_network::{ZoneIndex, ZoneKind};
 
 use crate::junction::need::SPARE_SPACE;
 use crate::junction::reservations::Reservation;
-use crate::junction::waiting::Turn;
-use crate::junction::waiting::{WaitingPriority, ZoneReservation};
+use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::LONG;
 use crate::view::scene::Scene;

@@ -7,7 +7,7 @@ pub(crate) mod links;
 pub(crate) mod navigate;
 pub(crate) mod onward;
 pub(crate) mod place;
-pub(crate) mod renew;
+pub(crate) mod renew_routes;
 pub(crate) mod roads;
 pub(crate) mod walk;
 pub(crate) mod waypoint;

@@ -13,7 +13,7 @@ use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::links::Links;
 use crate::route::onward::Onward;
 use crate::route::place::{InnerPlace, Place};
-use crate::route::renew::is_planned;
+use crate::route::renew_routes::is_planned;
 use crate::route::walk::Walk;
 use crate::route::waypoint::Waypoint;
 use crate::route::ways::{Into, Planner, beside_into, wander};

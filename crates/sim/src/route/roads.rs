@@ -9,7 +9,7 @@ use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
-use crate::route::renew::Guided;
+use crate::route::renew_routes::Guided;
 use crate::state::clock::Clock;
 use crate::state::lane::Lane;
 use crate::state::random::Random;

@@ -1,6 +1,6 @@
 //! The state as plain data: vehicles, lanes, time and random numbers.
 
-pub(crate) mod busy;
+pub(crate) mod busy_lanes;
 pub(crate) mod clock;
 pub(crate) mod gamma;
 pub(crate) mod goal;
@@ -9,9 +9,9 @@ pub(crate) mod moment;
 pub(crate) mod normal;
 pub(crate) mod prefetch;
 pub(crate) mod previous_lanes;
+pub(crate) mod push_tight;
 pub(crate) mod random;
 pub(crate) mod setup;
 pub(crate) mod standstill;
-pub(crate) mod tight;
 pub(crate) mod traffic;
 pub(crate) mod vehicle;

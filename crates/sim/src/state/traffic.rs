@@ -3,7 +3,7 @@
 use laneweave_network::ChainIndex;
 use serde::{Deserialize, Serialize};
 
-use crate::state::busy::Busy;
+use crate::state::busy_lanes::Busy;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Entry, Lane, LaneChangeState};

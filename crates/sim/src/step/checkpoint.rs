@@ -12,7 +12,7 @@ use crate::junction::state::JunctionState;
 use crate::record::counters::Counters;
 use crate::record::log::Log;
 use crate::route::guidance::Guidance;
-use crate::route::renew::Guided;
+use crate::route::renew_routes::Guided;
 use crate::route::roads::Roads;
 use crate::state::goal::Destination;
 use crate::state::lane::Lane;

@@ -14,13 +14,13 @@ use crate::junction::need::Survey;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::right_of_way::approach::sight;
-use crate::right_of_way::conditions::Hindrance;
+use crate::right_of_way::may_pass::Hindrance;
 use crate::right_of_way::survey::stop_ahead;
 use crate::route::roads::Roads;
 use crate::state::setup::NewVehicle;
 use crate::state::traffic::Traffic;
-use crate::step::put::{Named, put};
-use crate::step::reserve::{Entry, applicant, entry, reserve};
+use crate::step::put_vehicle::{Named, put};
+use crate::step::reserve_on_entering::{Entry, applicant, entry, reserve};
 use crate::step::work::Work;
 use crate::view::scene::{Found, Scene, nearer};
 

@@ -4,11 +4,11 @@
 
 use crate::driver::plan::ReservationRequest;
 use crate::junction::need::Survey;
-use crate::junction::waiting::ZoneReservation;
+use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::conditions::Asking;
+use crate::right_of_way::may_pass::Asking;
 use crate::state::standstill::STANDS;
-use crate::step::granting::Granting;
+use crate::step::grant_reservations::Granting;
 use crate::view::scene::{Scene, Spot};
 
 /// Largest number of standing vehicles from one waiting driver to the next in a cycle.

@@ -17,14 +17,14 @@ use crate::state::setup::Setup;
 use crate::state::traffic::Traffic;
 use crate::step::enter::enter;
 use crate::step::gather::gather;
-use crate::step::granting::{advance_reservations, grant_reservations};
+use crate::step::grant_reservations::{advance_reservations, grant_reservations};
 use crate::step::guide::guide;
-use crate::step::lights::switch_lights;
-use crate::step::milestones::note_milestones;
 use crate::step::move_all::move_all;
+use crate::step::note_incidents::note_incidents;
+use crate::step::note_milestones::note_milestones;
 use crate::step::resolve::resolve;
+use crate::step::switch_lights::switch_lights;
 use crate::step::transfer::transfer;
-use crate::step::watch::note_incidents;
 use crate::step::work::Work;
 use crate::view::scene::Scene;
 

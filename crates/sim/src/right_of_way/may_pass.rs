@@ -7,8 +7,8 @@ use laneweave_network::{Precedence, ZoneKind};
 
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
-use crate::junction::waiting::Turn;
-use crate::junction::waiting::{WaitingPriority, ZoneReservation};
+use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{LONG, leader_into, lets_go};
 use crate::right_of_way::oncoming::lag;
