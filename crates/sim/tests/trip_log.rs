@@ -88,7 +88,7 @@ fn in_a_town_the_records_add_up_to_what_the_world_counts() {
 }
 
 #[test]
-fn without_a_journal_nothing_is_recorded_and_traffic_is_the_same() {
+fn without_a_trip_log_nothing_is_recorded_and_traffic_is_the_same() {
     let plain = || {
         let network = Road { lanes: 2, length: 2000.0, ..Road::default() }.network();
         let demand = drivers::demand(&network, 3000.0, 0.1, &[0.3, 0.7]);
