@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use laneweave_models::Concentration;
-use laneweave_models::change::{GapPair, LaneChangeModel, Refusal, Row, time_to_collision};
+use laneweave_models::change::{
+    Appraisal, GapPair, LaneChangeModel, Mcdm, Refusal, Row, Rule, time_to_collision,
+};
 use laneweave_network::{Network, Position, Side};
 use laneweave_sim::{Account, Act, Hindrance, Kind, SideAccount};
 use laneweave_study::units::KMH_PER_MPS;
@@ -55,8 +57,7 @@ fn stays(account: &Account) -> String {
     let Row { earning, weight } = best.appraisal.rows[worst(best)];
     let product = weight * earning;
     let against = account.change.row_names()[worst(best)];
-    let gain =
-        format!("G = {:.3} to the {side} is not above θ = {:.3}", best.appraisal.gain, best.appraisal.theta);
+    let gain = gain(account, best);
     if is_by_chance(account, best) {
         return format!(
             "stays by chance: G = {:.3} to the {side}, θ = {:.3}; the desire had the probability {:.2} and did not occur",
@@ -67,6 +68,20 @@ fn stays(account: &Account) -> String {
         return format!("stays: {gain}; the strongest incentive against it is {against} ({product:.3})");
     }
     format!("stays: {gain}")
+}
+
+/// What the gain of a side means for the desire: a probability by the stochastic rule, a threshold by all others.
+fn gain(account: &Account, best: &SideAccount) -> String {
+    let (side, Appraisal { gain, theta, .. }) = (name(best.side), best.appraisal);
+    match &*account.change {
+        LaneChangeModel::Mcdm(Mcdm { rule: Rule::Logit, .. }) => {
+            let chance = best.chance;
+            format!(
+                "G = {gain:.3} to the {side} with θ = {theta:.3}: a desire had the probability {chance:.4} and did not occur"
+            )
+        }
+        _ => format!("G = {gain:.3} to the {side} is not above θ = {theta:.3}"),
+    }
 }
 
 /// Why a driver stays or waits, in a few words that are the same for many drivers.

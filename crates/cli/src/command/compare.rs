@@ -92,9 +92,12 @@ impl Arguments {
         for (input, scenario, origin, seeds) in asked {
             let comparison = compare(&scenario, &origin, &models, &seeds, threads)?;
             let text = format!(
-                "{input}, {} s, {} seeds: means with 95 % intervals\n{}\n",
+                "{input}, {} s, {}: means with 95 % intervals\n{}\n",
                 scenario.run.duration_s,
-                seeds.len(),
+                match seeds.len() {
+                    1 => "1 seed (at least 2 are needed for an interval)".into(),
+                    count => format!("{count} seeds"),
+                },
                 comparison.to_text()
             );
             said = said.and_then(|()| say(&text));

@@ -181,7 +181,7 @@ impl Differences {
             let mean = later.iter().sum::<f64>() / later.len() as f64;
             facts.push((
                 "trips in both",
-                format!("{} vehicles, {} s later on average", later.len(), signed(mean, 2)),
+                format!("{} vehicles, on average {:.2} s {}", later.len(), mean.abs(), when(mean)),
             ));
         }
         facts
@@ -191,6 +191,11 @@ impl Differences {
     pub(super) fn later(&self) -> impl Iterator<Item = f64> {
         self.left.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?))
     }
+}
+
+/// Whether so many seconds are later or earlier.
+fn when(seconds: f64) -> &'static str {
+    if seconds < 0.0 { "earlier" } else { "later" }
 }
 
 fn state(it: laneweave_sim::Vehicle) -> State {

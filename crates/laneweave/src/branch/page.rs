@@ -24,8 +24,8 @@ pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &
     let mut figures = in_time(differences).to_vec();
     figures.extend(later(differences));
     let lanes = ["base", "branch"].into_iter().zip(&twins.lanes);
-    let lanes =
-        lanes.filter_map(|(name, lane)| time_and_space(lane.as_ref()?, format!("Time and space {name}")));
+    let lanes = lanes
+        .filter_map(|(name, lane)| time_and_space(lane.as_ref()?, format!("Time–space diagram, {name}")));
     Page::new("Twins: the effect of one change", lead)
         .section(Section::new("what", "What differs").facts(facts))
         .section(

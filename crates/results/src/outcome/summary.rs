@@ -258,7 +258,7 @@ impl Summary {
         line("route changes", self.route_changes.to_string());
         line("safety", self.safety());
         self.first_incident.iter().for_each(|it| line("first incident", it.to_text()));
-        line("speed", self.pace_text());
+        line("run time", self.pace_text());
         line("state hash", self.state_hash.clone());
         for (index, file) in files.iter().enumerate() {
             line(if index == 0 { "files" } else { "" }, file.display().to_string());

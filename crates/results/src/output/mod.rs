@@ -1,5 +1,7 @@
 //! The output of a run: tables, figures, a report and a summary. An observer makes each of them; it reads the world
 //! and never writes it.
+//!
+//! A new output is a file here, a line in `observers.rs`, and its name in [`crate::folder::RESULTS`].
 
 mod batch;
 mod folder;

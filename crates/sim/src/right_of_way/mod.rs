@@ -7,8 +7,10 @@
 //! after the other, so the order is the same in all zones. Therefore some vehicle can always go on, and there is no
 //! deadlock within a junction.
 //!
-//! Drivers decide who goes first before that: by lights and signs, by the lag to vehicles with priority
-//! (`laneweave_models::yielding`), then by waiting time. No driver has to wait for a driver who could not go yet.
+//! Drivers decide who goes first before that (`may_pass.rs`; which movement has priority at all is settled once for a
+//! network, in `junction/precedence.rs` of `laneweave_network`): by lights and signs, by the lag to vehicles with
+//! priority (`laneweave_models::yielding`), then by waiting time. No driver has to wait for a driver who could not go
+//! yet.
 
 pub(crate) mod applicant;
 pub(crate) mod approach;

@@ -1,4 +1,5 @@
-//! The lights switch.
+//! The lights switch. What they show is in `junction/signals.rs`, and actuated ones are in
+//! `junction/actuated_signals.rs`.
 
 use crate::junction::state::JunctionState;
 use crate::route::roads::Roads;
