@@ -6,7 +6,7 @@ use crate::demand::source::{Queue, Start};
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, PassHindrance, may_pass};
 use crate::step::reserve_on_entering::{Entry, applicant, entry};
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
@@ -79,9 +79,9 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
         return Some(Held::Space);
     }
     match entry(&scene, queue, first, world.clock(), &mut Survey::default()) {
-        Entry::Refused(Hindrance::Light) => return Some(Held::RedLight),
-        Entry::Refused(Hindrance::Sign | Hindrance::Others) => return Some(Held::Priority),
-        Entry::Refused(Hindrance::Space | Hindrance::Roundabout) => return Some(Held::Space),
+        Entry::Refused(PassHindrance::Light) => return Some(Held::RedLight),
+        Entry::Refused(PassHindrance::Sign | PassHindrance::Others) => return Some(Held::Priority),
+        Entry::Refused(PassHindrance::Space | PassHindrance::Roundabout) => return Some(Held::Space),
         Entry::Free | Entry::Reserved { .. } => {}
     }
     let from = scene.viewpoint_at(applicant(&scene, queue, first).from, queue.chain, queue.start.station());
@@ -101,9 +101,9 @@ fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
     let applicant = Applicant::at(scene, spot);
     match may_pass(scene, &applicant, &survey, Asking::of(&applicant, waiting.since, world.clock())) {
         Ok(()) => Held::Queue,
-        Err(Hindrance::Light) => Held::RedLight,
-        Err(Hindrance::Sign | Hindrance::Others) => Held::Priority,
-        Err(Hindrance::Space | Hindrance::Roundabout) => Held::Space,
+        Err(PassHindrance::Light) => Held::RedLight,
+        Err(PassHindrance::Sign | PassHindrance::Others) => Held::Priority,
+        Err(PassHindrance::Space | PassHindrance::Roundabout) => Held::Space,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::driver::window::Window;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{earlier, look, sight};
-use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, PassHindrance, may_pass};
 use crate::right_of_way::survey::stop_ahead;
 use crate::state::lane::VehicleId;
 use crate::step::world::World;
@@ -110,14 +110,14 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
     let asking = Asking::of(&applicant, since, world.clock());
     let why = match may_pass(scene, &applicant, &survey, asking) {
         Ok(()) => return StandsFor::Nothing,
-        Err(Hindrance::Light) => {
+        Err(PassHindrance::Light) => {
             let light = survey.lights.last().map(|it| scene.network.junctions.lights[it.0.at()].id);
             return light.map_or(StandsFor::Nothing, StandsFor::Light);
         }
-        Err(Hindrance::Sign) => return StandsFor::StopSign,
-        Err(Hindrance::Space) => JunctionHindrance::Space,
-        Err(Hindrance::Roundabout) => JunctionHindrance::Roundabout,
-        Err(Hindrance::Others) => JunctionHindrance::Others,
+        Err(PassHindrance::Sign) => return StandsFor::StopSign,
+        Err(PassHindrance::Space) => JunctionHindrance::Space,
+        Err(PassHindrance::Roundabout) => JunctionHindrance::Roundabout,
+        Err(PassHindrance::Others) => JunctionHindrance::Others,
     };
     let zones = &scene.network.junctions.zones;
     let areas =

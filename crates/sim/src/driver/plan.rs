@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::junction::need::Survey;
 use crate::junction::storage_section::StorageSection;
-use crate::junction::waiting_priority::Turn;
 use crate::junction::waiting_priority::WaitingPriority;
+use crate::junction::waiting_priority::WaitingTurn;
 use crate::record::counters::Counters;
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::incidents::Incident;
@@ -69,7 +69,7 @@ pub(crate) struct Outbox {
     /// Drivers who stand because they have no storage space beyond a junction.
     pub(crate) blocked: Vec<ReservationRequest>,
     /// Turns of drivers who wait for a side of a zone because of others.
-    pub(crate) priorities: Vec<(ZoneIndex, u8, Turn)>,
+    pub(crate) priorities: Vec<(ZoneIndex, u8, WaitingTurn)>,
     /// Space requests of drivers out of patience: the storage section, and the space that they need there [m].
     pub(crate) space_requests: Vec<(StorageSection, WaitingPriority, f64)>,
     /// Drivers out of patience who wait to enter a roundabout, each from one chain to another.

@@ -9,7 +9,7 @@ use crate::junction::need::Survey;
 use crate::junction::waiting_priority::WaitingPriority;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{lets_go, sight};
-use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, PassHindrance, may_pass};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{sections, survey};
 use crate::right_of_way::turns::turns;
@@ -59,14 +59,14 @@ pub(crate) fn request_reservations(
                 x: motion.x,
                 what: RequestKind::Pass,
             }),
-            Err(Hindrance::Others) => {
+            Err(PassHindrance::Others) => {
                 outbox.priorities.extend(turns(scene, &applicant, &outbox.survey.holds, asking.priority));
             }
-            Err(hindrance @ (Hindrance::Space | Hindrance::Roundabout)) => {
+            Err(hindrance @ (PassHindrance::Space | PassHindrance::Roundabout)) => {
                 if !asking.priority.is_patient {
                     request_space(scene, spot, asking.priority, outbox);
                 }
-                if hindrance == Hindrance::Space && motion.speed < STANDS {
+                if hindrance == PassHindrance::Space && motion.speed < STANDS {
                     let Waiting { since, id, .. } = *waiting;
                     outbox.blocked.push(ReservationRequest {
                         since,
@@ -77,11 +77,11 @@ pub(crate) fn request_reservations(
                     });
                 }
             }
-            Err(Hindrance::Light) if starves(scene, asking, &outbox.survey) => {
+            Err(PassHindrance::Light) if starves(scene, asking, &outbox.survey) => {
                 survey_at(scene, &applicant, |_, _| false, &mut outbox.survey);
                 request_space(scene, spot, asking.priority, outbox);
             }
-            Err(Hindrance::Light | Hindrance::Sign) => {}
+            Err(PassHindrance::Light | PassHindrance::Sign) => {}
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::look;
-use crate::right_of_way::may_pass::{Asking, Hindrance, may_pass};
+use crate::right_of_way::may_pass::{Asking, PassHindrance, may_pass};
 use crate::state::clock::Clock;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};
@@ -62,13 +62,13 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
     }
     let applicant = Applicant::at(scene, at);
     match may_pass(scene, &applicant, survey, Asking::of(&applicant, clock.step, clock)) {
-        Err(Hindrance::Space | Hindrance::Roundabout) => on_way(),
-        Err(Hindrance::Light) => {
+        Err(PassHindrance::Space | PassHindrance::Roundabout) => on_way(),
+        Err(PassHindrance::Light) => {
             let since = |it| f64::from(clock.step - scene.signals.green_at(it, clock)) * clock.dt;
             let was_green = survey.lights.iter().all(|(it, _)| since(*it) <= RECENTLY);
             if was_green { Blocker::Light } else { Blocker::Other }
         }
         Ok(()) => Blocker::Nothing,
-        Err(Hindrance::Sign | Hindrance::Others) => Blocker::Other,
+        Err(PassHindrance::Sign | PassHindrance::Others) => Blocker::Other,
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::junction::need::Survey;
 use crate::junction::roundabouts::Roundabouts;
 use crate::junction::storage_section::{Numbers, StorageSection};
-use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::state::clock::Clock;
 use crate::state::lane::VehicleId;
@@ -22,7 +22,7 @@ pub struct Reservations {
     /// For each zone the vehicles that may pass it, in the order in which they pass.
     queues: Vec<Vec<Holder>>,
     /// For each zone and side the turn of the vehicle that has waited longest for it.
-    priorities: Vec<[Option<Turn>; 2]>,
+    priorities: Vec<[Option<WaitingTurn>; 2]>,
     noted_on: Vec<ZoneIndex>,
     numbers: Numbers,
     /// For each storage section the impatient vehicle that has waited longest for space on it, and the space it needs
@@ -143,7 +143,7 @@ impl Reservations {
     }
 
     /// The turn of the vehicle that has waited longest on `side` of `zone`.
-    pub(crate) fn priority(&self, zone: ZoneIndex, side: u8) -> Option<Turn> {
+    pub(crate) fn priority(&self, zone: ZoneIndex, side: u8) -> Option<WaitingTurn> {
         self.priorities.get(zone.at()).and_then(|it| it[usize::from(side)])
     }
 
@@ -164,7 +164,7 @@ impl Reservations {
     }
 
     /// Records the turn of a vehicle that waits for a side of a zone.
-    pub(crate) fn note_priority(&mut self, zone: ZoneIndex, side: u8, turn: Turn) {
+    pub(crate) fn note_priority(&mut self, zone: ZoneIndex, side: u8, turn: WaitingTurn) {
         let noted = &mut self.priorities[zone.at()];
         if noted.iter().all(Option::is_none) {
             self.noted_on.push(zone);

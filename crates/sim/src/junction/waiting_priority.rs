@@ -27,7 +27,7 @@ pub(crate) struct WaitingPriority {
 
 /// The turn that a waiting driver requests on a side of a zone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Turn {
+pub(crate) struct WaitingTurn {
     pub(crate) priority: WaitingPriority,
     /// Time until its vehicle can be there: vehicles with reservations delay it, and it has to drive there [s].
     pub(crate) begins: f64,

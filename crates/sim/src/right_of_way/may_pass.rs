@@ -7,7 +7,7 @@ use laneweave_network::{Precedence, ZoneKind};
 
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
-use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{LONG, leader_into, lets_go};
@@ -18,7 +18,7 @@ use crate::view::scene::Scene;
 
 /// Why a driver may not pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Hindrance {
+pub(crate) enum PassHindrance {
     /// A light is not green.
     Light,
     /// It has not stopped yet at a stop sign.
@@ -78,17 +78,17 @@ pub(crate) fn may_pass(
     applicant: &Applicant,
     survey: &Survey,
     asking: Asking,
-) -> Result<(), Hindrance> {
+) -> Result<(), PassHindrance> {
     let speed = applicant.speed;
     if !survey.lights.iter().all(|(light, at)| lets_go(scene, *light, *at, speed)) {
-        return Err(Hindrance::Light);
+        return Err(PassHindrance::Light);
     }
     if survey.has_stop_sign && (speed > STOPPED || survey.stop > AT_THE_LINE) {
-        return Err(Hindrance::Sign);
+        return Err(PassHindrance::Sign);
     }
     let (Scene { reservations, lanes, .. }, way) = (*scene, [applicant.from.chain, survey.section.chain]);
     if reservations.roundabouts.is_closed(reservations, lanes, way, asking.priority, survey.needed) {
-        return Err(Hindrance::Roundabout);
+        return Err(PassHindrance::Roundabout);
     }
     // An impatient driver leaves no space: the vehicles with priority may all wait for the driver who would take it.
     let leaves_room = asking.priority.is_patient && !reservations.roundabouts.is_entered(way);
@@ -98,12 +98,12 @@ pub(crate) fn may_pass(
     let yields_room =
         || leaves_room && lacks(ROOM_FOR_ANOTHER) && survey.holds.iter().any(|it| gives_way(scene, it));
     if lacks(0.0) || yields_room() {
-        return Err(Hindrance::Space);
+        return Err(PassHindrance::Space);
     }
     if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking)) {
         Ok(())
     } else {
-        Err(Hindrance::Others)
+        Err(PassHindrance::Others)
     }
 }
 
@@ -121,7 +121,7 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     let other_side = 1 - hold.side;
     let matters = |is_long: bool| zone.touch.is_of([asking.priority.is_long, is_long]);
     let turn = scene.reservations.priority(hold.zone, other_side).filter(|it| matters(it.priority.is_long));
-    let waits_for = |it: &Turn| {
+    let waits_for = |it: &WaitingTurn| {
         goes_first(zone.precedence, other_side, it.priority, asking)
             && !is_out_before(scene, applicant, hold, it)
     };

@@ -8,7 +8,7 @@ use laneweave_network::{ZoneIndex, ZoneKind};
 
 use crate::junction::need::SPARE_SPACE;
 use crate::junction::reservations::Reservation;
-use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::LONG;
@@ -27,11 +27,11 @@ pub(crate) fn turns(
     applicant: &Applicant,
     holds: &[ZoneReservation],
     priority: WaitingPriority,
-) -> impl Iterator<Item = (ZoneIndex, u8, Turn)> {
+) -> impl Iterator<Item = (ZoneIndex, u8, WaitingTurn)> {
     let held_up = holds.iter().map(|it| held_up(scene, applicant, it, priority)).fold(0.0, f64::max);
     holds.iter().map(move |it| {
         let begins = held_up + arrival(scene, applicant, it);
-        (it.zone, it.side, Turn { priority, begins })
+        (it.zone, it.side, WaitingTurn { priority, begins })
     })
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn is_out_before(
     scene: &Scene,
     applicant: &Applicant,
     hold: &ZoneReservation,
-    turn: &Turn,
+    turn: &WaitingTurn,
 ) -> bool {
     let out = applicant.time_to(departure(scene, hold, applicant.length));
     turn.priority.is_patient && out <= turn.begins + COURTESY

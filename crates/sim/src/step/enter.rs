@@ -14,7 +14,7 @@ use crate::junction::need::Survey;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::right_of_way::approach::sight;
-use crate::right_of_way::may_pass::Hindrance;
+use crate::right_of_way::may_pass::PassHindrance;
 use crate::right_of_way::survey::stop_ahead;
 use crate::route::roads::Roads;
 use crate::state::setup::NewVehicle;
@@ -66,7 +66,7 @@ impl Entering<'_> {
     fn let_in(&mut self, origin: usize, queue: &mut Queue, place: usize, survey: &mut Survey) -> bool {
         let clock = self.traffic.clock();
         let needs = entry(&self.scene(), queue, &queue.waiting[place], clock, survey);
-        if let Entry::Refused(Hindrance::Others) = needs {
+        if let Entry::Refused(PassHindrance::Others) = needs {
             queue.asks_since.get_or_insert(clock.step);
         }
         let admitted = admit(&self.scene(), clock.dt, queue, &queue.waiting[place], needs);

@@ -8,11 +8,11 @@ use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservations;
-use crate::junction::waiting_priority::Turn;
+use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::lets_go;
-use crate::right_of_way::may_pass::{Asking, Hindrance, leader_of, may_pass};
+use crate::right_of_way::may_pass::{Asking, PassHindrance, leader_of, may_pass};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
 use crate::right_of_way::turns::turns;
@@ -36,7 +36,7 @@ pub(crate) enum Entry {
         ahead: Option<Ahead>,
     },
     /// It cannot enter now, for this reason.
-    Refused(Hindrance),
+    Refused(PassHindrance),
 }
 
 /// The vehicle of `arrival` as an applicant that waits before the lane of `queue`.
@@ -77,7 +77,7 @@ pub(crate) fn entry(
     match may {
         Err(why) => Entry::Refused(why),
         Ok(()) if !is_free(scene, out, reach) || !are_led_on(scene, &applicant, out) => {
-            Entry::Refused(Hindrance::Others)
+            Entry::Refused(PassHindrance::Others)
         }
         Ok(()) => {
             let ahead = leader_of(scene, out).map(|it| Ahead { gap: it.gap - WAITS_BEFORE - length, ..it });
@@ -110,7 +110,7 @@ pub(crate) fn priorities_at_entrances(
     scene: &Scene,
     arrivals: &Arrivals,
     clock: Clock,
-    priorities: &mut Vec<(ZoneIndex, u8, Turn)>,
+    priorities: &mut Vec<(ZoneIndex, u8, WaitingTurn)>,
     out: &mut Survey,
 ) {
     let queues = arrivals.sources().iter().flat_map(|it| it.lanes());
