@@ -116,3 +116,13 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
     );
     assert!(refusal(|text| text.replace("model = \"idm\"", "")).contains("the key follow.model is missing"));
 }
+
+#[test]
+fn a_new_style_names_its_lateral_model_and_an_unknown_one_is_refused() {
+    assert_eq!(
+        refusal(|text| text.replace("lateral = \"quintic\"", "lateral = \"linaer\"")).split(": ").nth(2),
+        Some("unknown value \"linaer\"; known are quintic")
+    );
+    let wrong_type = refusal(|text| text.replace("lateral = \"quintic\"", "lateral = 3"));
+    assert!(wrong_type.ends_with("manner.lateral is an integer; give a string"), "{wrong_type}");
+}

@@ -240,8 +240,8 @@ impl Reader<'_> {
                 Err(self.fault(format!("{} is not a number", self.key()), remedy))
             }
             (default, found) => {
-                let what = format!("{} is a {}", self.key(), found.type_str());
-                Err(self.fault(what, format!("give a {}", default.type_str())))
+                let what = format!("{} is {}", self.key(), with_article(found.type_str()));
+                Err(self.fault(what, format!("give {}", with_article(default.type_str()))))
             }
         }
     }
@@ -281,6 +281,12 @@ impl Reader<'_> {
         let path: Vec<&str> = self.path.iter().map(String::as_str).collect();
         Fault::new(self.source.place(&path), what, remedy)
     }
+}
+
+/// A noun with its article.
+fn with_article(noun: &str) -> String {
+    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {noun}")
 }
 
 #[cfg(test)]
