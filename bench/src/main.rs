@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::network::{ChainIndex, Network, Position};
-use laneweave::sim::{Class, Demand, NewVehicle, Purpose, Random, Setup, World};
+use laneweave::sim::{Class, Demand, Placement, Purpose, Random, Setup, World};
 use laneweave::style::Population;
 use laneweave_bench::machine::{round_trip, spin_until};
 use laneweave_bench::{Rates, say};
@@ -196,7 +196,7 @@ fn fill(world: &mut World) {
         let parameters = (draw(Purpose::Character) * 512.0) as u32;
         let is_aggressive = draw(Purpose::Style) < 1.0 / 8.4;
         world
-            .place(NewVehicle {
+            .place(Placement {
                 chain,
                 x,
                 speed: SPEED,

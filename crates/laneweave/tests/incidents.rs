@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
 use laneweave::output::{Inputs, Provenance, Summary, observers};
 use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
-use laneweave::sim::{Class, NewVehicle};
+use laneweave::sim::{Class, Placement};
 use laneweave::simulation::simulate;
 
 /// A run of half a minute on two lanes, with only the vehicles that the test places there; in a temporary folder.
@@ -42,7 +42,7 @@ impl Run {
         for x in [102.5, 100.0, 500.0] {
             prepared
                 .world
-                .place(NewVehicle {
+                .place(Placement {
                     chain,
                     x,
                     speed: 20.0,

@@ -8,7 +8,7 @@ use std::path::Path;
 use laneweave::maps::{ReadOptions, load};
 use laneweave::network::{ChainIndex, Network};
 use laneweave::sim::{
-    Class, Demand, Event, Kind, NewVehicle, Phase, Rate, Setup, Share, Vehicle, VehicleId, World,
+    Class, Demand, Event, Kind, Phase, Placement, Rate, Setup, Share, Vehicle, VehicleId, World,
 };
 use laneweave::study::{Interval, mean};
 use laneweave::style::{Population, StyleTemplate, find};
@@ -118,7 +118,7 @@ fn gap_when_noticed(style: &str, seed: u64) -> f64 {
     let mut put = |x, speed, class, parameters| {
         let (chain, destination) = (ChainIndex(0), Some(0));
         world
-            .place(NewVehicle { chain, x, speed, class, parameters, destination })
+            .place(Placement { chain, x, speed, class, parameters, destination })
             .expect("it fits on the road")
     };
     let mut coming = Vec::new();
@@ -234,7 +234,7 @@ fn vehicles_that_merge_lose_less_speed_beside_altruists_than_beside_egoists() {
             let mut lost = Sum::default();
             for number in 0..60 {
                 world
-                    .place(NewVehicle {
+                    .place(Placement {
                         chain: ramp,
                         x: 5.0,
                         speed: 15.0,

@@ -27,6 +27,8 @@ pub struct Network {
     pub junctions: Junctions,
     /// For each lanelet where it starts.
     starts: Vec<Position>,
+    /// The lanelets in the order of their ids.
+    by_id: Vec<LaneletIndex>,
 }
 
 /// Why lanelets do not make a network.
@@ -92,8 +94,10 @@ impl Network {
         let start =
             |(chain, number): &(ChainIndex, usize)| Position::new(*chain, chains[chain.at()].starts[*number]);
         let starts = place.iter().map(start).collect();
+        let mut by_id: Vec<LaneletIndex> = (0..lanelets.len() as u32).map(LaneletIndex).collect();
+        by_id.sort_by_key(|it| lanelets[it.at()].id);
         let junctions = Junctions::default();
-        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions, starts })
+        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions, starts, by_id })
     }
 
     /// The same network with its junctions, at which `regulations` hold.
@@ -189,6 +193,12 @@ impl Network {
     #[inline]
     pub fn start_of(&self, lanelet: LaneletIndex) -> Position {
         self.starts[lanelet.at()]
+    }
+
+    /// The lanelet with this id; of several ones the first.
+    pub fn lanelet_with(&self, id: i64) -> Option<LaneletIndex> {
+        let place = self.by_id.partition_point(|it| self.lanelets[it.at()].id < id);
+        self.by_id.get(place).copied().filter(|it| self.lanelets[it.at()].id == id)
     }
 
     /// The lanelet at a place on a chain, and how far along it that is [m].

@@ -10,7 +10,7 @@ use laneweave_maps::generate::{Grid, grid};
 use laneweave_maps::regulations;
 use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network, SignalPlan};
-use laneweave_sim::{Class, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Placement, Setup, World};
 use roads::{Road, drivers};
 
 /// The system's allocator, which counts the allocations of this thread.
@@ -70,7 +70,7 @@ fn steps_of_traffic_that_stays_in_its_lanes_allocate_nothing() {
         let (chain, parameters) = (ChainIndex(0), number % 2);
         let class = if number % 10 == 0 { Class::Truck } else { Class::Car };
         world
-            .place(NewVehicle { chain, x, speed: 15.0, class, parameters, destination: None })
+            .place(Placement { chain, x, speed: 15.0, class, parameters, destination: None })
             .expect("it fits on the road");
     }
     (0..600).for_each(|_| world.step());

@@ -6,7 +6,7 @@ use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::change::{ConstantHazard, LaneChangeModel, Mcdm, Rule, Speed};
 use laneweave_models::{Alertness, Attention, Style};
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, Demand, NewVehicle, Phase, Setup, VehicleId, World};
+use laneweave_sim::{Class, Demand, Phase, Placement, Setup, VehicleId, World};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -25,7 +25,7 @@ fn world(network: Network, styles: Vec<Style>, demand: Demand) -> World {
 
 fn put(world: &mut World, chain: u32, x: f64, speed: f64, parameters: u32) -> VehicleId {
     let (chain, class, destination) = (ChainIndex(chain), Class::Car, Some(0));
-    world.place(NewVehicle { chain, x, speed, class, parameters, destination }).expect("it fits on the road")
+    world.place(Placement { chain, x, speed, class, parameters, destination }).expect("it fits on the road")
 }
 
 /// The state of a driver that tests follow.

@@ -10,7 +10,7 @@ use laneweave_models::change::{
 use laneweave_models::follow::{FollowingModel, Fvdm, Pace};
 use laneweave_models::{Manner, Reading};
 use laneweave_network::ChainIndex;
-use laneweave_sim::{Class, Event, LaneChange, NewVehicle, Phase, Setup, World};
+use laneweave_sim::{Class, Event, LaneChange, Phase, Placement, Setup, World};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -116,7 +116,7 @@ fn v37_identical_drivers_in_equilibrium_on_equal_lanes_feel_no_desire() {
             let mut world = World::new(network, vec![threshold(style.clone(), 0.0)], nobody, setup).unwrap();
             for number in 0..2 * CARS {
                 world
-                    .place(NewVehicle {
+                    .place(Placement {
                         chain: ChainIndex((number % 2) as u32),
                         x: ((number / 2) as f64 + if number % 2 == 1 { ahead } else { 0.0 }) * spacing + 1.0,
                         speed: SPEED,
@@ -156,7 +156,7 @@ fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
             let destination = Some(0);
             let class = Class::Car;
             world
-                .place(NewVehicle { chain, x: x - start, speed: 20.0, class, parameters: 0, destination })
+                .place(Placement { chain, x: x - start, speed: 20.0, class, parameters: 0, destination })
                 .expect("it fits on the road");
         }
         let steps_per_epoch = world.clock().steps(1.0);
@@ -238,7 +238,7 @@ fn held_up(style: Style, lanes: usize, seed: u64) -> World {
 
 fn put(world: &mut World, lane: u32, x: f64, speed: f64, parameters: u32) {
     let (chain, class, destination) = (ChainIndex(lane), Class::Car, Some(0));
-    world.place(NewVehicle { chain, x, speed, class, parameters, destination }).expect("it fits on the road");
+    world.place(Placement { chain, x, speed, class, parameters, destination }).expect("it fits on the road");
 }
 
 fn phase_of_the_first(world: &World) -> Phase {
@@ -331,7 +331,7 @@ fn truck_beside(passing: Style) -> World {
         .expect("the set-up makes sense");
     let mut put = |chain, x, speed, class, parameters| {
         world
-            .place(NewVehicle { chain, x, speed, class, parameters, destination: Some(0) })
+            .place(Placement { chain, x, speed, class, parameters, destination: Some(0) })
             .expect("it fits on the road")
     };
     put(ChainIndex(0), END - 18.0, 0.0, Class::Truck, 0);

@@ -8,7 +8,7 @@ use std::path::Path;
 use laneweave_maps::{Map, ReadOptions, load, regulations};
 use laneweave_network::{ChainIndex, LaneletIndex, Network};
 use laneweave_sim::{
-    Assignment, Class, Demand, Destination, Event, Fleet, InnerPlace, Navigator, NewVehicle, Place, Places,
+    Assignment, Class, Demand, Destination, Event, Fleet, InnerPlace, Navigator, Place, Placement, Places,
     Setup, VehicleId, World,
 };
 use roads::{Road, drivers};
@@ -112,7 +112,7 @@ fn a_driver_beyond_its_place_takes_another_route() {
     let network = ring(1);
     let places = inner_places(&network);
     let mut world = world(network, places, 0.0, 1);
-    let new = NewVehicle {
+    let new = Placement {
         chain: ChainIndex(0),
         x: 300.0,
         speed: 14.0,
@@ -134,7 +134,7 @@ fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
     let network = ring(2);
     let places = inner_places(&network);
     let mut world = world(network, places, 0.0, 1);
-    let car = NewVehicle {
+    let car = Placement {
         chain: ChainIndex(1),
         x: 145.0,
         speed: 14.0,
@@ -145,7 +145,7 @@ fn a_driver_who_is_kept_from_its_lane_misses_its_turn_and_goes_round() {
     world.place(car).expect("it fits on the road");
     for x in [100.0, 116.0, 132.0, 148.0, 164.0] {
         world
-            .place(NewVehicle { chain: ChainIndex(0), x, class: Class::Truck, destination: None, ..car })
+            .place(Placement { chain: ChainIndex(0), x, class: Class::Truck, destination: None, ..car })
             .expect("it fits on the road");
     }
     (0..600).for_each(|_| world.step());

@@ -41,6 +41,7 @@ fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_
                     left += 1;
                     assert!(*duration > 0.0 && ids.remove(vehicle), "{vehicle} left twice");
                 }
+                Event::Removed { vehicle, .. } => panic!("nobody removes {vehicle}"),
                 Event::LaneChange(_) | Event::Incident(_) | Event::Driving(_) => {}
             }
         }

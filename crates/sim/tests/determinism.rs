@@ -7,7 +7,7 @@ use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::change::{LaneChangeModel, Mcdm, Rule};
 use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Placement, Setup, World};
 use roads::{Road, drivers};
 
 /// Five lanes of 10 km with an on-ramp and an off-ramp.
@@ -82,7 +82,7 @@ fn hash_of_a_ring(is_reversed: bool, threads: usize) -> u64 {
     for number in 0..CARS {
         let lane = number % 3;
         world
-            .place(NewVehicle {
+            .place(Placement {
                 chain: ChainIndex(if is_reversed { 2 - lane } else { lane }),
                 x: 15.0 + 16.0 * f64::from(number),
                 speed: 12.0,
@@ -139,7 +139,7 @@ fn v29_the_order_in_which_vehicles_are_put_on_the_road_changes_nothing_but_their
         for number in order {
             number_of.push(number);
             world
-                .place(NewVehicle {
+                .place(Placement {
                     chain: ChainIndex(number % 2),
                     x: 20.0 + 40.0 * f64::from(number),
                     speed: 18.0 + f64::from(number * 7 % 9),

@@ -5,7 +5,7 @@ mod roads;
 use laneweave_models::Style;
 use laneweave_models::follow::{FollowingModel, Fvdm, Idm, Pace};
 use laneweave_network::ChainIndex;
-use laneweave_sim::{Class, Kinematics, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Kinematics, Placement, Setup, World};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -90,7 +90,7 @@ fn place(world: &mut World, x: f64, speed: f64, parameters: u32) {
         chain = world.network().chain(chain).following[0];
     }
     world
-        .place(NewVehicle { chain, x, speed, class: Class::Car, parameters, destination: None })
+        .place(Placement { chain, x, speed, class: Class::Car, parameters, destination: None })
         .expect("it fits on the road");
 }
 

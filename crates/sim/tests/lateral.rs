@@ -7,7 +7,7 @@ use laneweave_models::change::{ConstantHazard, LaneChangeModel};
 use laneweave_models::follow::{FollowingModel, Fvdm};
 use laneweave_models::{Attention, Manner};
 use laneweave_network::{ChainIndex, Network, Pose, Side};
-use laneweave_sim::{Class, Destination, Event, LaneChange, NewVehicle, Phase, Setup, World};
+use laneweave_sim::{Class, Destination, Event, LaneChange, Phase, Placement, Setup, World};
 use roads::{Road, WIDTH, drivers};
 
 /// Length of a step, and of the epoch of drivers who are always ready to change [s].
@@ -39,7 +39,7 @@ fn world(network: Network, styles: Vec<Style>, threads: usize) -> World {
 fn put(world: &mut World, lane: u32, x: f64, speed: f64, class: Class, parameters: u32) {
     let destination: Destination = Some(0);
     world
-        .place(NewVehicle { chain: ChainIndex(lane), x, speed, class, parameters, destination })
+        .place(Placement { chain: ChainIndex(lane), x, speed, class, parameters, destination })
         .expect("it fits on the road");
 }
 

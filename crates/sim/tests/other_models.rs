@@ -7,7 +7,7 @@ use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Lmrs, Mobil, Traffic};
 use laneweave_models::follow::{FollowingModel, Fvdm};
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, NewVehicle, Phase, Setup, Vehicle, World};
+use laneweave_sim::{Class, Phase, Placement, Setup, Vehicle, World};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -29,7 +29,7 @@ fn among_unyielding(network: Network, style: Style, places: &[(u32, f64, f64)]) 
     let mut world = World::new(network, styles, nobody, setup).expect("the set-up makes sense");
     for (number, (lane, x, speed)) in places.iter().enumerate() {
         world
-            .place(NewVehicle {
+            .place(Placement {
                 chain: ChainIndex(*lane),
                 x: *x,
                 speed: *speed,

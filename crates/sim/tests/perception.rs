@@ -8,7 +8,7 @@ use laneweave_models::Style;
 use laneweave_models::change::{ConstantHazard, LaneChangeModel, Situation, Toward};
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Network, Side};
-use laneweave_sim::{Class, NewVehicle, Phase, Scene, Setup, Spot, Waypoint, World, perceive};
+use laneweave_sim::{Class, Phase, Placement, Scene, Setup, Spot, Waypoint, World, perceive};
 use roads::{Road, drivers};
 
 /// Length of a car [m].
@@ -43,7 +43,7 @@ fn straight(length: f64) -> World {
 fn put(world: &mut World, chain: u32, x: f64, speed: f64, class: Class) -> u32 {
     let (chain, destination) = (ChainIndex(chain), Some(0));
     world
-        .place(NewVehicle { chain, x, speed, class, parameters: 0, destination })
+        .place(Placement { chain, x, speed, class, parameters: 0, destination })
         .expect("it fits on the road")
 }
 
@@ -181,7 +181,7 @@ fn a_route_counts_the_changes_and_the_road_that_remains_for_them() {
     let mut world = drawn(Motorway { off_ramp_at: vec![2500.0], ..Motorway::default() });
     let ramp = world.network().exits.iter().position(|it| it.chains.len() == 1).unwrap() as u16;
     let mut route = |chain, x| {
-        let new = NewVehicle {
+        let new = Placement {
             chain: ChainIndex(chain),
             x,
             speed: 20.0,
@@ -210,7 +210,7 @@ fn followers_in_both_lanes_see_a_vehicle_that_changes_between_them() {
     let (slow, fast) = (car(&mut world, 0, 240.0, 20.0), car(&mut world, 1, 210.0, 20.0));
     let chain = ChainIndex(0);
     let destination = Some(0);
-    let changer = NewVehicle { chain, x: 300.0, speed: 20.0, class: Class::Car, parameters: 1, destination };
+    let changer = Placement { chain, x: 300.0, speed: 20.0, class: Class::Car, parameters: 1, destination };
     let changer = world.place(changer).expect("it fits on the road");
     let mut seen_from = std::collections::BTreeSet::new();
     for _ in 0..60 {
@@ -254,7 +254,7 @@ impl Waiting {
         let (chain, destination) = (ChainIndex(lane), Some(0));
         let (x, class) = (500.0 + forward, Class::Car);
         let waiting = world
-            .place(NewVehicle { chain, x, speed: 20.0, class, parameters: 1, destination })
+            .place(Placement { chain, x, speed: 20.0, class, parameters: 1, destination })
             .expect("it fits on the road");
         for (lane, ahead) in others {
             car(&mut world, *lane, 500.0 + ahead, 20.0);

@@ -9,7 +9,7 @@ use laneweave_models::Reading;
 use laneweave_models::Style;
 use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm};
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Placement, Setup, World};
 use proptest::prelude::*;
 use roads::{Road, drivers};
 
@@ -184,7 +184,7 @@ fn a_driver_who_would_still_accelerate_when_kinematics_sets_in_is_counted_once()
     for (parameters, x) in [(0, 20.0), (1, 120.0)] {
         let (chain, class, destination) = (ChainIndex(0), Class::Car, Some(0));
         world
-            .place(NewVehicle { chain, x, speed: 5.0, class, parameters, destination })
+            .place(Placement { chain, x, speed: 5.0, class, parameters, destination })
             .expect("it fits on the road");
     }
     (0..1500).for_each(|_| world.step());

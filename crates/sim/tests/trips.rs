@@ -6,7 +6,7 @@ mod drivers;
 use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::regulations;
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, Held, NewVehicle, Setup, World, entry_queues};
+use laneweave_sim::{Class, Held, Placement, Setup, World, entry_queues};
 
 const STEP: f64 = 0.1;
 
@@ -42,7 +42,7 @@ fn place(world: &mut World, class: Class, chain: ChainIndex, destination: u16) {
     let speed = class.desired_speed(&style, world.network().chain(chain).limit(0.0));
     let x = class.body().length;
     world
-        .place(NewVehicle { chain, x, speed, class, parameters: 0, destination: Some(destination) })
+        .place(Placement { chain, x, speed, class, parameters: 0, destination: Some(destination) })
         .expect("it fits on the road");
 }
 

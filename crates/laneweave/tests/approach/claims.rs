@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use laneweave::network::ChainIndex;
-use laneweave::sim::{Class, Demand, Event, NewVehicle, Setup, World};
+use laneweave::sim::{Class, Demand, Event, Placement, Setup, World};
 use laneweave::study::poisson_interval;
 use laneweave::style::Population;
 
@@ -38,7 +38,7 @@ fn missed(seed: u64) -> (u64, u64) {
                 let parameters = (number * 7919 + seed as u32) % drivers;
                 let (class, destination) = (Class::Car, Some(exit));
                 let id = world
-                    .place(NewVehicle { chain, x: 5.0, speed: 12.0, class, parameters, destination })
+                    .place(Placement { chain, x: 5.0, speed: 12.0, class, parameters, destination })
                     .expect("it fits on the road");
                 come.insert(id, (exit, chain));
             }

@@ -7,7 +7,7 @@ use laneweave::models::Style;
 use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
 use laneweave::network::{ChainIndex, Position};
 use laneweave::sim::{
-    Class, Demand, Event, Fleet, InnerPlace, NewVehicle, Place, Places, Setup, Share, VehicleId, World,
+    Class, Demand, Event, Fleet, InnerPlace, Place, Placement, Places, Setup, Share, VehicleId, World,
 };
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
@@ -96,7 +96,7 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
                 let speed = 10.0;
                 come.insert(
                     world
-                        .place(NewVehicle { chain, x: 5.0, speed, class, parameters, destination })
+                        .place(Placement { chain, x: 5.0, speed, class, parameters, destination })
                         .expect("it fits on the road"),
                 );
             }

@@ -62,6 +62,9 @@ impl Traffic {
                 Event::Left { chain, motion, .. } => {
                     self.counts[network.chain(*chain).lanelet(motion.x).0.at()].ended += 1;
                 }
+                Event::Removed { at, .. } => {
+                    self.counts[network.chain(at.chain).lanelet(at.x).0.at()].ended += 1;
+                }
                 Event::LaneChange(change) if change.is_completed && is_measured(change) => {
                     self.change(network, change);
                 }

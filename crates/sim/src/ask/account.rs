@@ -8,8 +8,8 @@ use laneweave_models::{Concentration, Style};
 use laneweave_network::Side;
 
 use crate::driver::choice::is_out_of_question;
-use crate::driver::consider::{consider, has_last_chance, look, waypoint};
-use crate::driver::decide::{abort_if_it_must, go_or_ask};
+use crate::driver::consider::{has_last_chance, look, waypoint};
+use crate::driver::decide::decide_one;
 use crate::driver::gap::{Hindrance, Pairing, gap};
 use crate::driver::me::{Attending, Me};
 use crate::driver::plan::{Ask, Outbox, Plan};
@@ -154,19 +154,11 @@ fn act(scene: &Scene, moment: Moment, spot: Spot) -> Act {
     let (driver, side) = (scene.driver(spot), scene.lane_change(spot).side);
     let is_turn = driver.due <= moment.clock.step;
     let (mut plan, mut outbox) = (Plan::default(), Outbox::default());
+    decide_one(scene, moment, spot, &mut [0; 2], &mut plan, &mut outbox);
     match driver.phase {
-        Phase::Changes => {
-            abort_if_it_must(scene, spot, &mut outbox);
-            return if outbox.requests.is_empty() { Act::Changes(side) } else { Act::GoesBack(side) };
-        }
-        Phase::Aborts => return Act::GoesBack(side),
+        Phase::Changes if outbox.requests.is_empty() => return Act::Changes(side),
+        Phase::Changes | Phase::Aborts => return Act::GoesBack(side),
         Phase::Cruises | Phase::Wants => {}
-    }
-    if driver.phase == Phase::Wants {
-        go_or_ask(scene, moment, spot, &mut outbox);
-    }
-    if is_turn {
-        consider(scene, moment, spot, &mut [0; 2], &mut plan, &mut outbox);
     }
     let concern = plan.concerns.first();
     let wants = outbox.requests.iter().find_map(|it| match it.ask {

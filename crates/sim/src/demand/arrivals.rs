@@ -51,6 +51,16 @@ impl Arrivals {
         self.backlog.sources[origin].queues()
     }
 
+    /// The id that the next vehicle gets.
+    pub(crate) fn next_id(&self) -> VehicleId {
+        self.backlog.next_id
+    }
+
+    /// Sets the rate at which vehicles arrive at an origin after `time` [s] to `rate` [veh/h].
+    pub(crate) fn set_rate(&mut self, origin: usize, rate: f64, random: &Random, time: f64) {
+        self.backlog.sources[origin].set_rate(rate, random, time);
+    }
+
     /// The id of a new vehicle.
     pub(crate) fn new_id(&mut self) -> VehicleId {
         let id = self.backlog.next_id;

@@ -140,7 +140,7 @@ impl Source {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Source { headways, rate, streams, lanes, destinations } = self;
+        let Source { headways, rate: _, streams, lanes, destinations } = self;
         let arrival_fits =
             |it: &Arrival| (it.parameters as usize) < driver_parameters && is_known(it.destination);
         let queue_fits = |(one, other): (&Queue, &Queue)| {
@@ -152,12 +152,21 @@ impl Source {
         let stream_fits =
             |(one, other): (&Stream, &Stream)| one.number == other.number && one.next >= clock.time();
         headways == &other.headways
-            && rate == &other.rate
             && destinations == &other.destinations
             && streams.len() == other.streams.len()
             && streams.iter().zip(&other.streams).all(stream_fits)
             && lanes.len() == other.lanes.len()
             && lanes.iter().zip(&other.lanes).all(queue_fits)
+    }
+
+    /// Sets the rate at which vehicles arrive after `time` [s] to `rate` [veh/h]. The time of the next arrival is drawn
+    /// anew.
+    pub(crate) fn set_rate(&mut self, rate: f64, random: &Random, time: f64) {
+        self.rate = Rate::constant(rate / self.streams.len() as f64);
+        for stream in 0..self.streams.len() {
+            self.streams[stream].next = time;
+            self.draw_next(stream, random);
+        }
     }
 
     /// Samples the time of the next arrival in a stream.

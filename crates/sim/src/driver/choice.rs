@@ -42,18 +42,26 @@ impl Choice {
             return None;
         }
         let situation = perception.situation(side, from);
-        let helps_the_route = situation.there.route.changes < situation.here.route.changes;
-        (!is_out_of_question(perception.driver(), moment, &situation)).then(|| {
-            let appraisal = change.appraise(&situation);
-            Choice {
-                side,
-                appraisal,
-                is_symmetric: situation.is_symmetric(),
-                helps_the_route,
-                pressure: change.pressure(&situation, &appraisal),
-                anticipated_speed: situation.there.anticipated_speed,
-            }
-        })
+        (!is_out_of_question(perception.driver(), moment, &situation))
+            .then(|| Choice::appraised(change, side, &situation))
+    }
+
+    /// The driver's appraisal of `side`, whatever speaks against it, if it may change there.
+    pub(crate) fn whatever(perception: &Perception, change: &LaneChangeModel, side: Side) -> Option<Choice> {
+        let situation = perception.situation(side, perception.beside(side)?);
+        Some(Choice::appraised(change, side, &situation))
+    }
+
+    fn appraised(change: &LaneChangeModel, side: Side, situation: &Situation) -> Choice {
+        let appraisal = change.appraise(situation);
+        Choice {
+            side,
+            appraisal,
+            is_symmetric: situation.is_symmetric(),
+            helps_the_route: situation.there.route.changes < situation.here.route.changes,
+            pressure: change.pressure(situation, &appraisal),
+            anticipated_speed: situation.there.anticipated_speed,
+        }
     }
 
     pub(crate) fn want(&self, prospect_here: f64) -> Want {

@@ -15,26 +15,39 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
     let lane = &scene.lanes[chain.at()];
     let (mut hints, mut last) = ([0; 2], 0);
     for (index, driver) in lane.drivers().iter().enumerate() {
-        if driver.phase == Phase::Cruises && driver.due > moment.clock.step {
+        if !driver.has_to_decide(moment.clock.step) {
             continue;
         }
         if driver.is_shadow {
             continue;
         }
-        let spot = Spot { chain, index };
-        match driver.phase {
-            Phase::Changes => abort_if_it_must(scene, spot, outbox),
-            Phase::Aborts => {}
-            Phase::Cruises | Phase::Wants => {
-                if driver.phase == Phase::Wants {
-                    go_or_ask(scene, moment, spot, outbox);
-                }
-                if driver.due <= moment.clock.step {
-                    // Between two drivers there are about as many entries in the lanes beside.
-                    hints = hints.map(|it| it + index - last);
-                    last = index;
-                    consider(scene, moment, spot, &mut hints, plan, outbox);
-                }
+        // Between two drivers there are about as many entries in the lanes beside.
+        hints = hints.map(|it| it + index - last);
+        last = index;
+        decide_one(scene, moment, Spot { chain, index }, &mut hints, plan, outbox);
+    }
+}
+
+/// Decides for the driver at `spot`.
+#[inline]
+pub(crate) fn decide_one(
+    scene: &Scene,
+    moment: Moment,
+    spot: Spot,
+    hints: &mut [usize; 2],
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    let driver = scene.driver(spot);
+    match driver.phase {
+        Phase::Changes => abort_if_it_must(scene, spot, outbox),
+        Phase::Aborts => {}
+        Phase::Cruises | Phase::Wants => {
+            if driver.phase == Phase::Wants {
+                go_or_ask(scene, moment, spot, outbox);
+            }
+            if driver.due <= moment.clock.step {
+                consider(scene, moment, spot, hints, plan, outbox);
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::junction::reservations::NO_RESERVATION;
 use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
 use crate::state::clock::Clock;
-use crate::state::lane::{Kinematics, Lane};
+use crate::state::lane::{DriverState, Kinematics, Lane};
 use crate::state::push_tight::push_tight;
 use crate::view::scene::{Scene, Spot};
 
@@ -30,9 +30,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             upcoming.prefetch(index);
         }
         let leader = motions.get(index + 1).filter(|_| driver.only_follows());
-        let leader = leader.filter(|it| road.reaches(motion, it.x));
-        let usual = leader.and_then(|it| behind(scene, motion, driver, it, clock.dt));
-        let (acceleration, stretch) = match usual {
+        let (acceleration, stretch) = match usual(scene, clock, &road, motion, driver, leader) {
             Some(acceleration) => (acceleration, 1.0),
             None => drive_with_care(scene, clock, Spot { chain, index }, end, plan, outbox),
         };
@@ -48,6 +46,29 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         }
     }
     outbox.counters.updates += updates;
+}
+
+/// The acceleration of a driver who only follows its `leader`, if that is all that it reacts to [m/s²].
+#[inline(always)]
+fn usual(
+    scene: &Scene,
+    clock: Clock,
+    road: &OpenRoad,
+    motion: &Kinematics,
+    driver: &DriverState,
+    leader: Option<&Kinematics>,
+) -> Option<f64> {
+    let leader = leader.filter(|it| road.reaches(motion, it.x))?;
+    behind(scene, motion, driver, leader, clock.dt)
+}
+
+/// The acceleration that the driver at `spot` chooses for the next step [m/s²].
+pub(crate) fn acceleration(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+    let (motion, driver, end) = (scene.motion(spot), scene.driver(spot), lane_end(scene, spot.chain));
+    let leader = scene.motions(spot.chain).get(spot.index + 1).filter(|_| driver.only_follows());
+    let road = OpenRoad::on(scene, spot.chain, end);
+    usual(scene, clock, &road, motion, driver, leader)
+        .unwrap_or_else(|| with_care(scene, clock, spot, end).acceleration)
 }
 
 /// The lane that the drivers of a neighbouring lane will look at next. `None` where there are few lanes: these stay
@@ -97,13 +118,13 @@ fn drive_with_care(
 }
 
 /// Metres along the chain for a metre driven.
-fn stretch(scene: &Scene, spot: Spot) -> f64 {
+pub(crate) fn stretch(scene: &Scene, spot: Spot) -> f64 {
     if scene.driver(spot).phase.is_between_lanes() { f64::from(scene.lane_change(spot).stretch) } else { 1.0 }
 }
 
 /// The kinematics of a vehicle after a step, and the distance driven [m].
 #[inline]
-fn moved(motion: &Kinematics, acceleration: f64, stretch: f64, dt: f64) -> (Kinematics, f64) {
+pub(crate) fn moved(motion: &Kinematics, acceleration: f64, stretch: f64, dt: f64) -> (Kinematics, f64) {
     let next = motion.speed + acceleration * dt;
     let (speed, distance, acceleration) = if next >= 0.0 {
         (next, 0.5 * (motion.speed + next) * dt, acceleration)

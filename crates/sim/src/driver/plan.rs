@@ -12,8 +12,10 @@ use crate::record::counters::Counters;
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::incidents::Incident;
 use crate::state::clock::Clock;
+use crate::state::control::{Lateral, Longitudinal};
 use crate::state::goal::Destination;
-use crate::state::lane::{Entry, Kind, Kinematics, Milestone, VehicleId};
+use crate::state::lane::{Entry, Kind, Kinematics, VehicleId};
+use crate::state::milestone::Milestone;
 use crate::view::scene::{Scene, Spot};
 
 /// The decisions of one lane's drivers. It is reused from step to step, so that nothing is allocated anew. It has
@@ -33,6 +35,8 @@ pub(crate) struct Plan {
     /// Drivers who wait for a reservation, in this step and in the one before.
     pub(crate) waiting: Vec<Waiting>,
     pub(crate) waited: Vec<Waiting>,
+    /// The entries of external vehicles, with what their users say.
+    pub(crate) controls: Vec<Controlled>,
     /// Distance driven by its vehicles [m]: the only counter that depends on the order of addition.
     pub(crate) distance: f64,
 }
@@ -141,6 +145,17 @@ pub(crate) struct Upkeep {
     pub(crate) in_emergency: bool,
     /// The reservation that it had has ended.
     pub(crate) reservation_is_over: bool,
+}
+
+/// An entry of an external vehicle, and how the user drives it in this step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Controlled {
+    /// The entry.
+    pub(crate) index: u32,
+    /// How fast it drives.
+    pub(crate) longitudinal: Longitudinal,
+    /// Whether it changes lanes.
+    pub(crate) lateral: Lateral,
 }
 
 /// A driver who waits for a reservation.

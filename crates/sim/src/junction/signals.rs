@@ -23,6 +23,8 @@ pub struct Signals {
     controllers: Vec<Controller>,
     /// For each light its detectors; empty where no program needs them.
     detectors: Vec<Vec<Detector>>,
+    /// The lights that users set, whatever their programs say.
+    set: Vec<(LightIndex, LightState)>,
 }
 
 /// A stretch of a lane before the line of a light.
@@ -60,18 +62,20 @@ impl Signals {
         }
         let shown = vec![LightState::Red; junctions.lights.len()];
         let was_green = vec![clock.step; junctions.lights.len()];
-        let mut signals = Signals { shown, was_green, steady_until: 0.0, controllers, detectors };
+        let mut signals =
+            Signals { shown, was_green, steady_until: 0.0, controllers, detectors, set: Vec::new() };
         signals.show(network, clock);
         signals
     }
 
     /// Whether they have the same network and programs as `other`, in any state.
     pub(crate) fn fits(&self, other: &Signals, clock: Clock) -> bool {
-        let Signals { shown, was_green, steady_until: _, controllers, detectors } = self;
+        let Signals { shown, was_green, steady_until: _, controllers, detectors, set } = self;
         shown.len() == other.shown.len()
             && was_green.len() == other.was_green.len()
             && was_green.iter().all(|it| *it <= clock.step)
             && detectors == &other.detectors
+            && set.iter().all(|(light, _)| light.at() < shown.len())
             && controllers.len() == other.controllers.len()
             && controllers.iter().zip(&other.controllers).all(|(one, other)| one.fits(other, clock))
     }
@@ -93,10 +97,10 @@ impl Signals {
     }
 
     fn show(&mut self, network: &Network, clock: Clock) {
-        let Signals { shown, was_green, steady_until, controllers, .. } = self;
+        let Signals { shown, was_green, steady_until, controllers, set, .. } = self;
         for (was_green, shown) in was_green.iter_mut().zip(&*shown) {
             if *shown == LightState::Green {
-                *was_green = clock.step - 1;
+                *was_green = clock.step.saturating_sub(1);
             }
         }
         shown.clear();
@@ -105,6 +109,20 @@ impl Signals {
         for controller in controllers {
             controller.lights().for_each(|it| shown[it.at()] = controller.shows(it));
         }
+        set.iter().for_each(|(light, state)| shown[light.at()] = *state);
+    }
+
+    /// Makes a light show a state, whatever its program says; `None`: it follows its program again.
+    pub(crate) fn set(
+        &mut self,
+        network: &Network,
+        light: LightIndex,
+        shows: Option<LightState>,
+        clock: Clock,
+    ) {
+        self.set.retain(|(it, _)| *it != light);
+        self.set.extend(shows.map(|it| (light, it)));
+        self.show(network, clock);
     }
 
     /// Updates the lights at `clock`, by the vehicles that are detected on the `lanes`.

@@ -1,6 +1,6 @@
 //! What controls the junctions at one instant.
 
-use laneweave_network::Network;
+use laneweave_network::{LightIndex, LightState, Network};
 use serde::{Deserialize, Serialize};
 
 use crate::junction::reservations::Reservations;
@@ -41,6 +41,17 @@ impl JunctionState {
     /// Updates the lights at `clock`, with these vehicles on their detectors.
     pub(crate) fn switch(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
         self.signals.switch(network, lanes, clock);
+    }
+
+    /// Makes a light show a state from `clock` on, whatever its program says; `None`: it follows its program again.
+    pub(crate) fn set_light(
+        &mut self,
+        network: &Network,
+        light: LightIndex,
+        shows: Option<LightState>,
+        clock: Clock,
+    ) {
+        self.signals.set(network, light, shows, clock);
     }
 
     /// Whether it has the same network and programs as `other`, at `clock`.

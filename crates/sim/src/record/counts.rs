@@ -9,6 +9,10 @@ use crate::record::incidents::Incident;
 pub struct Counts {
     /// Vehicles that entered.
     pub entered: u64,
+    /// Vehicles among them that a user put on the road.
+    pub inserted: u64,
+    /// Vehicles that a user took off the road.
+    pub removed: u64,
     /// Vehicles that completed their trips.
     pub left: u64,
     /// Discretionary lane changes: between lanes that are equally good for the route.

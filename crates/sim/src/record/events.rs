@@ -13,6 +13,13 @@ use crate::state::lane::{Kind, Kinematics, VehicleId};
 pub enum Event {
     /// A vehicle entered the map.
     Entered(VehicleId),
+    /// A user took a vehicle off the road.
+    Removed {
+        /// Which vehicle.
+        vehicle: VehicleId,
+        /// Position of its front bumper.
+        at: Position,
+    },
     /// A vehicle left the map: its trip is completed.
     Left {
         /// Which vehicle.

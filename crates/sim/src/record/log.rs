@@ -12,7 +12,8 @@ use crate::record::lanelet_aggregates::{LaneletAggregate, LaneletAggregates, Mar
 use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
-use crate::state::lane::{Entry, Kind, Lane, Milestone, Phase, Reached, VehicleId};
+use crate::state::lane::{Entry, Kind, Lane, Phase, VehicleId};
+use crate::state::milestone::{Milestone, Reached};
 
 /// Lane changes under way, trips, counts and incidents.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -139,6 +140,30 @@ impl Log {
         }
         let trip = self.trip_log.as_mut().and_then(|it| it.end(motion.id));
         self.events.push(Event::Left { vehicle: motion.id, duration, chain: from, motion, trip });
+    }
+
+    /// Counts and reports a vehicle that a user put on the road.
+    pub(crate) fn note_inserted(&mut self, id: VehicleId) {
+        self.counts.inserted += 1;
+        self.events.push(Event::Entered(id));
+    }
+
+    /// Ends the trip of the vehicle of `entry`, which a user took off the road on `chain`. It does not count as
+    /// completed.
+    pub(crate) fn remove_trip(&mut self, network: &Network, clock: Clock, chain: ChainIndex, entry: &Entry) {
+        let motion = entry.motion;
+        self.trips.end(motion.id);
+        self.counts.removed += 1;
+        self.leave_chain(network, motion.id, chain, [Mark::at(motion.x, &motion, clock); 2]);
+        self.trip_log.as_mut().and_then(|it| it.end(motion.id));
+        self.events.push(Event::Removed { vehicle: motion.id, at: Position::new(chain, motion.x) });
+    }
+
+    /// Records that a user gave a driver another destination.
+    pub(crate) fn set_destination(&mut self, id: VehicleId, number: Option<usize>) {
+        if let Some(trip) = self.trip_mut(id) {
+            trip.destination = number;
+        }
     }
 
     /// Records that the vehicle of `entry` passed the end of the chain `from` and goes on.

@@ -77,12 +77,20 @@ pub struct DriverState {
     pub in_emergency: bool,
     /// Its driver reacts to more than the leader, such as the last place for a change, or a vehicle that it lets in.
     pub needs_full_update: bool,
+    /// A user drives it.
+    pub is_external: bool,
 }
 
 const _: () =
     assert!(size_of::<Kinematics>() == 32 && size_of::<DriverState>() == 32, "an entry fills one cache line");
 
 impl DriverState {
+    /// Whether its driver has anything to decide about lanes in `step`: it is its turn, or it wants or makes a change.
+    #[inline]
+    pub(crate) fn has_to_decide(&self, step: u32) -> bool {
+        self.phase != Phase::Cruises || self.due <= step
+    }
+
     /// Whether its driver only follows: it changes no lane, reacts to nothing else, and has nothing else to store.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
@@ -171,36 +179,6 @@ impl Counterpart {
     }
 }
 
-/// A milestone of a lane change.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Milestone {
-    /// Which vehicle.
-    pub(crate) id: VehicleId,
-    /// The slot of its record.
-    pub(crate) record: u32,
-    /// What was reached.
-    pub(crate) what: Reached,
-    /// Position of the front bumper of its main entry.
-    pub(crate) at: Position,
-    /// The same of its shadow.
-    pub(crate) shadow: Option<Position>,
-    /// Speed [m/s].
-    pub(crate) speed: f64,
-}
-
-/// What a lane change reached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Reached {
-    /// The desire ended without a change.
-    Nothing,
-    /// The centre crossed the line.
-    Crossing,
-    /// The change is complete.
-    End,
-    /// The vehicle is back in the old lane.
-    Return,
-}
-
 /// The kind of a lane change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
@@ -235,11 +213,10 @@ impl Lane {
     pub(crate) fn is_sound(&self) -> bool {
         let Lane { motions, drivers, lane_change_states } = self;
         let is_number = |it: &Kinematics| it.x.is_finite() && it.speed.is_finite() && it.length > 0.0;
-        let is_in_order = motions.windows(2).all(|it| it[0].x <= it[1].x);
         drivers.len() == motions.len()
             && lane_change_states.len() == motions.len()
             && motions.iter().all(is_number)
-            && is_in_order
+            && self.is_in_order()
     }
 
     /// The kinematics of the vehicles.
@@ -348,6 +325,24 @@ impl Lane {
         let from = self.motions.partition_point(|it| it.x < x - NEAR);
         let within = self.motions[from..].iter().take_while(|it| it.x <= x + STEP);
         within.zip(from..).find(|(it, _)| it.id == id).map(|(_, index)| index)
+    }
+
+    /// Whether the vehicles are in driving order.
+    pub(crate) fn is_in_order(&self) -> bool {
+        self.motions.is_sorted_by(|a, b| a.x <= b.x)
+    }
+
+    /// Restores the driving order after a vehicle drove through others.
+    pub(crate) fn restore_order(&mut self) {
+        for end in 1..self.motions.len() {
+            let mut index = end;
+            while index > 0 && self.motions[index - 1].x > self.motions[index].x {
+                self.motions.swap(index - 1, index);
+                self.drivers.swap(index - 1, index);
+                self.lane_change_states.swap(index - 1, index);
+                index -= 1;
+            }
+        }
     }
 
     /// Inserts an entry in driving order.

@@ -2,9 +2,14 @@
 
 pub(crate) mod busy_lanes;
 pub(crate) mod clock;
+pub(crate) mod command;
+pub(crate) mod commands;
+pub(crate) mod control;
+pub(crate) mod externals;
 pub(crate) mod gamma;
 pub(crate) mod goal;
 pub(crate) mod lane;
+pub(crate) mod milestone;
 pub(crate) mod moment;
 pub(crate) mod normal;
 pub(crate) mod prefetch;

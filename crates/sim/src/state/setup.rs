@@ -1,4 +1,4 @@
-//! The setup of a world, and new vehicles.
+//! The setup of a world, and where vehicles are placed in it.
 
 use laneweave_network::ChainIndex;
 
@@ -16,9 +16,9 @@ pub struct Setup {
     pub threads: usize,
 }
 
-/// A vehicle that is put on the road.
+/// A vehicle as it is placed on the road.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NewVehicle {
+pub struct Placement {
     /// Its chain.
     pub chain: ChainIndex,
     /// Front bumper along it [m].

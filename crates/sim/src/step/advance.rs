@@ -6,9 +6,8 @@ use crate::driver::plan::{Outbox, Plan, Progress};
 use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
 use crate::state::goal::TripEnd;
-use crate::state::lane::{
-    Counterpart, DriverState, Kinematics, Lane, LaneChangeState, Milestone, Phase, Reached,
-};
+use crate::state::lane::{Counterpart, DriverState, Kinematics, Lane, LaneChangeState, Phase};
+use crate::state::milestone::{Milestone, Reached};
 use crate::view::pose::crossing;
 use laneweave_network::{ChainIndex, Position};
 
@@ -75,24 +74,40 @@ pub(crate) fn advance(
                 || minds_offside;
         }
     }
-    end_trips(lane, chain, ends.trips, plan, outbox);
+    // Only an external vehicle drives through another one.
+    let is_in_order = plan.controls.is_empty() || lane.is_in_order();
+    end_trips(lane, chain, ends.trips, is_in_order, plan, outbox);
     if has_ended {
         lane.remove_ended();
     }
+    if !is_in_order {
+        lane.restore_order();
+    }
+    plan.controls.clear();
     while let Some(entry) = lane.pop_beyond(ends.length) {
         outbox.leaving.push((chain, entry));
     }
 }
 
 /// Removes vehicles whose front bumpers passed their trip ends in this step.
-fn end_trips(lane: &mut Lane, chain: ChainIndex, trips: &[TripEnd], plan: &Plan, outbox: &mut Outbox) {
+fn end_trips(
+    lane: &mut Lane,
+    chain: ChainIndex,
+    trips: &[TripEnd],
+    is_in_order: bool,
+    plan: &Plan,
+    outbox: &mut Outbox,
+) {
     let (before, ended) = (&plan.next, &mut outbox.ended);
     ended.clear();
     for trip in trips {
-        let (from, drivers) = (lane.ahead_of(trip.station), lane.drivers());
-        let passed = before[from..].iter().zip(from..).take_while(|(it, _)| it.x <= trip.station);
-        let ends = |index: usize| drivers[index].goal == trip.goal && !drivers[index].is_shadow;
-        ended.extend(passed.map(|(_, index)| index).filter(|it| ends(*it)).map(|it| it as u32));
+        let drivers = lane.drivers();
+        let from = if is_in_order { lane.ahead_of(trip.station) } else { 0 };
+        let was_before = |index: &usize| before[*index].x <= trip.station;
+        let passes = |index: &usize| was_before(index) && lane.motions()[*index].x > trip.station;
+        let ends = |index: &usize| drivers[*index].goal == trip.goal && !drivers[*index].is_shadow;
+        let near = (from..before.len()).take_while(|it| !is_in_order || was_before(it));
+        ended.extend(near.filter(|it| passes(it) && ends(it)).map(|it| it as u32));
     }
     ended.sort_unstable_by(|a, b| b.cmp(a));
     for index in ended.iter() {

@@ -14,6 +14,8 @@ use crate::record::log::Log;
 use crate::route::guidance::Guidance;
 use crate::route::renew_routes::Guided;
 use crate::route::roads::Roads;
+use crate::state::commands::Commands;
+use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::Lane;
 use crate::state::traffic::Traffic;
@@ -51,6 +53,7 @@ type Saved = (
     Vec<(Vec<Waiting>, f64)>,
     Counters,
     Option<(Guidance, Guided)>,
+    (Externals, Commands),
 );
 
 /// Length of the hash at the end [bytes].
@@ -62,10 +65,12 @@ impl World {
     /// # Errors
     /// None, as long as there is memory.
     pub fn save(&self) -> Result<Vec<u8>, CheckpointError> {
-        let World { roads, traffic, junctions, arrivals, log, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, externals, commands, index: _, work } = self;
         let kept: Vec<_> = work.plans.iter().map(|it| (&it.waiting, it.distance)).collect();
         let (identity, counters) = (Identity::of(roads, arrivals.demand()), work.counted());
-        let saved = (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided());
+        let users = (externals, commands);
+        let saved =
+            (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided(), users);
         let mut bytes = postcard::to_allocvec(&saved).map_err(unreadable)?;
         bytes.extend(xxh3_64(&bytes).to_le_bytes());
         Ok(bytes)
@@ -84,8 +89,11 @@ impl World {
         Identity::of(&self.roads, self.arrivals.demand()).check(&identity)?;
         let saved: Saved = postcard::from_bytes(body).map_err(unreadable)?;
         self.check(&saved)?;
-        let World { roads, traffic, junctions, arrivals, log, work } = self;
-        let (_, moving, passing, backlog, remembered, kept, counters, guided) = saved;
+        let World { roads, traffic, junctions, arrivals, log, externals, commands, index, work } = self;
+        let (_, moving, passing, backlog, remembered, kept, counters, guided, users) = saved;
+        index.forget();
+        *externals = users.0;
+        commands.restore(users.1);
         (*traffic, *junctions) = (moving, passing);
         arrivals.restore(backlog);
         log.restore(remembered);
@@ -101,8 +109,8 @@ impl World {
     /// Checks whether the saved state fits this world, part by part. It must not refer to anything that does not
     /// exist.
     fn check(&self, saved: &Saved) -> Result<(), CheckpointError> {
-        let World { roads, traffic: own, junctions: own_junctions, arrivals, log: _, work: _ } = self;
-        let (_, traffic, junctions, backlog, log, kept, _, guided) = saved;
+        let World { roads, traffic: own, junctions: own_junctions, arrivals, .. } = self;
+        let (_, traffic, junctions, backlog, log, kept, _, guided, (externals, _)) = saved;
         let (chains, driver_parameters) = (roads.network().chains.len(), roads.driver_parameters().len());
         let (clock, lanes) = (traffic.clock(), traffic.lanes());
         let is_known = |it: Destination| match guided {
@@ -119,6 +127,7 @@ impl World {
             (!junctions.fits(own_junctions, clock), "junctions"),
             (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),
             (!roads.accepts(guided.as_ref()), "guidance"),
+            (!externals.fit(chains), "external vehicles"),
             (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_id()), "records"),
         ];
         wrong.into_iter().find(|it| it.0).map_or(Ok(()), |it| Err(CheckpointError::Other(it.1)))

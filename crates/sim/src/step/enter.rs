@@ -17,7 +17,7 @@ use crate::right_of_way::approach::sight;
 use crate::right_of_way::may_pass::PassHindrance;
 use crate::right_of_way::survey::stop_ahead;
 use crate::route::roads::Roads;
-use crate::state::setup::NewVehicle;
+use crate::state::setup::Placement;
 use crate::state::traffic::Traffic;
 use crate::step::put_vehicle::{Named, put};
 use crate::step::reserve_on_entering::{Entry, applicant, entry, reserve};
@@ -86,7 +86,7 @@ impl Entering<'_> {
 }
 
 /// The vehicle as it enters the lane of `queue`, if there is space and it has what it needs.
-fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<NewVehicle> {
+fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry) -> Option<Placement> {
     let (granted, before) = match needs {
         Entry::Refused(_) => return None,
         Entry::Free => (0.0, None),
@@ -117,7 +117,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
             (leaves_room && is_let_in && is_free).then_some(0.0)?
         }
     };
-    Some(NewVehicle { chain, x, speed, class, parameters, destination })
+    Some(Placement { chain, x, speed, class, parameters, destination })
 }
 
 /// Speed at which a driver enters behind `ahead` [m/s]; `None` if it has to wait.

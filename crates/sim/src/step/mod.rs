@@ -1,12 +1,18 @@
 //! The step: the only part that changes a world.
 
 pub(crate) mod advance;
+pub(crate) mod carry_out;
 pub(crate) mod checkpoint;
+pub(crate) mod command;
 pub(crate) mod enter;
+pub(crate) mod externals;
 pub(crate) mod gather;
 pub(crate) mod grant_reservations;
 pub(crate) mod guide;
+pub(crate) mod index;
+pub(crate) mod insert;
 pub(crate) mod move_all;
+pub(crate) mod names;
 pub(crate) mod note_incidents;
 pub(crate) mod note_milestones;
 pub(crate) mod pool;
@@ -15,6 +21,7 @@ pub(crate) mod queries;
 pub(crate) mod reserve_on_entering;
 pub(crate) mod resolve;
 pub(crate) mod switch_lights;
+pub(crate) mod take_off;
 pub(crate) mod transfer;
 pub(crate) mod vehicle;
 pub(crate) mod wait_cycles;

@@ -4,6 +4,7 @@ use laneweave_network::ChainIndex;
 
 use crate::driver::decide::decide;
 use crate::driver::drive::drive;
+use crate::driver::obey::{Before, obey};
 use crate::driver::request_reservation::request_reservations;
 use crate::junction::state::JunctionState;
 use crate::record::overlap::overlaps;
@@ -38,8 +39,12 @@ pub(crate) fn move_all(
             let scene = Scene { network, navigator, lanes, driver_parameters, reservations, signals };
             let chain = ChainIndex(index as u32);
             plan.clear();
+            let before = Before::of(outbox);
             decide(&scene, moment, chain, plan, outbox);
             drive(&scene, clock, chain, plan, outbox);
+            if !plan.controls.is_empty() {
+                obey(&scene, moment, chain, before, plan, outbox);
+            }
             request_reservations(&scene, clock, chain, plan, outbox);
             if is_watched {
                 overlaps(&scene, chain, clock.time(), &mut outbox.incidents);

@@ -2,7 +2,7 @@
 
 use crate::record::log::Log;
 use crate::route::roads::Roads;
-use crate::state::lane::{Milestone, Reached};
+use crate::state::milestone::{Milestone, Reached};
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 use laneweave_network::Position;

@@ -10,7 +10,7 @@ use crate::record::trips::free_time;
 use crate::route::roads::Roads;
 use crate::state::lane::{DriverState, Entry, Kind, Kinematics, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
-use crate::state::setup::NewVehicle;
+use crate::state::setup::Placement;
 use crate::state::traffic::Traffic;
 use crate::step::world::World;
 use laneweave_network::Position;
@@ -21,7 +21,8 @@ impl World {
     /// # Errors
     /// If it is not on a chain of the network, its speed is negative or no number, or there are no such driver
     /// parameters or destination.
-    pub fn place(&mut self, vehicle: NewVehicle) -> Result<VehicleId, WorldError> {
+    pub fn place(&mut self, vehicle: Placement) -> Result<VehicleId, WorldError> {
+        self.index.forget();
         let World { roads, traffic, arrivals, log, .. } = self;
         check_new(roads, arrivals.demand().destinations.len(), &vehicle)?;
         let id = arrivals.new_id();
@@ -31,8 +32,8 @@ impl World {
     }
 }
 
-fn check_new(roads: &Roads, destinations: usize, vehicle: &NewVehicle) -> Result<(), WorldError> {
-    let NewVehicle { chain, x, speed, class: _, parameters, destination } = *vehicle;
+fn check_new(roads: &Roads, destinations: usize, vehicle: &Placement) -> Result<(), WorldError> {
+    let Placement { chain, x, speed, class: _, parameters, destination } = *vehicle;
     let length = roads.network().chains.get(chain.at()).map(|it| it.length);
     let refused = [
         (length.is_none(), "there is no such chain"),
@@ -57,10 +58,10 @@ pub(crate) fn put(
     roads: &Roads,
     traffic: &mut Traffic,
     log: &mut Log,
-    vehicle: NewVehicle,
+    vehicle: Placement,
     Named { id, arrived }: Named,
 ) {
-    let NewVehicle { chain, x, speed, class, parameters, destination } = vehicle;
+    let Placement { chain, x, speed, class, parameters, destination } = vehicle;
     let (network, navigator, clock) = (roads.network(), roads.navigator(), traffic.clock());
     let destination = navigator.seen_by(class, destination);
     let style = roads.style(parameters);
@@ -92,6 +93,7 @@ pub(crate) fn put(
         is_shadow: false,
         in_emergency: false,
         needs_full_update: false,
+        is_external: false,
     };
     let lane_change = LaneChangeState {
         side: network.driving_side.overtaking(),

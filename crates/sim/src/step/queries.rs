@@ -10,6 +10,7 @@ use crate::demand::Demand;
 use crate::demand::arrivals::Arrivals;
 use crate::demand::assignment::Assignment;
 use crate::demand::error::WorldError;
+use crate::driver::intention::{Intention, intention};
 use crate::driver::plan::Waiting;
 use crate::record::counters::Counters;
 use crate::record::counts::Counts;
@@ -17,7 +18,10 @@ use crate::record::events::Event;
 use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
 use crate::state::clock::Clock;
+use crate::state::command::Commanded;
+use crate::state::control::Control;
 use crate::state::lane::VehicleId;
+use crate::state::moment::Moment;
 use crate::state::random::Random;
 use crate::step::vehicle::Vehicle;
 use crate::step::work::pool_for;
@@ -160,6 +164,42 @@ impl World {
                 Vehicle { world: self, spot, motion, driver, lane_change }
             })
         })
+    }
+
+    /// The vehicle with this id, if it is on the road.
+    pub fn vehicle(&self, id: VehicleId) -> Option<Vehicle<'_>> {
+        let spot = self.index.spot(self.traffic.lanes(), id)?;
+        let lane = self.traffic.lane(spot.chain);
+        Some(Vehicle {
+            world: self,
+            spot,
+            motion: &lane.motions()[spot.index],
+            driver: &lane.drivers()[spot.index],
+            lane_change: &lane.lane_change_states()[spot.index],
+        })
+    }
+
+    /// What the driver of a vehicle intends to do in the next step, whoever drives the vehicle.
+    pub fn intention(&self, id: VehicleId) -> Option<Intention> {
+        let spot = self.index.spot(self.traffic.lanes(), id)?;
+        let (clock, random) = (self.traffic.clock(), self.roads.random());
+        let overtaking = self.roads.network().driving_side.overtaking();
+        Some(intention(&self.scene(), Moment { clock, random, overtaking }, spot))
+    }
+
+    /// How a user drives a vehicle; [`Control::DRIVER`] if its driver does.
+    pub fn control_of(&self, id: VehicleId) -> Control {
+        self.externals.of(id).map_or(Control::DRIVER, |it| it.control)
+    }
+
+    /// The ids of the external vehicles, which users drive, in order.
+    pub fn externals(&self) -> impl Iterator<Item = VehicleId> {
+        self.externals.all().iter().map(|it| it.id)
+    }
+
+    /// The commands that were carried out in the last step, in their order.
+    pub fn commands(&self) -> &[Commanded] {
+        self.commands.done()
     }
 
     /// Hash of (id, lanelet, position, speed, state) of all vehicles in the order of their ids.

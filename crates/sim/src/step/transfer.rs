@@ -6,7 +6,8 @@ use crate::driver::plan::Outbox;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::route::roads::Roads;
-use crate::state::lane::{Counterpart, Entry, Milestone, Phase, Reached};
+use crate::state::lane::{Counterpart, Entry, Phase};
+use crate::state::milestone::{Milestone, Reached};
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 

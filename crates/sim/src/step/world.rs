@@ -12,13 +12,18 @@ use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
+use crate::state::commands::Commands;
+use crate::state::externals::Externals;
 use crate::state::random::Random;
 use crate::state::setup::Setup;
 use crate::state::traffic::Traffic;
+use crate::step::carry_out::CarryingOut;
 use crate::step::enter::enter;
+use crate::step::externals::{follow_externals, hand_out_controls};
 use crate::step::gather::gather;
 use crate::step::grant_reservations::{advance_reservations, grant_reservations};
 use crate::step::guide::guide;
+use crate::step::index::Index;
 use crate::step::move_all::move_all;
 use crate::step::note_incidents::note_incidents;
 use crate::step::note_milestones::note_milestones;
@@ -35,6 +40,9 @@ pub struct World {
     pub(super) junctions: JunctionState,
     pub(super) arrivals: Arrivals,
     pub(super) log: Log,
+    pub(super) externals: Externals,
+    pub(super) commands: Commands,
+    pub(super) index: Index,
     pub(super) work: Work,
 }
 
@@ -75,6 +83,9 @@ impl World {
             arrivals: Arrivals::new(&roads, demand),
             work: Work::new(roads.network().chains.len(), setup.threads),
             log: Log::default(),
+            externals: Externals::default(),
+            commands: Commands::default(),
+            index: Index::default(),
             roads,
             traffic,
         })
@@ -114,8 +125,11 @@ impl World {
     /// Simulates one step. All drivers perceive, decide and accelerate on one snapshot; then all vehicles move.
     /// Requests between lanes are resolved in order, vehicles enter, and drivers are guided.
     pub fn step(&mut self) {
-        let World { roads, traffic, junctions, arrivals, log, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, externals, commands, index, work } = self;
         log.begin_step();
+        CarryingOut { roads, traffic, junctions, arrivals, log, externals, index }.all(commands.begin_step());
+        index.forget();
+        hand_out_controls(externals, traffic, work);
         // Overlaps are checked once a second; in an audit at every step.
         let is_watched = log.is_audited() || traffic.clock().begins_a_second();
         move_all(roads, traffic, junctions, work, is_watched);
@@ -130,9 +144,15 @@ impl World {
         resolve(roads, traffic, junctions, log, work);
         enter(roads, traffic, junctions, arrivals, log, work);
         guide(roads, traffic, arrivals);
+        follow_externals(roads.network(), traffic, externals);
         if traffic.clock().begins_a_second() {
             log.put_down(roads.network(), traffic.lanes(), traffic.clock());
         }
+    }
+
+    /// Forgets where vehicles are, after one came by a command.
+    pub(super) fn forget_index(&mut self) {
+        self.index.forget();
     }
 
     /// The current scene.

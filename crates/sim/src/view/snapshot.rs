@@ -133,6 +133,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         is_shadow: false,
         in_emergency: false,
         needs_full_update: false,
+        is_external: false,
     };
     let counterpart =
         |change: Across| Counterpart { chain: change.other.chain, x: change.other.x, stretch: 1.0 };

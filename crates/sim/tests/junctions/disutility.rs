@@ -5,7 +5,7 @@ use laneweave_network::{
     ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations,
     StopKind, StopRule,
 };
-use laneweave_sim::{Class, Disutility, Navigator, NewVehicle};
+use laneweave_sim::{Class, Disutility, Navigator, Placement};
 
 use crate::drivers;
 use crate::town::{Arm, empty, exit_to, lane_from, network, run_until};
@@ -97,7 +97,7 @@ fn chosen(guidance: Guidance) -> i64 {
     let mut world = empty(network, vec![me, crawler]).guided(10.0).expect("one destination");
     let place = |chain, x, parameters| {
         let speed = if parameters == 0 { 10.0 } else { 1.0 };
-        NewVehicle { chain, x, speed, class: Class::Car, parameters, destination: Some(0) }
+        Placement { chain, x, speed, class: Class::Car, parameters, destination: Some(0) }
     };
     for x in [30.0, 80.0, 130.0] {
         world.place(place(straight, x, 1)).expect("it fits on the road");

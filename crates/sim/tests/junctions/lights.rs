@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use laneweave_network::{LightIndex, LightState, Network, Sign, SignalPlan, Turn};
-use laneweave_sim::{Class, NewVehicle, Setup, World};
+use laneweave_sim::{Class, Placement, Setup, World};
 
 use crate::drivers;
 use crate::town::{STEP, assert_sound, empty, network};
@@ -61,7 +61,7 @@ fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     let destination =
         (0..world.demand().destinations.len()).find(|it| world.leads(0, *it)).map(|it| it as u16);
     world
-        .place(NewVehicle { chain, x, speed, class: Class::Car, parameters: 0, destination })
+        .place(Placement { chain, x, speed, class: Class::Car, parameters: 0, destination })
         .expect("it fits on the road");
     world
 }

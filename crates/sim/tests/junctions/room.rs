@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 use laneweave_models::Style;
 use laneweave_models::follow::{FollowingModel, Idm};
 use laneweave_network::{ChainIndex, Network, Touch};
-use laneweave_sim::{Class, NewVehicle, VehicleId, World};
+use laneweave_sim::{Class, Placement, VehicleId, World};
 
 use crate::drivers;
 use crate::town::{
@@ -46,8 +46,7 @@ fn nobody_stands_within_a_junction_whose_exit_is_full() {
         let chain = lane_to(world.network(), Arm::North);
         let destination = Some(exit_to(world.network(), Arm::North));
         // The blocker leaves space for one car.
-        let blocker =
-            NewVehicle { chain, x: 14.0, speed: 0.0, class: Class::Car, parameters: 1, destination };
+        let blocker = Placement { chain, x: 14.0, speed: 0.0, class: Class::Car, parameters: 1, destination };
         world.place(blocker).expect("it fits on the road");
         for from in [Arm::East, Arm::West, Arm::South] {
             for place in 0..4 {
@@ -142,7 +141,7 @@ fn a_full_ring_turns() {
         let quarter = at.y.atan2(at.x).div_euclid(FRAC_PI_2).rem_euclid(4.0) as usize;
         let destination = Some(exit_to(world.network(), Arm::ALL[quarter]));
         world
-            .place(NewVehicle { chain, x, speed: 0.0, class: Class::Car, parameters: 0, destination })
+            .place(Placement { chain, x, speed: 0.0, class: Class::Car, parameters: 0, destination })
             .expect("it fits on the road");
     }
     let time = run_until(&mut world, 90.0, |world| world.on_road() == 0);

@@ -4,7 +4,7 @@ use laneweave_maps::generate::own_maps;
 use laneweave_maps::{Map, regulations};
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network};
-use laneweave_sim::{Class, NewVehicle, Setup, VehicleId, World};
+use laneweave_sim::{Class, Placement, Setup, VehicleId, World};
 
 use crate::drivers;
 
@@ -101,7 +101,7 @@ pub(crate) fn put(world: &mut World, comer: Comer) -> VehicleId {
     let destination = Some(exit_to(network, comer.to));
     let Comer { speed, parameters, .. } = comer;
     world
-        .place(NewVehicle { chain, x, speed, class: Class::Car, parameters, destination })
+        .place(Placement { chain, x, speed, class: Class::Car, parameters, destination })
         .expect("it fits on the road")
 }
 

@@ -1,0 +1,186 @@
+//! External vehicles do what their users say, in place of what their drivers decided. The drivers decide all the same:
+//! what they note, and what they request at junctions, stays.
+
+use laneweave_models::braking::HARDEST_BRAKING;
+use laneweave_network::{ChainIndex, Side};
+
+use crate::driver::choice::Choice;
+use crate::driver::consider::{look, waypoint};
+use crate::driver::drive::{moved, stretch};
+use crate::driver::me::{Attending, Me};
+use crate::driver::plan::{Ask, Concern, Controlled, Outbox, Plan, Request};
+use crate::driver::wish::{asks, wish};
+use crate::record::events::DrivingEventKind;
+use crate::state::control::{Control, Lateral, Longitudinal};
+use crate::state::lane::{Kinematics, Phase};
+use crate::state::moment::Moment;
+use crate::view::scene::{Scene, Spot};
+
+/// The lengths of an outbox before the drivers of a lane decided.
+#[derive(Clone, Copy)]
+pub(crate) struct Before {
+    requests: usize,
+    driving: usize,
+}
+
+impl Before {
+    /// The present lengths of `outbox`.
+    #[inline]
+    pub(crate) fn of(outbox: &Outbox) -> Before {
+        Before { requests: outbox.requests.len(), driving: outbox.driving.len() }
+    }
+}
+
+/// Makes the external vehicles of a lane obey. Its drivers have decided and driven since `before`.
+#[inline(never)]
+pub(crate) fn obey(
+    scene: &Scene,
+    moment: Moment,
+    chain: ChainIndex,
+    before: Before,
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    let controls = std::mem::take(&mut plan.controls);
+    for Controlled { index, longitudinal, lateral } in &controls {
+        let me = Me::at(scene, Spot { chain, index: *index as usize });
+        let told = match lateral {
+            Lateral::Driver => wish(&me, &outbox.requests[before.requests..], &plan.concerns),
+            Lateral::Keep => None,
+            Lateral::Change(side) => Some(*side),
+        };
+        if *lateral != Lateral::Driver {
+            change(scene, moment, &me, told, before, plan, outbox);
+        }
+        let dt = moment.clock.dt;
+        let acceleration = match longitudinal {
+            Longitudinal::Driver => continue,
+            Longitudinal::Acceleration(acceleration) => *acceleration,
+            Longitudinal::Speed(speed) => {
+                ((speed - me.motion.speed) / dt).clamp(-HARDEST_BRAKING, me.driver.class.strength())
+            }
+        };
+        let to_the_fastest = (Control::FASTEST - me.motion.speed) / dt;
+        drive(scene, moment, &me, acceleration.min(to_the_fastest.max(0.0)), before, plan, outbox);
+    }
+    plan.controls = controls;
+}
+
+/// Makes a vehicle change to the side that it is `told`, or keep its lane.
+fn change(
+    scene: &Scene,
+    moment: Moment,
+    me: &Me,
+    told: Option<Side>,
+    before: Before,
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    if wish(me, &outbox.requests[before.requests..], &plan.concerns) == told {
+        return;
+    }
+    match me.driver.phase {
+        Phase::Cruises => {
+            withdraw(me, before, outbox);
+            let begun = told.and_then(|side| begin(scene, moment, me, side));
+            outbox.requests.extend(begun);
+        }
+        Phase::Wants if told == Some(me.lane_change.side) => {
+            let own = plan.concerns.iter_mut().filter(|it| it.index as usize == me.spot.index);
+            own.for_each(|it| it.gives_up = false);
+        }
+        Phase::Wants => {
+            withdraw(me, before, outbox);
+            give_up(me, plan);
+        }
+        Phase::Changes if told == Some(me.lane_change.side) => withdraw(me, before, outbox),
+        Phase::Changes => {
+            if !asks(&outbox.requests[before.requests..], me.motion.id, |it| matches!(it, Ask::Abort)) {
+                outbox.requests.push(request(me, me.lane_change.urgency, Ask::Abort));
+            }
+        }
+        // It is on its way back.
+        Phase::Aborts => {}
+    }
+}
+
+/// Withdraws what the driver has requested since `before`.
+fn withdraw(me: &Me, before: Before, outbox: &mut Outbox) {
+    let mut at = before.requests;
+    while let Some(request) = outbox.requests.get(at) {
+        if request.id == me.motion.id {
+            outbox.requests.swap_remove(at);
+        } else {
+            at += 1;
+        }
+    }
+}
+
+/// The request to want a change to `side`, whatever speaks against it. `None` where a change to that side is not
+/// allowed.
+fn begin(scene: &Scene, moment: Moment, me: &Me, side: Side) -> Option<Request> {
+    let attending = Attending::of(me, moment);
+    let waypoint = waypoint(scene, me);
+    let perception = look(scene, moment, me, &attending, &waypoint, &mut [0; 2]);
+    let choice = Choice::whatever(&perception, &attending.model(me.style), side)?;
+    let want = choice.want(perception.here().anticipated_speed);
+    Some(request(me, choice.pressure as f32, Ask::Want(want)))
+}
+
+fn request(me: &Me, urgency: f32, ask: Ask) -> Request {
+    Request { urgency, id: me.motion.id, chain: me.spot.chain, x: me.motion.x, ask }
+}
+
+/// Makes the driver give up the desired change.
+fn give_up(me: &Me, plan: &mut Plan) {
+    let index = me.spot.index as u32;
+    if let Some(own) = plan.concerns.iter_mut().find(|it| it.index == index) {
+        own.gives_up = true;
+        return;
+    }
+    plan.concerns.push(Concern {
+        index,
+        last_place: me.lane_change.last_place,
+        urgency: me.lane_change.urgency,
+        gives_up: true,
+        minds_offside: false,
+        rerouted: None,
+    });
+}
+
+/// Moves a vehicle with this `acceleration` [m/s²] in place of the one that its driver chose.
+fn drive(
+    scene: &Scene,
+    moment: Moment,
+    me: &Me,
+    acceleration: f64,
+    before: Before,
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    let (Me { spot, motion, driver, .. }, dt) = (*me, moment.clock.dt);
+    let own = plan.next[spot.index];
+    let stretch = stretch(scene, spot);
+    let (next, distance) = moved(motion, acceleration, stretch, dt);
+    let next = Kinematics { headway_relaxation: own.headway_relaxation, ..next };
+    if next == own {
+        return;
+    }
+    plan.next[spot.index] = next;
+    if !driver.is_shadow {
+        plan.distance += (next.x - own.x) / stretch;
+    }
+    // Neither kinematics nor the driver's model decided.
+    if let Some(upkeep) = plan.upkeep.iter_mut().find(|it| it.index as usize == spot.index) {
+        (upkeep.distance, upkeep.in_emergency) = (distance, false);
+    }
+    let mut at = before.driving;
+    while let Some(event) = outbox.driving.get(at) {
+        if event.vehicle == motion.id && event.kind == DrivingEventKind::EmergencyBraking {
+            outbox.driving.swap_remove(at);
+            outbox.counters.emergency_brakings -= 1;
+        } else {
+            at += 1;
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What a user does to a world: commands, in the words of the road.
+
+use std::fmt;
+
+use laneweave_network::LightState;
+use serde::{Deserialize, Serialize};
+
+use crate::state::control::Control;
+use crate::state::lane::VehicleId;
+use crate::state::vehicle::Class;
+
+/// Something that a user does to a world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Command {
+    /// Puts a vehicle on the road, at once.
+    Insert(NewVehicle),
+    /// Takes a vehicle off the road. Its trip does not count as completed.
+    Remove(VehicleId),
+    /// Drives a vehicle, or leaves it to its driver.
+    Control(VehicleId, Control),
+    /// Gives the driver of a vehicle another style, by its name.
+    SetStyle(VehicleId, String),
+    /// Gives a driver another destination, by its smallest lanelet id. `None`: it follows the road.
+    SetDestination(VehicleId, Option<i64>),
+    /// Sets the demand at an origin from now on.
+    SetDemand {
+        /// The smallest lanelet id of the origin.
+        origin: i64,
+        /// Vehicles that arrive per hour.
+        vehicles_per_hour: f64,
+    },
+    /// Makes a light show a state, whatever its program says. `None`: it follows its program again.
+    SetLight {
+        /// The id of the light.
+        light: i64,
+        /// What it shows.
+        shows: Option<LightState>,
+    },
+}
+
+/// A vehicle that a user puts on the road.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NewVehicle {
+    /// The id of the lanelet on which its front bumper is.
+    pub lanelet: i64,
+    /// Position of its front bumper along the lanelet [m].
+    pub position_m: f64,
+    /// Speed [m/s].
+    pub speed_mps: f64,
+    /// Class.
+    pub class: Class,
+    /// The name of its driver's style: one of the styles of the scenario.
+    pub style: String,
+    /// The smallest lanelet id of its destination. `None`: it follows the road.
+    pub destination: Option<i64>,
+}
+
+/// A command that was carried out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Commanded {
+    /// The step before whose decisions it was carried out.
+    pub step: u32,
+    /// The vehicle that it concerns, or that it put on the road.
+    pub vehicle: Option<VehicleId>,
+    /// The command.
+    pub command: Command,
+}
+
+/// What a command concerns. One thing gets one command of a kind in a step.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Target {
+    Origin(i64),
+    Light(i64),
+    Vehicle(VehicleId),
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Target::Origin(id) => write!(f, "origin {id}"),
+            Target::Light(id) => write!(f, "light {id}"),
+            Target::Vehicle(id) => write!(f, "vehicle {id}"),
+        }
+    }
+}
+
+impl Command {
+    /// What it concerns; `None` for a new vehicle.
+    pub(crate) fn target(&self) -> Option<Target> {
+        Some(match self {
+            Command::Insert(_) => return None,
+            Command::Remove(id)
+            | Command::Control(id, _)
+            | Command::SetStyle(id, _)
+            | Command::SetDestination(id, _) => Target::Vehicle(*id),
+            Command::SetDemand { origin, .. } => Target::Origin(*origin),
+            Command::SetLight { light, .. } => Target::Light(*light),
+        })
+    }
+
+    /// The vehicle that it concerns, if it concerns one.
+    pub fn vehicle(&self) -> Option<VehicleId> {
+        match self.target() {
+            Some(Target::Vehicle(id)) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The order in which the commands for one vehicle are carried out.
+    pub(crate) fn rank(&self) -> u8 {
+        match self {
+            Command::Insert(_) => 0,
+            Command::SetStyle(..) => 1,
+            Command::SetDestination(..) => 2,
+            Command::Control(..) => 3,
+            Command::Remove(_) => 4,
+            Command::SetDemand { .. } | Command::SetLight { .. } => 5,
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Users give commands. A command is checked when it is given, and carried out before the decisions of the next step.
+//! Only a new vehicle is on the road at once. The order in which a user gives commands between two steps changes
+//! nothing.
+
+use thiserror::Error;
+
+use crate::state::command::{Command, NewVehicle};
+use crate::state::control::{Control, Lateral, Longitudinal};
+use crate::state::lane::VehicleId;
+use crate::step::insert::check_place;
+use crate::step::put_vehicle::{Named, put};
+use crate::step::world::World;
+
+/// Why a command is refused.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum CommandError {
+    /// There is no such vehicle on the road.
+    #[error(
+        "vehicle {0} is not on the road: it has left, was removed, or has not entered yet; ask which vehicles there are"
+    )]
+    NoVehicle(VehicleId),
+    /// There is already a command of this kind for the same thing in this step.
+    #[error("{0} already has a command of this kind in this step; simulate a step before the next one")]
+    Twice(String),
+    /// The vehicle is to be removed in this step.
+    #[error("vehicle {0} is removed before the next step, and takes no other command with it")]
+    Removed(VehicleId),
+    /// A number is not in its range.
+    #[error("{what} of {value}: choose {from} to {to} {unit}")]
+    Number {
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least value allowed.
+        from: f64,
+        /// The greatest value allowed.
+        to: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// There is no such thing.
+    #[error("there is no {what} {name}; {remedy}")]
+    Unknown {
+        /// What it is.
+        what: &'static str,
+        /// The name under which it was looked for.
+        name: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// Its place is not free, or a vehicle cannot be there.
+    #[error("a vehicle cannot be put at {position_m:.1} m of lanelet {lanelet}: {why}")]
+    Place {
+        /// The lanelet.
+        lanelet: i64,
+        /// The position along it [m].
+        position_m: f64,
+        /// Why not, and what to do.
+        why: String,
+    },
+    /// The driver cannot have this destination now.
+    #[error("vehicle {vehicle} cannot drive to {destination}: {why}")]
+    Destination {
+        /// The vehicle.
+        vehicle: VehicleId,
+        /// The destination.
+        destination: i64,
+        /// Why not, and what to do.
+        why: &'static str,
+    },
+}
+
+impl World {
+    /// Gives a command. It is carried out before the decisions of the next step; a new vehicle is on the road at once,
+    /// and its id is returned.
+    ///
+    /// # Errors
+    /// If it is impossible. Nothing changes then.
+    pub fn command(&mut self, command: Command) -> Result<Option<VehicleId>, CommandError> {
+        self.check_command(&command)?;
+        let step = self.clock().step;
+        let vehicle = match &command {
+            Command::Insert(vehicle) => Some(self.insert(vehicle)?),
+            other => other.vehicle(),
+        };
+        self.commands.wait(step, vehicle, command);
+        Ok(vehicle)
+    }
+
+    /// Puts a vehicle on the road that nobody but the command brought there.
+    fn insert(&mut self, vehicle: &NewVehicle) -> Result<VehicleId, CommandError> {
+        let placement = check_place(self, vehicle)?;
+        self.forget_index();
+        let World { roads, traffic, arrivals, log, .. } = self;
+        let id = arrivals.new_id();
+        let now = traffic.clock().time();
+        put(roads, traffic, log, placement, Named { id, arrived: now });
+        Ok(id)
+    }
+
+    fn check_command(&self, command: &Command) -> Result<(), CommandError> {
+        if let Some(id) = command.vehicle() {
+            self.vehicle(id).ok_or(CommandError::NoVehicle(id))?;
+        }
+        self.check_other_commands(command)?;
+        match command {
+            Command::Insert(_) | Command::Remove(_) => Ok(()),
+            Command::Control(_, control) => check_control(*control),
+            Command::SetStyle(id, style) => self.parameters_of(style, *id).map(|_| ()),
+            Command::SetDestination(id, destination) => self.check_destination(*id, *destination),
+            Command::SetDemand { origin, vehicles_per_hour } => {
+                self.origin(*origin)?;
+                in_range("a demand", *vehicles_per_hour, [0.0, 100_000.0], "veh/h")
+            }
+            Command::SetLight { light, .. } => self.light_with(*light).map(|_| ()),
+        }
+    }
+
+    /// Checks that the driver of a vehicle can take another destination now.
+    fn check_destination(&self, id: VehicleId, destination: Option<i64>) -> Result<(), CommandError> {
+        let Some(name) = destination else { return Ok(()) };
+        let number = self.destination(name)?;
+        let vehicle = self.vehicle(id).ok_or(CommandError::NoVehicle(id))?;
+        let (scene, navigator) = (self.scene(), self.roads.navigator());
+        let refused = |why| Err(CommandError::Destination { vehicle: id, destination: name, why });
+        if scene.has_reservation(vehicle.spot, f64::NEG_INFINITY) {
+            return refused(
+                "it is passing a junction on its old route; give the command again when it has left it",
+            );
+        }
+        let (chain, x) = (vehicle.spot.chain, vehicle.x());
+        let destination = navigator.seen_by(vehicle.driver.class, Some(number));
+        if !navigator.waypoint_from(self.roads.network(), destination, chain, x).leads_on(x) {
+            return refused("no route leads there from its place; choose another destination");
+        }
+        Ok(())
+    }
+
+    /// Checks that one thing gets one command of a kind in a step.
+    fn check_other_commands(&self, command: &Command) -> Result<(), CommandError> {
+        let Some(target) = command.target() else { return Ok(()) };
+        let others =
+            self.commands.waiting().iter().filter(|it| it.command.target().as_ref() == Some(&target));
+        for other in others {
+            match (&other.command, command) {
+                (Command::Remove(id), _) => return Err(CommandError::Removed(*id)),
+                (other, Command::Remove(id)) if other.rank() != command.rank() => {
+                    return Err(CommandError::Twice(format!("vehicle {id}")));
+                }
+                (other, _) if other.rank() == command.rank() => {
+                    return Err(CommandError::Twice(target.to_string()));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Checks the numbers of a control.
+fn check_control(control: Control) -> Result<(), CommandError> {
+    let Control::Drive { longitudinal, lateral } = control;
+    let (Lateral::Driver | Lateral::Keep | Lateral::Change(_)) = lateral;
+    match longitudinal {
+        Longitudinal::Driver => Ok(()),
+        Longitudinal::Acceleration(value) => {
+            in_range("an acceleration", value, [-Control::HARDEST, Control::HARDEST], "m/s²")
+        }
+        Longitudinal::Speed(value) => in_range("a speed", value, [0.0, Control::FASTEST], "m/s"),
+    }
+}
+
+pub(super) fn in_range(
+    what: &'static str,
+    value: f64,
+    [from, to]: [f64; 2],
+    unit: &'static str,
+) -> Result<(), CommandError> {
+    if (from..=to).contains(&value) {
+        return Ok(());
+    }
+    Err(CommandError::Number { what, value, from, to, unit })
+}

@@ -1,0 +1,82 @@
+//! External vehicles: before a step their users' controls are handed to the plans of their lanes; after it the world
+//! notes where they are.
+
+use laneweave_network::{Network, Position};
+
+use crate::driver::plan::Controlled;
+use crate::state::control::{Control, Lateral};
+use crate::state::externals::{External, Externals};
+use crate::state::lane::{Counterpart, Lane, Phase, VehicleId};
+use crate::state::traffic::Traffic;
+use crate::step::work::Work;
+use crate::view::scene::Spot;
+
+/// Hands the controls of external vehicles to the plans of their lanes.
+pub(crate) fn hand_out_controls(externals: &Externals, traffic: &Traffic, work: &mut Work) {
+    for External { id, control, at, .. } in externals.all() {
+        let Control::Drive { longitudinal, lateral } = *control;
+        let lane = traffic.lane(at.chain);
+        let Some(index) = lane.find(*id, at.x) else { continue };
+        let own = Controlled { index: index as u32, longitudinal, lateral };
+        work.plans[at.chain.at()].controls.push(own);
+        let Some(Counterpart { chain, x, .. }) = lane.lane_change_states()[index].counterpart else {
+            continue;
+        };
+        if let Some(index) = traffic.lane(chain).find(*id, x) {
+            let shadow = Controlled { index: index as u32, longitudinal, lateral: Lateral::Driver };
+            work.plans[chain.at()].controls.push(shadow);
+        }
+    }
+}
+
+/// Notes where external vehicles are now. Those that have left the map are forgotten. A vehicle that has completed the
+/// change that its user asked for keeps its lane from now on.
+pub(crate) fn follow_externals(network: &Network, traffic: &Traffic, externals: &mut Externals) {
+    externals.renew(|external| {
+        let Spot { chain, index } = find(network, traffic, &external)?;
+        let lane = traffic.lane(chain);
+        let (at, phase) = (Position::new(chain, lane.motions()[index].x), lane.drivers()[index].phase);
+        let has_changed = external.phase == Phase::Changes && phase == Phase::Cruises;
+        let control = match external.control {
+            Control::Drive { longitudinal, lateral: Lateral::Change(_) } if has_changed => {
+                Control::Drive { longitudinal, lateral: Lateral::Keep }
+            }
+            control => control,
+        };
+        Some(External { at, phase, control, ..external })
+    });
+}
+
+/// The main entry of an external vehicle that has moved by a step.
+fn find(network: &Network, traffic: &Traffic, external: &External) -> Option<Spot> {
+    let External { id, at, .. } = *external;
+    let here = network.chain(at.chain);
+    let beyond = here.following.iter().map(|it| Position::new(*it, (at.x - here.length).min(0.0)));
+    let near = std::iter::once(at).chain(beyond);
+    near.filter_map(|it| main_entry(traffic, id, it)).next().or_else(|| anywhere(traffic, id))
+}
+
+/// The main entry of a vehicle that has an entry at this position, or at most one step beyond it.
+fn main_entry(traffic: &Traffic, id: VehicleId, at: Position) -> Option<Spot> {
+    let lane = traffic.lane(at.chain);
+    let index = lane.find(id, at.x)?;
+    if !lane.drivers()[index].is_shadow {
+        return Some(Spot { chain: at.chain, index });
+    }
+    let Counterpart { chain, x, .. } = lane.lane_change_states()[index].counterpart?;
+    Some(Spot { chain, index: traffic.lane(chain).find(id, x)? })
+}
+
+/// The main entry of a vehicle, searched in all lanes.
+fn anywhere(traffic: &Traffic, id: VehicleId) -> Option<Spot> {
+    let is_main = |lane: &Lane| {
+        let mut entries = lane.motions().iter().zip(lane.drivers());
+        entries.position(|(motion, driver)| motion.id == id && !driver.is_shadow)
+    };
+    let lanes = traffic.lanes().iter().zip(0..);
+    lanes
+        .filter_map(|(lane, chain)| {
+            Some(Spot { chain: laneweave_network::ChainIndex(chain), index: is_main(lane)? })
+        })
+        .next()
+}

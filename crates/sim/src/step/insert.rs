@@ -1,0 +1,89 @@
+//! A place for a vehicle that a user puts on the road.
+
+use laneweave_models::braking::is_secure;
+use laneweave_models::follow::Ahead;
+use laneweave_network::Position;
+
+use crate::driver::perceive::driver_of;
+use crate::state::command::NewVehicle;
+use crate::state::control::Control;
+use crate::state::lane::VehicleId;
+use crate::state::setup::Placement;
+use crate::step::command::{CommandError, in_range};
+use crate::step::world::World;
+use crate::view::scene::Viewpoint;
+
+/// Where and how a new vehicle is placed: within one lane, outside of conflict areas, and so that neither it nor its
+/// follower has to brake harder than vehicles can.
+///
+/// # Errors
+/// If that is not so, or if something that it names does not exist.
+pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placement, CommandError> {
+    let NewVehicle { lanelet, position_m, speed_mps, class, style, destination } = vehicle;
+    in_range("a speed", *speed_mps, [0.0, Control::FASTEST], "m/s")?;
+    let (network, navigator) = (world.roads.network(), world.roads.navigator());
+    let index = network.lanelet_with(*lanelet).ok_or_else(|| CommandError::Unknown {
+        what: "lanelet",
+        name: lanelet.to_string(),
+        remedy: "choose one that vehicles may use".into(),
+    })?;
+    let refused = |why: String| CommandError::Place { lanelet: *lanelet, position_m: *position_m, why };
+    let long = network.lanelets[index.at()].length();
+    if !(0.0..=long).contains(position_m) {
+        return Err(refused(format!("the lanelet is {long:.1} m long; choose 0 to {long:.1} m")));
+    }
+    let Position { chain, x: start } = network.start_of(index);
+    let (x, length) = (start + position_m, class.body().length);
+    if x < length {
+        let why =
+            format!("its rear bumper would be before the beginning of the lane; choose {length} m or more");
+        return Err(refused(why));
+    }
+    if !network.chain(chain).takes(x, class.is_long()) {
+        return Err(refused("the lane is too narrow for it there; choose another lane".into()));
+    }
+    let junctions = &network.junctions;
+    let mut zones = junctions.on(chain).crossings.iter().map(|it| junctions.reach(*it));
+    if let Some(zone) = zones.find(|it| it.start < x && x - length < it.end) {
+        let why = format!(
+            "it would stand in the conflict area from {:.1} to {:.1} m; choose a place before or behind it",
+            zone.start - start,
+            zone.end - start
+        );
+        return Err(refused(why));
+    }
+    let parameters = world.parameters_of(style, world.arrivals.next_id())?;
+    let destination = destination.map(|it| world.destination(it)).transpose()?;
+    let destination = navigator.seen_by(*class, destination);
+    if !navigator.waypoint_from(network, destination, chain, x).leads_on(x) {
+        return Err(refused(
+            "no route leads from there to its destination; choose another destination".into(),
+        ));
+    }
+    let placement = Placement { chain, x, speed: *speed_mps, class: *class, parameters, destination };
+    match in_the_way(world, &placement) {
+        Some(other) => Err(refused(format!(
+            "vehicle {other} is too near; choose another place, or a speed nearer to the traffic's"
+        ))),
+        None => Ok(placement),
+    }
+}
+
+/// The vehicle that could not stay clear of one at `placement`, or of which that one could not stay clear.
+fn in_the_way(world: &World, placement: &Placement) -> Option<VehicleId> {
+    let Placement { chain, x, speed, class, destination, .. } = *placement;
+    let (scene, dt, length) = (world.scene(), world.clock().dt, class.body().length);
+    let nobody = Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, is_long: class.is_long() };
+    let id = |spot| scene.motion(spot).id;
+    // Seen from its rear bumper, a vehicle beside it is ahead of it.
+    let rear = scene.viewpoint_at(nobody, chain, x - length);
+    if let Some(ahead) = scene.ahead(rear)
+        && !is_secure(speed, Ahead { gap: ahead.gap - length, ..ahead }, dt)
+    {
+        return scene.leader_spot(rear).map(id);
+    }
+    let follower = scene.follower(scene.viewpoint_at(nobody, chain, x))?;
+    let behind = driver_of(&scene, follower.spot);
+    let gap = follower.distance - length;
+    (!is_secure(behind.pace.speed, Ahead::steady(gap, speed), dt)).then(|| id(follower.spot))
+}

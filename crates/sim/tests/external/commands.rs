@@ -1,0 +1,192 @@
+//! Commands of users: what they do, and which are refused.
+
+use laneweave_network::LightState;
+use laneweave_sim::{
+    Class, Command, CommandError, Control, Event, Lateral, Longitudinal, NewVehicle, VehicleId, World,
+};
+
+use crate::lanes::{alone, insert};
+use crate::worlds::world;
+
+fn accelerate(id: VehicleId, value: f64) -> Command {
+    let longitudinal = Longitudinal::Acceleration(value);
+    Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Driver })
+}
+
+#[test]
+fn an_inserted_vehicle_is_on_the_road_at_once_and_a_removed_one_after_the_next_step() {
+    let (mut world, id) = alone();
+    assert_eq!(world.vehicle(id).map(|it| it.x()), Some(150.0));
+    assert_eq!((world.counts().entered, world.on_road()), (1, 1));
+    world.step();
+    assert_eq!((world.counts().inserted, world.events()), (1, &[Event::Entered(id)][..]));
+    world.command(Command::Remove(id)).expect("it is possible");
+    assert!(world.vehicle(id).is_some());
+    world.step();
+    assert!(world.vehicle(id).is_none());
+    assert!(matches!(world.events(), [Event::Removed { vehicle, .. }] if *vehicle == id));
+    assert_eq!((world.counts().removed, world.counts().left, world.on_road()), (1, 0, 0));
+}
+
+#[test]
+fn the_order_of_commands_between_two_steps_changes_nothing() {
+    let run = |is_reversed: bool| {
+        let mut world = world("ramps.osm", 4000.0, 5, 1);
+        (0..600).for_each(|_| world.step());
+        let ids: Vec<VehicleId> = world.vehicles().map(|it| it.id()).collect();
+        let mut commands: Vec<Command> = ids.iter().map(|it| accelerate(*it, -1.0)).collect();
+        commands.extend(ids.iter().map(|it| Command::SetStyle(*it, "aggressive".into())));
+        if is_reversed {
+            commands.reverse();
+        }
+        for command in commands {
+            world.command(command).expect("it is possible");
+        }
+        world.step();
+        let done = world.commands().to_vec();
+        (0..600).for_each(|_| world.step());
+        (done, world.state_hash())
+    };
+    assert_eq!(run(false), run(true));
+}
+
+#[test]
+fn a_driver_takes_another_style_and_another_destination() {
+    let mut world = world("ramps.osm", 0.0, 1, 1);
+    let id = insert(&mut world, 1, 150.0, 20.0);
+    let exits: Vec<i64> = world.demand().destinations.iter().map(|it| it.id()).collect();
+    assert!(exits.len() > 1);
+    world.command(Command::SetStyle(id, "aggressive".into())).expect("it is possible");
+    world.step();
+    assert_eq!(world.vehicle(id).map(|it| it.style().name.clone()), Some("aggressive".into()));
+    let before = world.state_hash();
+    for exit in exits {
+        let mut copy = crate::worlds::world("ramps.osm", 0.0, 1, 1);
+        copy.restore(&world.save().expect("it can be saved")).expect("it fits");
+        assert_eq!(copy.state_hash(), before);
+        copy.command(Command::SetDestination(id, Some(exit))).expect("a route leads there");
+        let last = loop {
+            copy.step();
+            let left = copy.events().iter().find_map(|it| match it {
+                Event::Left { vehicle, chain, .. } if *vehicle == id => Some(*chain),
+                _ => None,
+            });
+            if let Some(chain) = left {
+                break chain;
+            }
+        };
+        let gate = copy.network().exits.iter().find(|it| it.id == exit).expect("there is one");
+        assert!(gate.chains.contains(&last), "it left by exit {exit}");
+    }
+}
+
+#[test]
+fn a_demand_holds_from_the_command_on() {
+    let mut world = world("motorway_3_lanes.osm", 3600.0, 1, 1);
+    let origin = world.demand().origins[0].place.id();
+    let mut arrived = |per_hour: Option<f64>| {
+        if let Some(vehicles_per_hour) = per_hour {
+            world.command(Command::SetDemand { origin, vehicles_per_hour }).expect("it is possible");
+        }
+        let before = world.arrived();
+        (0..6000).for_each(|_| world.step());
+        world.arrived() - before
+    };
+    let [usual, none, half] = [None, Some(0.0), Some(1800.0)].map(&mut arrived);
+    assert!((540..660).contains(&usual) && none == 0 && (250..350).contains(&half), "{usual} {none} {half}");
+}
+
+#[test]
+fn a_light_shows_what_the_user_says() {
+    let mut world = world("grid.osm", 0.0, 1, 1);
+    let lights = world.network().junctions.lights.clone();
+    let light = lights[0].id;
+    for shows in [LightState::Red, LightState::Green] {
+        world.command(Command::SetLight { light, shows: Some(shows) }).expect("it is possible");
+        for _ in 0..900 {
+            world.step();
+            assert_eq!(world.scene().light(laneweave_network::LightIndex(0)), shows);
+        }
+    }
+    world.command(Command::SetLight { light, shows: None }).expect("it is possible");
+    let mut seen = Vec::new();
+    for _ in 0..900 {
+        world.step();
+        seen.push(world.scene().light(laneweave_network::LightIndex(0)));
+    }
+    assert!(seen.contains(&LightState::Red) && seen.contains(&LightState::Green));
+}
+
+#[test]
+fn impossible_commands_are_refused_with_a_remedy_and_change_nothing() {
+    let (mut world, id) = alone();
+    let lanelet = world.network().lanelets[0].id;
+    let vehicle = NewVehicle {
+        lanelet,
+        position_m: 50.0,
+        speed_mps: 20.0,
+        class: Class::Car,
+        style: "conservative".into(),
+        destination: None,
+    };
+    let insert = |change: fn(&mut NewVehicle)| {
+        let mut changed = vehicle.clone();
+        change(&mut changed);
+        Command::Insert(changed)
+    };
+    let refused = [
+        (Command::Remove(77), "vehicle 77 is not on the road"),
+        (accelerate(id, f64::NAN), "an acceleration of NaN: choose -8 to 8 m/s²"),
+        (accelerate(id, 20.0), "an acceleration of 20: choose -8 to 8 m/s²"),
+        (
+            Command::SetStyle(id, "agressive".into()),
+            "there is no style agressive; known are aggressive, conservative",
+        ),
+        (Command::SetDestination(id, Some(-5)), "there is no destination -5; known are"),
+        (Command::SetLight { light: 3, shows: None }, "there is no light 3; this world has no light"),
+        (Command::SetDemand { origin: -5, vehicles_per_hour: 3.0 }, "there is no origin -5; known are"),
+        (insert(|it| it.lanelet = -7), "there is no lanelet -7"),
+        (insert(|it| it.position_m = 1e6), "choose 0 to"),
+        (insert(|it| it.position_m = f64::NAN), "choose 0 to"),
+        (insert(|it| it.speed_mps = -1.0), "a speed of -1: choose 0 to"),
+        (insert(|it| it.style = "nobody".into()), "there is no style nobody"),
+    ];
+    for (command, part) in refused {
+        let text = world.command(command).expect_err(part).to_string();
+        assert!(text.contains(part), "{text}");
+    }
+    world.command(accelerate(id, 1.0)).expect("it is possible");
+    assert!(matches!(world.command(accelerate(id, 2.0)), Err(CommandError::Twice(_))));
+    assert!(matches!(world.command(Command::Remove(id)), Err(CommandError::Twice(_))));
+    world.step();
+    assert_eq!(world.commands().len(), 2, "the first vehicle, and its control");
+    world.command(Command::Remove(id)).expect("it is possible");
+    assert_eq!(world.command(accelerate(id, 2.0)), Err(CommandError::Removed(id)));
+    world.step();
+    assert_eq!(world.command(accelerate(id, 2.0)), Err(CommandError::NoVehicle(id)));
+    assert_eq!(world.on_road(), 0);
+}
+
+#[test]
+fn a_vehicle_is_not_put_where_another_could_not_stay_clear_of_it() {
+    let (world, _) = alone();
+    let lanelet = {
+        let vehicle = world.vehicles().next().expect("there is one");
+        world.network().lanelet_at(laneweave_network::Position::new(vehicle.spot.chain, vehicle.x())).0.id
+    };
+    let put = |position_m: f64, speed_mps: f64| {
+        let (mut world, _): (World, _) = alone();
+        let style = "conservative".into();
+        let new = NewVehicle { lanelet, position_m, speed_mps, class: Class::Car, style, destination: None };
+        world.command(Command::Insert(new)).map_err(|it| it.to_string())
+    };
+    // The car stands from 145.5 to 150 m at 25 m/s.
+    for (position_m, speed_mps) in [(150.0, 25.0), (147.0, 25.0), (145.4, 30.0), (152.0, 25.0), (160.0, 0.0)]
+    {
+        let refused = put(position_m, speed_mps).expect_err("it is too near");
+        assert!(refused.contains("vehicle 0 is too near"), "{refused}");
+    }
+    for (position_m, speed_mps) in [(100.0, 25.0), (130.0, 0.0), (195.0, 25.0)] {
+        assert_eq!(put(position_m, speed_mps), Ok(Some(1)), "{position_m} m");
+    }
+}

@@ -1,0 +1,8 @@
+//! External vehicles: a user drives them in the traffic of simulated drivers.
+
+mod commands;
+#[path = "../roads/drivers.rs"]
+mod drivers;
+mod identity;
+mod lanes;
+mod worlds;
