@@ -14,10 +14,10 @@ use std::{env, fs, process};
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::maps::lanelet2;
-use laneweave::output::{Inputs, Provenance, Summary, observers};
+use laneweave::output::{Inputs, Provenance, Summary, outputs};
 use laneweave::record::fingerprint;
+use laneweave::run::simulate;
 use laneweave::scenario::{Origin, Scenario, SumoFile, prepare};
-use laneweave::simulation::simulate;
 use laneweave_bench::machine::{beside_a_busy_core, round_trip};
 use laneweave_bench::say;
 
@@ -158,7 +158,7 @@ fn run(
     let provenance = Provenance::of(String::new(), scenario.run.seed, fingerprint(&scenario, origin)?);
     let mut watching = match leaves {
         Leaves::Nothing | Leaves::NothingBesideABusyCore => Vec::new(),
-        _ => observers(&scenario, &prepared, &provenance)?,
+        _ => outputs(&scenario, &prepared, &provenance)?,
     };
     let mut to_the_end = || -> Result<f64, Box<dyn Error>> {
         let start = Instant::now();
@@ -171,8 +171,8 @@ fn run(
             provenance: &provenance,
         };
         let summary = Summary::of(&prepared, inputs);
-        for observer in watching.drain(..) {
-            observer.finish(&prepared.world, &summary)?;
+        for output in watching.drain(..) {
+            output.finish(&prepared.world, &summary)?;
         }
         Ok(start.elapsed().as_secs_f64())
     };

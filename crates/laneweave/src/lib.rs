@@ -7,7 +7,7 @@
 pub mod branch;
 pub mod check;
 pub mod compare;
-pub mod simulation;
+pub mod run;
 
 #[cfg(feature = "reports")]
 pub use laneweave_results::report;

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use laneweave::output::{Inputs, Provenance, Summary, observers};
+use laneweave::output::{Inputs, Provenance, Summary, outputs};
+use laneweave::run::simulate;
 use laneweave::scenario::{Origin, Scenario, TableFormat, prepare};
-use laneweave::simulation::simulate;
 
 /// Time of all vehicles on the lanelets [s], and their distance there [m], from the rows of the table; the same from
 /// the world's counters; and the number of completed trips.
@@ -20,15 +20,14 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     (scenario.output.record_s, scenario.output.flows_s) = (0.0, f64::from(every) * 0.1);
     let provenance = Provenance::of(String::new(), scenario.run.seed, String::new());
     let mut prepared = prepare(&scenario, &Origin::default()).expect("it can be done");
-    let mut observers = observers(&scenario, &prepared, &provenance).expect("it can be done");
-    let ending =
-        simulate(&mut prepared, &mut observers, None, None, |_| true, || ()).expect("it can be done");
+    let mut outputs = outputs(&scenario, &prepared, &provenance).expect("it can be done");
+    let ending = simulate(&mut prepared, &mut outputs, None, None, |_| true, || ()).expect("it can be done");
     let inputs =
         Inputs { scenario: &scenario, ending: &ending, wall_s: 0.0, load_s: 0.0, provenance: &provenance };
     let summary = Summary::of(&prepared, inputs);
     let world = &prepared.world;
-    for observer in observers {
-        observer.finish(world, &summary).expect("it can be done");
+    for output in outputs {
+        output.finish(world, &summary).expect("it can be done");
     }
     let table = std::fs::read_to_string(dir.join("flows.csv")).expect("it can be done");
     std::fs::remove_dir_all(&dir).expect("it can be done");

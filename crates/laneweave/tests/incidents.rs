@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
-use laneweave::output::{Inputs, Provenance, Summary, observers};
+use laneweave::output::{Inputs, Provenance, Summary, outputs};
+use laneweave::run::simulate;
 use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
 use laneweave::sim::{Class, Placement};
-use laneweave::simulation::simulate;
 
 /// A run of half a minute on two lanes, with only the vehicles that the test places there; in a temporary folder.
 struct Run {
@@ -32,7 +32,10 @@ impl Run {
         scenario.output.record_s = 0.0;
         scenario.output.checkpoint_s = 10.0;
         let path = dir.join(checkpoint::FILE);
-        Run { scenario, keeper: Keeper { path, every: 100, fingerprint: "f".into(), outputs: "o".into() } }
+        Run {
+            scenario,
+            keeper: Keeper { path, every: 100, fingerprint: "f".into(), output_settings: "o".into() },
+        }
     }
 
     /// Two cars, the second with its front 2 m within the first; and a third far ahead.
@@ -61,7 +64,7 @@ impl Run {
         let Run { scenario, keeper } = self;
         let mut prepared = self.prepared();
         let provenance = Provenance::of(String::new(), 1, "f".into());
-        let mut watching = observers(scenario, &prepared, &provenance).expect("the folder is there");
+        let mut watching = outputs(scenario, &prepared, &provenance).expect("the folder is there");
         let from = Checkpoint::read(&keeper.path).expect("it is whole");
         let goes_on = |world: &laneweave::sim::World| world.clock().time() < end;
         let ending = simulate(&mut prepared, &mut watching, from, Some(keeper), goes_on, || ())

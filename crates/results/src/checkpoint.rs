@@ -1,4 +1,4 @@
-//! Checkpoints: the state of a run and of its observers in a file. An interrupted run continues from there, and ends
+//! Checkpoints: the state of a run and of its outputs in a file. An interrupted run continues from there, and ends
 //! with the same results.
 
 use std::fs;
@@ -19,8 +19,8 @@ use crate::pack::{pack, unpack};
 pub struct Checkpoint {
     /// Hash of everything on which the run depends.
     pub fingerprint: String,
-    /// Hash of [the settings of the output](crate::record::outputs).
-    pub outputs: String,
+    /// Hash of [the settings of the output](crate::record::output_settings).
+    pub output_settings: String,
     /// Simulated time at which measuring began [s].
     pub measured_from_s: f64,
     /// Number of measured steps.
@@ -31,8 +31,8 @@ pub struct Checkpoint {
     pub queues: Queues,
     /// The trips within one lanelet so far.
     pub short_trips: ShortTrips,
-    /// The state of each observer.
-    pub observers: Vec<Vec<u8>>,
+    /// The state of each output.
+    pub outputs: Vec<Vec<u8>>,
 }
 
 /// Where and how often a run writes checkpoints.
@@ -44,8 +44,8 @@ pub struct Keeper {
     pub every: u32,
     /// See [`Checkpoint::fingerprint`].
     pub fingerprint: String,
-    /// See [`Checkpoint::outputs`].
-    pub outputs: String,
+    /// See [`Checkpoint::output_settings`].
+    pub output_settings: String,
 }
 
 /// The name of the checkpoint file in the folder of results.

@@ -1,10 +1,9 @@
 //! The results of a run: tables, a summary, checkpoints, a record from which it can be repeated, and reports.
-//! Observers read the world and never write it; a file that they write is complete or not there.
+//! Outputs read the world and never write it; a file that they write is complete or not there.
 
 pub mod checkpoint;
 pub mod folder;
 pub mod numbers;
-mod observer;
 mod outcome;
 pub mod output;
 mod pack;
@@ -14,5 +13,4 @@ pub mod report;
 mod seen;
 mod whole_file;
 
-pub use observer::Observer;
 pub use outcome::{About, Ending};

@@ -1,4 +1,4 @@
-//! The state of observers, as bytes in a checkpoint.
+//! The state of outputs, as bytes in a checkpoint.
 
 use laneweave_scenario::Fault;
 use serde::Serialize;

@@ -158,6 +158,21 @@ fn relative(file: &Path, dir: &Path) -> Result<PathBuf, Fault> {
     Ok(up.chain(file.components().skip(shared)).collect())
 }
 
+/// The summary as JSON of the run with its results in `dir`, if that run is complete.
+///
+/// # Errors
+/// If the file cannot be read, or is no summary.
+pub fn ended(dir: &Path) -> Result<Option<String>, Fault> {
+    let summary = dir.join(SUMMARY);
+    let text = match fs::read_to_string(&summary) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        read => read.map_err(|error| Fault::refused(&summary, "read", &error))?,
+    };
+    let value: serde_json::Value = serde_json::from_str(&text)
+        .map_err(|error| Fault::new(summary.display(), error, "delete it, and resume again"))?;
+    Ok((value["interrupted"] == false).then_some(text))
+}
+
 /// Hash of everything on which a run depends: the program's version, the scenario without its output, its threads and
 /// its size limit of the map, the styles, the map.
 ///
@@ -205,7 +220,7 @@ pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, 
 ///
 /// # Errors
 /// None, as long as every output setting can be serialized.
-pub fn outputs(scenario: &Scenario) -> Result<String, Fault> {
+pub fn output_settings(scenario: &Scenario) -> Result<String, Fault> {
     let output = Output { dir: PathBuf::new(), ..scenario.output.clone() };
     let toml =
         toml::to_string(&output).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;

@@ -59,6 +59,7 @@ pub use state::random::{Purpose, Random};
 pub use state::setup::{Placement, Setup};
 pub use state::vehicle::{Body, Class, Fleet};
 pub use step::checkpoint::CheckpointError;
+pub use step::columns::Columns;
 pub use step::command::CommandError;
 pub use step::vehicle::Vehicle;
 pub use step::world::World;

@@ -1,7 +1,5 @@
 //! `laneweave run`.
 
-use std::fs;
-use std::io;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -10,12 +8,8 @@ use std::time::Instant;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::checkpoint::{self, Checkpoint, Keeper};
-use laneweave::folder::{Claim, RESULTS};
-use laneweave::output::{Inputs, Provenance, Summary, observers, write_whole};
-use laneweave::record::{self, SUMMARY};
-use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, prepare};
-use laneweave::simulation::simulate;
+use laneweave::run::{self, Resumed, Run};
+use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat};
 use laneweave::style::Model;
 
 use super::check::Limit;
@@ -153,11 +147,7 @@ impl Arguments {
     /// Resumes the run that left its scenario in the named folder.
     fn resume(mut self, started: Instant) -> Result<ExitCode, Fault> {
         let (dir, screen) = (&self.input.clone(), self.screen);
-        let (mut scenario, origin) = Origin::open(&dir.join(record::SCENARIO)).map_err(|fault| {
-            let remedy = "give the results folder of an incomplete run";
-            Fault::new(dir.display(), format!("nothing to resume: {} {}", fault.place, fault.what), remedy)
-        })?;
-        scenario.output.dir = dir.into();
+        let (mut scenario, origin) = run::kept(dir)?;
         let whole = |path: &Path| path.canonicalize().ok();
         // The path of the folder may be written in another way.
         self.out = self.out.filter(|it| whole(it) != whole(dir));
@@ -166,35 +156,18 @@ impl Arguments {
         same_run((&scenario, &origin), (&asked, &options))?;
         scenario.run.threads = asked.run.threads;
         scenario.map_options.max_size_mb = asked.map_options.max_size_mb;
-        let claim = Claim::on(dir)?;
-        if let Some(summary) = ended(&dir.join(SUMMARY))? {
-            claim.clear(&checkpoint::FILES)?;
-            if !screen.quiet {
-                eprintln!("{}: the run is already complete", dir.display());
-            }
-            if screen.json {
-                say(&summary)?;
-            }
-            return Ok(ExitCode::SUCCESS);
-        }
-        let fingerprint = record::fingerprint(&scenario, &origin)?;
-        let kept = Checkpoint::read(&dir.join(checkpoint::FILE))?;
-        if let Some(kept) = &kept {
-            let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
-            if kept.fingerprint != fingerprint {
-                let what = "the map, a style, the scenario or the program has changed since this was run";
-                return Err(refused(what));
-            }
-            if kept.outputs != record::outputs(&scenario)? {
-                return Err(refused("the [output] of its scenario has changed since this was run"));
+        match run::resume(&scenario, &origin)? {
+            Resumed::Run(run) => drive(*run, screen, started),
+            Resumed::Complete(summary) => {
+                if !screen.quiet {
+                    eprintln!("{}: the run is already complete", dir.display());
+                }
+                if screen.json {
+                    say(&summary)?;
+                }
+                Ok(ExitCode::SUCCESS)
             }
         }
-        let prepared = prepare(&scenario, &origin)?;
-        let path = dir.join(record::SCENARIO);
-        let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
-        let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
-        claim.clear(if kept.is_some() { &[SUMMARY] } else { &RESULTS })?;
-        drive(&scenario, prepared, provenance, kept, &claim, screen, started)
     }
 
     /// Options override the scenario.
@@ -246,89 +219,28 @@ pub(crate) fn run(
     screen: Screen,
     started: Instant,
 ) -> Result<ExitCode, Fault> {
-    let prepared = prepare(scenario, origin)?;
-    let fingerprint = record::fingerprint(scenario, origin)?;
-    let dir = &scenario.output.dir;
-    let claim = Claim::on(dir)?;
-    record::clear(&claim)?;
-    let kept = record::keep(scenario, origin, dir, &super::given())?;
-    let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
-    drive(scenario, prepared, provenance, None, &claim, screen, started)
+    drive(Run::begin(scenario, origin, &super::given())?, screen, started)
 }
 
-/// The summary of a run that was not interrupted, if there is one.
-fn ended(summary: &Path) -> Result<Option<String>, Fault> {
-    let text = match fs::read_to_string(summary) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        read => read.map_err(|error| Fault::refused(summary, "read", &error))?,
-    };
-    let value: serde_json::Value = serde_json::from_str(&text)
-        .map_err(|error| Fault::new(summary.display(), error, "delete it, and resume again"))?;
-    Ok((value["interrupted"] == false).then_some(text))
-}
-
-/// Runs what is prepared, from a checkpoint if there is one, and writes its results.
-fn drive(
-    scenario: &Scenario,
-    mut prepared: Prepared,
-    provenance: Provenance,
-    from: Option<Checkpoint>,
-    claim: &Claim,
-    screen: Screen,
-    started: Instant,
-) -> Result<ExitCode, Fault> {
+/// Drives a run to its end, and shows its progress and its results.
+fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> {
     if !screen.quiet {
-        warn(&prepared);
+        warn(run.prepared());
     }
-    let dir = &scenario.output.dir;
-    let mut observers = observers(scenario, &prepared, &provenance)?;
-    let outputs = record::outputs(scenario)?;
-    let keeper = prepared.checkpoint_steps.map(|every| Keeper {
-        path: dir.join(checkpoint::FILE),
-        every,
-        fingerprint: provenance.fingerprint.clone(),
-        outputs,
-    });
     let stop = Stop::listen()?;
-    let mut progress = Progress::new(&prepared, scenario.run.step_s, screen.quiet);
-    let mut load_s = 0.0;
-    let ending = simulate(
-        &mut prepared,
-        &mut observers,
-        from,
-        keeper.as_ref(),
-        |world| {
-            progress.show(world);
-            !stop.is_raised()
-        },
-        || load_s = started.elapsed().as_secs_f64(),
-    )?;
+    let mut progress = Progress::new(run.prepared(), run.scenario().run.step_s, screen.quiet);
+    let results = run.started(started).complete(|world| {
+        progress.show(world);
+        !stop.is_raised()
+    });
     progress.clear();
-    let wall_s = started.elapsed().as_secs_f64();
-    let summary =
-        Summary::of(&prepared, Inputs { scenario, ending: &ending, wall_s, load_s, provenance: &provenance });
-    let mut files = vec![dir.join(record::SCENARIO)];
-    for observer in observers {
-        files.extend(observer.finish(&prepared.world, &summary)?);
-    }
-    let summary = summary.after(started.elapsed().as_secs_f64());
-    let json = serde_json::to_string_pretty(&summary)
-        .map_err(|error| Fault::new(SUMMARY, error, "report this as a bug"))?
-        + "\n";
-    let path = dir.join(SUMMARY);
-    write_whole(&path, &json)?;
-    files.push(path);
-    if keeper.is_some() && !ending.is_interrupted {
-        // Once the results are on disk, there is nothing to resume any more.
-        claim.settle(&files)?;
-        claim.clear(&checkpoint::FILES)?;
-    }
+    let results = results?;
     match screen {
-        Screen { json: true, .. } => say(&json)?,
-        Screen { quiet: false, .. } => say(&summary.to_text(&prepared.styles, &files))?,
+        Screen { json: true, .. } => say(&results.summary.to_json()?)?,
+        Screen { quiet: false, .. } => say(&results.to_text())?,
         _ => {}
     }
-    Ok(if ending.is_interrupted { stop.code() } else { ExitCode::SUCCESS })
+    Ok(if results.summary.interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
 
 /// Lists the problems of the map, its remarks, and the demand.

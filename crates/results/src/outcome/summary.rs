@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::World;
 use laneweave_study::seconds;
@@ -13,6 +14,7 @@ use super::ending::Ending;
 use super::first_incident::FirstIncident;
 use super::provenance::Provenance;
 use super::queues::Queue;
+use crate::record::SUMMARY;
 
 /// Maximum of queues that are named on the screen.
 const LISTED_QUEUES: usize = 3;
@@ -202,6 +204,16 @@ impl Summary {
         self.updates_per_s = ratio(self.updates as f64, wall_s - self.load_s).unwrap_or(0.0);
         self.peak_rss_mb = peak_rss_mb();
         self
+    }
+
+    /// The summary as one JSON object, with a line break at the end.
+    ///
+    /// # Errors
+    /// None, as long as every field can be serialized.
+    pub fn to_json(&self) -> Result<String, Fault> {
+        let json = serde_json::to_string_pretty(self)
+            .map_err(|error| Fault::new(SUMMARY, error, "report this as a bug"))?;
+        Ok(json + "\n")
     }
 
     /// The summary for the screen, with the files of the run.

@@ -1,4 +1,4 @@
-//! Batches of observations in plain numbers: observers send them through a sender, and writers make files of them.
+//! Batches of observations in plain numbers: outputs send them through a sender, and writers make files of them.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Sender, SyncSender, sync_channel};

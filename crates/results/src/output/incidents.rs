@@ -7,10 +7,10 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Event, Incident, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
+use super::Output;
 use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
-use crate::observer::Observer;
 use crate::outcome::Summary;
 
 const COLUMNS: [Column; 17] = [
@@ -51,7 +51,7 @@ impl Incidents {
     }
 }
 
-impl Observer for Incidents {
+impl Output for Incidents {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         self.sender.hand_over(Batch::Incidents(std::mem::take(&mut self.seen)))?;
         Ok(Vec::new())

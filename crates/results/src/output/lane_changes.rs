@@ -8,9 +8,9 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Event, Kind, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
+use super::Output;
 use super::batch::{Batch, BatchSender, Writer};
 use super::names::Names;
-use crate::observer::Observer;
 use crate::outcome::Summary;
 
 /// Columns before those of the incentives.
@@ -69,7 +69,7 @@ impl LaneChanges {
     }
 }
 
-impl Observer for LaneChanges {
+impl Output for LaneChanges {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         self.sender.hand_over(Batch::LaneChanges(std::mem::take(&mut self.ended)))?;
         Ok(Vec::new())

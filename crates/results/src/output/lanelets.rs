@@ -8,11 +8,11 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Clock, LaneletAggregate, World};
 use laneweave_study::{Column, TableWriter, seconds};
 
+use super::Output;
 use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
 use super::traffic::Traffic;
-use crate::observer::Observer;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
 
@@ -48,7 +48,7 @@ impl Lanelets {
     }
 }
 
-impl Observer for Lanelets {
+impl Output for Lanelets {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         pack(&(&self.until, &self.past, &self.interval, &self.before))
     }

@@ -1,7 +1,7 @@
-//! The output of a run: tables, figures, a report and a summary. An observer makes each of them; it reads the world
+//! The output of a run: tables, figures, a report and a summary. An [`Output`] makes each of them; it reads the world
 //! and never writes it.
 //!
-//! A new output is a file here, a line in `observers.rs`, and its name in [`crate::folder::RESULTS`].
+//! A new output is a file here, a line in `outputs.rs`, and its name in [`crate::folder::RESULTS`].
 
 mod batch;
 mod folder;
@@ -11,7 +11,7 @@ mod lane_changes;
 mod lanelets;
 mod log;
 mod names;
-mod observers;
+mod outputs;
 #[cfg(feature = "reports")]
 mod report;
 mod samples;
@@ -22,7 +22,11 @@ mod trip;
 mod trips;
 mod writer_threads;
 
-pub use crate::observer::Observer;
+use std::path::PathBuf;
+
+use laneweave_scenario::Fault;
+use laneweave_sim::World;
+
 pub use crate::outcome::{
     About, FirstIncident, HeldFor, Inputs, Provenance, Queue, Queues, ShortTrips, Summary, TripMeans,
     command_line,
@@ -31,4 +35,38 @@ pub use crate::outcome::{
 pub use crate::report::{Crowd, Driving, Reasons, Record, StyleDriving, TripTimes};
 pub use crate::seen::{Boxes, Traces};
 pub use crate::whole_file::write_whole;
-pub use observers::observers;
+pub use outputs::outputs;
+
+/// An output of a run: it observes the world, and most outputs write files. One without a state needs `observe` only.
+pub trait Output {
+    /// Observes the world after a step.
+    ///
+    /// # Errors
+    /// If its data cannot be written.
+    fn observe(&mut self, world: &World) -> Result<(), Fault>;
+
+    /// Its state as bytes, for a checkpoint. Before, it sends the data that it has collected to its files. By default
+    /// it is empty.
+    ///
+    /// # Errors
+    /// If the data cannot be written.
+    fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
+        Ok(Vec::new())
+    }
+
+    /// Restores its state.
+    ///
+    /// # Errors
+    /// If the bytes are not such a state.
+    fn restore(&mut self, _saved: &[u8]) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    /// Completes its files after a run with this `summary`, and returns their names. By default there are none.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    fn finish(self: Box<Self>, _world: &World, _summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
+        Ok(Vec::new())
+    }
+}

@@ -7,8 +7,8 @@ use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::World;
 
+use super::Output;
 use super::folder::Folder;
-use crate::observer::Observer;
 use crate::outcome::{About, Provenance, Summary};
 use crate::pack::{pack, unpack};
 use crate::report::{Record, RunReport};
@@ -25,7 +25,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// The observer for the report in `folder`.
+    /// The output for the report in `folder`.
     pub(super) fn new(folder: &Folder, scenario: &Scenario, prepared: &Prepared) -> Report {
         Report {
             path: folder.file("report.html"),
@@ -38,7 +38,7 @@ impl Report {
     }
 }
 
-impl Observer for Report {
+impl Output for Report {
     fn observe(&mut self, world: &World) -> Result<(), Fault> {
         self.record.observe(world);
         Ok(())

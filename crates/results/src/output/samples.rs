@@ -7,9 +7,9 @@ use std::sync::mpsc::Receiver;
 use laneweave_scenario::Fault;
 use laneweave_sim::World;
 
+use super::Output;
 use super::batch::{Batch, BatchSender};
 use super::frame::Frame;
-use crate::observer::Observer;
 use crate::outcome::Summary;
 
 /// Samples all vehicles at regular steps.
@@ -55,7 +55,7 @@ impl Samples {
     }
 }
 
-impl Observer for Samples {
+impl Output for Samples {
     fn save(&mut self, world: &World) -> Result<Vec<u8>, Fault> {
         if !self.frame.is_empty() {
             self.hand_over(world)?;

@@ -7,11 +7,11 @@ use laneweave_scenario::Fault;
 use laneweave_sim::{Event, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
+use super::Output;
 use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
 use super::trip::{End, Trip};
-use crate::observer::Observer;
 use crate::outcome::Summary;
 
 /// Trips in a batch; those of one step more at most.
@@ -29,7 +29,7 @@ impl Trips {
     }
 }
 
-impl Observer for Trips {
+impl Output for Trips {
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         self.sender.hand_over(Batch::Trips(std::mem::take(&mut self.ended)))?;
         Ok(Vec::new())

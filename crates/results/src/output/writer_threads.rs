@@ -1,7 +1,7 @@
 //! Writer threads for tables and XML files. They receive the observations in batches of plain numbers, through
-//! channels with a small capacity: an observer that is too fast waits, so that memory is bounded.
+//! channels with a small capacity: an output that is too fast waits, so that memory is bounded.
 //!
-//! Each kind of batch comes from one observer, in the order of observation, and each file is made from one kind: the
+//! Each kind of batch comes from one output, in the order of observation, and each file is made from one kind: the
 //! contents of a file do not depend on when it is written.
 
 use std::path::PathBuf;
@@ -12,11 +12,11 @@ use std::thread::{self, JoinHandle};
 use laneweave_scenario::Fault;
 use laneweave_sim::World;
 
+use super::Output;
 use super::batch::{Batch, BatchSender, Writer, broke_off};
 use super::frame::Frame;
 use super::log::{PageLog, batches};
 use super::names::Names;
-use crate::observer::Observer;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
 
@@ -28,7 +28,7 @@ const SPARES: usize = 24;
 const TABLES: &str = "tables";
 const XML: &str = "xml";
 
-/// The writer threads, as the last of the observers: it observes nothing, and completes all files after the others
+/// The writer threads, as the last of the outputs: it observes nothing, and completes all files after the others
 /// have finished.
 pub(super) struct WriterThreads {
     sender: BatchSender,
@@ -101,7 +101,7 @@ impl WriterThreads {
     }
 }
 
-impl Observer for WriterThreads {
+impl Output for WriterThreads {
     /// Writes all batches up to now into the log, and stores its length.
     fn save(&mut self, _world: &World) -> Result<Vec<u8>, Fault> {
         let (told, length) = channel();

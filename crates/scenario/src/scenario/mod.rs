@@ -24,7 +24,7 @@ pub use basis::Basis;
 pub use headways::Headways;
 pub use mixture::mixture;
 pub use origin::Origin;
-pub use prepare::{Prepared, driven, open_map, prepare};
+pub use prepare::{Prepared, driven, open_map, prepare, prepare_on};
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
 pub use written::write;

@@ -75,6 +75,23 @@ pub struct Prepared {
 /// # Errors
 /// If something is missing, not readable, or invalid.
 pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
+    prepare_with(scenario, origin, || read_map(scenario, origin))
+}
+
+/// Makes the world of `scenario` on a `map` that was read or generated before. The path and the options of the map in
+/// the scenario have no effect.
+///
+/// # Errors
+/// If something is missing, not readable, or invalid.
+pub fn prepare_on(map: Map, scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
+    prepare_with(scenario, origin, || Ok(map))
+}
+
+fn prepare_with(
+    scenario: &Scenario,
+    origin: &Origin,
+    map: impl FnOnce() -> Result<Map, Fault>,
+) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
     let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
     let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
@@ -84,7 +101,7 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
     let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
     let Population { driver_parameters, shares } = Population::draw(&mixture, scenario.run.seed)?;
-    let map = read_map(scenario, origin)?;
+    let map = map()?;
     let (network, places) = driven(&map);
     // A user cannot correct the built-in map.
     let remarks = if origin.map.is_some() { Vec::new() } else { remarks(&map, &network, &places) };

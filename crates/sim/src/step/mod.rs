@@ -3,6 +3,7 @@
 pub(crate) mod advance;
 pub(crate) mod carry_out;
 pub(crate) mod checkpoint;
+pub(crate) mod columns;
 pub(crate) mod command;
 pub(crate) mod enter;
 pub(crate) mod externals;

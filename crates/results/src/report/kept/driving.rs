@@ -53,7 +53,7 @@ pub struct StyleDriving {
 }
 
 impl Driving {
-    /// The observer for the styles of `world`.
+    /// What is kept for the styles of `world`.
     pub fn of(world: &World) -> Driving {
         let styles = names(world).into_iter().map(StyleDriving::new).collect();
         Driving { style_of: styles_of(world.demand()), styles }

@@ -1,22 +1,21 @@
-//! A run from its first step to its last, with observers.
+//! A run from its first step to its last, with its outputs.
 
+use laneweave_results::Ending;
 use laneweave_results::checkpoint::{Checkpoint, FILE, Keeper};
-use laneweave_results::output::{Observer, Queues, ShortTrips};
+use laneweave_results::output::{Output, Queues, ShortTrips};
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::Prepared;
 use laneweave_sim::{CheckpointError, World};
 
-pub use laneweave_results::Ending;
-
-/// Runs `prepared` through its warm-up and its measured time, or continues from a checkpoint. `observers` see the
-/// world after each measured step. `goes_on` is asked before every step. `when_warm` is called once, when measuring
+/// Runs `prepared` through its warm-up and its measured time, or continues from a checkpoint. `outputs` observe
+/// the world after each measured step. `goes_on` is asked before every step. `when_warm` is called once, when measuring
 /// begins or continues. A `keeper` gets checkpoints, if there is one.
 ///
 /// # Errors
-/// If an observer cannot write its data, or if the checkpoint belongs to another run.
+/// If an output cannot write its data, or if the checkpoint belongs to another run.
 pub fn simulate(
     prepared: &mut Prepared,
-    observers: &mut [Box<dyn Observer>],
+    outputs: &mut [Box<dyn Output>],
     from: Option<Checkpoint>,
     keeper: Option<&Keeper>,
     mut goes_on: impl FnMut(&World) -> bool,
@@ -24,8 +23,8 @@ pub fn simulate(
 ) -> Result<Ending, Fault> {
     let steps = prepared.steps;
     let mut run = match from {
-        Some(checkpoint) => Run::resumed(prepared, observers, checkpoint)?,
-        None => Run::warmed_up(prepared, &mut goes_on),
+        Some(checkpoint) => Measuring::resumed(prepared, outputs, checkpoint)?,
+        None => Measuring::warmed_up(prepared, &mut goes_on),
     };
     when_warm();
     let world = &mut prepared.world;
@@ -38,22 +37,22 @@ pub fn simulate(
         run.measured_steps += 1;
         run.queues.observe(world);
         run.short_trips.observe(world);
-        for observer in &mut *observers {
-            observer.observe(world)?;
+        for output in &mut *outputs {
+            output.observe(world)?;
         }
         if let Some(keeper) = keeper
             && run.measured_steps.is_multiple_of(keeper.every)
         {
-            run.keep(world, observers, keeper)?;
+            run.keep(world, outputs, keeper)?;
         }
     }
     let measured_s = world.clock().time() - run.measured_from_s;
-    let Run { measured_from_s, is_interrupted, queues, short_trips, .. } = run;
+    let Measuring { measured_from_s, is_interrupted, queues, short_trips, .. } = run;
     Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world), short_trips })
 }
 
 /// A run in progress.
-struct Run {
+struct Measuring {
     /// Simulated time at which measuring began [s].
     measured_from_s: f64,
     measured_steps: u32,
@@ -62,9 +61,9 @@ struct Run {
     short_trips: ShortTrips,
 }
 
-impl Run {
+impl Measuring {
     /// The state after the warm-up.
-    fn warmed_up(prepared: &mut Prepared, mut goes_on: impl FnMut(&World) -> bool) -> Run {
+    fn warmed_up(prepared: &mut Prepared, mut goes_on: impl FnMut(&World) -> bool) -> Measuring {
         let Prepared { world, warmup_steps, .. } = prepared;
         let mut is_interrupted = false;
         for _ in 0..*warmup_steps {
@@ -75,7 +74,7 @@ impl Run {
             world.step();
         }
         world.reset_counts();
-        Run {
+        Measuring {
             measured_from_s: world.clock().time(),
             measured_steps: 0,
             is_interrupted,
@@ -87,36 +86,35 @@ impl Run {
     /// The state of a checkpoint.
     fn resumed(
         prepared: &mut Prepared,
-        observers: &mut [Box<dyn Observer>],
+        outputs: &mut [Box<dyn Output>],
         checkpoint: Checkpoint,
-    ) -> Result<Run, Fault> {
-        let Checkpoint {
-            measured_from_s, measured_steps, world, queues, short_trips, observers: kept, ..
-        } = checkpoint;
+    ) -> Result<Measuring, Fault> {
+        let Checkpoint { measured_from_s, measured_steps, world, queues, short_trips, outputs: kept, .. } =
+            checkpoint;
         let other = |what: String| Fault::new(FILE, what, "run again from the beginning, without --resume");
         prepared.world.restore(&world).map_err(|error| other(error.to_string()))?;
-        if kept.len() != observers.len() {
-            return Err(other(format!("{} observers instead of {}", kept.len(), observers.len())));
+        if kept.len() != outputs.len() {
+            return Err(other(format!("{} outputs instead of {}", kept.len(), outputs.len())));
         }
-        for (observer, kept) in observers.iter_mut().zip(kept) {
-            observer.restore(&kept)?;
+        for (output, kept) in outputs.iter_mut().zip(kept) {
+            output.restore(&kept)?;
         }
-        Ok(Run { measured_from_s, measured_steps, is_interrupted: false, queues, short_trips })
+        Ok(Measuring { measured_from_s, measured_steps, is_interrupted: false, queues, short_trips })
     }
 
     /// Writes a checkpoint.
-    fn keep(&self, world: &World, observers: &mut [Box<dyn Observer>], keeper: &Keeper) -> Result<(), Fault> {
-        let kept: Result<Vec<Vec<u8>>, Fault> = observers.iter_mut().map(|it| it.save(world)).collect();
+    fn keep(&self, world: &World, outputs: &mut [Box<dyn Output>], keeper: &Keeper) -> Result<(), Fault> {
+        let kept: Result<Vec<Vec<u8>>, Fault> = outputs.iter_mut().map(|it| it.save(world)).collect();
         let bug = |error: CheckpointError| Fault::new(FILE, error, "report this as a bug");
         let checkpoint = Checkpoint {
             fingerprint: keeper.fingerprint.clone(),
-            outputs: keeper.outputs.clone(),
+            output_settings: keeper.output_settings.clone(),
             measured_from_s: self.measured_from_s,
             measured_steps: self.measured_steps,
             world: world.save().map_err(bug)?,
             queues: self.queues.clone(),
             short_trips: self.short_trips,
-            observers: kept?,
+            outputs: kept?,
         };
         checkpoint.write(&keeper.path)
     }

@@ -1,4 +1,4 @@
-//! The observers of a run, and their output.
+//! All outputs of a run.
 
 use std::num::NonZero;
 use std::thread::available_parallelism;
@@ -6,6 +6,7 @@ use std::thread::available_parallelism;
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Prepared, Scenario, SumoFile};
 
+use super::Output;
 use super::batch::Writer;
 use super::folder::Folder;
 use super::incidents::{IncidentTable, Incidents};
@@ -20,19 +21,18 @@ use super::trajectories::Trajectories;
 use super::trips::{TripTable, Trips};
 use super::writer_threads::WriterThreads;
 use crate::checkpoint;
-use crate::observer::Observer;
 use crate::outcome::Provenance;
 
-/// The observers of `scenario`; creates the folder of its results. The last of them completes the files of the
+/// The outputs of `scenario`; creates the folder of its results. The last of them completes the files of the
 /// others, and finishes after them.
 ///
 /// # Errors
 /// If the folder or a file in it cannot be created.
-pub fn observers(
+pub fn outputs(
     scenario: &Scenario,
     prepared: &Prepared,
     provenance: &Provenance,
-) -> Result<Vec<Box<dyn Observer>>, Fault> {
+) -> Result<Vec<Box<dyn Output>>, Fault> {
     let folder = Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
     folder.make()?;
     let world = &prepared.world;
@@ -44,19 +44,19 @@ pub fn observers(
     let free = cores.saturating_sub(prepared.threads);
     let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world), log, free)?;
     let sender = writers.sender();
-    let mut observers: Vec<Box<dyn Observer>> = Vec::new();
+    let mut outputs: Vec<Box<dyn Output>> = Vec::new();
     if let Some(steps) = prepared.record_steps {
         let is_machine_full = writers.threads() > free;
-        observers.push(Box::new(Samples::new(steps, is_machine_full, sender.clone(), written)));
+        outputs.push(Box::new(Samples::new(steps, is_machine_full, sender.clone(), written)));
     }
-    observers.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, sender.clone())));
-    observers.push(Box::new(LaneChanges::new(begin, sender.clone())));
-    observers.push(Box::new(Incidents::new(begin, sender.clone())));
-    observers.push(Box::new(Trips::new(sender)));
+    outputs.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, sender.clone())));
+    outputs.push(Box::new(LaneChanges::new(begin, sender.clone())));
+    outputs.push(Box::new(Incidents::new(begin, sender.clone())));
+    outputs.push(Box::new(Trips::new(sender)));
     #[cfg(feature = "reports")]
-    observers.push(Box::new(Report::new(&folder, scenario, prepared)));
-    observers.push(Box::new(writers));
-    Ok(observers)
+    outputs.push(Box::new(Report::new(&folder, scenario, prepared)));
+    outputs.push(Box::new(writers));
+    Ok(outputs)
 }
 
 /// The writers of the tables.

@@ -1,0 +1,133 @@
+//! A run that writes its result files.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use laneweave_results::checkpoint::{self, Checkpoint, Keeper};
+use laneweave_results::folder::Claim;
+use laneweave_results::output::{Inputs, Provenance, Summary, outputs, write_whole};
+use laneweave_results::record::{self, SCENARIO, SUMMARY};
+use laneweave_scenario::Fault;
+use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare};
+use laneweave_sim::World;
+
+use super::simulate::simulate;
+
+/// A run that writes its result files into the folder `output.dir` of its scenario. No other process writes there
+/// while this value lives.
+pub struct Run {
+    scenario: Scenario,
+    prepared: Prepared,
+    provenance: Provenance,
+    from: Option<Checkpoint>,
+    claim: Claim,
+    started: Instant,
+}
+
+/// The results of a run.
+pub struct Results {
+    /// Its summary, as in the file `summary.json`.
+    pub summary: Summary,
+    /// The result files.
+    pub files: Vec<PathBuf>,
+    /// Names and weights of the styles.
+    pub styles: Vec<(String, f64)>,
+}
+
+impl Run {
+    /// A run of `scenario`. Its folder is created, and the results of a former run there are removed; nothing is written
+    /// before everything has been checked. `command` is the command line that is kept with the results.
+    ///
+    /// # Errors
+    /// If something is missing, not readable, or invalid, or if the folder cannot be used.
+    pub fn begin(scenario: &Scenario, origin: &Origin, command: &str) -> Result<Run, Fault> {
+        Run::of(prepare(scenario, origin)?, scenario, origin, command)
+    }
+
+    /// The same for a scenario that is `prepared`, and at its start.
+    ///
+    /// # Errors
+    /// If the map or a style is not readable, or if the folder cannot be used.
+    pub fn of(prepared: Prepared, scenario: &Scenario, origin: &Origin, command: &str) -> Result<Run, Fault> {
+        let fingerprint = record::fingerprint(scenario, origin)?;
+        let dir = &scenario.output.dir;
+        let claim = Claim::on(dir)?;
+        record::clear(&claim)?;
+        let kept = record::keep(scenario, origin, dir, command)?;
+        let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
+        Ok(Run::new(scenario, prepared, provenance, None, claim))
+    }
+
+    /// A run from its parts.
+    pub(super) fn new(
+        scenario: &Scenario,
+        prepared: Prepared,
+        provenance: Provenance,
+        from: Option<Checkpoint>,
+        claim: Claim,
+    ) -> Run {
+        Run { scenario: scenario.clone(), prepared, provenance, from, claim, started: Instant::now() }
+    }
+
+    /// The same run. Its wall time counts from the instant `started`, such as the begin of the process.
+    #[must_use]
+    pub fn started(self, started: Instant) -> Run {
+        Run { started, ..self }
+    }
+
+    /// What runs.
+    pub fn prepared(&self) -> &Prepared {
+        &self.prepared
+    }
+
+    /// Its scenario.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// Runs to the end, and completes the result files. `goes_on` is asked before every step; if it says no, the run
+    /// ends as interrupted, with the results so far.
+    ///
+    /// # Errors
+    /// If a file cannot be written, or if the checkpoint belongs to another run.
+    pub fn complete(self, goes_on: impl FnMut(&World) -> bool) -> Result<Results, Fault> {
+        let Run { scenario, mut prepared, provenance, from, claim, started } = self;
+        let dir = &scenario.output.dir;
+        let mut outputs = outputs(&scenario, &prepared, &provenance)?;
+        let output_settings = record::output_settings(&scenario)?;
+        let keeper = prepared.checkpoint_steps.map(|every| Keeper {
+            path: dir.join(checkpoint::FILE),
+            every,
+            fingerprint: provenance.fingerprint.clone(),
+            output_settings,
+        });
+        let mut load_s = 0.0;
+        let ending = simulate(&mut prepared, &mut outputs, from, keeper.as_ref(), goes_on, || {
+            load_s = started.elapsed().as_secs_f64();
+        })?;
+        let wall_s = started.elapsed().as_secs_f64();
+        let inputs = Inputs { scenario: &scenario, ending: &ending, wall_s, load_s, provenance: &provenance };
+        let summary = Summary::of(&prepared, inputs);
+        let mut files = vec![dir.join(SCENARIO)];
+        for output in outputs {
+            files.extend(output.finish(&prepared.world, &summary)?);
+        }
+        let summary = summary.after(started.elapsed().as_secs_f64());
+        let path = dir.join(SUMMARY);
+        write_whole(&path, &summary.to_json()?)?;
+        files.push(path);
+        if keeper.is_some() && !ending.is_interrupted {
+            // Once the results are on disk, there is nothing to resume any more.
+            claim.settle(&files)?;
+            claim.clear(&checkpoint::FILES)?;
+        }
+        Ok(Results { summary, files, styles: prepared.styles })
+    }
+}
+
+impl Results {
+    /// The summary and the names of the files, as a table for the screen.
+    pub fn to_text(&self) -> String {
+        self.summary.to_text(&self.styles, &self.files)
+    }
+}
