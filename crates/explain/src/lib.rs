@@ -9,5 +9,5 @@ mod words;
 
 pub use commonest::Commonest;
 pub use flip::{Flip, Knob, flips};
-pub use trip::{Moment, moment, trip};
+pub use trip::{Moment, moment, now, trip};
 pub use words::{act, reason, story};

@@ -63,6 +63,12 @@ pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flip
     }
 }
 
+/// What the driver of `id` makes of its lanes now, and is about to do. `None` if it is not on the road.
+pub fn now(world: &World, id: VehicleId) -> Option<String> {
+    let spot = world.vehicle(id)?.spot;
+    Some(full(world, &laneweave_sim::explain(world, spot), false))
+}
+
 fn full(world: &World, account: &Account, with_flips: bool) -> String {
     let scene = world.scene();
     let motion = scene.motion(account.spot);

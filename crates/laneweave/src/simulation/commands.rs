@@ -1,0 +1,86 @@
+//! Commands of the user: what a program does to the traffic.
+//!
+//! A command is checked when it is given, and carried out before the decisions of the next step. Only an inserted
+//! vehicle is on the road at once. The order of commands between two steps changes nothing.
+
+use laneweave_network::LightState;
+use laneweave_scenario::Fault;
+use laneweave_sim::{Command, Control, NewVehicle, VehicleId};
+
+use super::Simulation;
+use super::refused::refused;
+
+impl Simulation {
+    /// Puts a vehicle on the road, at once, and returns its id. Its own driver drives it.
+    ///
+    /// # Errors
+    /// If it cannot be there, if another vehicle could not stay clear of it, or if something that it names does not
+    /// exist.
+    pub fn insert(&mut self, vehicle: NewVehicle) -> Result<VehicleId, Fault> {
+        let place = format!("insert on lanelet {}", vehicle.lanelet);
+        let inserted = self.command(&place, Command::Insert(vehicle))?;
+        inserted.ok_or_else(|| Fault::new(place, "the new vehicle has no id", "report this as a bug"))
+    }
+
+    /// Takes a vehicle off the road. Its trip does not count as completed.
+    ///
+    /// # Errors
+    /// If it is not on the road, or has another command in this step.
+    pub fn remove(&mut self, id: VehicleId) -> Result<(), Fault> {
+        self.for_vehicle("remove", id, Command::Remove(id))
+    }
+
+    /// Drives a vehicle in place of its driver, until the next control. [`Control::DRIVER`] gives it back.
+    ///
+    /// # Errors
+    /// If it is not on the road, if a number is not in its range, or if it has a control in this step.
+    pub fn control(&mut self, id: VehicleId, control: Control) -> Result<(), Fault> {
+        self.for_vehicle("control", id, Command::Control(id, control))
+    }
+
+    /// Gives the driver of a vehicle another style of the scenario, by its name.
+    ///
+    /// # Errors
+    /// If the vehicle is not on the road, if no driver of the scenario has this style, or if the vehicle has such a
+    /// command in this step.
+    pub fn set_style(&mut self, id: VehicleId, style: impl Into<String>) -> Result<(), Fault> {
+        self.for_vehicle("set_style", id, Command::SetStyle(id, style.into()))
+    }
+
+    /// Gives the driver of a vehicle another destination: the smallest lanelet id of an exit. `None`: it follows the
+    /// road.
+    ///
+    /// # Errors
+    /// If the vehicle is not on the road, if there is no such destination, if no route leads there, or if the vehicle
+    /// has such a command in this step.
+    pub fn set_destination(&mut self, id: VehicleId, destination: Option<i64>) -> Result<(), Fault> {
+        self.for_vehicle("set_destination", id, Command::SetDestination(id, destination))
+    }
+
+    /// Sets the demand at an entrance from now on [veh/h]. `origin` is the smallest lanelet id of the entrance.
+    ///
+    /// # Errors
+    /// If there is no such entrance, if the demand is not in its range, or if the entrance has such a command in this
+    /// step.
+    pub fn set_demand(&mut self, origin: i64, vehicles_per_hour: f64) -> Result<(), Fault> {
+        let command = Command::SetDemand { origin, vehicles_per_hour };
+        self.command(&format!("set_demand of origin {origin}"), command).map(|_| ())
+    }
+
+    /// Makes a light show a state, whatever its program says. `None`: it follows its program again.
+    ///
+    /// # Errors
+    /// If there is no such light, or if it has such a command in this step.
+    pub fn set_light(&mut self, light: i64, shows: Option<LightState>) -> Result<(), Fault> {
+        let command = Command::SetLight { light, shows };
+        self.command(&format!("set_light of light {light}"), command).map(|_| ())
+    }
+
+    fn for_vehicle(&mut self, act: &str, id: VehicleId, command: Command) -> Result<(), Fault> {
+        self.command(&format!("{act} of vehicle {id}"), command).map(|_| ())
+    }
+
+    fn command(&mut self, place: &str, command: Command) -> Result<Option<VehicleId>, Fault> {
+        self.world_mut().command(command).map_err(|error| refused(place, &error))
+    }
+}

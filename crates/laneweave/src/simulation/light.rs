@@ -1,0 +1,25 @@
+//! Traffic lights.
+
+use laneweave_network::{LightIndex, LightState};
+use serde::{Deserialize, Serialize};
+
+use super::{Simulation, names};
+
+/// A traffic light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Light {
+    /// Its id: the smallest id of its regulatory elements.
+    pub id: i64,
+    /// What it shows.
+    #[serde(with = "names")]
+    pub state: LightState,
+}
+
+impl Simulation {
+    /// All traffic lights.
+    pub fn lights(&self) -> Vec<Light> {
+        let scene = self.world().scene();
+        let lights = self.network().junctions.lights.iter().zip(0..);
+        lights.map(|(it, index)| Light { id: it.id, state: scene.light(LightIndex(index)) }).collect()
+    }
+}

@@ -1,0 +1,22 @@
+//! Observers of a simulation.
+
+use laneweave_scenario::Fault;
+
+use super::{Event, Simulation};
+
+/// An observer of a simulation. A closure with these two arguments is one, too.
+///
+/// What writes result files is an [`Output`](crate::output::Output).
+pub trait Observer {
+    /// Sees the simulation after a step, and what happened in the step.
+    ///
+    /// # Errors
+    /// If it cannot go on. The run then ends with this error.
+    fn observe(&mut self, simulation: &Simulation, events: &[Event]) -> Result<(), Fault>;
+}
+
+impl<F: FnMut(&Simulation, &[Event]) -> Result<(), Fault>> Observer for F {
+    fn observe(&mut self, simulation: &Simulation, events: &[Event]) -> Result<(), Fault> {
+        self(simulation, events)
+    }
+}

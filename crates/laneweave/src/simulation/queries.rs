@@ -1,0 +1,64 @@
+//! Questions about the traffic, which change nothing.
+
+use laneweave_network::Position;
+use laneweave_scenario::Fault;
+use laneweave_sim::{Columns, Control, Intention, VehicleId};
+
+use super::{Simulation, VehicleState};
+
+impl Simulation {
+    /// All vehicles on the road, in the order of their ids.
+    pub fn vehicles(&self) -> Vec<VehicleState> {
+        let world = self.world();
+        let mut vehicles: Vec<VehicleState> =
+            world.vehicles().map(|it| VehicleState::of(world, &it)).collect();
+        vehicles.sort_by_key(|it| it.id);
+        vehicles
+    }
+
+    /// The vehicle with this id. `None` if it is not on the road.
+    pub fn vehicle(&self, id: VehicleId) -> Option<VehicleState> {
+        self.world().vehicle(id).map(|it| VehicleState::of(self.world(), &it))
+    }
+
+    /// The vehicles with their front bumper on a lanelet, in driving order: the last one is the foremost.
+    ///
+    /// # Errors
+    /// If there is no such lanelet.
+    pub fn vehicles_on(&self, lanelet: i64) -> Result<Vec<VehicleState>, Fault> {
+        let (world, network) = (self.world(), self.network());
+        let index = network.lanelet_with(lanelet).ok_or_else(|| {
+            let what = format!("there is no lanelet {lanelet}");
+            Fault::new("vehicles_on", what, "choose one that vehicles may use")
+        })?;
+        let (chain, scene) = (network.start_of(index).chain, world.scene());
+        let entries = scene.motions(chain).iter().zip(scene.drivers(chain));
+        let there = entries.filter(|(motion, driver)| {
+            !driver.is_shadow && network.lanelet_at(Position::new(chain, motion.x)).0.id == lanelet
+        });
+        Ok(there.filter_map(|(motion, _)| self.vehicle(motion.id)).collect())
+    }
+
+    /// Fills `columns` with all vehicles: faster than [`Simulation::vehicles`], and without new memory from call to
+    /// call.
+    pub fn columns(&self, columns: &mut Columns) {
+        self.world().columns(columns);
+    }
+
+    /// What the driver of a vehicle intends to do in the next step, whoever drives the vehicle. `None` if the vehicle
+    /// is not on the road.
+    pub fn intention(&self, id: VehicleId) -> Option<Intention> {
+        self.world().intention(id)
+    }
+
+    /// How a user drives a vehicle; [`Control::DRIVER`] if its driver does.
+    pub fn control_of(&self, id: VehicleId) -> Control {
+        self.world().control_of(id)
+    }
+
+    /// What the driver of a vehicle makes of its lanes and is about to do, in words. `None` if the vehicle is not on
+    /// the road.
+    pub fn explain(&self, id: VehicleId) -> Option<String> {
+        laneweave_explain::now(self.world(), id)
+    }
+}
