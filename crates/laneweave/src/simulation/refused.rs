@@ -10,5 +10,8 @@ pub(super) fn refused(place: impl Display, error: &CommandError) -> Fault {
     let text = error.to_string();
     let parts = text.rsplit_once("; ").or_else(|| text.rsplit_once(": "));
     let (what, remedy) = parts.unwrap_or((&text, "simulate a step, and ask which vehicles there are"));
-    Fault::new(place, what, remedy)
+    match remedy.strip_prefix("this world has no") {
+        Some(rest) => Fault::new(place, what, format!("leave this command out: the map has no{rest}")),
+        None => Fault::new(place, what, remedy),
+    }
 }
