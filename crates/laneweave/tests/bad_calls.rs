@@ -218,7 +218,7 @@ fn only_a_simulation_as_it_began_leaves_results() {
     let mut changed = simulation("on_ramp.osm", 1000.0);
     changed.set_demand(1, 500.0).expect("the entrance is there");
     for simulation in [stepped, changed] {
-        let fault = simulation.run_to_results(&out).err().expect("it is refused");
+        let fault = simulation.run_to_results(&out).expect_err("it is refused");
         assert_eq!(fault.remedy, "make a new one, and run that");
     }
     assert!(!out.exists());

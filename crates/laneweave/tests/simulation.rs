@@ -163,6 +163,6 @@ fn a_generated_map_is_driven_without_a_file() {
     assert!(simulation.vehicles().len() > 10);
     let id = simulation.vehicles()[0].id;
     assert!(simulation.explain(id).expect("it is on the road").contains(&format!("vehicle {id} (")));
-    let refused = simulation.run_to_results("nowhere").err().expect("it has no file");
+    let refused = simulation.run_to_results("nowhere").expect_err("it has no file");
     assert!(refused.to_string().contains("the map is no file"), "{refused}");
 }

@@ -1,0 +1,76 @@
+//! How much it costs to take 10,000 vehicles as columns, compared with their step.
+//!
+//! `cargo run --release -p laneweave-bench --bin columns` prints times. `… -- STEPS CALLS` simulates so many steps, and
+//! takes the columns so many times after each: the difference of two runs under callgrind counts instructions.
+
+use std::error::Error;
+use std::time::Instant;
+
+use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::{Class, Columns, NewVehicle, Simulation};
+use laneweave_bench::say;
+
+const LANES: usize = 4;
+const VEHICLES: usize = 10_000;
+/// Distance between two vehicles of a lane [m].
+const SPACING: usize = 80;
+const SPEED: f64 = 26.0;
+/// Steps and calls after each of them, if none are given.
+const USUAL: [usize; 2] = [300, 1];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let numbers: Result<Vec<usize>, _> = std::env::args().skip(1).map(|it| it.parse()).collect();
+    let [steps, calls] = <[usize; 2]>::try_from(numbers?).unwrap_or(USUAL);
+    let mut simulation = filled()?;
+    for (name, mut columns) in [("basic", Columns::default()), ("with poses", Columns::with_poses())] {
+        let mut times = [0.0; 2];
+        for _ in 0..steps {
+            let start = Instant::now();
+            simulation.step();
+            times[0] += start.elapsed().as_secs_f64();
+            let start = Instant::now();
+            (0..calls).for_each(|_| simulation.columns(&mut columns));
+            times[1] += start.elapsed().as_secs_f64();
+        }
+        let updates = (steps * simulation.world().on_road()) as f64;
+        let [step, taken] = [times[0], times[1] / calls.max(1) as f64].map(|it| 1e9 * it / updates);
+        say(&format!(
+            "{name:10}: {} vehicles; a step takes {step:.1} ns for each, columns {taken:.2} ns: {:.2} %",
+            simulation.world().on_road(),
+            100.0 * taken / step
+        ));
+        if numbers_are_given() {
+            // One kind of columns only, so that instructions can be counted.
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn numbers_are_given() -> bool {
+    std::env::args().len() > 1
+}
+
+/// A motorway with all vehicles at equal distances, and nobody who arrives.
+fn filled() -> Result<Simulation, Box<dyn Error>> {
+    let length_m = (VEHICLES / LANES * SPACING + 2000) as f64;
+    let map = motorway(&Motorway { lanes: LANES, length_m, ..Motorway::default() })?.build()?;
+    let mut simulation = Simulation::builder(map).vehicles_per_hour(0.0).threads(1).build()?;
+    let chains = simulation.network().entrances[0].chains.clone();
+    for number in 0..VEHICLES {
+        let (chain, x) = (chains[number % LANES], (20 + number / LANES * SPACING) as f64);
+        let (index, position_m) = simulation.network().chain(chain).lanelet(x);
+        let vehicle = NewVehicle {
+            lanelet: simulation.network().lanelets[index.at()].id,
+            position_m,
+            speed_mps: SPEED,
+            class: if number % 10 == 0 { Class::Truck } else { Class::Car },
+            style: if number % 8 == 0 { "aggressive" } else { "conservative" }.into(),
+            destination: None,
+        };
+        simulation.insert(vehicle)?;
+    }
+    // The first events of all vehicles, and the first lane changes.
+    simulation.run(10.0, &mut [])?;
+    Ok(simulation)
+}
