@@ -13,7 +13,7 @@ use laneweave_bench::say;
 const LANES: usize = 4;
 const VEHICLES: usize = 10_000;
 /// Distance between two vehicles of a lane [m].
-const SPACING: usize = 80;
+const SPACING: usize = 100;
 const SPEED: f64 = 26.0;
 /// Steps and calls after each of them, if none are given.
 const USUAL: [usize; 2] = [300, 1];
@@ -51,18 +51,19 @@ fn numbers_are_given() -> bool {
     std::env::args().len() > 1
 }
 
-/// A motorway with all vehicles at equal distances, and nobody who arrives.
+/// A motorway with all vehicles at equal distances on each lane, and nobody who arrives.
 fn filled() -> Result<Simulation, Box<dyn Error>> {
-    let length_m = (VEHICLES / LANES * SPACING + 2000) as f64;
-    let map = motorway(&Motorway { lanes: LANES, length_m, ..Motorway::default() })?.build()?;
+    let length_m = (VEHICLES / LANES * SPACING) as f64 + 2000.0;
+    let lanelet_length_m = 2.0 * SPACING as f64;
+    let map =
+        motorway(&Motorway { lanes: LANES, length_m, lanelet_length_m, ..Motorway::default() })?.build()?;
     let mut simulation = Simulation::builder(map).vehicles_per_hour(0.0).threads(1).build()?;
-    let chains = simulation.network().entrances[0].chains.clone();
-    for number in 0..VEHICLES {
-        let (chain, x) = (chains[number % LANES], (20 + number / LANES * SPACING) as f64);
-        let (index, position_m) = simulation.network().chain(chain).lanelet(x);
+    let lanelets: Vec<i64> = simulation.network().lanelets.iter().map(|it| it.id).collect();
+    let places = lanelets.iter().flat_map(|it| [(*it, 0.3), (*it, 0.8)]);
+    for (number, (lanelet, share)) in places.take(VEHICLES).enumerate() {
         let vehicle = NewVehicle {
-            lanelet: simulation.network().lanelets[index.at()].id,
-            position_m,
+            lanelet,
+            position_m: share * lanelet_length_m,
             speed_mps: SPEED,
             class: if number % 10 == 0 { Class::Truck } else { Class::Car },
             style: if number % 8 == 0 { "aggressive" } else { "conservative" }.into(),

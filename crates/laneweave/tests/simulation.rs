@@ -39,6 +39,7 @@ fn vehicles_are_the_same_one_by_one_by_lanelet_and_in_columns() {
     let mut between_lanes = 0;
     for (map, demand) in [("ramps.osm", 4000.0), ("town.osm", 4000.0), ("grid.osm", 2000.0)] {
         let mut simulation = traffic(map, demand);
+        let ids = simulation.lanelets();
         let (mut columns, mut basic) = (Columns::with_poses(), Columns::default());
         for _ in 0..50 {
             simulation.step();
@@ -51,9 +52,10 @@ fn vehicles_are_the_same_one_by_one_by_lanelet_and_in_columns() {
             let by_id: BTreeMap<u32, &VehicleState> = vehicles.iter().map(|it| (it.id, it)).collect();
             for row in 0..columns.len() {
                 let it = by_id[&columns.id[row]];
-                assert_eq!((columns.lanelet[row], columns.position_m[row]), (it.lanelet, it.position_m));
+                let lanelet = ids[columns.lanelet[row] as usize];
+                assert_eq!((lanelet, columns.position_m[row]), (it.lanelet, it.position_m));
                 assert_eq!(columns.speed_mps[row], it.speed_mps);
-                assert_eq!(columns.acceleration_mps2[row], it.acceleration_mps2);
+                assert_eq!(f64::from(columns.acceleration_mps2[row]), it.acceleration_mps2);
                 let pose = [columns.x_m[row], columns.y_m[row], columns.heading_rad[row]];
                 assert_eq!(pose, [it.x_m, it.y_m, it.heading_rad]);
             }

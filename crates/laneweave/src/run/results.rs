@@ -35,8 +35,8 @@ pub struct Results {
 }
 
 impl Run {
-    /// A run of `scenario`. Its folder is created, and the results of a former run there are removed; nothing is written
-    /// before everything has been checked. `command` is the command line that is kept with the results.
+    /// A run of `scenario`. Its folder is created, and the results of a former run there are removed; nothing is
+    /// written before everything has been checked. `command` is the command line that is kept with the results.
     ///
     /// # Errors
     /// If something is missing, not readable, or invalid, or if the folder cannot be used.

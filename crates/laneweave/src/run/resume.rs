@@ -33,7 +33,8 @@ pub fn kept(dir: &Path) -> Result<(Scenario, Origin), Fault> {
     Ok((scenario, origin))
 }
 
-/// Resumes the run with the scenario that was [`kept`]. Its threads and the size limit of its map may be changed before.
+/// Resumes the run with the scenario that was [`kept`]. Its threads and the size limit of its map may be changed
+/// before.
 ///
 /// # Errors
 /// If something on which the run depends has changed since, or if its checkpoint is damaged.

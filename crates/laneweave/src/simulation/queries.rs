@@ -39,6 +39,11 @@ impl Simulation {
         Ok(there.filter_map(|(motion, _)| self.vehicle(motion.id)).collect())
     }
 
+    /// The ids of all lanelets, in the order of the indices in [`Columns::lanelet`].
+    pub fn lanelets(&self) -> Vec<i64> {
+        self.network().lanelets.iter().map(|it| it.id).collect()
+    }
+
     /// Fills `columns` with all vehicles: faster than [`Simulation::vehicles`], and without new memory from call to
     /// call.
     pub fn columns(&self, columns: &mut Columns) {

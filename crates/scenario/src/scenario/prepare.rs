@@ -107,11 +107,7 @@ fn prepare_with(
     let remarks = if origin.map.is_some() { Vec::new() } else { remarks(&map, &network, &places) };
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
-    if places.origins.is_empty() {
-        let what = "no vehicle can drive on the map: no lanelet of 10 m or more begins at its edge, and from no lanelet of 20 m or \
-                    more outside conflict areas can another be reached";
-        return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
-    }
+    check_places(scenario, &places)?;
     let network = Arc::new(network);
     let build = |total: Option<f64>| {
         let demand = demand(scenario, origin, &network, places.clone(), shares.clone(), total)?;
@@ -157,6 +153,16 @@ fn prepare_with(
         origin: map.origin,
         world,
     })
+}
+
+/// Checks that trips can start somewhere.
+fn check_places(scenario: &Scenario, places: &Places) -> Result<(), Fault> {
+    if places.origins.is_empty() {
+        let what = "no vehicle can drive on the map: no lanelet of 10 m or more begins at its edge, and from no lanelet of 20 m or \
+                    more outside conflict areas can another be reached";
+        return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));
+    }
+    Ok(())
 }
 
 /// The world with the guidance of `scenario`.

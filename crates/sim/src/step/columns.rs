@@ -1,6 +1,11 @@
 //! All vehicles as columns: a struct of arrays in buffers of the caller.
 
-use crate::state::lane::VehicleId;
+use std::iter::Zip;
+use std::slice::Iter;
+
+use laneweave_network::{Chain, LaneletIndex};
+
+use crate::state::lane::{Kinematics, VehicleId};
 use crate::step::world::World;
 
 /// All vehicles of one instant as columns, with a row for each vehicle. The buffers are reused from call to call.
@@ -8,14 +13,14 @@ use crate::step::world::World;
 pub struct Columns {
     /// Ids.
     pub id: Vec<VehicleId>,
-    /// Ids of the lanelets on which the front bumpers are.
-    pub lanelet: Vec<i64>,
+    /// Lanelets on which the front bumpers are, as indices of [`laneweave_network::Network::lanelets`].
+    pub lanelet: Vec<u32>,
     /// Positions of the front bumpers along the lanelets [m].
     pub position_m: Vec<f64>,
     /// Speeds [m/s].
     pub speed_mps: Vec<f64>,
     /// Accelerations of the last step [m/s²].
-    pub acceleration_mps2: Vec<f64>,
+    pub acceleration_mps2: Vec<f32>,
     /// Positions of the centres on the map, to the east [m]. Only with poses, otherwise empty.
     pub x_m: Vec<f64>,
     /// Positions of the centres on the map, to the north [m]. Only with poses, otherwise empty.
@@ -45,7 +50,78 @@ impl Columns {
         let Columns { id, lanelet, position_m, speed_mps, acceleration_mps2, .. } = self;
         id.resize(count, 0);
         lanelet.resize(count, 0);
-        [position_m, speed_mps, acceleration_mps2].into_iter().for_each(|it| it.resize(count, 0.0));
+        [position_m, speed_mps].into_iter().for_each(|it| it.resize(count, 0.0));
+        acceleration_mps2.resize(count, 0.0);
+    }
+}
+
+/// The rows that are not filled yet.
+struct Rows<'a> {
+    id: &'a mut [VehicleId],
+    lanelet: &'a mut [u32],
+    position_m: &'a mut [f64],
+    speed_mps: &'a mut [f64],
+    acceleration_mps2: &'a mut [f32],
+}
+
+/// A walk along the lanelets of a chain.
+struct Walk<'a> {
+    /// The lanelet, and where it starts [m].
+    lanelet: u32,
+    start: f64,
+    /// Where the next one starts [m], infinite after the last one, and which one it is.
+    next: (f64, u32),
+    rest: Zip<Iter<'a, f64>, Iter<'a, LaneletIndex>>,
+}
+
+impl Rows<'_> {
+    /// Fills a row for each of these vehicles of a lane, which are the next ones on the walk along it.
+    #[inline(always)]
+    fn fill(&mut self, motions: &[Kinematics], walk: &mut Walk) {
+        let count = motions.len();
+        let (speeds, accelerations) =
+            (take(&mut self.speed_mps, count), take(&mut self.acceleration_mps2, count));
+        let rows = take(&mut self.id, count).iter_mut().zip(speeds).zip(accelerations);
+        for (motion, ((id, speed), acceleration)) in motions.iter().zip(rows) {
+            (*id, *speed, *acceleration) = (motion.id, motion.speed, motion.acceleration);
+        }
+        // Two loops: one would need more registers than there are.
+        let rows = take(&mut self.lanelet, count).iter_mut().zip(take(&mut self.position_m, count));
+        for (motion, (lanelet, position)) in motions.iter().zip(rows) {
+            // Vehicles come in driving order, and so do lanelets.
+            while walk.next.0 <= motion.x {
+                walk.go_on();
+            }
+            (*lanelet, *position) = (walk.lanelet, motion.x - walk.start);
+        }
+    }
+}
+
+/// The first `count` rows of a column, which are no longer in `rest`.
+#[inline(always)]
+fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let count = count.min(rest.len());
+    let (taken, others) = std::mem::take(rest).split_at_mut(count);
+    *rest = others;
+    taken
+}
+
+impl Walk<'_> {
+    /// A walk that begins where the first lanelet does.
+    #[inline(always)]
+    fn along(chain: &Chain) -> Walk<'_> {
+        let rest = chain.starts.iter().zip(&chain.lanelets);
+        let mut walk = Walk { lanelet: 0, start: 0.0, next: (0.0, 0), rest };
+        walk.go_on();
+        walk.go_on();
+        walk
+    }
+
+    /// Goes on to the next lanelet.
+    #[inline(always)]
+    fn go_on(&mut self) {
+        (self.start, self.lanelet) = self.next;
+        self.next = self.rest.next().map_or((f64::INFINITY, 0), |(start, lanelet)| (*start, lanelet.0));
     }
 }
 
@@ -54,33 +130,18 @@ impl World {
     pub fn columns(&self, columns: &mut Columns) {
         columns.resize(self.traffic.crowd());
         let Columns { id, lanelet, position_m, speed_mps, acceleration_mps2, .. } = &mut *columns;
-        let places = id.iter_mut().zip(lanelet).zip(position_m);
-        let mut rows = places.zip(speed_mps).zip(acceleration_mps2);
-        let network = self.roads.network();
-        for (lane, chain) in self.traffic.lanes().iter().zip(&network.chains) {
+        let mut rows = Rows { id, lanelet, position_m, speed_mps, acceleration_mps2 };
+        for (lane, chain) in self.traffic.lanes().iter().zip(&self.roads.network().chains) {
             if lane.motions().is_empty() {
                 continue;
             }
-            let name = |number: usize| network.lanelets[chain.lanelets[number].at()].id;
-            let (mut number, mut on, mut start) = (0, name(0), chain.starts[0]);
-            let mut next = chain.starts.get(1).copied().unwrap_or(f64::INFINITY);
-            for (motion, driver) in lane.motions().iter().zip(lane.drivers()) {
-                if driver.is_shadow {
-                    continue;
-                }
-                // Vehicles come in driving order, and so do lanelets.
-                while next <= motion.x {
-                    number += 1;
-                    (on, start) = (name(number), chain.starts[number]);
-                    next = chain.starts.get(number + 1).copied().unwrap_or(f64::INFINITY);
-                }
-                let Some(((((id, lanelet), position), speed), acceleration)) = rows.next() else { break };
-                *id = motion.id;
-                *lanelet = on;
-                *position = motion.x - start;
-                *speed = motion.speed;
-                *acceleration = f64::from(motion.acceleration);
+            let (mut motions, mut drivers) = (lane.motions(), lane.drivers());
+            let mut walk = Walk::along(chain);
+            while let Some(count) = drivers.iter().position(|it| it.is_shadow) {
+                rows.fill(&motions[..count], &mut walk);
+                (motions, drivers) = (&motions[count + 1..], &drivers[count + 1..]);
             }
+            rows.fill(motions, &mut walk);
         }
         self.poses(columns);
     }
