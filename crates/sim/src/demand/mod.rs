@@ -121,7 +121,7 @@ impl Demand {
     }
 
     /// A rate above this at one origin is an error [veh/h].
-    const LARGEST_RATE: f64 = 100_000.0;
+    pub(crate) const LARGEST_RATE: f64 = 100_000.0;
     /// A vehicle stores its destination, route and class restriction in two bytes.
     pub(crate) const MOST_DESTINATIONS: usize = 32_000;
 }

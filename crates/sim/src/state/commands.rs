@@ -1,5 +1,4 @@
-//! The commands of users: those that wait for the next step, those that were carried out in the last one, and the
-//! script of those to come.
+//! The commands of users: those that wait for the next step, and those that were carried out in the last one.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,9 +13,6 @@ pub(crate) struct Commands {
     /// They were carried out in the last step.
     #[serde(skip)]
     done: Vec<Commanded>,
-    /// Those that are given by themselves, each in its step, in the order of steps.
-    #[serde(skip)]
-    script: Vec<Commanded>,
 }
 
 impl Commands {
@@ -41,11 +37,6 @@ impl Commands {
             });
         }
         &self.done
-    }
-
-    /// Continues from saved commands, with the same script.
-    pub(crate) fn restore(&mut self, saved: Commands) {
-        *self = Commands { script: std::mem::take(&mut self.script), ..saved };
     }
 
     /// The commands of the last step, in the order in which they were carried out.

@@ -92,8 +92,7 @@ impl World {
         let World { roads, traffic, junctions, arrivals, log, externals, commands, index, work } = self;
         let (_, moving, passing, backlog, remembered, kept, counters, guided, users) = saved;
         index.forget();
-        *externals = users.0;
-        commands.restore(users.1);
+        (*externals, *commands) = users;
         (*traffic, *junctions) = (moving, passing);
         arrivals.restore(backlog);
         log.restore(remembered);

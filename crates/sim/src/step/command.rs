@@ -4,6 +4,7 @@
 
 use thiserror::Error;
 
+use crate::demand::{Demand, SECONDS_PER_HOUR};
 use crate::state::command::{Command, NewVehicle};
 use crate::state::control::{Control, Lateral, Longitudinal};
 use crate::state::lane::VehicleId;
@@ -59,6 +60,9 @@ pub enum CommandError {
         /// Why not, and what to do.
         why: String,
     },
+    /// The headways of the scenario are impossible at this demand.
+    #[error("{0}; choose a lower demand")]
+    Headways(String),
     /// The driver cannot have this destination now.
     #[error("vehicle {vehicle} cannot drive to {destination}: {why}")]
     Destination {
@@ -110,8 +114,12 @@ impl World {
             Command::SetStyle(id, style) => self.parameters_of(style, *id).map(|_| ()),
             Command::SetDestination(id, destination) => self.check_destination(*id, *destination),
             Command::SetDemand { origin, vehicles_per_hour } => {
-                self.origin(*origin)?;
-                in_range("a demand", *vehicles_per_hour, [0.0, 100_000.0], "veh/h")
+                let origin = self.origin(*origin)?;
+                in_range("a demand", *vehicles_per_hour, [0.0, Demand::LARGEST_RATE], "veh/h")?;
+                let demand = self.demand();
+                let lanes = demand.origins[origin].place.chains().len() as f64;
+                let of_a_lane = vehicles_per_hour / (SECONDS_PER_HOUR * lanes);
+                demand.headways.check(of_a_lane).map_err(|it| CommandError::Headways(it.to_string()))
             }
             Command::SetLight { light, .. } => self.light_with(*light).map(|_| ()),
         }

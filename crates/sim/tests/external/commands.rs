@@ -2,7 +2,8 @@
 
 use laneweave_network::LightState;
 use laneweave_sim::{
-    Class, Command, CommandError, Control, Event, Lateral, Longitudinal, NewVehicle, VehicleId, World,
+    Class, Command, CommandError, Control, Event, Headways, Lateral, Longitudinal, NewVehicle, Setup,
+    VehicleId, World,
 };
 
 use crate::lanes::{alone, insert};
@@ -94,6 +95,21 @@ fn a_demand_holds_from_the_command_on() {
     };
     let [usual, none, half] = [None, Some(0.0), Some(1800.0)].map(&mut arrived);
     assert!((540..660).contains(&usual) && none == 0 && (250..350).contains(&half), "{usual} {none} {half}");
+}
+
+#[test]
+fn a_demand_that_the_headways_cannot_have_is_refused() {
+    let network = crate::worlds::network("motorway_3_lanes.osm");
+    let mut demand = crate::drivers::demand(&network, 1000.0, 0.1, &[1.0, 1.0]);
+    demand.headways = Headways::Shifted { minimum: 1.5 };
+    let origin = demand.origins[0].place.id();
+    let setup = Setup { step: 0.1, seed: 1, threads: 1 };
+    let mut world = World::new(network, crate::worlds::styles(), demand, setup).expect("it makes sense");
+    let mut set = |vehicles_per_hour| world.command(Command::SetDemand { origin, vehicles_per_hour });
+    // Three lanes take at most 3 × 3600 / 1.5 = 7200 vehicles per hour.
+    assert_eq!(set(7300.0).map_err(|it| matches!(it, CommandError::Headways(_))), Err(true));
+    assert_eq!(set(7000.0), Ok(None));
+    (0..600).for_each(|_| world.step());
 }
 
 #[test]
