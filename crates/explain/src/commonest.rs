@@ -31,6 +31,7 @@ impl Commonest {
         let asks_those_who_wait = clock.step.is_multiple_of(clock.steps(1.0));
         let asked: Vec<Spot> = world
             .vehicles()
+            .filter(|it| it.is_in_lane())
             .filter(|it| match it.driver.phase {
                 Phase::Cruises => it.driver.due <= clock.step,
                 Phase::Wants => asks_those_who_wait,

@@ -28,7 +28,7 @@ const TOLD_AFTER: f64 = 10.0;
 
 /// The position of vehicle `id`'s main entry, if it is on the road.
 fn spot_of(world: &World, id: VehicleId) -> Option<Spot> {
-    world.vehicles().find(|it| it.id() == id).map(|it| it.spot)
+    world.vehicle(id).filter(|it| it.is_in_lane()).map(|it| it.spot)
 }
 
 /// The account of the driver of `id` when it last considered lanes, or waited for a gap, at or before `time` [s]. The
@@ -63,9 +63,9 @@ pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flip
     }
 }
 
-/// What the driver of `id` makes of its lanes now, and is about to do. `None` if it is not on the road.
+/// What the driver of `id` makes of its lanes now, and is about to do. `None` if it is in no lane.
 pub fn now(world: &World, id: VehicleId) -> Option<String> {
-    let spot = world.vehicle(id)?.spot;
+    let spot = spot_of(world, id)?;
     Some(full(world, &laneweave_sim::explain(world, spot), false))
 }
 

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::scenario::{Demand, Origin, Scenario, prepare};
-use laneweave::{Columns, Event, Light, LightState, Phase, Side, Simulation, VehicleState};
+use laneweave::{
+    Class, Columns, Control, Event, Light, LightState, NewVehicle, Phase, Side, Simulation, VehicleState,
+};
 
 fn builder(map: &str, vehicles_per_hour: f64) -> laneweave::Builder {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
@@ -167,4 +169,37 @@ fn a_generated_map_is_driven_without_a_file() {
     assert!(simulation.explain(id).expect("it is on the road").contains(&format!("vehicle {id} (")));
     let refused = simulation.run_to_results("nowhere").expect_err("it has no file");
     assert!(refused.to_string().contains("the map is no file"), "{refused}");
+}
+
+#[test]
+fn a_vehicle_driven_by_poses_is_told_in_the_words_of_the_road_and_in_columns() {
+    let mut simulation = builder("motorway_2_lanes.osm", 0.0).build().expect("it is a map");
+    let new = NewVehicle {
+        lanelet: 5,
+        position_m: 50.0,
+        speed_mps: 25.0,
+        class: Class::Car,
+        style: "conservative".into(),
+        destination: None,
+    };
+    let id = simulation.insert(new).expect("the place is free");
+    let at = simulation.vehicle(id).expect("it is on the road");
+    let put = |simulation: &mut Simulation, y: f64| {
+        let (x, heading) = (at.x_m + 1.0, at.heading_rad);
+        simulation.control(id, Control::Pose { x, y, heading, speed: 5.0 }).expect("it is a pose");
+        simulation.step();
+    };
+    put(&mut simulation, at.y_m + 0.5);
+    let now = simulation.vehicle(id).expect("it is on the road");
+    assert_eq!((now.x_m, now.y_m, now.speed_mps), (at.x_m + 1.0, at.y_m + 0.5, 5.0));
+    assert!((now.offset_m - 0.5).abs() < 1e-9 && (now.position_m - 51.0).abs() < 1e-9, "{now:?}");
+    put(&mut simulation, at.y_m - 60.0);
+    let mut columns = Columns::with_poses();
+    simulation.columns(&mut columns);
+    assert_eq!((columns.len(), columns.y_m[0], simulation.vehicles().len()), (1, at.y_m - 60.0, 1));
+    assert_eq!((simulation.explain(id), simulation.intention(id)), (None, None));
+    let error = simulation.control(id, Control::DRIVER).expect_err("it is off the road");
+    assert!(error.to_string().contains("pose in a lane"), "{error}");
+    let bad = Control::Pose { x: f64::NAN, y: 0.0, heading: 0.0, speed: 0.0 };
+    assert!(simulation.control(id, bad).is_err());
 }

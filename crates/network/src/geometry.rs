@@ -41,7 +41,7 @@ impl Point {
 }
 
 /// Where something is and where it points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Position [m].
     pub at: Point,

@@ -8,9 +8,11 @@ mod build;
 mod chain;
 mod gate;
 mod geometry;
+mod ground;
 mod junction;
 mod lanelet;
 mod polygon;
+mod rectangle;
 mod section;
 mod symmetry;
 mod width;
@@ -20,6 +22,7 @@ pub use build::{Network, NetworkError};
 pub use chain::{Beside, Chain, ChainIndex, Limit, Position};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
+pub use ground::{Footprint, Ground};
 pub use junction::{
     Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, Nearby, OnChain, Phase,
     Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind,
@@ -27,5 +30,6 @@ pub use junction::{
 };
 pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;
+pub use rectangle::Rectangle;
 pub use section::{Branch, Section, Sections};
 pub use symmetry::{Symmetry, symmetry};

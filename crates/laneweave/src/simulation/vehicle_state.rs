@@ -52,6 +52,7 @@ impl VehicleState {
         let (motion, driver) = (vehicle.motion, vehicle.driver);
         let (lanelet, position_m) = world.network().lanelet_at(Position::new(vehicle.spot.chain, motion.x));
         let (pose, body) = (vehicle.pose(), driver.class.body());
+        let is_in_one_lane = !(driver.phase.is_between_lanes() || vehicle.is_on_its_own_path());
         let number = world.scene().navigator.number(driver.goal.destination());
         VehicleState {
             id: motion.id,
@@ -59,12 +60,12 @@ impl VehicleState {
             style: vehicle.style().name.clone(),
             lanelet: lanelet.id,
             position_m,
-            offset_m: if driver.phase.is_between_lanes() { vehicle.lateral_offset() } else { 0.0 },
+            offset_m: if is_in_one_lane { 0.0 } else { vehicle.lateral_offset() },
             x_m: pose.at.x,
             y_m: pose.at.y,
             z_m: pose.at.z,
             heading_rad: pose.heading,
-            speed_mps: motion.speed,
+            speed_mps: vehicle.speed(),
             acceleration_mps2: f64::from(motion.acceleration),
             length_m: body.length,
             width_m: body.width,

@@ -69,7 +69,7 @@ impl Frame {
         let Frame { instants, seen, across, .. } = self;
         world.vehicles().for_each(|vehicle| {
             let (motion, car) = (*vehicle.motion, vehicle.driver);
-            if car.phase.is_between_lanes() {
+            if car.phase.is_between_lanes() || vehicle.is_on_its_own_path() {
                 let (bumpers, offset) = (vehicle.bumpers(), vehicle.lateral_offset());
                 across.push(Across { place: seen.len(), bumpers, offset });
             }

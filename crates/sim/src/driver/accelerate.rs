@@ -108,6 +108,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.style_of(driver).follow;
     let wish = follow.acceleration(pace(motion, driver), leader);
+    let is_cut_off = leader.is_some_and(|it| it.gap < 0.0) && is_cut_off(scene, spot);
     let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
     let (wish, stop) = at_junction(motion, driver, follow, &junction, wish, clock.dt);
@@ -117,6 +118,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
     let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
+    let acceleration = if is_cut_off { -HARDEST_BRAKING } else { acceleration };
     Chosen {
         acceleration,
         // A lower positive acceleration is no braking.
@@ -124,6 +126,13 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         touches: leader.is_some_and(|it| it.gap < 0.0),
         junction,
     }
+}
+
+/// Whether a vehicle that a user drives comes into the lane beside the driver at `spot`: however fast it is, the
+/// driver lets it go first.
+#[cold]
+fn is_cut_off(scene: &Scene, spot: Spot) -> bool {
+    scene.leader_spot(scene.viewpoint(spot)).is_some_and(|it| scene.driver(it).is_external)
 }
 
 /// The acceleration of a driver at a junction, and the place where it has to stop there.

@@ -8,7 +8,7 @@ use crate::driver::choice::Choice;
 use crate::driver::consider::{look, waypoint};
 use crate::driver::drive::{moved, stretch};
 use crate::driver::me::{Attending, Me};
-use crate::driver::plan::{Ask, Concern, Controlled, Outbox, Plan, Request};
+use crate::driver::plan::{Ask, Concern, Controlled, Outbox, Plan, Request, Told};
 use crate::driver::wish::{asks, wish};
 use crate::record::events::DrivingEventKind;
 use crate::state::control::{Control, Lateral, Longitudinal};
@@ -42,28 +42,40 @@ pub(crate) fn obey(
     outbox: &mut Outbox,
 ) {
     let controls = std::mem::take(&mut plan.controls);
-    for Controlled { index, longitudinal, lateral } in &controls {
+    for Controlled { index, told } in &controls {
         let me = Me::at(scene, Spot { chain, index: *index as usize });
-        let told = match lateral {
-            Lateral::Driver => wish(&me, &outbox.requests[before.requests..], &plan.concerns),
-            Lateral::Keep => None,
-            Lateral::Change(side) => Some(*side),
-        };
-        if *lateral != Lateral::Driver {
-            change(scene, moment, &me, told, before, plan, outbox);
-        }
-        let dt = moment.clock.dt;
-        let acceleration = match longitudinal {
-            Longitudinal::Driver => continue,
-            Longitudinal::Acceleration(acceleration) => *acceleration,
-            Longitudinal::Speed(speed) => {
-                ((speed - me.motion.speed) / dt).clamp(-HARDEST_BRAKING, me.driver.class.strength())
+        let (longitudinal, lateral) = match told {
+            Told::Drive(longitudinal, lateral) => (*longitudinal, *lateral),
+            Told::Stay => {
+                change(scene, moment, &me, None, before, plan, outbox);
+                drive(scene, &me, (*me.motion, 0.0), before, plan, outbox);
+                continue;
             }
         };
-        let to_the_fastest = (Control::FASTEST - me.motion.speed) / dt;
-        drive(scene, moment, &me, acceleration.min(to_the_fastest.max(0.0)), before, plan, outbox);
+        match lateral {
+            Lateral::Driver => {}
+            Lateral::Keep => change(scene, moment, &me, None, before, plan, outbox),
+            Lateral::Change(side) => change(scene, moment, &me, Some(side), before, plan, outbox),
+        }
+        if let Some(acceleration) = acceleration(longitudinal, &me, moment.clock.dt) {
+            let stretch = stretch(scene, me.spot);
+            drive(scene, &me, moved(me.motion, acceleration, stretch, moment.clock.dt), before, plan, outbox);
+        }
     }
     plan.controls = controls;
+}
+
+/// The acceleration that the user wants [m/s²]; `None` if the driver's counts.
+fn acceleration(longitudinal: Longitudinal, me: &Me, dt: f64) -> Option<f64> {
+    let wanted = match longitudinal {
+        Longitudinal::Driver => return None,
+        Longitudinal::Acceleration(acceleration) => acceleration,
+        Longitudinal::Speed(speed) => {
+            ((speed - me.motion.speed) / dt).clamp(-HARDEST_BRAKING, me.driver.class.strength())
+        }
+    };
+    let to_the_fastest = (Control::FASTEST - me.motion.speed) / dt;
+    Some(wanted.min(to_the_fastest.max(0.0)))
 }
 
 /// Makes a vehicle change to the side that it is `told`, or keep its lane.
@@ -148,27 +160,24 @@ fn give_up(me: &Me, plan: &mut Plan) {
     });
 }
 
-/// Moves a vehicle with this `acceleration` [m/s²] in place of the one that its driver chose.
+/// Gives a vehicle the kinematics `next`, after a way of `distance` [m], in place of those that its driver chose.
 fn drive(
     scene: &Scene,
-    moment: Moment,
     me: &Me,
-    acceleration: f64,
+    (next, distance): (Kinematics, f64),
     before: Before,
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) {
-    let (Me { spot, motion, driver, .. }, dt) = (*me, moment.clock.dt);
+    let Me { spot, motion, driver, .. } = *me;
     let own = plan.next[spot.index];
-    let stretch = stretch(scene, spot);
-    let (next, distance) = moved(motion, acceleration, stretch, dt);
     let next = Kinematics { headway_relaxation: own.headway_relaxation, ..next };
     if next == own {
         return;
     }
     plan.next[spot.index] = next;
     if !driver.is_shadow {
-        plan.distance += (next.x - own.x) / stretch;
+        plan.distance += (next.x - own.x) / stretch(scene, spot);
     }
     // Neither kinematics nor the driver's model decided.
     if let Some(upkeep) = plan.upkeep.iter_mut().find(|it| it.index as usize == spot.index) {

@@ -147,15 +147,22 @@ pub(crate) struct Upkeep {
     pub(crate) reservation_is_over: bool,
 }
 
-/// An entry of an external vehicle, and how the user drives it in this step.
+/// An entry of an external vehicle, and what its user says in this step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controlled {
     /// The entry.
     pub(crate) index: u32,
-    /// How fast it drives.
-    pub(crate) longitudinal: Longitudinal,
-    /// Whether it changes lanes.
-    pub(crate) lateral: Lateral,
+    /// What the user says.
+    pub(crate) told: Told,
+}
+
+/// What the user of an external vehicle says.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Told {
+    /// Drive in lanes, so fast and with these lane changes.
+    Drive(Longitudinal, Lateral),
+    /// The entry stays where it is: the user moves the vehicle after all others have moved.
+    Stay,
 }
 
 /// A driver who waits for a reservation.

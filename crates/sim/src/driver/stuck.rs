@@ -27,12 +27,15 @@ enum Blocker {
 }
 
 /// Whether the vehicle at `spot`, which has stood for long, is stuck. It is not stuck if the first of the vehicles
-/// that block it moves, is about to move, or waits at a light that was green recently. Vehicles that wait for each
-/// other are all stuck.
+/// that block it moves, is about to move, waits at a light that was green recently, or is driven by a user. Vehicles
+/// that wait for each other are all stuck.
 #[inline(never)]
 pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
     let mut at = spot;
     for _ in 0..LONGEST {
+        if scene.driver(at).is_external {
+            return false;
+        }
         match blocker(scene, at, clock, survey) {
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
             Blocker::Vehicle(next) => at = next,

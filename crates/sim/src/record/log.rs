@@ -12,7 +12,7 @@ use crate::record::lanelet_aggregates::{LaneletAggregate, LaneletAggregates, Mar
 use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
-use crate::state::lane::{Entry, Kind, Lane, Phase, VehicleId};
+use crate::state::lane::{Entry, Kind, Kinematics, Lane, Phase, VehicleId};
 use crate::state::milestone::{Milestone, Reached};
 
 /// Lane changes under way, trips, counts and incidents.
@@ -175,6 +175,33 @@ impl Log {
         let end = Mark::at(length, &entry.motion, clock);
         self.leave_chain(network, id, from, [end, Mark { x: 0.0, ..end }]);
         self.pass_end(network, from);
+    }
+
+    /// Records that a user moved a vehicle from one position to another; `None` stands for no lane. Its front bumper
+    /// has driven `extra` metres more than the difference of its stations.
+    pub(crate) fn relocate(
+        &mut self,
+        network: &Network,
+        clock: Clock,
+        motion: &Kinematics,
+        [from, at]: [Option<Position>; 2],
+        extra: f64,
+    ) {
+        let Some(trip) = self.trip_mut(motion.id) else { return };
+        trip.way_to_start += extra;
+        let there = Mark { x: motion.x, time: clock.time() };
+        match (from, at) {
+            (Some(from), Some(at)) if from.chain == at.chain && at.x >= from.x => {}
+            (Some(from), _) => {
+                self.leave_chain(network, motion.id, from.chain, [Mark { x: from.x, ..there }, there])
+            }
+            (None, _) => trip.mark = there,
+        }
+        let goes_on =
+            |(from, at): (Position, Position)| network.chain(from.chain).following.contains(&at.chain);
+        if let Some(from) = from.filter(|from| at.is_some_and(|at| goes_on((*from, at)))) {
+            self.pass_end(network, from.chain);
+        }
     }
 
     /// Records what a vehicle did on the chain `from` up to the first mark, if trips are recorded. It goes on from the

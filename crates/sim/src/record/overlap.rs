@@ -1,11 +1,11 @@
 //! Detection of overlaps. Gaps along lanes, and reservations where lanes meet, keep vehicles apart. This module checks
 //! whether they do: it compares the rectangles of vehicles, whatever lanes they are in.
 
-use laneweave_network::{ChainIndex, Nearby, Pose, Position, Side};
+use laneweave_network::{ChainIndex, Nearby, Position, Rectangle, Side};
 
 use crate::record::incidents::{Incident, IncidentKind};
-use crate::state::lane::Kinematics;
-use crate::state::vehicle::LONGEST;
+use crate::state::lane::{Kinematics, VehicleId};
+use crate::state::vehicle::{Class, LONGEST};
 use crate::view::pose::pose;
 use crate::view::scene::{Scene, Spot};
 
@@ -130,79 +130,71 @@ fn incident(scene: &Scene, one: Spot, other: Spot, time: f64) -> Option<Incident
     if scene.motion(one).id == scene.motion(other).id {
         return None;
     }
-    let mut spots = [main_entry(scene, one)?, main_entry(scene, other)?];
-    spots.sort_by_key(|it| scene.motion(*it).id);
-    let [a, b] = spots.map(|it| Rectangle::of(scene, it));
-    let depth = a.depth(&b);
-    if depth <= TOLERANCE || (a.pose.at.z - b.pose.at.z).abs() > HEIGHT {
+    let mut parties = [Party::of(scene, one)?, Party::of(scene, other)?];
+    parties.sort_by_key(|it| it.id);
+    let [a, b] = &parties;
+    let depth = a.rectangle.depth(&b.rectangle);
+    let [here, there] = [a.rectangle.pose.at, b.rectangle.pose.at];
+    if depth <= TOLERANCE || (here.z - there.z).abs() > HEIGHT {
         return None;
     }
     Some(Incident {
-        kind: if a.closes(&b) { IncidentKind::Collision } else { IncidentKind::Overlap },
+        kind: if a.closes(b) { IncidentKind::Collision } else { IncidentKind::Overlap },
         time,
-        vehicles: spots.map(|it| scene.motion(it).id),
-        driver_parameters: spots.map(|it| scene.driver(it).parameters),
-        classes: spots.map(|it| scene.driver(it).class),
-        places: spots.map(|it| Position::new(it.chain, scene.motion(it).x)),
-        at: a.pose.at.midpoint(&b.pose.at),
+        vehicles: [a.id, b.id],
+        driver_parameters: [a.parameters, b.parameters],
+        classes: [a.class, b.class],
+        places: [a.place, b.place],
+        at: here.midpoint(&there),
         speeds: [a.speed, b.speed],
         depth,
     })
 }
 
-/// The main entry of the vehicle whose entry is at `spot`.
-fn main_entry(scene: &Scene, spot: Spot) -> Option<Spot> {
-    if !scene.driver(spot).is_shadow {
-        return Some(spot);
-    }
-    let counterpart = scene.lane_change(spot).counterpart?;
-    let index = scene.lanes[counterpart.chain.at()].find(scene.motion(spot).id, counterpart.x)?;
-    Some(Spot { chain: counterpart.chain, index })
-}
-
-/// A vehicle as seen from above.
-struct Rectangle {
-    pose: Pose,
+/// A vehicle that may touch another one.
+struct Party {
+    id: VehicleId,
+    parameters: u32,
+    class: Class,
+    /// Position of its front bumper.
+    place: Position,
+    rectangle: Rectangle,
     speed: f64,
-    length: f64,
-    width: f64,
 }
 
-impl Rectangle {
-    fn of(scene: &Scene, spot: Spot) -> Rectangle {
-        let (Kinematics { length, speed, .. }, class) = (*scene.motion(spot), scene.driver(spot).class);
-        Rectangle { pose: pose(scene, spot), speed, length: f64::from(length), width: class.body().width }
-    }
-
-    /// Half its extent in the direction (`x`, `y`).
-    fn reach(&self, x: f64, y: f64) -> f64 {
-        let (sin, cos) = self.pose.heading.sin_cos();
-        0.5 * (self.length * (cos * x + sin * y).abs() + self.width * (cos * y - sin * x).abs())
-    }
-
-    /// Depth of the intersection of two rectangles, by separating axes; not positive if they are apart.
-    fn depth(&self, other: &Rectangle) -> f64 {
-        let (dx, dy) = self.to(other);
-        let axes = [self, other].into_iter().flat_map(|it| {
-            let (sin, cos) = it.pose.heading.sin_cos();
-            [(cos, sin), (-sin, cos)]
-        });
-        axes.map(|(x, y)| self.reach(x, y) + other.reach(x, y) - (dx * x + dy * y).abs())
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    fn to(&self, other: &Rectangle) -> (f64, f64) {
-        (other.pose.at.x - self.pose.at.x, other.pose.at.y - self.pose.at.y)
+impl Party {
+    /// The vehicle whose entry is at `spot`.
+    fn of(scene: &Scene, spot: Spot) -> Option<Party> {
+        let (Kinematics { x, id, speed, .. }, driver) = (*scene.motion(spot), scene.driver(spot));
+        let external = if driver.is_external { scene.externals.of(id) } else { None };
+        let size = driver.class.body();
+        let (place, pose, speed) = match external.and_then(|it| Some((it.at, it.body.as_ref()?))) {
+            Some((at, body)) => (at, body.pose, body.speed),
+            None if !driver.is_shadow => (Position::new(spot.chain, x), pose(scene, spot), speed),
+            None => {
+                let counterpart = scene.lane_change(spot).counterpart.map(|it| it.at());
+                let main = main_entry(scene, id, counterpart.or(external.map(|it| it.at))?)?;
+                let motion = scene.motion(main);
+                (Position::new(main.chain, motion.x), pose(scene, main), motion.speed)
+            }
+        };
+        let rectangle = Rectangle { pose, length: size.length, width: size.width };
+        Some(Party { id, parameters: driver.parameters, class: driver.class, place, rectangle, speed })
     }
 
     /// Whether the centres approach each other.
-    fn closes(&self, other: &Rectangle) -> bool {
-        let (dx, dy) = self.to(other);
-        let velocity = |it: &Rectangle| {
-            let (sin, cos) = it.pose.heading.sin_cos();
+    fn closes(&self, other: &Party) -> bool {
+        let (dx, dy) = self.rectangle.to(&other.rectangle);
+        let velocity = |it: &Party| {
+            let (sin, cos) = it.rectangle.pose.heading.sin_cos();
             (it.speed * cos, it.speed * sin)
         };
         let ((ax, ay), (bx, by)) = (velocity(self), velocity(other));
         dx * (bx - ax) + dy * (by - ay) < 0.0
     }
+}
+
+/// The main entry of the vehicle `id` at this position.
+fn main_entry(scene: &Scene, id: VehicleId, at: Position) -> Option<Spot> {
+    Some(Spot { chain: at.chain, index: scene.lanes[at.chain.at()].find(id, at.x)? })
 }

@@ -1,9 +1,9 @@
 //! The roads, and what drivers know of them.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use laneweave_models::Style;
-use laneweave_network::Network;
+use laneweave_network::{Ground, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::guidance::Guidance;
@@ -24,6 +24,8 @@ pub(crate) struct Roads {
     random: Random,
     /// Route guidance, if drivers are guided.
     guidance: Option<Guidance>,
+    /// The ground, once it is needed.
+    ground: OnceLock<Ground>,
 }
 
 impl Roads {
@@ -37,7 +39,7 @@ impl Roads {
     ) -> Roads {
         let restrictions = ClassRestrictions::of(&network, fleet);
         let navigator = Navigator::with_restrictions(&network, destinations, restrictions);
-        Roads { network, navigator, driver_parameters, random, guidance: None }
+        Roads { network, navigator, driver_parameters, random, guidance: None, ground: OnceLock::new() }
     }
 
     /// The network.
@@ -49,6 +51,11 @@ impl Roads {
     /// The network, shared with users outside the world: it never changes.
     pub(crate) fn shared_network(&self) -> Arc<Network> {
         Arc::clone(&self.network)
+    }
+
+    /// The ground, for vehicles that do not drive along lanes.
+    pub(crate) fn ground(&self) -> &Ground {
+        self.ground.get_or_init(|| Ground::new(&self.network))
     }
 
     /// The navigator, which has the routes.

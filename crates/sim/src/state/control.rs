@@ -14,6 +14,18 @@ pub enum Control {
         /// Whether it changes lanes.
         lateral: Lateral,
     },
+    /// The centre of the vehicle is at this place at the end of the next step, wherever that is: in a lane, between
+    /// two lanes, or off the road. It stays there until the user gives another pose.
+    Pose {
+        /// East, in the frame of the map [m].
+        x: f64,
+        /// North, in the frame of the map [m].
+        y: f64,
+        /// Heading, counter-clockwise from east [rad].
+        heading: f64,
+        /// Speed along the heading that other drivers see [m/s]. They see no more than the vehicle really moves.
+        speed: f64,
+    },
 }
 
 /// How fast a vehicle drives.
@@ -51,6 +63,23 @@ impl Control {
     pub const HARDEST: f64 = laneweave_models::braking::HARDEST_BRAKING;
     /// The highest speed that a user may ask for [m/s]: 300 km/h.
     pub const FASTEST: f64 = 300.0 / 3.6;
+    /// No coordinate of a pose is further from 0 than this [m], and no heading [rad].
+    pub const FARTHEST: f64 = 1e7;
+
+    /// Whether its numbers are in their ranges.
+    pub(crate) fn is_sound(self) -> bool {
+        match self {
+            Control::Drive { longitudinal, .. } => match longitudinal {
+                Longitudinal::Driver => true,
+                Longitudinal::Acceleration(it) => it.abs() <= Control::HARDEST,
+                Longitudinal::Speed(it) => (0.0..=Control::FASTEST).contains(&it),
+            },
+            Control::Pose { x, y, heading, speed } => {
+                [x, y, heading].iter().all(|it| it.abs() <= Control::FARTHEST)
+                    && (0.0..=Control::FASTEST).contains(&speed)
+            }
+        }
+    }
 
     /// Whether a user drives the vehicle in any way.
     pub fn is_external(self) -> bool {

@@ -1,34 +1,95 @@
 //! The external vehicles: those that a user drives.
 
-use laneweave_network::Position;
+use laneweave_network::{Pose, Position};
 use serde::{Deserialize, Serialize};
 
 use crate::state::control::Control;
-use crate::state::lane::{Phase, VehicleId};
+use crate::state::lane::{Entry, Phase, VehicleId};
 
-/// The external vehicles, in the order of their ids.
+/// The external vehicles, in the order of their ids, and what others see of accidents.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Externals {
     vehicles: Vec<External>,
+    /// The obstacles that show where vehicles which lie within others reach back to.
+    rears: Vec<(VehicleId, Position)>,
 }
 
 /// A vehicle that a user drives.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct External {
     /// The vehicle.
     pub(crate) id: VehicleId,
     /// How the user drives it.
     pub(crate) control: Control,
-    /// Position of its main entry.
+    /// Position of its main entry. Off the road, the last one.
     pub(crate) at: Position,
     /// The phase of its lane change.
     pub(crate) phase: Phase,
+    /// Its entries in other lanes that it touches.
+    pub(crate) obstacles: Vec<Position>,
+    /// Its body, if the user drives it by poses.
+    pub(crate) body: Option<Body>,
+}
+
+/// The body of a vehicle that a user drives by poses.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Body {
+    /// The pose of its centre.
+    pub(crate) pose: Pose,
+    /// Speed that others see [m/s].
+    pub(crate) speed: f64,
+    /// Its main entry, if it is off the road, where it is in no lane.
+    pub(crate) off_road: Option<Entry>,
+}
+
+impl External {
+    /// The vehicle `id`, which a user begins to drive, with its main entry at this position.
+    pub(crate) fn new(id: VehicleId, control: Control, at: Position) -> External {
+        External { id, control, at, phase: Phase::Cruises, obstacles: Vec::new(), body: None }
+    }
+
+    /// Its main entry, if it is off the road.
+    pub(crate) fn off_road(&self) -> Option<&Entry> {
+        self.body.as_ref().and_then(|it| it.off_road.as_ref())
+    }
+
+    /// The same, mutable.
+    pub(crate) fn off_road_mut(&mut self) -> Option<&mut Entry> {
+        self.body.as_mut().and_then(|it| it.off_road.as_mut())
+    }
 }
 
 impl Externals {
+    /// Whether there are none, and no traces of any.
+    #[inline]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.vehicles.is_empty() && self.rears.is_empty()
+    }
+
+    /// The obstacles that show where vehicles which lie within others reach back to.
+    pub(crate) fn rears(&self) -> &[(VehicleId, Position)] {
+        &self.rears
+    }
+
+    /// Adds such an obstacle.
+    pub(crate) fn note_rear(&mut self, id: VehicleId, at: Position) {
+        self.rears.push((id, at));
+    }
+
+    /// Takes all such obstacles out.
+    pub(crate) fn take_rears(&mut self) -> Vec<(VehicleId, Position)> {
+        std::mem::take(&mut self.rears)
+    }
+
     /// All of them.
+    #[inline]
     pub(crate) fn all(&self) -> &[External] {
         &self.vehicles
+    }
+
+    /// All of them, mutable.
+    pub(crate) fn all_mut(&mut self) -> &mut [External] {
+        &mut self.vehicles
     }
 
     /// The external vehicle with this id.
@@ -36,26 +97,57 @@ impl Externals {
         self.vehicles.binary_search_by_key(&id, |it| it.id).ok().map(|it| &self.vehicles[it])
     }
 
-    /// Whether they are in order, and on chains of a network with this many.
-    pub(crate) fn fit(&self, chains: usize) -> bool {
-        self.vehicles.iter().all(|it| it.at.chain.at() < chains) && self.vehicles.is_sorted_by_key(|it| it.id)
+    /// The same, mutable.
+    pub(crate) fn of_mut(&mut self, id: VehicleId) -> Option<&mut External> {
+        self.vehicles.binary_search_by_key(&id, |it| it.id).ok().map(|it| &mut self.vehicles[it])
     }
 
-    /// Sets how the user drives a vehicle.
-    pub(crate) fn set(&mut self, external: External) {
+    /// The body of a vehicle that a user drives by poses.
+    pub(crate) fn body(&self, id: VehicleId) -> Option<&Body> {
+        self.of(id)?.body.as_ref()
+    }
+
+    /// Number of vehicles off the road.
+    pub(crate) fn off_road(&self) -> usize {
+        self.vehicles.iter().filter(|it| it.off_road().is_some()).count()
+    }
+
+    /// Whether they are in order, have valid numbers, and are on chains of a network with this many. Main entries off
+    /// the road have to `fit`.
+    pub(crate) fn fit(&self, chains: usize, fit: impl Fn(&Entry) -> bool) -> bool {
+        let is_place = |it: &Position| it.chain.at() < chains && it.x.is_finite();
+        let body_fits = |it: &Body| {
+            let Pose { at, heading } = it.pose;
+            [at.x, at.y, at.z, heading, it.speed].iter().all(|it| it.is_finite())
+                && it.off_road.as_ref().is_none_or(&fit)
+        };
+        let is_sound = |it: &External| {
+            it.control.is_sound()
+                && is_place(&it.at)
+                && it.obstacles.iter().all(is_place)
+                && it.body.as_ref().is_none_or(body_fits)
+        };
+        self.vehicles.iter().all(is_sound)
+            && self.rears.iter().all(|(_, at)| is_place(at))
+            && self.vehicles.is_sorted_by(|a, b| a.id < b.id)
+    }
+
+    /// Adds a vehicle that a user begins to drive.
+    pub(crate) fn add(&mut self, external: External) {
         match self.vehicles.binary_search_by_key(&external.id, |it| it.id) {
             Ok(place) => self.vehicles[place] = external,
             Err(place) => self.vehicles.insert(place, external),
         }
     }
 
-    /// Forgets a vehicle that its driver drives again, or that is no longer on the road.
-    pub(crate) fn forget(&mut self, id: VehicleId) {
-        self.vehicles.retain(|it| it.id != id);
+    /// Takes a vehicle out.
+    pub(crate) fn take(&mut self, id: VehicleId) -> Option<External> {
+        let place = self.vehicles.binary_search_by_key(&id, |it| it.id).ok()?;
+        Some(self.vehicles.remove(place))
     }
 
-    /// Renews each vehicle by `renew`; forgets those for which it returns `None`.
-    pub(crate) fn renew(&mut self, mut renew: impl FnMut(External) -> Option<External>) {
-        self.vehicles.retain_mut(|it| renew(*it).map(|new| *it = new).is_some());
+    /// Keeps the vehicles that `follow` finds.
+    pub(crate) fn retain(&mut self, follow: impl FnMut(&mut External) -> bool) {
+        self.vehicles.retain_mut(follow);
     }
 }

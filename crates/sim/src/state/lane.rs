@@ -1,9 +1,9 @@
 //! Vehicles in the order of their lanes. A leader is the next entry.
 //!
-//! An entry has three parts, in arrays of the same order. [`Kinematics`] is all that other vehicles see, and is written
-//! again at every step. [`DriverState`] is what a driver needs to drive on and to consider lanes. [`LaneChangeState`]
-//! is what only lane changes need. A vehicle that changes lanes has an entry in both lanes: its main entry where its
-//! centre is, and a shadow in the other.
+//! An entry has three parts, in arrays of the same order. [`Kinematics`] is all that other vehicles see, and is
+//! written again at every step. [`DriverState`] is what a driver needs to drive on and to consider lanes.
+//! [`LaneChangeState`] is what only lane changes need. A vehicle that changes lanes has an entry in both lanes: its
+//! main entry where its centre is, and a shadow in the other.
 
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Position, Side};
@@ -190,7 +190,7 @@ pub enum Kind {
 }
 
 /// An entry with all its parts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Entry {
     /// Its kinematics.
     pub(crate) motion: Kinematics,
@@ -245,11 +245,8 @@ impl Lane {
 
     /// All parts of the entry at `index`.
     pub(crate) fn entry(&self, index: usize) -> Entry {
-        Entry {
-            motion: self.motions[index],
-            driver: self.drivers[index],
-            lane_change: self.lane_change_states[index],
-        }
+        let (motion, driver) = (self.motions[index], self.drivers[index]);
+        Entry { motion, driver, lane_change: self.lane_change_states[index] }
     }
 
     /// The parts of the entry at `index`, mutable. The entries must stay in the order of their positions.
@@ -316,7 +313,7 @@ impl Lane {
         index
     }
 
-    /// Index of the entry of vehicle `id`, which was at `x` at most one step ago.
+    /// Index of the entry of vehicle `id`, which was at `x` at most one step ago. Obstacles are no entries of it.
     pub fn find(&self, id: VehicleId, x: f64) -> Option<usize> {
         /// No vehicle moves further in a step of at most one second [m].
         const STEP: f64 = 100.0;
@@ -324,7 +321,19 @@ impl Lane {
         const NEAR: f64 = 0.01;
         let from = self.motions.partition_point(|it| it.x < x - NEAR);
         let within = self.motions[from..].iter().take_while(|it| it.x <= x + STEP);
-        within.zip(from..).find(|(it, _)| it.id == id).map(|(_, index)| index)
+        within.zip(from..).find(|(it, index)| it.id == id && !self.is_obstacle(*index)).map(|it| it.1)
+    }
+
+    /// Index of the entry at `x` by which vehicle `id`, whose main entry is in another lane, is seen here.
+    pub(crate) fn find_obstacle(&self, id: VehicleId, x: f64) -> Option<usize> {
+        let from = self.motions.partition_point(|it| it.x < x);
+        let mut here = self.motions[from..].iter().take_while(|it| it.x <= x).zip(from..);
+        here.find(|(it, at)| it.id == id && self.is_obstacle(*at)).map(|it| it.1)
+    }
+
+    /// Whether the entry at `index` only stands for a vehicle that touches this lane.
+    fn is_obstacle(&self, index: usize) -> bool {
+        self.drivers[index].is_shadow && self.lane_change_states[index].counterpart.is_none()
     }
 
     /// Whether the vehicles are in driving order.

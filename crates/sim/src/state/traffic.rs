@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::state::busy_lanes::Busy;
 use crate::state::clock::Clock;
+use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Entry, Lane, LaneChangeState};
 
@@ -15,8 +16,10 @@ pub(crate) struct Traffic {
     /// By chain.
     lanes: Vec<Lane>,
     busy: Busy,
-    /// Vehicles on the road.
+    /// Vehicles in lanes.
     crowd: usize,
+    /// Those that users drive.
+    externals: Externals,
 }
 
 /// What is needed to move all vehicles.
@@ -25,6 +28,7 @@ pub(crate) struct Moving<'a> {
     pub(crate) lanes: &'a mut [Lane],
     /// The lanes that have vehicles to move, in order.
     pub(crate) chosen: &'a [u32],
+    pub(crate) externals: &'a Externals,
 }
 
 impl Traffic {
@@ -35,6 +39,7 @@ impl Traffic {
             lanes: vec![Lane::default(); chains],
             busy: Busy::none_of(chains),
             crowd: 0,
+            externals: Externals::default(),
         }
     }
 
@@ -49,9 +54,20 @@ impl Traffic {
         self.clock.step += 1;
     }
 
-    /// Vehicles on the road.
+    /// Vehicles in lanes. Those that users drive off the road are not among them.
     pub(crate) fn crowd(&self) -> usize {
         self.crowd
+    }
+
+    /// The vehicles that users drive.
+    #[inline]
+    pub(crate) fn externals(&self) -> &Externals {
+        &self.externals
+    }
+
+    /// The same, mutable.
+    pub(crate) fn externals_mut(&mut self) -> &mut Externals {
+        &mut self.externals
     }
 
     /// All lanes, by chain.
@@ -78,13 +94,13 @@ impl Traffic {
         self.lanes[chain.at()].insert(entry);
     }
 
-    /// Adds a new vehicle to the lane of `chain`.
+    /// Adds a vehicle that was in no lane to the lane of `chain`.
     pub(crate) fn enter(&mut self, chain: ChainIndex, entry: Entry) {
         self.insert(chain, entry);
         self.crowd += 1;
     }
 
-    /// Counts a vehicle that left the road.
+    /// Counts a vehicle that is no longer in a lane.
     pub(crate) fn leave(&mut self) {
         self.crowd -= 1;
     }
@@ -96,8 +112,8 @@ impl Traffic {
 
     /// What is needed to move all vehicles.
     pub(crate) fn moving(&mut self) -> Moving<'_> {
-        let Traffic { clock, lanes, busy, crowd: _ } = self;
-        Moving { clock: *clock, lanes, chosen: busy.chosen() }
+        let Traffic { clock, lanes, busy, crowd: _, externals } = self;
+        Moving { clock: *clock, lanes, chosen: busy.chosen(), externals }
     }
 
     /// Whether it fits this many chains and sets of driver parameters, and names known destinations only.
@@ -107,7 +123,7 @@ impl Traffic {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Traffic { clock, lanes, busy, crowd } = self;
+        let Traffic { clock, lanes, busy, crowd, externals } = self;
         let is_chain = |it: ChainIndex| it.at() < chains;
         let car_fits = |it: &DriverState| {
             (it.parameters as usize) < driver_parameters && is_known(it.goal.destination())
@@ -126,6 +142,7 @@ impl Traffic {
         lanes.len() == chains
             && busy.is_of(chains)
             && lanes.iter().all(lane_fits)
+            && externals.fit(chains, |it| car_fits(&it.driver) && mind_fits(&it.lane_change))
             && drivers.filter(|it| !it.is_shadow).count() == *crowd
     }
 }

@@ -8,14 +8,17 @@ use crate::record::log::Log;
 use crate::route::roads::Roads;
 use crate::state::command::{Command, Commanded};
 use crate::state::control::Control;
-use crate::state::externals::{External, Externals};
+use crate::state::externals::{Body, External};
 use crate::state::goal::Destination;
-use crate::state::lane::{Counterpart, DriverState, Kinematics, LaneChangeState, VehicleId};
+use crate::state::lane::{Counterpart, DriverState, Entry, Kinematics, LaneChangeState, VehicleId};
 use crate::state::traffic::Traffic;
+use crate::step::end_change::end_change;
 use crate::step::index::Index;
+use crate::step::move_externals::clear_obstacles;
 use crate::step::names;
-use crate::step::take_off::take_off;
-use crate::view::scene::Spot;
+use crate::step::take_off::{end_trip, take_off};
+use crate::view::pose::pose;
+use crate::view::scene::{Scene, Spot};
 
 /// What commands change, and what they depend on.
 pub(super) struct CarryingOut<'a> {
@@ -24,7 +27,6 @@ pub(super) struct CarryingOut<'a> {
     pub(super) junctions: &'a mut JunctionState,
     pub(super) arrivals: &'a mut Arrivals,
     pub(super) log: &'a mut Log,
-    pub(super) externals: &'a mut Externals,
     pub(super) index: &'a Index,
 }
 
@@ -35,32 +37,19 @@ impl CarryingOut<'_> {
     }
 
     fn one(&mut self, vehicle: Option<VehicleId>, command: &Command) {
-        let spot = |it: &Self, id| it.index.spot(it.traffic.lanes(), id);
         match command {
             // It is on the road already.
             Command::Insert(_) => vehicle.into_iter().for_each(|it| self.log.note_inserted(it)),
-            Command::Remove(id) => {
-                if let Some(spot) = spot(self, *id) {
-                    take_off(self.roads, self.traffic, self.junctions, self.log, spot);
-                    self.externals.forget(*id);
-                }
-            }
-            Command::Control(id, control) => {
-                if let Some(spot) = spot(self, *id) {
-                    self.control(*id, spot, *control);
-                }
-            }
+            Command::Remove(id) => self.remove(*id),
+            Command::Control(id, control) => self.control(*id, *control),
             Command::SetStyle(id, style) => {
-                let parameters = names::parameters_of(self.roads, style, *id);
-                if let (Some(spot), Some(parameters)) = (spot(self, *id), parameters) {
-                    self.set_style(spot, parameters);
+                if let Some(parameters) = names::parameters_of(self.roads, style, *id) {
+                    self.set_style(*id, parameters);
                 }
             }
             Command::SetDestination(id, destination) => {
                 let number = destination.and_then(|it| names::destination(self.arrivals.demand(), it));
-                if let Some(spot) = spot(self, *id) {
-                    self.set_destination(spot, number);
-                }
+                self.set_destination(*id, number);
             }
             Command::SetDemand { origin, vehicles_per_hour } => {
                 if let Some(origin) = names::origin(self.arrivals.demand(), *origin) {
@@ -76,24 +65,84 @@ impl CarryingOut<'_> {
         }
     }
 
-    fn control(&mut self, id: VehicleId, spot: Spot, control: Control) {
-        let is_external = control.is_external();
-        self.change_both(spot, |_, driver, _, _| driver.is_external = is_external);
-        let lane = self.traffic.lane(spot.chain);
-        let at = Position::new(spot.chain, lane.motions()[spot.index].x);
-        let phase = lane.drivers()[spot.index].phase;
-        if is_external {
-            self.externals.set(External { id, control, at, phase });
-        } else {
-            self.externals.forget(id);
+    /// The main entry of a vehicle, if it is in a lane.
+    fn spot(&self, id: VehicleId) -> Option<Spot> {
+        self.index.spot(self.traffic.lanes(), id)
+    }
+
+    fn remove(&mut self, id: VehicleId) {
+        let external = self.traffic.externals_mut().take(id);
+        let off_road = external.as_ref().and_then(|it| Some((it.at.chain, *it.off_road()?)));
+        if let Some(mut external) = external {
+            clear_obstacles(self.traffic, &mut external);
+        }
+        let spot = self.spot(id);
+        let CarryingOut { roads, traffic, junctions, log, .. } = self;
+        if let Some((chain, entry)) = off_road {
+            end_trip(roads, traffic, junctions, log, chain, &entry);
+        } else if let Some(spot) = spot {
+            take_off(roads, traffic, junctions, log, spot);
         }
     }
 
-    /// Gives the driver at `spot` another set of parameters. It considers lanes at once.
-    fn set_style(&mut self, spot: Spot, parameters: u32) {
+    /// Lets a user drive a vehicle in this way, or leaves it to its driver.
+    fn control(&mut self, id: VehicleId, control: Control) {
+        let before = self.traffic.externals_mut().take(id);
+        let mut external = match before {
+            Some(external) => external,
+            None => {
+                let Some(spot) = self.spot(id) else { return };
+                let x = self.traffic.lane(spot.chain).motions()[spot.index].x;
+                External::new(id, control, Position::new(spot.chain, x))
+            }
+        };
+        let was_on_its_own_path = external.body.is_some();
+        external.control = control;
+        match control {
+            Control::Pose { .. } if external.body.is_some() => {}
+            Control::Pose { .. } => external.body = self.body(id),
+            Control::Drive { .. } => {
+                if external.body.take().is_some() {
+                    self.back_in_lane(id);
+                }
+            }
+        }
+        if external.body.is_none() && was_on_its_own_path || !control.is_external() {
+            clear_obstacles(self.traffic, &mut external);
+        }
+        self.change(id, |_, driver, _, _| driver.is_external = control.is_external());
+        if let Some(spot) = self.spot(id) {
+            external.phase = self.traffic.lane(spot.chain).drivers()[spot.index].phase;
+        }
+        if control.is_external() {
+            self.traffic.externals_mut().add(external);
+        }
+    }
+
+    /// The body of a vehicle that has driven in lanes. It no longer changes lanes.
+    fn body(&mut self, id: VehicleId) -> Option<Body> {
+        let spot = self.spot(id)?;
+        let scene = Scene::of(self.roads, self.traffic, self.junctions);
+        let (pose, speed) = (pose(&scene, spot), scene.motion(spot).speed);
+        end_change(self.roads.network(), self.traffic, self.log, spot);
+        Some(Body { pose, speed, off_road: None })
+    }
+
+    /// A vehicle drives in lanes again. It is as long as it is, and considers lanes at once.
+    fn back_in_lane(&mut self, id: VehicleId) {
+        let Some(spot) = self.spot(id) else { return };
+        let step = self.traffic.clock().step;
+        let (motion, driver, _) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
+        motion.length = driver.class.body().length as f32;
+        driver.due = step;
+        driver.needs_full_update = true;
+    }
+
+    /// Gives the driver of a vehicle another set of parameters. It considers lanes at once.
+    fn set_style(&mut self, id: VehicleId, parameters: u32) {
         let (network, style) = (self.roads.network(), self.roads.style(parameters));
         let step = self.traffic.clock().step;
-        self.change_both(spot, |motion, driver, _, chain| {
+        self.change(id, |motion, driver, _, chain| {
             driver.parameters = parameters;
             driver.limit_desired =
                 driver.class.desired_speed(style, network.chain(chain).limit(motion.x)) as f32;
@@ -103,29 +152,36 @@ impl CarryingOut<'_> {
         });
     }
 
-    /// Gives the driver at `spot` another destination. It considers lanes at once.
-    fn set_destination(&mut self, spot: Spot, number: Destination) {
+    /// Gives a driver another destination. It considers lanes at once.
+    fn set_destination(&mut self, id: VehicleId, number: Destination) {
         let (navigator, step) = (self.roads.navigator(), self.traffic.clock().step);
-        self.change_both(spot, |_, driver, lane_change, _| {
+        self.change(id, |_, driver, lane_change, _| {
             driver.goal = navigator.seen_by(driver.class, number).into();
             driver.due = step;
             driver.needs_full_update = true;
             lane_change.last_place = f64::INFINITY;
         });
-        let id = self.traffic.lane(spot.chain).motions()[spot.index].id;
         self.log.set_destination(id, number.map(usize::from));
     }
 
-    /// Changes the entry at `spot` and, between two lanes, the other entry of its vehicle.
-    fn change_both(
+    /// Changes the main entry of a vehicle, wherever it is, and the other entry of a vehicle between two lanes.
+    fn change(
         &mut self,
-        spot: Spot,
+        id: VehicleId,
         change: impl Fn(&Kinematics, &mut DriverState, &mut LaneChangeState, ChainIndex),
     ) {
+        let Some(spot) = self.spot(id) else {
+            let external = self.traffic.externals_mut().of_mut(id);
+            let chain = external.as_ref().map(|it| it.at.chain);
+            if let Some((chain, entry)) = chain.zip(external.and_then(External::off_road_mut)) {
+                let Entry { motion, driver, lane_change } = entry;
+                change(motion, driver, lane_change, chain);
+            }
+            return;
+        };
         let (motion, driver, lane_change) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
         change(motion, driver, lane_change, spot.chain);
-        let (id, counterpart) = (motion.id, lane_change.counterpart);
-        let Some(Counterpart { chain, x, .. }) = counterpart else { return };
+        let Some(Counterpart { chain, x, .. }) = lane_change.counterpart else { return };
         let lane = self.traffic.lane_mut(chain);
         if let Some(index) = lane.find(id, x) {
             let (motion, driver, lane_change) = lane.entry_mut(index);

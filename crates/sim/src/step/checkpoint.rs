@@ -15,9 +15,7 @@ use crate::route::guidance::Guidance;
 use crate::route::renew_routes::Guided;
 use crate::route::roads::Roads;
 use crate::state::commands::Commands;
-use crate::state::externals::Externals;
 use crate::state::goal::Destination;
-use crate::state::lane::Lane;
 use crate::state::traffic::Traffic;
 use crate::step::world::World;
 
@@ -53,7 +51,7 @@ type Saved = (
     Vec<(Vec<Waiting>, f64)>,
     Counters,
     Option<(Guidance, Guided)>,
-    (Externals, Commands),
+    Commands,
 );
 
 /// Length of the hash at the end [bytes].
@@ -65,12 +63,11 @@ impl World {
     /// # Errors
     /// None, as long as there is memory.
     pub fn save(&self) -> Result<Vec<u8>, CheckpointError> {
-        let World { roads, traffic, junctions, arrivals, log, externals, commands, index: _, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, commands, index: _, work } = self;
         let kept: Vec<_> = work.plans.iter().map(|it| (&it.waiting, it.distance)).collect();
         let (identity, counters) = (Identity::of(roads, arrivals.demand()), work.counted());
-        let users = (externals, commands);
         let saved =
-            (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided(), users);
+            (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided(), commands);
         let mut bytes = postcard::to_allocvec(&saved).map_err(unreadable)?;
         bytes.extend(xxh3_64(&bytes).to_le_bytes());
         Ok(bytes)
@@ -89,10 +86,10 @@ impl World {
         Identity::of(&self.roads, self.arrivals.demand()).check(&identity)?;
         let saved: Saved = postcard::from_bytes(body).map_err(unreadable)?;
         self.check(&saved)?;
-        let World { roads, traffic, junctions, arrivals, log, externals, commands, index, work } = self;
-        let (_, moving, passing, backlog, remembered, kept, counters, guided, users) = saved;
+        let World { roads, traffic, junctions, arrivals, log, commands, index, work } = self;
+        let (_, moving, passing, backlog, remembered, kept, counters, guided, given) = saved;
         index.forget();
-        (*externals, *commands) = users;
+        *commands = given;
         (*traffic, *junctions) = (moving, passing);
         arrivals.restore(backlog);
         log.restore(remembered);
@@ -109,24 +106,21 @@ impl World {
     /// exist.
     fn check(&self, saved: &Saved) -> Result<(), CheckpointError> {
         let World { roads, traffic: own, junctions: own_junctions, arrivals, .. } = self;
-        let (_, traffic, junctions, backlog, log, kept, _, guided, (externals, _)) = saved;
+        let (_, traffic, junctions, backlog, log, kept, _, guided, _) = saved;
         let (chains, driver_parameters) = (roads.network().chains.len(), roads.driver_parameters().len());
         let (clock, lanes) = (traffic.clock(), traffic.lanes());
         let is_known = |it: Destination| match guided {
             Some((_, guided)) => guided.has(it),
             None => roads.navigator().has(it),
         };
-        let waits = |(it, lane): (&(Vec<Waiting>, f64), &Lane)| {
-            it.0.iter().all(|it| (it.index as usize) < lane.motions().len() && it.since <= clock.step)
-        };
+        let waits = |it: &(Vec<Waiting>, f64)| it.0.iter().all(|it| it.since <= clock.step);
         let wrong = [
             (clock.dt != own.clock().dt, "steps"),
             (!traffic.fits(chains, driver_parameters, is_known), "lanes"),
-            (kept.len() != chains || !kept.iter().zip(lanes).all(waits), "waiting drivers"),
+            (kept.len() != chains || !kept.iter().all(waits), "waiting drivers"),
             (!junctions.fits(own_junctions, clock), "junctions"),
             (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),
             (!roads.accepts(guided.as_ref()), "guidance"),
-            (!externals.fit(chains), "external vehicles"),
             (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_id()), "records"),
         ];
         wrong.into_iter().find(|it| it.0).map_or(Ok(()), |it| Err(CheckpointError::Other(it.1)))

@@ -143,7 +143,21 @@ impl World {
             }
             rows.fill(motions, &mut walk);
         }
+        self.add_off_road(columns);
         self.poses(columns);
+    }
+
+    /// Adds the vehicles that users drive off the road.
+    fn add_off_road(&self, columns: &mut Columns) {
+        for external in self.traffic.externals().all() {
+            let Some(entry) = external.off_road() else { continue };
+            let (lanelet, along) = self.roads.network().chain(external.at.chain).lanelet(entry.motion.x);
+            columns.id.push(entry.motion.id);
+            columns.lanelet.push(lanelet.0);
+            columns.position_m.push(along);
+            columns.speed_mps.push(entry.motion.speed);
+            columns.acceleration_mps2.push(entry.motion.acceleration);
+        }
     }
 
     /// Fills the columns of the poses, if they are wanted.

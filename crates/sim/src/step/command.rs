@@ -23,6 +23,9 @@ pub enum CommandError {
     /// There is already a command of this kind for the same thing in this step.
     #[error("{0} already has a command of this kind in this step; simulate a step before the next one")]
     Twice(String),
+    /// A vehicle off the road cannot drive in lanes.
+    #[error("vehicle {0} is in no lane; give it a pose in a lane first, along the lane, and simulate a step")]
+    Astray(VehicleId),
     /// The vehicle is to be removed in this step.
     #[error("vehicle {0} is removed before the next step, and takes no other command with it")]
     Removed(VehicleId),
@@ -110,7 +113,10 @@ impl World {
         self.check_other_commands(command)?;
         match command {
             Command::Insert(_) | Command::Remove(_) => Ok(()),
-            Command::Control(_, control) => check_control(*control),
+            Command::Control(id, control) => {
+                check_control(*control)?;
+                self.check_lane_for(*id, *control)
+            }
             Command::SetStyle(id, style) => self.parameters_of(style, *id).map(|_| ()),
             Command::SetDestination(id, destination) => self.check_destination(*id, *destination),
             Command::SetDemand { origin, vehicles_per_hour } => {
@@ -125,11 +131,21 @@ impl World {
         }
     }
 
+    /// Checks that a vehicle that is to drive in lanes is in one.
+    fn check_lane_for(&self, id: VehicleId, control: Control) -> Result<(), CommandError> {
+        let drives_in_lanes = matches!(control, Control::Drive { .. });
+        let is_astray = drives_in_lanes && self.vehicle(id).is_some_and(|it| !it.is_in_lane());
+        if is_astray { Err(CommandError::Astray(id)) } else { Ok(()) }
+    }
+
     /// Checks that the driver of a vehicle can take another destination now.
     fn check_destination(&self, id: VehicleId, destination: Option<i64>) -> Result<(), CommandError> {
         let Some(name) = destination else { return Ok(()) };
         let number = self.destination(name)?;
         let vehicle = self.vehicle(id).ok_or(CommandError::NoVehicle(id))?;
+        if !vehicle.is_in_lane() {
+            return Err(CommandError::Astray(id));
+        }
         let (scene, navigator) = (self.scene(), self.roads.navigator());
         let refused = |why| Err(CommandError::Destination { vehicle: id, destination: name, why });
         if scene.has_reservation(vehicle.spot, f64::NEG_INFINITY) {
@@ -168,8 +184,18 @@ impl World {
 
 /// Checks the numbers of a control.
 fn check_control(control: Control) -> Result<(), CommandError> {
-    let Control::Drive { longitudinal, lateral } = control;
-    let (Lateral::Driver | Lateral::Keep | Lateral::Change(_)) = lateral;
+    let longitudinal = match control {
+        Control::Drive { longitudinal, lateral: Lateral::Driver | Lateral::Keep | Lateral::Change(_) } => {
+            longitudinal
+        }
+        Control::Pose { x, y, heading, speed } => {
+            let place = [-Control::FARTHEST, Control::FARTHEST];
+            in_range("a place to the east", x, place, "m")?;
+            in_range("a place to the north", y, place, "m")?;
+            in_range("a heading", heading, place, "rad")?;
+            return in_range("a speed", speed, [0.0, Control::FASTEST], "m/s");
+        }
+    };
     match longitudinal {
         Longitudinal::Driver => Ok(()),
         Longitudinal::Acceleration(value) => {

@@ -1,54 +1,75 @@
 //! External vehicles: before a step their users' controls are handed to the plans of their lanes; after it the world
 //! notes where they are.
 
-use laneweave_network::{Network, Position};
+use laneweave_network::{ChainIndex, Network, Position};
 
-use crate::driver::plan::Controlled;
+use crate::driver::plan::{Controlled, Told};
 use crate::state::control::{Control, Lateral};
-use crate::state::externals::{External, Externals};
+use crate::state::externals::External;
 use crate::state::lane::{Counterpart, Lane, Phase, VehicleId};
 use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 use crate::view::scene::Spot;
 
 /// Hands the controls of external vehicles to the plans of their lanes.
-pub(crate) fn hand_out_controls(externals: &Externals, traffic: &Traffic, work: &mut Work) {
-    for External { id, control, at, .. } in externals.all() {
-        let Control::Drive { longitudinal, lateral } = *control;
+pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
+    let externals = traffic.externals();
+    let touched = externals.all().iter().flat_map(|it| it.obstacles.iter().map(|at| (it.id, *at)));
+    for (id, Position { chain, x }) in touched.chain(externals.rears().iter().copied()) {
+        if let Some(index) = traffic.lane(chain).find_obstacle(id, x) {
+            work.plans[chain.at()].controls.push(Controlled { index: index as u32, told: Told::Stay });
+        }
+    }
+    for external in externals.all() {
+        let External { id, control, at, .. } = external;
+        let mut tell = |chain: ChainIndex, index: usize, told| {
+            work.plans[chain.at()].controls.push(Controlled { index: index as u32, told });
+        };
+        if external.off_road().is_some() {
+            continue;
+        }
         let lane = traffic.lane(at.chain);
         let Some(index) = lane.find(*id, at.x) else { continue };
-        let own = Controlled { index: index as u32, longitudinal, lateral };
-        work.plans[at.chain.at()].controls.push(own);
+        let Control::Drive { longitudinal, lateral } = *control else {
+            tell(at.chain, index, Told::Stay);
+            continue;
+        };
+        tell(at.chain, index, Told::Drive(longitudinal, lateral));
         let Some(Counterpart { chain, x, .. }) = lane.lane_change_states()[index].counterpart else {
             continue;
         };
         if let Some(index) = traffic.lane(chain).find(*id, x) {
-            let shadow = Controlled { index: index as u32, longitudinal, lateral: Lateral::Driver };
-            work.plans[chain.at()].controls.push(shadow);
+            tell(chain, index, Told::Drive(longitudinal, Lateral::Driver));
         }
     }
 }
 
 /// Notes where external vehicles are now. Those that have left the map are forgotten. A vehicle that has completed the
 /// change that its user asked for keeps its lane from now on.
-pub(crate) fn follow_externals(network: &Network, traffic: &Traffic, externals: &mut Externals) {
-    externals.renew(|external| {
-        let Spot { chain, index } = find(network, traffic, &external)?;
+pub(crate) fn follow_externals(network: &Network, traffic: &mut Traffic) {
+    let mut externals = std::mem::take(traffic.externals_mut());
+    externals.retain(|external| {
+        if external.body.is_some() {
+            return true;
+        }
+        let Some(Spot { chain, index }) = find(network, traffic, external) else { return false };
         let lane = traffic.lane(chain);
-        let (at, phase) = (Position::new(chain, lane.motions()[index].x), lane.drivers()[index].phase);
+        let phase = lane.drivers()[index].phase;
         let has_changed = external.phase == Phase::Changes && phase == Phase::Cruises;
-        let control = match external.control {
-            Control::Drive { longitudinal, lateral: Lateral::Change(_) } if has_changed => {
-                Control::Drive { longitudinal, lateral: Lateral::Keep }
-            }
-            control => control,
-        };
-        Some(External { at, phase, control, ..external })
+        if let Control::Drive { lateral, .. } = &mut external.control
+            && has_changed
+            && matches!(lateral, Lateral::Change(_))
+        {
+            *lateral = Lateral::Keep;
+        }
+        (external.at, external.phase) = (Position::new(chain, lane.motions()[index].x), phase);
+        true
     });
+    *traffic.externals_mut() = externals;
 }
 
 /// The main entry of an external vehicle that has moved by a step.
-fn find(network: &Network, traffic: &Traffic, external: &External) -> Option<Spot> {
+pub(super) fn find(network: &Network, traffic: &Traffic, external: &External) -> Option<Spot> {
     let External { id, at, .. } = *external;
     let here = network.chain(at.chain);
     let beyond = here.following.iter().map(|it| Position::new(*it, (at.x - here.length).min(0.0)));
@@ -74,9 +95,5 @@ fn anywhere(traffic: &Traffic, id: VehicleId) -> Option<Spot> {
         entries.position(|(motion, driver)| motion.id == id && !driver.is_shadow)
     };
     let lanes = traffic.lanes().iter().zip(0..);
-    lanes
-        .filter_map(|(lane, chain)| {
-            Some(Spot { chain: laneweave_network::ChainIndex(chain), index: is_main(lane)? })
-        })
-        .next()
+    lanes.filter_map(|(lane, chain)| Some(Spot { chain: ChainIndex(chain), index: is_main(lane)? })).next()
 }

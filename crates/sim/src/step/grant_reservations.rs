@@ -82,6 +82,10 @@ impl Granting<'_> {
         let ReservationRequest { since, id, chain, x, what } = *request;
         let Some(index) = self.traffic.lane(chain).find(id, x) else { return };
         let spot = Spot { chain, index };
+        // The vehicle has been moved, and only touches this lane.
+        if self.traffic.lane(chain).drivers()[index].is_shadow {
+            return;
+        }
         match what {
             RequestKind::Pass => self.grant_if_it_may(spot, since, &mut work.outbox().survey),
             RequestKind::Revoke(from) => {

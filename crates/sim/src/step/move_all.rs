@@ -25,7 +25,7 @@ pub(crate) fn move_all(
 ) {
     let Work { plans, outboxes, pools } = work;
     let pool = &pools[pool_for(traffic.crowd())];
-    let Moving { clock, lanes, chosen } = traffic.moving();
+    let Moving { clock, lanes, chosen, externals } = traffic.moving();
     let (network, navigator, driver_parameters) =
         (roads.network(), roads.navigator(), roads.driver_parameters());
     let (reservations, signals) = (junctions.reservations(), junctions.signals());
@@ -36,7 +36,8 @@ pub(crate) fn move_all(
         plans,
         chosen,
         |lanes, outbox, index, plan| {
-            let scene = Scene { network, navigator, lanes, driver_parameters, reservations, signals };
+            let scene =
+                Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals };
             let chain = ChainIndex(index as u32);
             plan.clear();
             let before = Before::of(outbox);

@@ -20,7 +20,8 @@ use crate::record::trip_log::TripRecord;
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
 use crate::state::control::Control;
-use crate::state::lane::VehicleId;
+use crate::state::externals::External;
+use crate::state::lane::{Entry, VehicleId};
 use crate::state::moment::Moment;
 use crate::state::random::Random;
 use crate::step::vehicle::Vehicle;
@@ -130,13 +131,14 @@ impl World {
         self.log.lanelet_aggregates(self.roads.network(), self.traffic.lanes(), self.traffic.clock())
     }
 
-    /// Number of vehicles on the road.
+    /// Number of vehicles on the road. Those that users drive off it are among them.
     pub fn on_road(&self) -> usize {
         self.traffic
             .lanes()
             .iter()
             .map(|lane| lane.drivers().iter().filter(|driver| !driver.is_shadow).count())
-            .sum()
+            .sum::<usize>()
+            + self.traffic.externals().off_road()
     }
 
     /// Whether all threads share its steps. With few vehicles one thread moves them all.
@@ -154,21 +156,31 @@ impl World {
         self.arrivals.count_arrived()
     }
 
-    /// All vehicles, by chain and in driving order.
+    /// All vehicles, by chain and in driving order; then those that users drive off the road.
     pub fn vehicles(&self) -> impl Iterator<Item = Vehicle<'_>> {
-        self.traffic.lanes().iter().enumerate().flat_map(move |(index, lane)| {
+        let in_lanes = self.traffic.lanes().iter().enumerate().flat_map(move |(index, lane)| {
             let chain = ChainIndex(index as u32);
             let entries = lane.motions().iter().zip(lane.drivers()).enumerate();
             entries.filter(|(_, (_, driver))| !driver.is_shadow).map(move |(index, (motion, driver))| {
                 let (spot, lane_change) = (Spot { chain, index }, &lane.lane_change_states()[index]);
                 Vehicle { world: self, spot, motion, driver, lane_change }
             })
-        })
+        });
+        in_lanes.chain(self.traffic.externals().all().iter().filter_map(|it| self.off_road(it)))
+    }
+
+    /// A vehicle that a user drives off the road.
+    fn off_road<'a>(&'a self, external: &'a External) -> Option<Vehicle<'a>> {
+        let spot = Spot { chain: external.at.chain, index: Vehicle::NO_ENTRY };
+        let Entry { motion, driver, lane_change } = external.off_road()?;
+        Some(Vehicle { world: self, spot, motion, driver, lane_change })
     }
 
     /// The vehicle with this id, if it is on the road.
     pub fn vehicle(&self, id: VehicleId) -> Option<Vehicle<'_>> {
-        let spot = self.index.spot(self.traffic.lanes(), id)?;
+        let Some(spot) = self.index.spot(self.traffic.lanes(), id) else {
+            return self.off_road(self.traffic.externals().of(id)?);
+        };
         let lane = self.traffic.lane(spot.chain);
         Some(Vehicle {
             world: self,
@@ -179,7 +191,8 @@ impl World {
         })
     }
 
-    /// What the driver of a vehicle intends to do in the next step, whoever drives the vehicle.
+    /// What the driver of a vehicle intends to do in the next step, whoever drives the vehicle. `None` if the vehicle
+    /// is in no lane.
     pub fn intention(&self, id: VehicleId) -> Option<Intention> {
         let spot = self.index.spot(self.traffic.lanes(), id)?;
         let (clock, random) = (self.traffic.clock(), self.roads.random());
@@ -189,12 +202,12 @@ impl World {
 
     /// How a user drives a vehicle; [`Control::DRIVER`] if its driver does.
     pub fn control_of(&self, id: VehicleId) -> Control {
-        self.externals.of(id).map_or(Control::DRIVER, |it| it.control)
+        self.traffic.externals().of(id).map_or(Control::DRIVER, |it| it.control)
     }
 
     /// The ids of the external vehicles, which users drive, in order.
     pub fn externals(&self) -> impl Iterator<Item = VehicleId> {
-        self.externals.all().iter().map(|it| it.id)
+        self.traffic.externals().all().iter().map(|it| it.id)
     }
 
     /// The commands that were carried out in the last step, in their order.

@@ -1,13 +1,13 @@
 //! A vehicle is taken off the road before its trip ends.
 
-use laneweave_network::Position;
+use laneweave_network::ChainIndex;
 
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::route::roads::Roads;
-use crate::state::lane::{Entry, Phase};
-use crate::state::milestone::{Milestone, Reached};
+use crate::state::lane::Entry;
 use crate::state::traffic::Traffic;
+use crate::step::end_change::end_change;
 use crate::view::scene::Spot;
 
 /// Takes the vehicle with the main entry `spot` off the road.
@@ -18,27 +18,21 @@ pub(super) fn take_off(
     log: &mut Log,
     spot: Spot,
 ) {
+    end_change(roads.network(), traffic, log, spot);
     let entry = traffic.lane_mut(spot.chain).remove(spot.index);
-    let Entry { motion, driver, lane_change } = entry;
-    if let Some(counterpart) = lane_change.counterpart {
-        let lane = traffic.lane_mut(counterpart.chain);
-        if let Some(index) = lane.find(motion.id, counterpart.x) {
-            lane.remove(index);
-        }
-    }
-    let (network, clock) = (roads.network(), traffic.clock());
-    if driver.phase != Phase::Cruises {
-        let milestone = Milestone {
-            id: motion.id,
-            record: lane_change.record,
-            what: Reached::Nothing,
-            at: Position::new(spot.chain, motion.x),
-            shadow: None,
-            speed: motion.speed,
-        };
-        log.note_milestone(network, &milestone, clock.time());
-    }
-    junctions.reservations_mut().end(lane_change.reservation, motion.id);
     traffic.leave();
-    log.remove_trip(network, clock, spot.chain, &entry);
+    end_trip(roads, traffic, junctions, log, spot.chain, &entry);
+}
+
+/// Ends the trip of the vehicle of `entry`, which is in no lane any more. The last one was `chain`.
+pub(super) fn end_trip(
+    roads: &Roads,
+    traffic: &Traffic,
+    junctions: &mut JunctionState,
+    log: &mut Log,
+    chain: ChainIndex,
+    entry: &Entry,
+) {
+    junctions.reservations_mut().end(entry.lane_change.reservation, entry.motion.id);
+    log.remove_trip(roads.network(), traffic.clock(), chain, entry);
 }

@@ -1,8 +1,9 @@
 //! A vehicle of a world.
 
 use laneweave_models::Style;
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Point, Pose, Rectangle};
 
+use crate::state::externals::Body;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeState, VehicleId};
 use crate::step::world::World;
 use crate::view::pose::{bumpers, lateral_offset, pose};
@@ -12,7 +13,7 @@ use crate::view::scene::Spot;
 #[derive(Clone, Copy)]
 pub struct Vehicle<'a> {
     pub(super) world: &'a World,
-    /// Position of its main entry.
+    /// Position of its main entry; in no lane, the chain of the last one, and [`Vehicle::NO_ENTRY`].
     pub spot: Spot,
     /// Its kinematics.
     pub motion: &'a Kinematics,
@@ -23,6 +24,24 @@ pub struct Vehicle<'a> {
 }
 
 impl Vehicle<'_> {
+    /// The index of a main entry that is in no lane.
+    pub const NO_ENTRY: usize = usize::MAX;
+
+    /// Whether it is in a lane: not so if a user drives it off the road.
+    pub fn is_in_lane(&self) -> bool {
+        self.spot.index != Vehicle::NO_ENTRY
+    }
+
+    /// Whether a user drives it by poses, along no lane's centre line.
+    pub fn is_on_its_own_path(&self) -> bool {
+        self.body().is_some()
+    }
+
+    /// Its body, if a user drives it by poses.
+    fn body(&self) -> Option<&Body> {
+        self.driver.is_external.then(|| self.world.traffic.externals().body(self.motion.id)).flatten()
+    }
+
     /// Its id.
     pub fn id(&self) -> VehicleId {
         self.motion.id
@@ -33,24 +52,38 @@ impl Vehicle<'_> {
         self.motion.x
     }
 
-    /// Speed [m/s].
+    /// Speed [m/s]. At an angle to its lane, `motion` has only the part along the lane.
     pub fn speed(&self) -> f64 {
-        self.motion.speed
+        self.body().map_or(self.motion.speed, |it| it.speed)
     }
 
     /// The pose of its body.
     pub fn pose(&self) -> Pose {
-        pose(&self.world.scene(), self.spot)
+        self.body().map_or_else(|| pose(&self.world.scene(), self.spot), |it| it.pose)
     }
 
     /// The midpoints of its front and rear bumpers.
     pub fn bumpers(&self) -> [Point; 2] {
-        bumpers(&self.world.scene(), self.spot)
+        match self.body() {
+            Some(body) => {
+                let size = self.driver.class.body();
+                Rectangle { pose: body.pose, length: size.length, width: size.width }.ends()
+            }
+            None => bumpers(&self.world.scene(), self.spot),
+        }
     }
 
-    /// Lateral offset to the left of the centre of its lane [m].
+    /// Lateral offset to the left of the centre of its lane [m]. Off the road, of its last place there.
     pub fn lateral_offset(&self) -> f64 {
-        lateral_offset(&self.world.scene(), self.spot)
+        match self.body() {
+            Some(_) => {
+                let centre = &self.world.network().chain(self.spot.chain).centre;
+                let (foot, heading) = (centre.at(self.motion.x), centre.heading(self.motion.x));
+                let [front, _] = self.bumpers();
+                (front.y - foot.y) * heading.cos() - (front.x - foot.x) * heading.sin()
+            }
+            None => lateral_offset(&self.world.scene(), self.spot),
+        }
     }
 
     /// Its driver's style.

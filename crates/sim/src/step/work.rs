@@ -1,5 +1,7 @@
 //! The buffers and threads of a step.
 
+use laneweave_network::ChainIndex;
+
 use crate::driver::plan::{Outbox, Plan};
 use crate::record::counters::Counters;
 use crate::step::pool::Pool;
@@ -27,6 +29,11 @@ impl Work {
     /// The outbox of all threads, after it was gathered.
     pub(super) fn outbox(&mut self) -> &mut Outbox {
         &mut self.outboxes[0]
+    }
+
+    /// Adds a distance that a vehicle drove on `chain` [m].
+    pub(super) fn add_distance(&mut self, chain: ChainIndex, distance: f64) {
+        self.plans[chain.at()].distance += distance;
     }
 
     /// The counters of drivers, added over threads, without distances.

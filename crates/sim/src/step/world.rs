@@ -13,7 +13,6 @@ use crate::record::log::Log;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
 use crate::state::commands::Commands;
-use crate::state::externals::Externals;
 use crate::state::random::Random;
 use crate::state::setup::Setup;
 use crate::state::traffic::Traffic;
@@ -25,6 +24,7 @@ use crate::step::grant_reservations::{advance_reservations, grant_reservations};
 use crate::step::guide::guide;
 use crate::step::index::Index;
 use crate::step::move_all::move_all;
+use crate::step::move_externals::move_externals;
 use crate::step::note_incidents::note_incidents;
 use crate::step::note_milestones::note_milestones;
 use crate::step::resolve::resolve;
@@ -40,7 +40,6 @@ pub struct World {
     pub(super) junctions: JunctionState,
     pub(super) arrivals: Arrivals,
     pub(super) log: Log,
-    pub(super) externals: Externals,
     pub(super) commands: Commands,
     pub(super) index: Index,
     pub(super) work: Work,
@@ -83,7 +82,6 @@ impl World {
             arrivals: Arrivals::new(&roads, demand),
             work: Work::new(roads.network().chains.len(), setup.threads),
             log: Log::default(),
-            externals: Externals::default(),
             commands: Commands::default(),
             index: Index::default(),
             roads,
@@ -125,11 +123,11 @@ impl World {
     /// Simulates one step. All drivers perceive, decide and accelerate on one snapshot; then all vehicles move.
     /// Requests between lanes are resolved in order, vehicles enter, and drivers are guided.
     pub fn step(&mut self) {
-        let World { roads, traffic, junctions, arrivals, log, externals, commands, index, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, commands, index, work } = self;
         log.begin_step();
-        CarryingOut { roads, traffic, junctions, arrivals, log, externals, index }.all(commands.begin_step());
+        CarryingOut { roads, traffic, junctions, arrivals, log, index }.all(commands.begin_step());
         index.forget();
-        hand_out_controls(externals, traffic, work);
+        hand_out_controls(traffic, work);
         // Overlaps are checked once a second; in an audit at every step.
         let is_watched = log.is_audited() || traffic.clock().begins_a_second();
         move_all(roads, traffic, junctions, work, is_watched);
@@ -140,11 +138,12 @@ impl World {
         note_milestones(roads, traffic, log, work);
         advance_reservations(junctions, work);
         transfer(roads, traffic, junctions, log, work);
+        move_externals(roads, traffic, junctions, log, work);
         grant_reservations(roads, traffic, junctions, arrivals, work);
         resolve(roads, traffic, junctions, log, work);
         enter(roads, traffic, junctions, arrivals, log, work);
         guide(roads, traffic, arrivals);
-        follow_externals(roads.network(), traffic, externals);
+        follow_externals(roads.network(), traffic);
         if traffic.clock().begins_a_second() {
             log.put_down(roads.network(), traffic.lanes(), traffic.clock());
         }

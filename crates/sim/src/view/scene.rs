@@ -11,6 +11,7 @@ use crate::junction::state::JunctionState;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
 use crate::route::walk::{Leg, Walk};
+use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Kinematics, Lane, LaneChangeState, VehicleId};
 use crate::state::traffic::Traffic;
@@ -30,6 +31,8 @@ pub struct Scene<'a> {
     pub reservations: &'a Reservations,
     /// What the lights show.
     pub signals: &'a Signals,
+    /// The vehicles that users drive.
+    pub(crate) externals: &'a Externals,
 }
 
 /// An entry in a lane.
@@ -81,6 +84,7 @@ impl<'a> Scene<'a> {
             driver_parameters: roads.driver_parameters(),
             reservations: junctions.reservations(),
             signals: junctions.signals(),
+            externals: traffic.externals(),
         }
     }
 

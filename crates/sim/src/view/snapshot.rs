@@ -7,6 +7,7 @@ use crate::junction::reservations::{NO_RESERVATION, Reservations};
 use crate::junction::signals::Signals;
 use crate::route::navigate::Navigator;
 use crate::state::clock::Clock;
+use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::{
     Counterpart, DriverState, Entry, Kind, Kinematics, Lane, LaneChangeState, Phase, VehicleId,
@@ -59,6 +60,7 @@ pub struct Snapshot {
     lanes: Vec<Lane>,
     reservations: Reservations,
     signals: Signals,
+    externals: Externals,
     /// The main entries, ordered by id.
     spots: Vec<(VehicleId, Spot)>,
 }
@@ -86,7 +88,7 @@ impl Snapshot {
         spots.sort_by_key(|(id, _)| *id);
         let (reservations, signals) =
             (Reservations::new(network), Signals::new(network, Clock { step: 0, dt: 1.0 }));
-        Snapshot { lanes, reservations, signals, spots }
+        Snapshot { lanes, reservations, signals, externals: Externals::default(), spots }
     }
 
     /// The scene that drivers with `driver_parameters` see, with routes by `navigator`.
@@ -96,8 +98,8 @@ impl Snapshot {
         navigator: &'a Navigator,
         driver_parameters: &'a [Style],
     ) -> Scene<'a> {
-        let Snapshot { lanes, reservations, signals, .. } = self;
-        Scene { network, navigator, lanes, driver_parameters, reservations, signals }
+        let Snapshot { lanes, reservations, signals, externals, .. } = self;
+        Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals }
     }
 
     /// The main entry of a vehicle.

@@ -132,3 +132,36 @@ fn drivers_behind_it_stay_clear_of_whatever_it_does() {
     assert_eq!(world.vehicle(id).map(|it| it.speed()), Some(0.0));
     assert_eq!((world.counters().collisions, world.counters().overlaps), (0, 0));
 }
+
+#[test]
+fn drivers_behind_vehicles_that_lie_within_each_other_stop_for_the_rearmost_one() {
+    let (mut world, short) = alone();
+    let long = {
+        let lanelet = world.network().lanelet_at(laneweave_network::Position::new(
+            world.vehicle(short).expect("it is there").spot.chain,
+            100.0,
+        ));
+        let (lanelet, style) = (lanelet.0.id, "conservative".into());
+        let (position_m, speed_mps, class, destination) = (100.0, 0.0, Class::Bus, None);
+        let bus = NewVehicle { lanelet, position_m, speed_mps, class, style, destination };
+        world.command(Command::Insert(bus)).expect("it is free").expect("it has an id")
+    };
+    drive(&mut world, short, Longitudinal::Acceleration(-8.0), Lateral::Keep);
+    drive(&mut world, long, Longitudinal::Speed(0.0), Lateral::Keep);
+    steps(&mut world, 100);
+    // The bus drives into the car until its front is beyond the car's.
+    drive(&mut world, long, Longitudinal::Speed(5.0), Lateral::Keep);
+    while world.vehicle(long).expect("it is there").x() < world.vehicle(short).expect("it is there").x() + 0.5
+    {
+        world.step();
+    }
+    drive(&mut world, long, Longitudinal::Acceleration(-8.0), Lateral::Keep);
+    steps(&mut world, 20);
+    let behind = insert(&mut world, 1, 20.0, 15.0);
+    drive(&mut world, behind, Longitudinal::Driver, Lateral::Keep);
+    let events = steps(&mut world, 400);
+    let struck = events.iter().filter(|it| matches!(it, Event::Incident(_))).count();
+    let rear = world.vehicle(long).expect("it is there").motion.rear();
+    let front = world.vehicle(behind).expect("it is there").x();
+    assert!(struck == 0 && front < rear && front > rear - 5.0, "{struck}: {front} m behind {rear} m");
+}
