@@ -42,13 +42,15 @@ pub(crate) fn obey(
     outbox: &mut Outbox,
 ) {
     let controls = std::mem::take(&mut plan.controls);
-    for Controlled { index, told } in &controls {
+    for Controlled { index, told, gives_way } in &controls {
         let me = Me::at(scene, Spot { chain, index: *index as usize });
+        let would_go = plan.next[me.spot.index].speed > 0.0;
         let (longitudinal, lateral) = match told {
             Told::Drive(longitudinal, lateral) => (*longitudinal, *lateral),
             Told::Stay => {
                 change(scene, moment, &me, None, before, plan, outbox);
                 drive(scene, &me, (*me.motion, 0.0), before, plan, outbox);
+                let_others_go(scene, &me, would_go, *gives_way, plan, outbox);
                 continue;
             }
         };
@@ -60,9 +62,31 @@ pub(crate) fn obey(
         if let Some(acceleration) = acceleration(longitudinal, &me, moment.clock.dt) {
             let stretch = stretch(scene, me.spot);
             drive(scene, &me, moved(me.motion, acceleration, stretch, moment.clock.dt), before, plan, outbox);
+            let_others_go(scene, &me, would_go, *gives_way, plan, outbox);
         }
     }
     plan.controls = controls;
+}
+
+/// A vehicle that stands although its driver `would_go` is idle. One that `gives_way` asks for no right of way, and
+/// revokes what it does not use.
+fn let_others_go(
+    scene: &Scene,
+    me: &Me,
+    would_go: bool,
+    gives_way: bool,
+    plan: &mut Plan,
+    outbox: &mut Outbox,
+) {
+    let stands = me.motion.speed == 0.0 && plan.next[me.spot.index].speed == 0.0;
+    if would_go && stands && !me.driver.is_shadow {
+        outbox.idle.push(me.motion.id);
+    }
+    if gives_way && stands {
+        let index = me.spot.index as u32;
+        plan.waiting.retain(|it| it.index != index);
+        outbox.returns.extend(scene.reservation(me.spot).map(|it| (index, it.travelled)));
+    }
 }
 
 /// The acceleration that the user wants [m/s²]; `None` if the driver's counts.

@@ -87,6 +87,8 @@ pub(crate) struct Outbox {
     pub(crate) counters: Counters,
     /// Driving events of vehicles.
     pub(crate) driving: Vec<DrivingEvent>,
+    /// External vehicles that stand although their drivers would go.
+    pub(crate) idle: Vec<VehicleId>,
     /// Main entries whose trips ended on their chains.
     pub(crate) arrived: Vec<(ChainIndex, Entry)>,
     /// Vehicles that touch each other.
@@ -121,6 +123,7 @@ impl Outbox {
         take_over(&mut self.space_requests, &mut other.space_requests);
         take_over(&mut self.roundabouts, &mut other.roundabouts);
         take_over(&mut self.driving, &mut other.driving);
+        take_over(&mut self.idle, &mut other.idle);
         take_over(&mut self.arrived, &mut other.arrived);
         take_over(&mut self.incidents, &mut other.incidents);
         take_over(&mut self.empty, &mut other.empty);
@@ -154,6 +157,8 @@ pub(crate) struct Controlled {
     pub(crate) index: u32,
     /// What the user says.
     pub(crate) told: Told,
+    /// It has stood for some time although its driver would go: it lets others go.
+    pub(crate) gives_way: bool,
 }
 
 /// What the user of an external vehicle says.

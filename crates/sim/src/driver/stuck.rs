@@ -1,5 +1,7 @@
 //! Stuck vehicles: a vehicle is stuck if it has stood for long, and nothing that is sure to end blocks it.
 
+use laneweave_network::ZoneIndex;
+
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
@@ -37,6 +39,7 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
             return false;
         }
         match blocker(scene, at, clock, survey) {
+            Blocker::Other if waits_for_a_user(scene, at, survey) => return false,
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
             Blocker::Vehicle(next) => at = next,
             Blocker::Light => return false,
@@ -46,6 +49,29 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
         }
     }
     true
+}
+
+/// Whether the vehicle at `at`, which waits at or in the junction that was surveyed, waits for a vehicle that a user
+/// drives: one that has a reservation there, or for which others wait that go first.
+fn waits_for_a_user(scene: &Scene, at: Spot, survey: &Survey) -> bool {
+    if scene.externals.is_empty() {
+        return false;
+    }
+    let held = scene.reservation(at).map_or(&[][..], |it| &it.holds);
+    let mut zones: Vec<ZoneIndex> = survey.holds.iter().chain(held).map(|it| it.zone).collect();
+    let mut next = 0;
+    while let Some(zone) = zones.get(next).copied() {
+        next += 1;
+        for (_, reservation) in scene.reservations.order(zone) {
+            if scene.externals.of(reservation.vehicle).is_some() {
+                return true;
+            }
+            let beyond = reservation.holds.iter().map(|it| it.zone).filter(|it| !zones.contains(it));
+            let beyond: Vec<ZoneIndex> = beyond.collect();
+            zones.extend(beyond);
+        }
+    }
+    false
 }
 
 fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocker {

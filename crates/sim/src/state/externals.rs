@@ -29,6 +29,8 @@ pub(crate) struct External {
     pub(crate) obstacles: Vec<Position>,
     /// Its body, if the user drives it by poses.
     pub(crate) body: Option<Body>,
+    /// Steps in which it stood although its driver would have gone.
+    pub(crate) idle: u32,
 }
 
 /// The body of a vehicle that a user drives by poses.
@@ -45,12 +47,22 @@ pub(crate) struct Body {
 impl External {
     /// The vehicle `id`, which a user begins to drive, with its main entry at this position.
     pub(crate) fn new(id: VehicleId, control: Control, at: Position) -> External {
-        External { id, control, at, phase: Phase::Cruises, obstacles: Vec::new(), body: None }
+        External { id, control, at, phase: Phase::Cruises, obstacles: Vec::new(), body: None, idle: 0 }
     }
 
     /// Its main entry, if it is off the road.
     pub(crate) fn off_road(&self) -> Option<&Entry> {
         self.body.as_ref().and_then(|it| it.off_road.as_ref())
+    }
+
+    /// Counts the steps in which it is idle, up to `longest`. Once there are so many, they count until it moves.
+    pub(crate) fn count_idle(&mut self, is_idle: bool, moves: bool, longest: u32) {
+        self.idle = match self.idle {
+            _ if moves => 0,
+            count if count >= longest => count,
+            count if is_idle => count + 1,
+            _ => 0,
+        };
     }
 
     /// The same, mutable.

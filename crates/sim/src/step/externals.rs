@@ -11,19 +11,26 @@ use crate::state::traffic::Traffic;
 use crate::step::work::Work;
 use crate::view::scene::Spot;
 
+/// An external vehicle that stands this long although its driver would go lets others go first, until it moves [s]
+/// (ours).
+const PATIENCE: f64 = 2.0;
+
 /// Hands the controls of external vehicles to the plans of their lanes.
 pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
     let externals = traffic.externals();
     let touched = externals.all().iter().flat_map(|it| it.obstacles.iter().map(|at| (it.id, *at)));
     for (id, Position { chain, x }) in touched.chain(externals.rears().iter().copied()) {
         if let Some(index) = traffic.lane(chain).find_obstacle(id, x) {
-            work.plans[chain.at()].controls.push(Controlled { index: index as u32, told: Told::Stay });
+            let index = index as u32;
+            let stays = Controlled { index, told: Told::Stay, gives_way: false };
+            work.plans[chain.at()].controls.push(stays);
         }
     }
     for external in externals.all() {
         let External { id, control, at, .. } = external;
+        let gives_way = external.idle >= traffic.clock().steps(PATIENCE);
         let mut tell = |chain: ChainIndex, index: usize, told| {
-            work.plans[chain.at()].controls.push(Controlled { index: index as u32, told });
+            work.plans[chain.at()].controls.push(Controlled { index: index as u32, told, gives_way });
         };
         if external.off_road().is_some() {
             continue;
@@ -46,14 +53,20 @@ pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
 
 /// Notes where external vehicles are now. Those that have left the map are forgotten. A vehicle that has completed the
 /// change that its user asked for keeps its lane from now on.
-pub(crate) fn follow_externals(network: &Network, traffic: &mut Traffic) {
+pub(crate) fn follow_externals(network: &Network, traffic: &mut Traffic, work: &mut Work) {
+    let idle = &mut work.outbox().idle;
+    idle.sort_unstable();
+    let longest = traffic.clock().steps(PATIENCE);
     let mut externals = std::mem::take(traffic.externals_mut());
     externals.retain(|external| {
-        if external.body.is_some() {
+        let is_idle = idle.binary_search(&external.id).is_ok();
+        if let Some(body) = &external.body {
+            external.count_idle(is_idle, body.speed > 0.0, longest);
             return true;
         }
         let Some(Spot { chain, index }) = find(network, traffic, external) else { return false };
         let lane = traffic.lane(chain);
+        external.count_idle(is_idle, lane.motions()[index].speed > 0.0, longest);
         let phase = lane.drivers()[index].phase;
         let has_changed = external.phase == Phase::Changes && phase == Phase::Cruises;
         if let Control::Drive { lateral, .. } = &mut external.control
@@ -65,6 +78,7 @@ pub(crate) fn follow_externals(network: &Network, traffic: &mut Traffic) {
         (external.at, external.phase) = (Position::new(chain, lane.motions()[index].x), phase);
         true
     });
+    idle.clear();
     *traffic.externals_mut() = externals;
 }
 

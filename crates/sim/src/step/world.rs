@@ -143,7 +143,7 @@ impl World {
         resolve(roads, traffic, junctions, log, work);
         enter(roads, traffic, junctions, arrivals, log, work);
         guide(roads, traffic, arrivals);
-        follow_externals(roads.network(), traffic);
+        follow_externals(roads.network(), traffic, work);
         if traffic.clock().begins_a_second() {
             log.put_down(roads.network(), traffic.lanes(), traffic.clock());
         }

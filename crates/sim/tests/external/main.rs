@@ -9,3 +9,4 @@ mod lanes;
 mod poses;
 mod struck;
 mod worlds;
+mod yielding;
