@@ -16,6 +16,7 @@ impl LaneletIndex {
 
 /// Left or right in the direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Side {
     /// To the left.
     Left,

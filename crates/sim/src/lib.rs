@@ -49,7 +49,7 @@ pub use route::navigate::Navigator;
 pub use route::place::{InnerPlace, Place};
 pub use route::waypoint::Waypoint;
 pub use state::clock::Clock;
-pub use state::command::{Command, Commanded, NewVehicle};
+pub use state::command::{Command, Commanded, NewVehicle, Target};
 pub use state::control::{Control, Lateral, Longitudinal};
 pub use state::goal::{Destination, Goal};
 pub use state::lane::{Counterpart, DriverState, Kind, Kinematics, Lane, LaneChangeState, Phase, VehicleId};

@@ -25,5 +25,7 @@ pub use rate::{RatePoint, RateSeries, rate_by_density};
 pub use returning::{Attempt, returning_rate};
 pub use signal::{Signal, SignalQueue};
 pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
-pub use table::{Cell, Cells, Column, Format, Kind, PartialFile, TableError, TableWriter, seconds};
+pub use table::{
+    Cell, Cells, Column, Format, Kind, PartialFile, ReadError, TableError, TableWriter, TextTable, seconds,
+};
 pub use trace::{Mark, Sample};

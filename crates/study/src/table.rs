@@ -33,6 +33,7 @@ mod csv;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod partial;
+mod read;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -44,6 +45,7 @@ use self::csv::CsvSink;
 use self::parquet::ParquetSink;
 
 pub use self::partial::PartialFile;
+pub use self::read::{ReadError, TextTable};
 
 /// The type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use laneweave_study::{Cell, Cells, Column, Format, TableError, TableWriter};
+use laneweave_study::{Cell, Cells, Column, Format, TableError, TableWriter, TextTable};
 use parquet::basic::Encoding;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
@@ -311,4 +311,42 @@ fn an_error_names_the_file() {
     let error = TableWriter::create(&path, Format::Csv, &[]).err().unwrap();
     assert!(matches!(error, TableError::Create { .. }));
     assert!(error.to_string().starts_with(&path.display().to_string()));
+}
+
+#[test]
+fn what_is_written_is_read_again_the_same_from_both_formats() {
+    let folder = folder("again");
+    let columns = [Column::real("time_s"), Column::integer("id"), Column::text("values")];
+    let numbers = [0.1 + 0.2, -0.0, 5e-324, f64::MAX, 1e22];
+    let read = [("t.csv", Format::Csv), ("t.parquet", Format::Parquet)].map(|(name, format)| {
+        let path = folder.join(name);
+        let mut table = TableWriter::create(&path, format, &columns).unwrap();
+        for number in numbers {
+            table.row(&[number.into(), i64::MIN.into(), "{\"a\":\n[1,2]}".into()]).unwrap();
+        }
+        table.row(&[Cell::Missing, Cell::Missing, "".into()]).unwrap();
+        table.finish().unwrap();
+        TextTable::read(&path).unwrap()
+    });
+    assert_eq!(read[0], read[1]);
+    assert_eq!((read[0].columns.len(), read[0].column("id")), (3, Some(1)));
+    for (row, number) in read[0].rows.iter().zip(numbers) {
+        let time: f64 = row[0].as_deref().unwrap().parse().unwrap();
+        assert_eq!(time.to_bits(), number.to_bits());
+        assert_eq!(row[1..], [Some(i64::MIN.to_string()), Some("{\"a\":\n[1,2]}".into())]);
+    }
+    assert_eq!(read[0].rows[numbers.len()], [None, None, Some(String::new())]);
+}
+
+#[test]
+fn what_is_no_table_is_refused() {
+    let folder = folder("no-table");
+    let refused = |name: &str, bytes: &[u8]| {
+        fs::write(folder.join(name), bytes).unwrap();
+        TextTable::read(&folder.join(name)).unwrap_err().to_string()
+    };
+    assert!(refused("t.parquet", b"no parquet").starts_with("it cannot be read as Parquet: "));
+    assert!(refused("t.txt", b"a,b\n").contains("a file whose name ends with .csv or .parquet"));
+    assert!(refused("t.csv", b"\xff\xfe").starts_with("cannot be read: "));
+    assert!(TextTable::read(&folder.join("none.csv")).is_err());
 }

@@ -26,6 +26,7 @@ pub struct Light {
 
 /// What a light shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum LightState {
     /// Go.
     Green,

@@ -11,6 +11,7 @@ use crate::state::vehicle::Class;
 
 /// Something that a user does to a world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
     /// Puts a vehicle on the road, at once.
     Insert(NewVehicle),
@@ -40,6 +41,7 @@ pub enum Command {
 
 /// A vehicle that a user puts on the road.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct NewVehicle {
     /// The id of the lanelet on which its front bumper is.
     pub lanelet: i64,
@@ -66,11 +68,14 @@ pub struct Commanded {
     pub command: Command,
 }
 
-/// What a command concerns. One thing gets one command of a kind in a step.
+/// What a command concerns. One thing gets one command of a kind in a step. Its text is its kind and its id.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Target {
+pub enum Target {
+    /// An origin, by its smallest lanelet id.
     Origin(i64),
+    /// A light, by its id.
     Light(i64),
+    /// A vehicle.
     Vehicle(VehicleId),
 }
 
@@ -86,7 +91,7 @@ impl fmt::Display for Target {
 
 impl Command {
     /// What it concerns; `None` for a new vehicle.
-    pub(crate) fn target(&self) -> Option<Target> {
+    pub fn target(&self) -> Option<Target> {
         Some(match self {
             Command::Insert(_) => return None,
             Command::Remove(id)
@@ -103,6 +108,17 @@ impl Command {
         match self.target() {
             Some(Target::Vehicle(id)) => Some(id),
             _ => None,
+        }
+    }
+
+    /// The place of the vehicle that it concerns, if it concerns one.
+    pub fn vehicle_mut(&mut self) -> Option<&mut VehicleId> {
+        match self {
+            Command::Remove(id)
+            | Command::Control(id, _)
+            | Command::SetStyle(id, _)
+            | Command::SetDestination(id, _) => Some(id),
+            Command::Insert(_) | Command::SetDemand { .. } | Command::SetLight { .. } => None,
         }
     }
 

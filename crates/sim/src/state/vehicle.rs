@@ -8,6 +8,7 @@ pub(crate) const LONGEST: f64 = 12.0;
 
 /// A class of vehicles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum Class {
     /// A passenger car.

@@ -112,13 +112,31 @@ impl World {
         }
         self.check_other_commands(command)?;
         match command {
-            Command::Insert(_) | Command::Remove(_) => Ok(()),
+            // Its place is checked when it is put there.
+            Command::Insert(_) => Ok(()),
+            Command::SetDestination(id, destination) => self.check_destination(*id, *destination),
             Command::Control(id, control) => {
                 check_control(*control)?;
                 self.check_lane_for(*id, *control)
             }
+            other => self.check_content(other),
+        }
+    }
+
+    /// Checks the numbers of a command, and whether the things that it names exist; not whether the vehicle that it
+    /// concerns is on the road. A new vehicle must be able to be at its place now.
+    ///
+    /// # Errors
+    /// If one of them is not so.
+    pub fn check_content(&self, command: &Command) -> Result<(), CommandError> {
+        match command {
+            Command::Insert(vehicle) => check_place(self, vehicle).map(|_| ()),
+            Command::Remove(_) => Ok(()),
+            Command::Control(_, control) => check_control(*control),
             Command::SetStyle(id, style) => self.parameters_of(style, *id).map(|_| ()),
-            Command::SetDestination(id, destination) => self.check_destination(*id, *destination),
+            Command::SetDestination(_, destination) => {
+                destination.map_or(Ok(()), |it| self.destination(it).map(|_| ()))
+            }
             Command::SetDemand { origin, vehicles_per_hour } => {
                 let origin = self.origin(*origin)?;
                 in_range("a demand", *vehicles_per_hour, [0.0, Demand::LARGEST_RATE], "veh/h")?;

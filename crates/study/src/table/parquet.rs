@@ -10,9 +10,12 @@ use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Ty
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::record::Field;
 use parquet::schema::types::{ColumnPath, Type};
 
+use super::read::{ReadError, TextTable};
 use super::{Cell, Cells, Column, Kind};
 
 /// Rows that are held in memory and written together.
@@ -267,4 +270,24 @@ fn write_column<T: DataType>(
     };
     column.typed::<T>().write_batch(values, Some(levels), None)?;
     column.close()
+}
+
+/// The table in `file`.
+pub(super) fn read(file: File) -> Result<TextTable, ReadError> {
+    let content = |error: ParquetError| ReadError::Content(format!("it cannot be read as Parquet: {error}"));
+    let reader = SerializedFileReader::new(file).map_err(content)?;
+    let schema = reader.metadata().file_metadata().schema_descr();
+    let columns = schema.columns().iter().map(|it| it.name().to_owned()).collect();
+    let mut table = TextTable { columns, rows: Vec::new() };
+    for row in reader.get_row_iter(None).map_err(content)? {
+        let row = row.map_err(content)?;
+        let cells = row.get_column_iter().map(|(_, field)| match field {
+            Field::Null => None,
+            Field::Str(text) => Some(text.clone()),
+            Field::Double(value) => Some(zmij::Buffer::new().format(*value).to_owned()),
+            other => Some(other.to_string()),
+        });
+        table.rows.push(cells.collect());
+    }
+    Ok(table)
 }
