@@ -12,12 +12,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use std::{env, fs, process};
 
+use laneweave::Simulation;
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::maps::lanelet2;
 use laneweave::output::{Inputs, Provenance, Summary, outputs};
 use laneweave::record::fingerprint;
 use laneweave::run::simulate;
-use laneweave::scenario::{Origin, Scenario, SumoFile, prepare};
+use laneweave::scenario::{Origin, Scenario, SumoFile};
 use laneweave_bench::machine::{beside_a_busy_core, round_trip};
 use laneweave_bench::say;
 
@@ -154,15 +155,15 @@ fn run(
     let mut scenario = leaves.of(scenario, &dir);
     scenario.run.duration_s = duration_s;
     scenario.run.threads = NonZero::new(threads);
-    let mut prepared = prepare(&scenario, origin)?;
+    let mut simulation = Simulation::from_scenario(&scenario, origin)?;
     let provenance = Provenance::of(String::new(), scenario.run.seed, fingerprint(&scenario, origin)?);
     let mut watching = match leaves {
         Leaves::Nothing | Leaves::NothingBesideABusyCore => Vec::new(),
-        _ => outputs(&scenario, &prepared, &provenance)?,
+        _ => outputs(&scenario, simulation.prepared(), &provenance)?,
     };
     let mut to_the_end = || -> Result<f64, Box<dyn Error>> {
         let start = Instant::now();
-        let ending = simulate(&mut prepared, &mut watching, None, None, |_| true, || ())?;
+        let ending = simulate(&mut simulation, &mut watching, None, None, |_| Ok(true), || ())?;
         let inputs = Inputs {
             scenario: &scenario,
             ending: &ending,
@@ -170,7 +171,8 @@ fn run(
             load_s: 0.0,
             provenance: &provenance,
         };
-        let summary = Summary::of(&prepared, inputs);
+        let prepared = simulation.prepared();
+        let summary = Summary::of(prepared, inputs);
         for output in watching.drain(..) {
             output.finish(&prepared.world, &summary)?;
         }

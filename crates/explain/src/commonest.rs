@@ -24,8 +24,8 @@ impl Commonest {
         Commonest { since_s: world.clock().time(), changes: BTreeMap::new(), refusals: BTreeMap::new() }
     }
 
-    /// Asks all drivers who consider lanes in the next step, then steps.
-    pub fn step(&mut self, world: &mut World) {
+    /// Asks all drivers who consider lanes in the next step, which `step` then simulates.
+    pub fn step(&mut self, world: &mut World, step: impl FnOnce(&mut World)) {
         let clock = world.clock();
         // A driver who waits is asked once a second.
         let asks_those_who_wait = clock.step.is_multiple_of(clock.steps(1.0));
@@ -45,7 +45,7 @@ impl Commonest {
                 *self.refusals.entry(reason(&account)).or_default() += 1;
             }
         }
-        world.step();
+        step(world);
         for event in world.events() {
             if let Event::LaneChange(change) = event
                 && change.is_completed

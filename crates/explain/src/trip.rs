@@ -32,8 +32,16 @@ fn spot_of(world: &World, id: VehicleId) -> Option<Spot> {
 }
 
 /// The account of the driver of `id` when it last considered lanes, or waited for a gap, at or before `time` [s]. The
-/// `world` is simulated up to there, but at most `steps` steps. `with_flips`: including the flips of its decision.
-pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flips: bool) -> Moment {
+/// `world` is simulated up to there by `step`, but at most `steps` steps. `with_flips`: including the flips of its
+/// decision.
+pub fn moment(
+    world: &mut World,
+    mut step: impl FnMut(&mut World),
+    id: VehicleId,
+    time: f64,
+    steps: u32,
+    with_flips: bool,
+) -> Moment {
     /// Maximum time between two considerations of lanes [s].
     const LONGEST_EPOCH: f64 = 60.0;
     let (mut told, mut seen) = (None, None);
@@ -54,7 +62,7 @@ pub fn moment(world: &mut World, id: VehicleId, time: f64, steps: u32, with_flip
         if now >= time && seen.is_some_and(|(from, _)| from <= time) {
             break;
         }
-        world.step();
+        step(world);
     }
     match (told, seen) {
         (Some(told), Some((from, _))) if from <= time => Moment::Told(told),
@@ -86,8 +94,14 @@ fn full(world: &World, account: &Account, with_flips: bool) -> String {
 }
 
 /// The trip of the driver of `id`, line by line: its actions with their times and reasons. `None` if it did not enter
-/// within `steps` steps.
-pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> Option<String> {
+/// within `steps` steps, which `step` simulates.
+pub fn trip(
+    world: &mut World,
+    mut step: impl FnMut(&mut World),
+    id: VehicleId,
+    steps: u32,
+    with_flips: bool,
+) -> Option<String> {
     let mut lines = Lines::default();
     let told_after = world.clock().steps(TOLD_AFTER);
     let mut stood = 0;
@@ -109,7 +123,7 @@ pub fn trip(world: &mut World, id: VehicleId, steps: u32, with_flips: bool) -> O
             None if !lines.text.is_empty() => break,
             None => {}
         }
-        world.step();
+        step(world);
         for event in world.events() {
             match event {
                 Event::LaneChange(change) if change.vehicle == id => {

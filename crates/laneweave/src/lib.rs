@@ -32,7 +32,9 @@ pub use laneweave_network::{LightState, Side};
 #[cfg(feature = "reports")]
 pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};
-pub use laneweave_scenario::{Bottleneck, Capacity, Cause, Fault, Source, did_you_mean, scenario, style};
+pub use laneweave_scenario::{
+    Bottleneck, Capacity, Cause, Fault, Script, Source, did_you_mean, scenario, style,
+};
 pub use laneweave_sim::{
     Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle, Phase,
     VehicleId,

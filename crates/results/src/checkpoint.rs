@@ -25,7 +25,7 @@ pub struct Checkpoint {
     pub measured_from_s: f64,
     /// Number of measured steps.
     pub measured_steps: u32,
-    /// The world.
+    /// The world, and what the script of the scenario has done.
     pub world: Vec<u8>,
     /// The queues at the entrances so far.
     pub queues: Queues,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use laneweave_scenario::Fault;
 
 /// Every file name of the results of a run, in the order of removal: a run without a summary has not ended.
-pub const RESULTS: [&str; 21] = [
+pub const RESULTS: [&str; 23] = [
     "summary.json",
     CHECKPOINT,
     PAGES,
@@ -17,6 +17,8 @@ pub const RESULTS: [&str; 21] = [
     "lane_changes.csv",
     "incidents.parquet",
     "incidents.csv",
+    "commands.parquet",
+    "commands.csv",
     "trips.parquet",
     "trips.csv",
     "lanelets.parquet",
@@ -38,6 +40,8 @@ pub const DIFFERENCES: [&str; 4] =
 /// The names of a checkpoint, and of the log of pages.
 pub(crate) const CHECKPOINT: &str = "checkpoint";
 pub(crate) const PAGES: &str = "checkpoint.pages";
+/// The name of the table of commands, without its extension.
+pub(crate) const COMMANDS: &str = "commands";
 /// The name of a report.
 pub const REPORT: &str = "report.html";
 

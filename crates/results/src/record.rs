@@ -9,11 +9,12 @@ use std::path::{Component, Path, PathBuf};
 use laneweave_scenario::scenario::{Origin, Output, Scenario};
 use laneweave_scenario::style::{built_in, find};
 use laneweave_scenario::{Fault, Source};
+use laneweave_study::Format;
 use serde::Deserialize;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 use crate::checkpoint;
-use crate::folder::{BRANCH, Claim, RESULTS};
+use crate::folder::{BRANCH, COMMANDS, Claim, RESULTS};
 use crate::whole_file::write_whole;
 
 /// The name of the summary in the results.
@@ -29,7 +30,7 @@ const MARK: &str = "# What ran, with all defaults and options: kept with its res
 /// A run with stored results.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// The run.
+    /// The run. Its commands are those of its own table, whoever gave them.
     pub scenario: Scenario,
     /// The source of its values.
     pub origin: Origin,
@@ -77,6 +78,22 @@ pub fn clear(claim: &Claim) -> Result<(), Fault> {
     claim.clear(&[SCENARIO])
 }
 
+/// Checks that the results of `scenario` would not replace its commands.
+///
+/// # Errors
+/// If they would.
+pub fn spare_commands(scenario: &Scenario) -> Result<(), Fault> {
+    let Some(path) = &scenario.commands else { return Ok(()) };
+    let whole = |path: &Path| fs::canonicalize(path).ok();
+    let is_result =
+        |name: &str| whole(&scenario.output.dir.join(name)).is_some_and(|it| Some(it) == whole(path));
+    if RESULTS.iter().any(|it| is_result(it)) {
+        let what = "the results of this run would replace these commands";
+        return Err(Fault::new(path.display(), what, "choose another results folder with --out"));
+    }
+    Ok(())
+}
+
 /// Writes `scenario` into the folder of its results, `dir`, with its style files and its `command`; a run of this
 /// file is the same. Returns the written text.
 ///
@@ -88,7 +105,8 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> 
         Some(text) => PathBuf::from(keep_text(dir, [MAP, "osm"], text, |_| false)?),
         None => relative(&scenario.map, dir)?,
     };
-    let kept = Scenario { map, styles, ..scenario.clone() };
+    let commands = scenario.commands.as_ref().map(|it| relative(it, dir)).transpose()?;
+    let kept = Scenario { map, styles, commands, ..scenario.clone() };
     let toml = toml::to_string(&kept).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
     let text = format!("# {command}\n{MARK}\n\n{toml}");
     write_whole(&dir.join(SCENARIO), &text)?;
@@ -174,14 +192,15 @@ pub fn ended(dir: &Path) -> Result<Option<String>, Fault> {
 }
 
 /// Hash of everything on which a run depends: the program's version, the scenario without its output, its threads and
-/// its size limit of the map, the styles, the map.
+/// its size limit of the map, the commands, the styles, the map.
 ///
 /// # Errors
-/// If the map or a style file cannot be read.
+/// If the map, the commands or a style file cannot be read.
 pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault> {
     let mut hash = Xxh3::new();
     hash.update(env!("CARGO_PKG_VERSION").as_bytes());
     let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
+    bare.commands = None;
     bare.output = Output::default();
     bare.run.threads = None;
     bare.map_options.max_size_mb = None;
@@ -191,12 +210,13 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
         hash.update(text.as_bytes());
         hash.update(&weight.to_le_bytes());
     }
+    let read = |path: &PathBuf| fs::read(path).map_err(|error| Fault::refused(path, "read", &error));
+    if let Some(commands) = &scenario.commands {
+        hash.update(&read(commands)?);
+    }
     match origin.built_in_map() {
         Some(text) => hash.update(text.as_bytes()),
-        None => {
-            let map = &scenario.map;
-            hash.update(&fs::read(map).map_err(|error| Fault::refused(map, "read", &error))?);
-        }
+        None => hash.update(&read(&scenario.map)?),
     }
     Ok(format!("{:016x}", hash.digest()))
 }
@@ -258,14 +278,18 @@ impl Record {
             Fault::new(summary.display(), format!("not a summary of a run of this version: {error}"), remedy)
         })?;
         let (scenario, origin) = Origin::open(&dir.join(SCENARIO))?;
-        let record = Record { scenario, origin, end };
+        let mut record = Record { scenario, origin, end };
         if fingerprint(&record.scenario, &record.origin)? != record.end.fingerprint {
             let what = format!(
-                "the map {}, a style, the scenario or the program has changed since this was run",
+                "the map {}, a style, the commands, the scenario or the program has changed since this was run",
                 record.scenario.map.display()
             );
             return Err(Fault::new(dir.display(), what, "run it again"));
         }
+        // All that was done to the run is in this table, also what a program did.
+        let extension = Format::from(record.scenario.output.format).extension();
+        record.scenario.commands = Some(dir.join(COMMANDS).with_extension(extension));
+        record.scenario.external.clear();
         Ok(record)
     }
 }

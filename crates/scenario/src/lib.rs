@@ -5,10 +5,12 @@ mod capacity;
 mod fault;
 mod remarks;
 pub mod scenario;
+mod script;
 mod source;
 pub mod style;
 
 pub use capacity::{Bottleneck, Capacity};
 pub use fault::{Cause, Fault, did_you_mean};
 pub use remarks::{Remark, remarks};
+pub use script::{COMMAND_COLUMNS, Script, Written, refused};
 pub use source::Source;

@@ -87,29 +87,36 @@ impl Source {
     /// The message of serde or of the parser, with its place and a remedy.
     pub(crate) fn fault(&self, error: &Error) -> Fault {
         let message = error.message();
-        // An unknown name comes first in backticks, then the known ones.
-        let mut quoted = message.split('`').skip(1).step_by(2);
-        let (name, known): (&str, Vec<&str>) = (quoted.next().unwrap_or(""), quoted.collect());
+        let name = message.split('`').nth(1).unwrap_or("");
         let place = match error.span() {
             Some(span) => self.at(span.start),
             None => self.place_of_value(name).unwrap_or(self.path.display().to_string()),
         };
-        if message.starts_with("unknown field") {
-            return Fault::new(place, format!("unknown key {name:?}"), did_you_mean(name, known));
-        }
-        if message.starts_with("unknown variant") {
-            return Fault::new(place, format!("unknown value {name:?}"), did_you_mean(name, known));
-        }
-        if message.starts_with("missing field") {
-            let remedy = if name == "map" { "add it, such as map = \"road.osm\"" } else { "add it" };
-            return Fault::new(place, format!("the key {name:?} is missing"), remedy);
-        }
-        let what = message.replace('\n', ", ");
-        if message.starts_with("invalid type") || message.starts_with("invalid value") {
-            return Fault::new(place, what, "correct the value");
-        }
-        Fault::new(place, what, "correct this line; the format is TOML, https://toml.io")
+        let (what, remedy) = in_words(message).unwrap_or_else(|| {
+            let remedy = "correct this line; the format is TOML, https://toml.io";
+            (message.replace('\n', ", "), remedy.into())
+        });
+        Fault::new(place, what, remedy)
     }
+}
+
+/// A message of serde on a value that does not fit: what is wrong, and the remedy. `None` for another message.
+pub(crate) fn in_words(message: &str) -> Option<(String, String)> {
+    // An unknown name comes first in backticks, then the known ones.
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let (name, known): (&str, Vec<&str>) = (quoted.next().unwrap_or(""), quoted.collect());
+    if message.starts_with("unknown field") {
+        return Some((format!("unknown key {name:?}"), did_you_mean(name, known)));
+    }
+    if message.starts_with("unknown variant") {
+        return Some((format!("unknown value {name:?}"), did_you_mean(name, known)));
+    }
+    if message.starts_with("missing field") {
+        let remedy = if name == "map" { "add it, such as map = \"road.osm\"" } else { "add it" };
+        return Some((format!("the key {name:?} is missing"), remedy.into()));
+    }
+    let is_of_value = message.starts_with("invalid type") || message.starts_with("invalid value");
+    is_of_value.then(|| (message.replace('\n', ", "), "correct the value".into()))
 }
 
 /// The position of a key of `table`, and its value.

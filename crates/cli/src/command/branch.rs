@@ -21,9 +21,9 @@ pub(crate) struct Arguments {
     /// The time from which on the change holds, in seconds as in the tables.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     at: f64,
-    /// The change: a key of all styles (style.speed.weight=2), or of one style (aggressive.follow.time_gap=0.9); may
-    /// be repeated.
-    #[arg(long = "set", value_name = "STYLE.KEY=VALUE")]
+    /// The change: a key of all styles (style.speed.weight=2), or of one style (aggressive.follow.time_gap=0.9); or
+    /// other commands of users (commands=FILE, or commands=none); may be repeated.
+    #[arg(long = "set", value_name = "STYLE.KEY=VALUE|commands=FILE")]
     settings: Vec<Setting>,
     /// Folder for the differences [default: OUT/branch].
     #[arg(long, value_name = "DIR")]
@@ -43,6 +43,7 @@ impl Arguments {
         let claim = Claim::on(&folder)?;
         claim.clear_differences()?;
         let differences = twins.drive();
+        twins.warnings().iter().for_each(|it| eprintln!("warning: commands: {it}"));
         let end = format!("{:016x}", twins.base.state_hash());
         if end != record.end.state_hash {
             let what = format!(

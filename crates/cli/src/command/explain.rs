@@ -6,7 +6,8 @@ use clap::Args;
 use laneweave::Fault;
 use laneweave::explain::{Commonest, Moment, moment, trip};
 use laneweave::record::{End, Record};
-use laneweave::scenario::prepare;
+use laneweave::scenario::{Prepared, prepare};
+use laneweave::sim::World;
 
 use super::say;
 
@@ -49,11 +50,12 @@ impl Arguments {
                 format!("the run lasted from 0 to {last} s: choose a time in this range"),
             ));
         }
-        let mut world = prepare(&scenario, &origin)?.world;
+        let Prepared { mut world, mut script, .. } = prepare(&scenario, &origin)?;
+        let mut step = |world: &mut World| script.step(world);
         let Some(vehicle) = vehicle else {
-            (0..warmup).for_each(|_| world.step());
+            (0..warmup).for_each(|_| step(&mut world));
             let mut commonest = Commonest::since_now(&world);
-            (warmup..steps).for_each(|_| commonest.step(&mut world));
+            (warmup..steps).for_each(|_| commonest.step(&mut world, &mut step));
             return say(&commonest.to_text());
         };
         let never = || {
@@ -61,10 +63,10 @@ impl Arguments {
             Fault::new("--vehicle", what, "choose an id of the tables lane_changes, trips or trajectories")
         };
         let Some(time) = time else {
-            let told = trip(&mut world, vehicle, steps, flip).ok_or_else(never)?;
+            let told = trip(&mut world, step, vehicle, steps, flip).ok_or_else(never)?;
             return say(&told);
         };
-        match moment(&mut world, vehicle, time, steps, flip) {
+        match moment(&mut world, step, vehicle, time, steps, flip) {
             Moment::Told(told) => say(&told),
             Moment::At(from, until) => {
                 let what = format!("vehicle {vehicle} was not on the road at {time} s");

@@ -240,6 +240,9 @@ fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> 
         Screen { quiet: false, .. } => say(&results.to_text())?,
         _ => {}
     }
+    if !screen.quiet {
+        results.warnings.iter().for_each(|it| eprintln!("warning: commands: {it}"));
+    }
     Ok(if results.summary.interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
 

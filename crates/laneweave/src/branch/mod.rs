@@ -9,9 +9,9 @@ mod setting;
 use laneweave_models::Style;
 use laneweave_results::output::Traces;
 use laneweave_results::record::{End, Record};
-use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Prepared, mixture, prepare};
 use laneweave_scenario::style::Population;
+use laneweave_scenario::{Fault, Script};
 use laneweave_sim::World;
 
 pub use differences::{Differences, Instant, Vehicle};
@@ -27,6 +27,8 @@ pub struct Twins {
     pub branch: World,
     /// The vehicles of the lane with the largest distance driven, in either; none where the demand has no origin.
     pub lanes: [Option<Traces>; 2],
+    /// The commands of both.
+    scripts: [Script; 2],
     /// Steps until the run ends.
     steps_left: u32,
 }
@@ -47,9 +49,13 @@ impl Twins {
             return Err(Fault::new("--at", what, remedy));
         }
         let driver_parameters = changed(record, settings)?;
-        let Prepared { world: mut base, origins, .. } = prepare(scenario, origin)?;
-        let mut branch = prepare(scenario, origin)?.world;
-        (0..before).for_each(|_| base.step());
+        let Prepared { world: mut base, script: mut done, origins, .. } = prepare(scenario, origin)?;
+        let Prepared { world: mut branch, script: mut other, .. } = prepare(scenario, origin)?;
+        if let Some(commands) = settings.iter().rev().find_map(Setting::commands) {
+            other = Script::of_file(commands, &branch)?;
+        }
+        (0..before).for_each(|_| done.step(&mut base));
+        other.go_on_after(&done);
         let bug = |error: &dyn std::fmt::Display| Fault::new("branch", error, "report this as a bug");
         let saved = base.save().map_err(|error| bug(&error))?;
         branch.restore(&saved).map_err(|error| bug(&error))?;
@@ -57,15 +63,21 @@ impl Twins {
         let duration = f64::from(all - before) * scenario.run.step_s;
         let lane = || Traces::most_driven(1, &base, &origins, base.clock().time(), duration).pop();
         let lanes = [lane(), lane()];
-        Ok(Twins { base, branch, lanes, steps_left: all - before })
+        Ok(Twins { base, branch, lanes, scripts: [done, other], steps_left: all - before })
+    }
+
+    /// The commands of the branch that were not possible, in a line each.
+    pub fn warnings(&self) -> Vec<String> {
+        self.scripts[1].warnings()
     }
 
     /// Runs both to the end.
     pub fn drive(&mut self) -> Differences {
         let mut differences = Differences::between(&self.base);
         for _ in 0..self.steps_left {
-            self.base.step();
-            self.branch.step();
+            let [of_base, of_branch] = &mut self.scripts;
+            of_base.step(&mut self.base);
+            of_branch.step(&mut self.branch);
             differences.observe(&self.base, &self.branch);
             for (lane, world) in self.lanes.iter_mut().zip([&self.base, &self.branch]) {
                 lane.iter_mut().for_each(|it| it.observe(world));

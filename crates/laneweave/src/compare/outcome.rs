@@ -85,8 +85,8 @@ pub const MEASURES: [Measure; 12] = [
 impl Outcome {
     /// Runs `prepared` to its end; also returns the traffic in boxes, with the discretionary lane changes in them.
     pub(super) fn of(prepared: &mut Prepared) -> (Outcome, Vec<EdieRow>) {
-        let Prepared { world, warmup_steps, steps, .. } = prepared;
-        (0..*warmup_steps).for_each(|_| world.step());
+        let Prepared { world, script, warmup_steps, steps, .. } = prepared;
+        (0..*warmup_steps).for_each(|_| script.step(world));
         world.reset_counts();
         let begin = world.clock().time();
         let mut boxes = Boxes::new(world, begin, f64::from(*steps) * world.clock().dt);
@@ -94,7 +94,7 @@ impl Outcome {
         let mut short_trips = ShortTrips::default();
         let mut last: BTreeMap<VehicleId, (f64, Side)> = BTreeMap::new();
         for _ in 0..*steps {
-            world.step();
+            script.step(world);
             boxes.observe(world);
             short_trips.observe(world);
             for event in world.events() {

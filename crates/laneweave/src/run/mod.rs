@@ -6,5 +6,6 @@ mod simulate;
 
 pub use laneweave_results::Ending;
 pub use results::{Results, Run};
+pub(crate) use resume::BY_COMMANDS;
 pub use resume::{Resumed, kept, resume};
 pub use simulate::simulate;

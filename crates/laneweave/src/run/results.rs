@@ -8,16 +8,16 @@ use laneweave_results::folder::Claim;
 use laneweave_results::output::{Inputs, Provenance, Summary, outputs, write_whole};
 use laneweave_results::record::{self, SCENARIO, SUMMARY};
 use laneweave_scenario::Fault;
-use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare};
+use laneweave_scenario::scenario::{Origin, Prepared, Scenario};
 use laneweave_sim::World;
 
 use super::simulate::simulate;
+use crate::Simulation;
 
 /// A run that writes its result files into the folder `output.dir` of its scenario. No other process writes there
 /// while this value lives.
 pub struct Run {
-    scenario: Scenario,
-    prepared: Prepared,
+    simulation: Simulation,
     provenance: Provenance,
     from: Option<Checkpoint>,
     claim: Claim,
@@ -32,6 +32,8 @@ pub struct Results {
     pub files: Vec<PathBuf>,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
+    /// What did not happen as the scenario asks, in a line each.
+    pub warnings: Vec<String>,
 }
 
 impl Run {
@@ -41,32 +43,34 @@ impl Run {
     /// # Errors
     /// If something is missing, not readable, or invalid, or if the folder cannot be used.
     pub fn begin(scenario: &Scenario, origin: &Origin, command: &str) -> Result<Run, Fault> {
-        Run::of(prepare(scenario, origin)?, scenario, origin, command)
+        Run::of(Simulation::from_scenario(scenario, origin)?, command)
     }
 
-    /// The same for a scenario that is `prepared`, and at its start.
+    /// The same for a `simulation` that is at its start.
     ///
     /// # Errors
-    /// If the map or a style is not readable, or if the folder cannot be used.
-    pub fn of(prepared: Prepared, scenario: &Scenario, origin: &Origin, command: &str) -> Result<Run, Fault> {
+    /// If the map or a style is not readable, if the folder cannot be used, or if the results would replace the commands
+    /// of the scenario.
+    pub fn of(simulation: Simulation, command: &str) -> Result<Run, Fault> {
+        let (scenario, origin) = (simulation.scenario(), simulation.origin());
         let fingerprint = record::fingerprint(scenario, origin)?;
         let dir = &scenario.output.dir;
+        record::spare_commands(scenario)?;
         let claim = Claim::on(dir)?;
         record::clear(&claim)?;
         let kept = record::keep(scenario, origin, dir, command)?;
         let provenance = Provenance::of(kept, scenario.run.seed, fingerprint);
-        Ok(Run::new(scenario, prepared, provenance, None, claim))
+        Ok(Run::new(simulation, provenance, None, claim))
     }
 
     /// A run from its parts.
     pub(super) fn new(
-        scenario: &Scenario,
-        prepared: Prepared,
+        simulation: Simulation,
         provenance: Provenance,
         from: Option<Checkpoint>,
         claim: Claim,
     ) -> Run {
-        Run { scenario: scenario.clone(), prepared, provenance, from, claim, started: Instant::now() }
+        Run { simulation, provenance, from, claim, started: Instant::now() }
     }
 
     /// The same run. Its wall time counts from the instant `started`, such as the begin of the process.
@@ -77,12 +81,12 @@ impl Run {
 
     /// What runs.
     pub fn prepared(&self) -> &Prepared {
-        &self.prepared
+        self.simulation.prepared()
     }
 
     /// Its scenario.
     pub fn scenario(&self) -> &Scenario {
-        &self.scenario
+        self.simulation.scenario()
     }
 
     /// Runs to the end, and completes the result files. `goes_on` is asked before every step; if it says no, the run
@@ -90,24 +94,36 @@ impl Run {
     ///
     /// # Errors
     /// If a file cannot be written, or if the checkpoint belongs to another run.
-    pub fn complete(self, goes_on: impl FnMut(&World) -> bool) -> Result<Results, Fault> {
-        let Run { scenario, mut prepared, provenance, from, claim, started } = self;
+    pub fn complete(self, mut goes_on: impl FnMut(&World) -> bool) -> Result<Results, Fault> {
+        self.drive(|simulation| Ok(goes_on(simulation.world())))
+    }
+
+    /// The same with a program that gives commands: `act` is called before every step, and says whether the run goes
+    /// on.
+    ///
+    /// # Errors
+    /// If a file cannot be written, if the checkpoint belongs to another run, or if `act` fails or simulates steps
+    /// itself.
+    pub fn drive(self, act: impl FnMut(&mut Simulation) -> Result<bool, Fault>) -> Result<Results, Fault> {
+        let Run { mut simulation, provenance, from, claim, started } = self;
+        let scenario = simulation.scenario().clone();
         let dir = &scenario.output.dir;
-        let mut outputs = outputs(&scenario, &prepared, &provenance)?;
+        let mut outputs = outputs(&scenario, simulation.prepared(), &provenance)?;
         let output_settings = record::output_settings(&scenario)?;
-        let keeper = prepared.checkpoint_steps.map(|every| Keeper {
+        let keeper = simulation.prepared().checkpoint_steps.map(|every| Keeper {
             path: dir.join(checkpoint::FILE),
             every,
             fingerprint: provenance.fingerprint.clone(),
             output_settings,
         });
         let mut load_s = 0.0;
-        let ending = simulate(&mut prepared, &mut outputs, from, keeper.as_ref(), goes_on, || {
+        let ending = simulate(&mut simulation, &mut outputs, from, keeper.as_ref(), act, || {
             load_s = started.elapsed().as_secs_f64();
         })?;
         let wall_s = started.elapsed().as_secs_f64();
         let inputs = Inputs { scenario: &scenario, ending: &ending, wall_s, load_s, provenance: &provenance };
-        let summary = Summary::of(&prepared, inputs);
+        let prepared = simulation.prepared();
+        let summary = Summary::of(prepared, inputs);
         let mut files = vec![dir.join(SCENARIO)];
         for output in outputs {
             files.extend(output.finish(&prepared.world, &summary)?);
@@ -121,7 +137,8 @@ impl Run {
             claim.settle(&files)?;
             claim.clear(&checkpoint::FILES)?;
         }
-        Ok(Results { summary, files, styles: prepared.styles })
+        let (styles, warnings) = (prepared.styles.clone(), prepared.script.warnings());
+        Ok(Results { summary, files, styles, warnings })
     }
 }
 

@@ -8,9 +8,13 @@ use laneweave_results::folder::{Claim, RESULTS};
 use laneweave_results::output::Provenance;
 use laneweave_results::record::{self, SCENARIO, SUMMARY};
 use laneweave_scenario::Fault;
-use laneweave_scenario::scenario::{Origin, Scenario, prepare};
+use laneweave_scenario::scenario::{Origin, Scenario};
 
 use super::results::Run;
+use crate::Simulation;
+
+/// The command line of a run to which a program gives commands.
+pub(crate) const BY_COMMANDS: &str = "run by a program that gives commands, with the library of laneweave";
 
 /// What becomes of a run that is resumed.
 pub enum Resumed {
@@ -50,17 +54,22 @@ pub fn resume(scenario: &Scenario, origin: &Origin) -> Result<Resumed, Fault> {
     if let Some(from) = &from {
         let refused = |what: &str| Fault::new(dir.display(), what, "run it again from the beginning");
         if from.fingerprint != fingerprint {
-            let what = "the map, a style, the scenario or the program has changed since this was run";
+            let what =
+                "the map, a style, the commands, the scenario or the program has changed since this was run";
             return Err(refused(what));
         }
         if from.output_settings != record::output_settings(scenario)? {
             return Err(refused("the [output] of its scenario has changed since this was run"));
         }
     }
-    let prepared = prepare(scenario, origin)?;
     let path = dir.join(SCENARIO);
     let text = fs::read_to_string(&path).map_err(|error| Fault::refused(&path, "read", &error))?;
     let provenance = Provenance::of(text, scenario.run.seed, fingerprint);
+    if provenance.command == BY_COMMANDS {
+        let what = "a program gave commands to this run, and only that program can give them again";
+        return Err(Fault::new(dir.display(), what, "run the program again"));
+    }
+    let simulation = Simulation::from_scenario(scenario, origin)?;
     claim.clear(if from.is_some() { &[SUMMARY] } else { &RESULTS })?;
-    Ok(Resumed::Run(Box::new(Run::new(scenario, prepared, provenance, from, claim))))
+    Ok(Resumed::Run(Box::new(Run::new(simulation, provenance, from, claim))))
 }

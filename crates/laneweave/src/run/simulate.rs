@@ -5,36 +5,39 @@ use laneweave_results::checkpoint::{Checkpoint, FILE, Keeper};
 use laneweave_results::output::{Output, Queues, ShortTrips};
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::Prepared;
-use laneweave_sim::{CheckpointError, World};
+use laneweave_sim::CheckpointError;
 
-/// Runs `prepared` through its warm-up and its measured time, or continues from a checkpoint. `outputs` observe
-/// the world after each measured step. `goes_on` is asked before every step. `when_warm` is called once, when measuring
-/// begins or continues. A `keeper` gets checkpoints, if there is one.
+use crate::Simulation;
+
+/// Runs `simulation` through its warm-up and its measured time, or continues from a checkpoint. `outputs` observe the
+/// world after each step. `act` is called before every step: it may give commands, and says whether the run goes on.
+/// `when_warm` is called once, when measuring begins or continues. A `keeper` gets checkpoints, if there is one.
 ///
 /// # Errors
-/// If an output cannot write its data, or if the checkpoint belongs to another run.
+/// If an output cannot write its data, if the checkpoint belongs to another run, or if `act` fails or simulates steps
+/// itself.
 pub fn simulate(
-    prepared: &mut Prepared,
+    simulation: &mut Simulation,
     outputs: &mut [Box<dyn Output>],
     from: Option<Checkpoint>,
     keeper: Option<&Keeper>,
-    mut goes_on: impl FnMut(&World) -> bool,
+    mut act: impl FnMut(&mut Simulation) -> Result<bool, Fault>,
     when_warm: impl FnOnce(),
 ) -> Result<Ending, Fault> {
-    let steps = prepared.steps;
+    let steps = simulation.prepared.steps;
     let mut run = match from {
-        Some(checkpoint) => Measuring::resumed(prepared, outputs, checkpoint)?,
-        None => Measuring::warmed_up(prepared, &mut goes_on),
+        Some(checkpoint) => Measuring::resumed(&mut simulation.prepared, outputs, checkpoint)?,
+        None => Measuring::warmed_up(simulation, outputs, &mut act)?,
     };
     when_warm();
-    let world = &mut prepared.world;
     while run.measured_steps < steps {
-        run.is_interrupted = run.is_interrupted || !goes_on(world);
+        run.is_interrupted = run.is_interrupted || !goes_on(simulation, &mut act)?;
         if run.is_interrupted {
             break;
         }
-        world.step();
+        simulation.prepared.step();
         run.measured_steps += 1;
+        let world = &simulation.prepared.world;
         run.queues.observe(world);
         run.short_trips.observe(world);
         for output in &mut *outputs {
@@ -43,12 +46,27 @@ pub fn simulate(
         if let Some(keeper) = keeper
             && run.measured_steps.is_multiple_of(keeper.every)
         {
-            run.keep(world, outputs, keeper)?;
+            run.keep(&simulation.prepared, outputs, keeper)?;
         }
     }
+    let world = simulation.world();
     let measured_s = world.clock().time() - run.measured_from_s;
     let Measuring { measured_from_s, is_interrupted, queues, short_trips, .. } = run;
     Ok(Ending { measured_from_s, measured_s, is_interrupted, queues: queues.left(world), short_trips })
+}
+
+/// Lets `act` give its commands before the next step, and returns whether the run goes on.
+fn goes_on(
+    simulation: &mut Simulation,
+    act: &mut impl FnMut(&mut Simulation) -> Result<bool, Fault>,
+) -> Result<bool, Fault> {
+    let step = simulation.world().clock().step;
+    let goes_on = act(simulation)?;
+    if simulation.world().clock().step != step {
+        let what = "the program has changed the time of the simulation, so the results would miss steps";
+        return Err(Fault::new("run", what, "give commands only: the run simulates the steps"));
+    }
+    Ok(goes_on)
 }
 
 /// A run in progress.
@@ -63,24 +81,31 @@ struct Measuring {
 
 impl Measuring {
     /// The state after the warm-up.
-    fn warmed_up(prepared: &mut Prepared, mut goes_on: impl FnMut(&World) -> bool) -> Measuring {
-        let Prepared { world, warmup_steps, .. } = prepared;
+    fn warmed_up(
+        simulation: &mut Simulation,
+        outputs: &mut [Box<dyn Output>],
+        act: &mut impl FnMut(&mut Simulation) -> Result<bool, Fault>,
+    ) -> Result<Measuring, Fault> {
         let mut is_interrupted = false;
-        for _ in 0..*warmup_steps {
-            if !goes_on(world) {
+        for _ in 0..simulation.prepared.warmup_steps {
+            if !goes_on(simulation, act)? {
                 is_interrupted = true;
                 break;
             }
-            world.step();
+            simulation.prepared.step();
+            for output in &mut *outputs {
+                output.warm_up(simulation.world())?;
+            }
         }
+        let world = &mut simulation.prepared.world;
         world.reset_counts();
-        Measuring {
+        Ok(Measuring {
             measured_from_s: world.clock().time(),
             measured_steps: 0,
             is_interrupted,
             queues: Queues::of(world),
             short_trips: ShortTrips::default(),
-        }
+        })
     }
 
     /// The state of a checkpoint.
@@ -92,7 +117,7 @@ impl Measuring {
         let Checkpoint { measured_from_s, measured_steps, world, queues, short_trips, outputs: kept, .. } =
             checkpoint;
         let other = |what: String| Fault::new(FILE, what, "run again from the beginning, without --resume");
-        prepared.world.restore(&world).map_err(|error| other(error.to_string()))?;
+        prepared.restore(&world).map_err(|error| other(error.to_string()))?;
         if kept.len() != outputs.len() {
             return Err(other(format!("{} outputs instead of {}", kept.len(), outputs.len())));
         }
@@ -103,15 +128,21 @@ impl Measuring {
     }
 
     /// Writes a checkpoint.
-    fn keep(&self, world: &World, outputs: &mut [Box<dyn Output>], keeper: &Keeper) -> Result<(), Fault> {
-        let kept: Result<Vec<Vec<u8>>, Fault> = outputs.iter_mut().map(|it| it.save(world)).collect();
+    fn keep(
+        &self,
+        prepared: &Prepared,
+        outputs: &mut [Box<dyn Output>],
+        keeper: &Keeper,
+    ) -> Result<(), Fault> {
+        let kept: Result<Vec<Vec<u8>>, Fault> =
+            outputs.iter_mut().map(|it| it.save(&prepared.world)).collect();
         let bug = |error: CheckpointError| Fault::new(FILE, error, "report this as a bug");
         let checkpoint = Checkpoint {
             fingerprint: keeper.fingerprint.clone(),
             output_settings: keeper.output_settings.clone(),
             measured_from_s: self.measured_from_s,
             measured_steps: self.measured_steps,
-            world: world.save().map_err(bug)?,
+            world: prepared.save().map_err(bug)?,
             queues: self.queues.clone(),
             short_trips: self.short_trips,
             outputs: kept?,

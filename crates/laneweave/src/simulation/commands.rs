@@ -4,11 +4,10 @@
 //! vehicle is on the road at once. The order of commands between two steps changes nothing.
 
 use laneweave_network::LightState;
-use laneweave_scenario::Fault;
+use laneweave_scenario::{Fault, refused};
 use laneweave_sim::{Command, Control, NewVehicle, VehicleId};
 
 use super::Simulation;
-use super::refused::refused;
 
 impl Simulation {
     /// Puts a vehicle on the road, at once, and returns its id. Its own driver drives it.
@@ -81,6 +80,8 @@ impl Simulation {
     }
 
     fn command(&mut self, place: &str, command: Command) -> Result<Option<VehicleId>, Fault> {
-        self.world_mut().command(command).map_err(|error| refused(place, &error))
+        let given = self.prepared.world.command(command).map_err(|error| refused(place, &error))?;
+        self.is_commanded = true;
+        Ok(given)
     }
 }

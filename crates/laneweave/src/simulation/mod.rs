@@ -8,7 +8,6 @@ mod light;
 mod names;
 mod observer;
 mod queries;
-mod refused;
 mod results;
 mod vehicle_state;
 
@@ -31,10 +30,12 @@ pub use vehicle_state::VehicleState;
 pub struct Simulation {
     scenario: Scenario,
     origin: Origin,
-    prepared: Prepared,
+    pub(crate) prepared: Prepared,
     /// Whether its map is a file, so that its results can name it.
     has_map_file: bool,
-    /// Whether the user has changed the traffic.
+    /// Whether a program has given commands to it.
+    is_commanded: bool,
+    /// Whether a program has had the world behind it to change.
     is_changed: bool,
 }
 
@@ -81,7 +82,9 @@ impl Simulation {
     }
 
     fn new(scenario: Scenario, origin: Origin, prepared: Prepared, has_map_file: bool) -> Simulation {
-        let mut simulation = Simulation { scenario, origin, prepared, has_map_file, is_changed: false };
+        let [is_commanded, is_changed] = [false; 2];
+        let mut simulation =
+            Simulation { scenario, origin, prepared, has_map_file, is_commanded, is_changed };
         simulation.begin_counts();
         simulation
     }
@@ -94,13 +97,18 @@ impl Simulation {
         }
     }
 
-    /// Simulates one step, and returns what happened in it.
+    /// Simulates one step, and returns what happened in it. Before, the commands of the scenario that are due are given.
     pub fn step(&mut self) -> Vec<Event> {
-        self.prepared.world.step();
-        let world = self.world();
-        let events = world.events().iter().map(|it| Event::of(world, it)).collect();
+        self.prepared.step();
+        let events = self.events();
         self.begin_counts();
         events
+    }
+
+    /// What happened in the last step.
+    pub fn events(&self) -> Vec<Event> {
+        let world = self.world();
+        world.events().iter().map(|it| Event::of(world, it)).collect()
     }
 
     /// Simulates steps until the time `until_s` [s]. After every step the `observers` see the simulation, and what
@@ -144,7 +152,7 @@ impl Simulation {
     /// # Errors
     /// None, as long as there is memory.
     pub fn save(&self) -> Result<Vec<u8>, Fault> {
-        self.world().save().map_err(|error| Fault::new("save", error, "report this as a bug"))
+        self.prepared.save().map_err(|error| Fault::new("save", error, "report this as a bug"))
     }
 
     /// Goes on from a saved state of a simulation with the same map, drivers, demand and seed, bit for bit.
@@ -153,7 +161,8 @@ impl Simulation {
     /// If the bytes are not such a state. Nothing changes then.
     pub fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
         let remedy = "give the bytes that a simulation of the same scenario saved";
-        self.world_mut().restore(saved).map_err(|error| Fault::new("restore", error, remedy))
+        self.is_changed = true;
+        self.prepared.restore(saved).map_err(|error| Fault::new("restore", error, remedy))
     }
 
     /// Hash of the id, lanelet, position, speed and state of all vehicles. Two simulations with the same hash have the
@@ -165,6 +174,16 @@ impl Simulation {
     /// The scenario, with all its settings.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
+    }
+
+    /// What was prepared of the scenario, with the world at the present time.
+    pub fn prepared(&self) -> &Prepared {
+        &self.prepared
+    }
+
+    /// The source of the values of the scenario.
+    pub(crate) fn origin(&self) -> &Origin {
+        &self.origin
     }
 
     /// The roads.

@@ -7,6 +7,11 @@ use laneweave_sim::{Columns, Control, Intention, VehicleId};
 use super::{Simulation, VehicleState};
 
 impl Simulation {
+    /// The id of the external vehicle that the scenario calls `name`, as soon as it is on the road.
+    pub fn external(&self, name: &str) -> Option<VehicleId> {
+        self.prepared.script.external(name)
+    }
+
     /// All vehicles on the road, in the order of their ids.
     pub fn vehicles(&self) -> Vec<VehicleState> {
         let world = self.world();

@@ -28,7 +28,13 @@ pub struct Summary {
     pub left: u64,
     /// Vehicles that completed their trip.
     pub completed: u64,
-    /// Of them, those with a trip within one lanelet, which are left out of the means over trips.
+    /// Vehicles that a user put on the road; they are among those that entered.
+    pub inserted: u64,
+    /// Vehicles that a user took off the road.
+    pub removed: u64,
+    /// Commands of the scenario that were not possible when they were due.
+    pub commands_refused: u64,
+    /// Of those that completed it, those with a trip within one lanelet, which are left out of the means over trips.
     pub trips_of_one_lanelet: u64,
     /// Vehicles on the road at the end.
     pub on_road: u64,
@@ -149,6 +155,9 @@ impl Summary {
             entered: counts.entered,
             left: counts.left,
             completed: counts.left,
+            inserted: counts.inserted,
+            removed: counts.removed,
+            commands_refused: prepared.script.refused(),
             trips_of_one_lanelet: ending.short_trips.count,
             on_road: world.on_road() as u64,
             waiting: world.waiting() as u64,
@@ -246,10 +255,14 @@ impl Summary {
                 self.demand_veh_h, self.entrance_capacity
             ),
         );
+        let removed = match self.removed {
+            0 => String::new(),
+            count => format!(" + {count} removed"),
+        };
         line(
             "vehicles",
             format!(
-                "{} entered = {} completed + {} on the road; {} waiting to enter",
+                "{} entered = {} completed + {} on the road{removed}; {} waiting to enter",
                 self.entered, self.left, self.on_road, self.waiting
             ),
         );

@@ -5,7 +5,7 @@ use std::sync::mpsc::{Sender, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 
 use laneweave_scenario::Fault;
-use laneweave_sim::{Incident, LaneChange};
+use laneweave_sim::{Commanded, Incident, LaneChange};
 use serde::{Deserialize, Serialize};
 
 use super::frame::Frame;
@@ -24,6 +24,8 @@ pub(super) enum Batch {
     Incidents(Vec<Incident>),
     /// Trips that ended, or that continue when the run ends.
     Trips(Vec<Trip>),
+    /// Commands of users.
+    Commands(Vec<Commanded>),
     /// The traffic on all lanelets in an interval.
     Flows(Traffic),
     /// The traffic on all lanelets in the whole run.

@@ -4,6 +4,7 @@
 //! A new output is a file here, a line in `outputs.rs`, and its name in [`crate::folder::RESULTS`].
 
 mod batch;
+mod commands;
 mod folder;
 mod frame;
 mod incidents;
@@ -39,11 +40,19 @@ pub use outputs::outputs;
 
 /// An output of a run: it observes the world, and most outputs write files. One without a state needs `observe` only.
 pub trait Output {
-    /// Observes the world after a step.
+    /// Observes the world after a measured step.
     ///
     /// # Errors
     /// If its data cannot be written.
     fn observe(&mut self, world: &World) -> Result<(), Fault>;
+
+    /// Observes the world after a step of the warm-up. By default it does not.
+    ///
+    /// # Errors
+    /// If its data cannot be written.
+    fn warm_up(&mut self, _world: &World) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// Its state as bytes, for a checkpoint. Before, it sends the data that it has collected to its files. By default
     /// it is empty.

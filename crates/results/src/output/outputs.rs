@@ -8,6 +8,7 @@ use laneweave_scenario::scenario::{Prepared, Scenario, SumoFile};
 
 use super::Output;
 use super::batch::Writer;
+use super::commands::{CommandTable, Commands};
 use super::folder::Folder;
 use super::incidents::{IncidentTable, Incidents};
 use super::lane_changes::{LaneChangeTable, LaneChanges};
@@ -52,6 +53,7 @@ pub fn outputs(
     outputs.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, sender.clone())));
     outputs.push(Box::new(LaneChanges::new(begin, sender.clone())));
     outputs.push(Box::new(Incidents::new(begin, sender.clone())));
+    outputs.push(Box::new(Commands::new(sender.clone())));
     outputs.push(Box::new(Trips::new(sender)));
     #[cfg(feature = "reports")]
     outputs.push(Box::new(Report::new(&folder, scenario, prepared)));
@@ -70,6 +72,7 @@ fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, 
     }
     writers.push(Box::new(LaneChangeTable::create(folder)?));
     writers.push(Box::new(IncidentTable::create(folder)?));
+    writers.push(Box::new(CommandTable::create(folder)?));
     writers.push(Box::new(TripTable::create(folder)?));
     writers.push(Box::new(LaneletTable::create(folder)?));
     Ok(writers)

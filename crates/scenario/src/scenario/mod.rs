@@ -2,10 +2,12 @@
 
 mod basis;
 mod demand;
+mod external;
 mod headways;
 mod mixture;
 mod origin;
 mod prepare;
+mod saved;
 mod signals;
 mod turns;
 mod written;
@@ -21,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use crate::style::{DEFAULT_MIXTURE, Model};
 
 pub use basis::Basis;
+pub use external::External;
 pub use headways::Headways;
 pub use mixture::mixture;
 pub use origin::Origin;
@@ -50,6 +53,13 @@ pub struct Scenario {
     /// Kind of the generated signal programs.
     #[serde(default)]
     pub made_signals: MadeSignals,
+    /// A table of commands that are given again (.parquet, .csv): the table `commands` of a run, or one written by
+    /// hand; relative to the scenario file.
+    #[serde(default)]
+    pub commands: Option<PathBuf>,
+    /// External vehicles: the scenario puts them on the road, and a program may drive them.
+    #[serde(default)]
+    pub external: Vec<External>,
     /// Guidance: the information on travel times that drivers get.
     #[serde(default)]
     pub guidance: Guidance,
@@ -299,6 +309,8 @@ impl Scenario {
             turns: Vec::new(),
             signals: Vec::new(),
             made_signals: MadeSignals::default(),
+            commands: None,
+            external: Vec::new(),
             guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),

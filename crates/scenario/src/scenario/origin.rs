@@ -38,6 +38,7 @@ impl Origin {
         }
         let mut scenario: Scenario = source.parse()?;
         scenario.map = source.folder().join(&scenario.map);
+        scenario.commands = scenario.commands.map(|it| source.folder().join(it));
         Ok((scenario, Origin { source: Some(source), ..Origin::default() }))
     }
 

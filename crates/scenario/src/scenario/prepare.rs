@@ -19,6 +19,7 @@ use super::{MapOptions, Origin, Scenario, SumoFile};
 use crate::capacity::Capacity;
 use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
+use crate::script::Script;
 use crate::style::Population;
 
 /// Maximum of threads.
@@ -40,6 +41,8 @@ const CHECKPOINTS: &str = "an interval of checkpoints";
 pub struct Prepared {
     /// The world at its start.
     pub world: World,
+    /// The commands that the scenario gives.
+    pub script: Script,
     /// Steps before anything is measured.
     pub warmup_steps: u32,
     /// Steps that are measured.
@@ -135,6 +138,7 @@ fn prepare_with(
     let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
+    let script = Script::of(scenario, origin, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
         warmup_steps: steps(scenario.run.warmup_s),
@@ -151,6 +155,7 @@ fn prepare_with(
         problems: map.problems,
         remarks,
         origin: map.origin,
+        script,
         world,
     })
 }

@@ -2,11 +2,12 @@
 
 use std::fmt::Display;
 
-use laneweave_scenario::Fault;
 use laneweave_sim::CommandError;
 
+use crate::fault::Fault;
+
 /// The fault of a command that was refused at `place`.
-pub(super) fn refused(place: impl Display, error: &CommandError) -> Fault {
+pub fn refused(place: impl Display, error: &CommandError) -> Fault {
     let text = error.to_string();
     let parts = text.rsplit_once("; ").or_else(|| text.rsplit_once(": "));
     let (what, remedy) = parts.unwrap_or((&text, "simulate a step, and ask which vehicles there are"));

@@ -1,0 +1,178 @@
+//! Commands as rows of a table: written by a run, and read again.
+
+use std::path::Path;
+
+use laneweave_sim::{Command, Commanded, Target, VehicleId, World};
+use laneweave_study::{Cell, Column, ReadError, TextTable, seconds};
+use serde_json::{Map, Value};
+
+use super::refused::refused;
+use crate::fault::Fault;
+use crate::source::in_words;
+
+/// The columns of a table of commands.
+pub const COMMAND_COLUMNS: [Column; 5] = [
+    Column::real("time_s"),
+    Column::text("target"),
+    Column::integer("id"),
+    Column::text("act"),
+    Column::text("values"),
+];
+
+/// Maximum time of a command [s].
+const LONGEST: f64 = 1e7;
+/// Times are written with this error at most, in steps.
+const TOLERANCE: f64 = 1e-3;
+
+/// A command as texts.
+pub struct Written {
+    time_s: f64,
+    target: String,
+    act: String,
+    values: String,
+}
+
+impl Written {
+    /// The command `it` of a run with steps of `step_s` [s].
+    pub fn of(it: &Commanded, step_s: f64) -> Written {
+        let target = it.vehicle.map(Target::Vehicle).or_else(|| it.command.target());
+        let (act, values) = match serde_json::to_value(&it.command) {
+            Ok(Value::Object(one)) => one.into_iter().next().unwrap_or_default(),
+            Ok(Value::String(act)) => (act, Value::Null),
+            // Every command is one of these.
+            _ => Default::default(),
+        };
+        Written {
+            time_s: seconds(f64::from(it.step) * step_s),
+            target: target.map_or(String::new(), |it| it.to_string()),
+            act,
+            values: values.to_string(),
+        }
+    }
+
+    /// Its cells under [`COMMAND_COLUMNS`].
+    pub fn cells(&self) -> [Cell<'_>; COMMAND_COLUMNS.len()] {
+        let (target, id) = self.target.split_once(' ').unwrap_or((&self.target, ""));
+        let id: Option<i64> = id.parse().ok();
+        [self.time_s.into(), target.into(), id.into(), self.act.as_str().into(), self.values.as_str().into()]
+    }
+}
+
+/// A command of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    /// The step before whose decisions it is carried out.
+    pub(super) step: u32,
+    /// Its number in the table, from 1 on.
+    pub(super) number: usize,
+    /// For a new vehicle: the id under which the table knows it.
+    pub(super) inserts: Option<VehicleId>,
+    pub(super) command: Command,
+}
+
+/// The commands of the table at `path`, in the order of their times. They are checked in `world`, which is empty.
+pub(super) fn read(path: &Path, world: &World) -> Result<Vec<Row>, Fault> {
+    let table = TextTable::read(path).map_err(|error| match error {
+        ReadError::File(error) => Fault::refused(path, "read", &error),
+        ReadError::Row { row, what } => Fault::new(place(path, row), what, "correct this row"),
+        ReadError::Name | ReadError::Content(_) => {
+            let remedy = "give a table `commands` of a run, or write one as CSV";
+            Fault::new(path.display(), error, remedy)
+        }
+    })?;
+    let columns = Columns::of(&table, path)?;
+    let mut rows = Vec::with_capacity(table.rows.len());
+    for (cells, number) in table.rows.iter().zip(1..) {
+        let read = columns.row(cells, number, world.clock().dt);
+        let row = read.map_err(|(what, remedy)| Fault::new(place(path, number), what, remedy))?;
+        world.check_content(&row.command).map_err(|error| refused(place(path, number), &error))?;
+        rows.push(row);
+    }
+    rows.sort_by_key(|it| it.step);
+    Ok(rows)
+}
+
+/// The first step that begins at the time `time_s` [s] or later, of steps of `dt` [s].
+pub(super) fn first_step_from(time_s: f64, dt: f64) -> u32 {
+    (time_s / dt - TOLERANCE).ceil() as u32
+}
+
+/// The place of a row.
+pub(super) fn place(path: &Path, row: usize) -> String {
+    format!("{}, row {row}", path.display())
+}
+
+/// Where the columns are.
+struct Columns {
+    time: usize,
+    act: usize,
+    values: usize,
+    target: Option<usize>,
+    id: Option<usize>,
+}
+
+/// What is wrong in a row, and the remedy.
+type Wrong = (String, String);
+
+fn wrong(what: impl Into<String>, remedy: impl Into<String>) -> Wrong {
+    (what.into(), remedy.into())
+}
+
+impl Columns {
+    fn of(table: &TextTable, path: &Path) -> Result<Columns, Fault> {
+        let column = |name: &str| {
+            table.column(name).ok_or_else(|| {
+                let remedy = "a table of commands has the columns time_s, act and values: add it";
+                Fault::new(path.display(), format!("there is no column {name}"), remedy)
+            })
+        };
+        Ok(Columns {
+            time: column("time_s")?,
+            act: column("act")?,
+            values: column("values")?,
+            target: table.column("target"),
+            id: table.column("id"),
+        })
+    }
+
+    fn row(&self, cells: &[Option<String>], number: usize, dt: f64) -> Result<Row, Wrong> {
+        let cell = |at: usize| cells[at].as_deref();
+        let time = cell(self.time).unwrap_or_default();
+        let in_range = |it: &f64| (0.0..=LONGEST).contains(it);
+        let time_s = time.trim().parse().ok().filter(in_range).ok_or_else(|| {
+            wrong(format!("a time_s of {time:?}"), format!("give seconds from 0 to {LONGEST}"))
+        })?;
+        let command = command(cell(self.act).unwrap_or_default(), cell(self.values).unwrap_or("null"))?;
+        let target = command.target().map_or("vehicle".into(), |it| it.to_string());
+        let (kind, id) = target.split_once(' ').unwrap_or((&target, ""));
+        let given = self.target.and_then(cell).filter(|it| *it != kind);
+        if let Some(given) = given {
+            let what = format!("the target is {given:?}, but the values concern a {kind}");
+            return Err(wrong(what, format!("write {kind}, or leave the cell empty")));
+        }
+        let given = self.id.and_then(cell);
+        let inserts = if matches!(command, Command::Insert(_)) { given } else { None };
+        if let Some(given) = given.filter(|it| inserts.is_none() && *it != id) {
+            let what = format!("the id is {given}, but the values concern {target}");
+            return Err(wrong(what, "correct one of them, or leave the cell empty"));
+        }
+        let inserts = inserts.map(|it| {
+            it.parse().map_err(|_| wrong(format!("an id of {it:?}"), "give a whole number from 0 on"))
+        });
+        let step = first_step_from(time_s, dt);
+        Ok(Row { step, number, inserts: inserts.transpose()?, command })
+    }
+}
+
+/// The command that does `act` with `values`, a text in JSON.
+fn command(act: &str, values: &str) -> Result<Command, Wrong> {
+    let values: Value = serde_json::from_str(values).map_err(|error| {
+        let remedy = "write JSON, such as [7, \"aggressive\"] for the act set_style of vehicle 7";
+        wrong(format!("the values are no JSON: {error}"), remedy)
+    })?;
+    let one = Map::from_iter([(act.to_owned(), values)]);
+    serde_json::from_value(Value::Object(one)).map_err(|error| {
+        let message = error.to_string();
+        in_words(&message).unwrap_or_else(|| (message, "correct the values".into()))
+    })
+}
