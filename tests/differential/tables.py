@@ -17,7 +17,7 @@ import duckdb
 import pandas
 import pyarrow.parquet
 
-TABLES = ["trajectories", "lane_changes", "incidents", "trips", "lanelets", "flows"]
+TABLES = ["trajectories", "lane_changes", "incidents", "commands", "trips", "lanelets", "flows"]
 RUN = ["--duration", "150", "--warmup", "20", "--flows", "60", "--quiet"]
 NOTES = ["laneweave.command", "laneweave.scenario", "laneweave.seed", "laneweave.version"]
 SQL = {"double": "DOUBLE", "int64": "BIGINT", "string": "VARCHAR"}

@@ -216,7 +216,8 @@ fn only_a_simulation_as_it_began_leaves_results() {
     let mut stepped = simulation("on_ramp.osm", 1000.0);
     stepped.step();
     let mut changed = simulation("on_ramp.osm", 1000.0);
-    changed.set_demand(1, 500.0).expect("the entrance is there");
+    let demand = laneweave::sim::Command::SetDemand { origin: 1, vehicles_per_hour: 500.0 };
+    changed.world_mut().command(demand).expect("the entrance is there");
     for simulation in [stepped, changed] {
         let fault = simulation.run_to_results(&out).expect_err("it is refused");
         assert_eq!(fault.remedy, "make a new one, and run that");

@@ -22,6 +22,9 @@ pub mod checkpoint_and_twin;
 #[path = "../examples/06_recorded_frame.rs"]
 pub mod recorded_frame;
 
+#[path = "../examples/07_commands_in_results.rs"]
+pub mod commands_in_results;
+
 /// Runs an example where its reader runs it: in the folder of the project.
 fn runs(example: fn() -> Result<(), Fault>) {
     let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -65,6 +68,13 @@ fn a_recorded_frame_is_perceived() {
 }
 
 #[test]
+fn commands_are_given_during_a_run_and_repeated() {
+    runs(commands_in_results::main);
+    let out = std::env::temp_dir().join(format!("laneweave-commands-example-{}", std::process::id()));
+    std::fs::remove_dir_all(out).expect("the example has written into it");
+}
+
+#[test]
 fn every_example_is_run_here_and_short() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let own = include_str!("examples.rs");
@@ -77,5 +87,5 @@ fn every_example_is_run_here_and_short() {
         assert!(text.lines().count() <= 60, "{name} is long");
         count += 1;
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
 }

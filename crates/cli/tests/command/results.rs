@@ -82,6 +82,7 @@ fn results_of_a_former_run_go_and_what_no_run_has_left_stays() {
     let folder = folder.with("out/notes.txt", "mine").with("out/fcd.xml.partial", "<begun");
     folder.summary("MAPS/ramps.osm --duration 30 --record 0");
     let expected = [
+        "commands.parquet",
         "incidents.parquet",
         "lane_change_rate.svg",
         "lane_changes.parquet",
@@ -130,7 +131,7 @@ fn times_in_tables_are_those_of_whole_steps_without_dust() {
     let folder = Folder::new();
     let line = "run MAPS/ramps.osm --demand 4000 --duration 150 --record 0.1 --flows 0.3 --format csv";
     assert_eq!(folder.laneweave(line).code(), 0);
-    for table in ["trajectories", "lane_changes", "incidents", "trips", "flows", "lanelets"] {
+    for table in ["trajectories", "commands", "lane_changes", "incidents", "trips", "flows", "lanelets"] {
         let text = folder.read(&format!("out/{table}.csv"));
         let mut lines = text.lines();
         let of_steps =

@@ -48,8 +48,8 @@ fn a_bare_map_is_enough_and_leaves_tables_figures_and_a_summary() {
     let run = folder.laneweave("run MAPS/ramps.osm --duration 60");
     assert_eq!(run.code(), 0);
     assert!(run.errors().starts_with("demand: ") && run.errors().lines().count() == 1, "{}", run.errors());
-    let tables =
-        ["trajectories", "lane_changes", "incidents", "trips", "lanelets"].map(|it| format!("{it}.parquet"));
+    let tables = ["trajectories", "commands", "lane_changes", "incidents", "trips", "lanelets"]
+        .map(|it| format!("{it}.parquet"));
     for file in tables.iter().map(String::as_str).chain(["summary.json"]) {
         assert!(folder.holds(&format!("out/{file}")), "{file}");
         assert!(run.text().contains(&format!("out/{file}")), "{}", run.text());

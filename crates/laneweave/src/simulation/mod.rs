@@ -97,7 +97,7 @@ impl Simulation {
         }
     }
 
-    /// Simulates one step, and returns what happened in it. Before, the commands of the scenario that are due are given.
+    /// Simulates one step, and returns what happened in it. The commands of the scenario that are due are given before.
     pub fn step(&mut self) -> Vec<Event> {
         self.prepared.step();
         let events = self.events();

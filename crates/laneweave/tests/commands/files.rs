@@ -93,7 +93,7 @@ fn a_wrong_file_is_refused_with_its_row_and_a_remedy() {
         ),
         (
             "1,,,set_demand,\"{\"\"origin\"\":1,\"\"vehicles_per_hour\"\":-1}\"",
-            "row 2: a demand of -1: choose 0 to 10000 veh/h",
+            "row 2: a demand of -1; choose 0 to 100000 veh/h",
         ),
         ("1,,,remove,5,6", "row 2: 6 cells in a table of 5 columns; correct this row"),
         ("1,,,remove,\"5", "row 2: a quotation mark is not closed; correct this row"),
