@@ -65,13 +65,13 @@ fn each_default_behind_a_hash_changes_nothing() {
     assert_eq!(folder.laneweave(&format!("scenario new {map} --out s.toml")).code(), 0);
     let text = folder.read("s.toml");
     // All keys except the examples, which the text marks as such.
-    let examples = ["model", "profile", "from", "to", "left", "straight", "right"];
+    let examples = ["model", "commands", "profile", "from", "to", "left", "straight", "right"];
     let mut is_example = false;
     let mut kept = String::new();
     for line in text.lines() {
         let key = line.strip_prefix('#').filter(|it| !it.starts_with(' '));
         if let Some(header) = key.filter(|it| it.starts_with('[')) {
-            is_example = header == "[[demand.od]]" || header == "[[turns]]";
+            is_example = ["[[demand.od]]", "[[turns]]", "[[external]]"].contains(&header);
         }
         let name = key.and_then(|it| it.split(' ').next()).unwrap_or_default();
         let is_kept = !is_example && !examples.contains(&name);

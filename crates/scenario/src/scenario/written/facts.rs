@@ -58,6 +58,7 @@ impl Facts {
                 json!([[0.0, 1.0], [900.0, 1.5]]),
                 Some("For example, 50 % more after a quarter of an hour:".into()),
             ),
+            ("commands", json!("out/commands.parquet"), Some("For example:".into())),
             ("model", json!("mcdm"), Some("For example:".into())),
             ("run.threads", json!(prepared.threads), Some("On this machine:".into())),
         ];
@@ -67,6 +68,7 @@ impl Facts {
             ("demand.od", od(prepared)),
             ("turns", turns(prepared)),
             ("signals", signals(prepared)),
+            ("external", external(prepared)),
             ("styles", styles()),
         ];
         Facts {
@@ -193,6 +195,23 @@ fn signals(prepared: &Prepared) -> Rows {
 }
 
 /// The styles other than those of the scenario.
+fn external(prepared: &Prepared) -> Rows {
+    let network = prepared.world.network();
+    let lanelets = prepared.origins.iter().filter_map(|(place, _)| network.lanelet_with(place.id()));
+    let longest =
+        lanelets.map(|it| &network.lanelets[it.at()]).max_by(|a, b| a.length().total_cmp(&b.length()));
+    let row = longest.zip(prepared.styles.first()).map(|(lanelet, (style, _))| Row::Table {
+        header: "[[external]]",
+        keys: vec![
+            ("lanelet", json!(lanelet.id)),
+            ("position_m", json!(tenths(0.5 * lanelet.length()))),
+            ("speed_mps", json!(tenths(0.5 * lanelet.speed_limit))),
+            ("style", json!(style)),
+        ],
+    });
+    Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
+}
+
 fn styles() -> Rows {
     let names: Vec<&str> = BUILT_IN.iter().map(|it| it.name).collect();
     let note = format!("The built-in styles are {}. List them with: laneweave styles list", names.join(", "));

@@ -15,10 +15,11 @@ use facts::{Facts, Row};
 use prose::{Kind, comment, described, inline, key, kind, meaning};
 
 /// Keys and tables in the order of the file; others follow in that of their names.
-const ORDER: [&str; 33] = [
+const ORDER: [&str; 36] = [
     "map",
     "model",
     "made_signals",
+    "commands",
     "demand",
     "demand.vehicles_per_hour",
     "demand.trucks",
@@ -41,6 +42,8 @@ const ORDER: [&str; 33] = [
     "signals.phases",
     "signals.phases.green",
     "signals.phases.green_s",
+    "external",
+    "external.lanelet",
     "styles",
     "run",
     "run.duration_s",
