@@ -89,3 +89,39 @@ fn with_nothing_changed_nothing_differs_and_nothing_is_written() {
     assert_eq!(refused.code(), 2);
     assert!(refused.errors().contains("choose a time before its end"), "{}", refused.errors());
 }
+
+#[test]
+fn commands_of_users_can_be_changed_and_what_is_not_possible_is_told() {
+    let map = crate::program::maps().join("motorway_2_lanes.osm");
+    let scenario = format!(
+        "map = \"{}\"\n[demand]\nvehicles_per_hour = 900\n[run]\nduration_s = 40\n[[external]]\ntime_s = 10\nlanelet = 5\n\
+         position_m = 60\nspeed_mps = 20\nstyle = \"aggressive\"\nheld_speed_mps = 5\n",
+        map.display()
+    );
+    let other = "time_s,act,values\n30,remove,1000000000\n31,remove,1000000000\n";
+    let folder = Folder::new().with("own.toml", &scenario).with("other.csv", other);
+    let run = folder.laneweave("run own.toml --record 0 --format csv");
+    assert_eq!((run.code(), run.errors().as_str()), (0, ""));
+    let rows = rows(&folder.read("out/commands.csv"));
+    assert_eq!(rows.iter().map(|it| it["act"].as_str()).collect::<Vec<_>>(), ["insert", "control"]);
+
+    let same = folder.laneweave("branch out --at 20 --set commands=out/commands.csv").text();
+    assert!(same.contains("none: both runs are the same to the last bit"), "{same}");
+    let changed = folder.laneweave("branch out --at 20 --set commands=other.csv");
+    assert_eq!(changed.code(), 0);
+    assert!(changed.text().contains("vehicle 1000000000 (aggressive) at 30.1 s"), "{}", changed.text());
+    let told = changed.errors();
+    assert!(
+        told.starts_with(
+            "warning: commands: other.csv, row 2 (at 31 s): vehicle 1000000000 is not on the road"
+        ),
+        "{told}"
+    );
+    let refused = folder.laneweave("branch out --at 20 --set commands=nowhere.csv");
+    assert_eq!(refused.code(), 2);
+    assert!(refused.errors().contains("nowhere.csv: cannot be read"), "{}", refused.errors());
+    // Without its table a run cannot be repeated.
+    assert_eq!(folder.laneweave("explain out --summary").code(), 0);
+    std::fs::remove_file(folder.path().join("out/commands.csv")).unwrap();
+    assert_eq!(folder.laneweave("explain out --summary").code(), 2);
+}

@@ -6,11 +6,12 @@ use std::time::{Duration, Instant};
 
 use crate::program::{Folder, maps};
 
-/// A run with checkpoints every twenty seconds.
+/// A run with checkpoints every twenty seconds, and with commands.
 const RUN: &str =
-    "MAPS/ramps.osm --demand 5000 --duration 500 --warmup 20 --checkpoint 20 --format csv --flows 100";
+    "own.toml --demand 5000 --duration 500 --warmup 20 --checkpoint 20 --format csv --flows 100";
 /// The files that are compared to the last byte.
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
+    "commands.csv",
     "trajectories.csv",
     "lane_changes.csv",
     "incidents.csv",
@@ -22,6 +23,23 @@ const FILES: [&str; 10] = [
     "report.html",
     "scenario.toml",
 ];
+
+/// A folder with the scenario of the run, and its commands: every four seconds a vehicle comes, brakes and is removed.
+fn with_commands() -> Folder {
+    let map = maps().join("ramps.osm");
+    let scenario = format!("map = \"{}\"\ncommands = \"acts.csv\"\n", map.display());
+    let mut acts = "time_s,id,act,values\n".to_owned();
+    for (number, time) in (0..520).step_by(4).enumerate() {
+        let vehicle = r#"{""lanelet"":95,""position_m"":60,""speed_mps"":12.3,""class"":""car"",""style"":""aggressive""}"#;
+        let control = r#"{""drive"":{""longitudinal"":{""speed"":7.1},""lateral"":""driver""}}"#;
+        acts += &format!(
+            "{time},{number},insert,\"{vehicle}\"\n{},,control,\"[{number},{control}]\"\n",
+            time + 3
+        );
+        acts += &format!("{},,remove,{number}\n", time + 9);
+    }
+    Folder::new().with("own.toml", &scenario).with("acts.csv", &acts)
+}
 
 /// The number of killed runs: LANEWEAVE_KILLS, or a few.
 fn kills() -> u64 {
@@ -53,16 +71,17 @@ fn killed(folder: &Path, line: &str, delay: Duration) {
 
 #[test]
 fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
-    let undisturbed = Folder::new();
+    let undisturbed = with_commands();
     let started = Instant::now();
     let expected = undisturbed.summary(RUN);
+    assert!(expected["inserted"].as_u64() > Some(20) && expected["commands_refused"].as_u64() > Some(0));
     // Kills happen within this time, which depends on the present speed of the machine.
     let mut window = started.elapsed();
     let read = |folder: &Folder, file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap();
     let is_same = |folder: &Folder, file: &str| read(folder, file) == read(&undisturbed, file);
     let (mut resumed, mut from_a_checkpoint, mut ended) = (0, 0, 0);
     for number in 0..kills() {
-        let folder = Folder::new();
+        let folder = with_commands();
         let out = folder.path().join("out");
         killed(folder.path(), &format!("run {RUN} --json"), window.mul_f64(drawn(2 * number)));
         if !out.join("scenario.toml").exists() {
@@ -77,7 +96,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         let has_ended = out.join("summary.json").exists();
         window = window.mul_f64(if has_ended { 0.85 } else { 1.02 });
         // A file with its final name is complete.
-        for file in &FILES[..9] {
+        for file in &FILES[..10] {
             if out.join(file).exists() {
                 assert!(is_same(&folder, file), "{file} after kill {number}");
             }
@@ -86,9 +105,18 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         ended += u64::from(has_ended);
         from_a_checkpoint += u64::from(!has_ended && out.join("checkpoint").exists());
         let summary = folder.summary("out --resume");
-        for field in
-            ["state_hash", "entered", "left", "lane_changes", "considerations", "updates", "mean_speed_mps"]
-        {
+        for field in [
+            "state_hash",
+            "inserted",
+            "removed",
+            "commands_refused",
+            "entered",
+            "left",
+            "lane_changes",
+            "considerations",
+            "updates",
+            "mean_speed_mps",
+        ] {
             assert_eq!(summary[field], expected[field], "{field} after kill {number}");
         }
         for file in FILES {

@@ -49,8 +49,8 @@ impl Run {
     /// The same for a `simulation` that is at its start.
     ///
     /// # Errors
-    /// If the map or a style is not readable, if the folder cannot be used, or if the results would replace the commands
-    /// of the scenario.
+    /// If the map or a style is not readable, if the folder cannot be used, or if the results would replace the
+    /// commands of the scenario.
     pub fn of(simulation: Simulation, command: &str) -> Result<Run, Fault> {
         let (scenario, origin) = (simulation.scenario(), simulation.origin());
         let fingerprint = record::fingerprint(scenario, origin)?;

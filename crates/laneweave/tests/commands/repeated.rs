@@ -136,10 +136,18 @@ fn a_run_of_a_program_is_repeated_from_its_table_and_has_twins() {
     let differences = without.drive();
     assert_eq!(format!("{:016x}", without.base.state_hash()), record.end.state_hash);
     assert!(differences.vehicles.values().any(|it| it.class == "truck" && it.since_s == 20.1));
+    // Nobody else differs before, and the same drivers come.
+    assert!(differences.vehicles.values().all(|it| it.since_s >= 20.1));
+    let [base, branch] = [&without.base, &without.branch];
+    assert_eq!(base.arrived(), branch.arrived());
+    let driver = |it: laneweave::sim::Vehicle| (it.id(), it.driver.class, it.driver.parameters);
+    let both: Vec<_> = base.vehicles().filter_map(|it| Some((it, branch.vehicle(it.id())?))).collect();
+    assert!(both.len() > 3 && both.into_iter().all(|(one, other)| driver(one) == driver(other)));
 
     // A file of other commands may name the vehicles of the run: here the truck drives on at 50 s.
     let table = fs::read_to_string(dir.join("commands.csv")).expect("it is there");
     let id: u32 = table.lines().nth(1).and_then(|it| it.split(',').nth(2)?.parse().ok()).expect("an id");
+    assert_eq!(id, laneweave::sim::FIRST_INSERTED);
     let file = folder("drives-on").join("other.csv");
     let go = r#"{""drive"":{""longitudinal"":""driver"",""lateral"":""driver""}}"#;
     fs::write(&file, format!("time_s,act,values\n50,control,\"[{id},{go}]\"\n")).expect("it is written");

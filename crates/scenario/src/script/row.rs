@@ -36,17 +36,12 @@ impl Written {
     /// The command `it` of a run with steps of `step_s` [s].
     pub fn of(it: &Commanded, step_s: f64) -> Written {
         let target = it.vehicle.map(Target::Vehicle).or_else(|| it.command.target());
-        let (act, values) = match serde_json::to_value(&it.command) {
-            Ok(Value::Object(one)) => one.into_iter().next().unwrap_or_default(),
-            Ok(Value::String(act)) => (act, Value::Null),
-            // Every command is one of these.
-            _ => Default::default(),
-        };
+        let (act, values) = act_and_values(&it.command);
         Written {
             time_s: seconds(f64::from(it.step) * step_s),
             target: target.map_or(String::new(), |it| it.to_string()),
             act,
-            values: values.to_string(),
+            values,
         }
     }
 
@@ -55,6 +50,17 @@ impl Written {
         let (target, id) = self.target.split_once(' ').unwrap_or((&self.target, ""));
         let id: Option<i64> = id.parse().ok();
         [self.time_s.into(), target.into(), id.into(), self.act.as_str().into(), self.values.as_str().into()]
+    }
+}
+
+/// The name of what a command does, and its values in JSON. A command is serialized as `{"ACT":VALUES}`, or as `"ACT"`.
+fn act_and_values(command: &Command) -> (String, String) {
+    // Every command can be serialized.
+    let json = serde_json::to_string(command).unwrap_or_default();
+    let inner = json.strip_prefix("{\"").and_then(|it| it.strip_suffix('}'));
+    match inner.and_then(|it| it.split_once("\":")) {
+        Some((act, values)) => (act.into(), values.into()),
+        None => (json.trim_matches('"').into(), "null".into()),
     }
 }
 

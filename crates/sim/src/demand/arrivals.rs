@@ -8,7 +8,7 @@ use crate::demand::source::{Queue, Source};
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::lane::{Lane, VehicleId};
+use crate::state::lane::{FIRST_INSERTED, Lane, VehicleId};
 use crate::state::random::Random;
 use crate::view::scene::Scene;
 
@@ -26,13 +26,16 @@ pub(crate) struct Backlog {
     /// `None` where the map has no town core.
     perimeter: Option<PerimeterControl>,
     next_id: VehicleId,
+    /// That of the next vehicle that a user puts on the road.
+    next_inserted: VehicleId,
 }
 
 impl Arrivals {
     /// No vehicle has arrived yet.
     pub(crate) fn new(roads: &Roads, demand: Demand) -> Arrivals {
         let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
-        let backlog = Backlog { sources, perimeter: PerimeterControl::new(roads.network()), next_id: 0 };
+        let perimeter = PerimeterControl::new(roads.network());
+        let backlog = Backlog { sources, perimeter, next_id: 0, next_inserted: FIRST_INSERTED };
         Arrivals { demand, backlog }
     }
 
@@ -51,9 +54,9 @@ impl Arrivals {
         self.backlog.sources[origin].queues()
     }
 
-    /// The id that the next vehicle gets.
-    pub(crate) fn next_id(&self) -> VehicleId {
-        self.backlog.next_id
+    /// The id that the next vehicle gets that a user puts on the road.
+    pub(crate) fn next_inserted(&self) -> VehicleId {
+        self.backlog.next_inserted
     }
 
     /// Sets the rate at which vehicles arrive at an origin after `time` [s] to `rate` [veh/h].
@@ -65,6 +68,13 @@ impl Arrivals {
     pub(crate) fn new_id(&mut self) -> VehicleId {
         let id = self.backlog.next_id;
         self.backlog.next_id += 1;
+        id
+    }
+
+    /// The id of a new vehicle that a user puts on the road.
+    pub(crate) fn new_inserted(&mut self) -> VehicleId {
+        let id = self.backlog.next_inserted;
+        self.backlog.next_inserted += 1;
         id
     }
 
@@ -80,7 +90,7 @@ impl Arrivals {
 
     /// The vehicles that arrive at an origin by `time` [s] join its queues.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
-        let Arrivals { demand, backlog: Backlog { sources, perimeter, next_id } } = self;
+        let Arrivals { demand, backlog: Backlog { sources, perimeter, next_id, .. } } = self;
         sources[origin].arrive(scene, demand, perimeter.as_ref(), random, time, next_id);
     }
 
@@ -115,7 +125,7 @@ impl Backlog {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Backlog { sources, perimeter, next_id: _ } = self;
+        let Backlog { sources, perimeter, next_id: _, next_inserted } = self;
         let perimeter_fits = match (perimeter, &other.perimeter) {
             (Some(one), Some(other)) => one.fits(other),
             (one, other) => one.is_none() && other.is_none(),
@@ -125,6 +135,7 @@ impl Backlog {
         sources.len() == other.sources.len()
             && sources.iter().zip(&other.sources).all(source_fits)
             && perimeter_fits
+            && *next_inserted >= FIRST_INSERTED
     }
 
     /// The ids of the vehicles that wait to enter.
@@ -132,8 +143,8 @@ impl Backlog {
         self.sources.iter().flat_map(Source::lanes).flat_map(|it| &it.waiting).map(|it| it.id).collect()
     }
 
-    /// The id that the next vehicle gets.
-    pub(crate) fn next_id(&self) -> VehicleId {
-        self.next_id
+    /// The ids of the next vehicle of the demand, and of the next one that a user puts on the road.
+    pub(crate) fn next_ids(&self) -> [VehicleId; 2] {
+        [self.next_id, self.next_inserted]
     }
 }

@@ -12,7 +12,7 @@ use crate::record::lanelet_aggregates::{LaneletAggregate, LaneletAggregates, Mar
 use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
-use crate::state::lane::{Entry, Kind, Kinematics, Lane, Phase, VehicleId};
+use crate::state::lane::{Entry, FIRST_INSERTED, Kind, Kinematics, Lane, Phase, VehicleId};
 use crate::state::milestone::{Milestone, Reached};
 
 /// Lane changes under way, trips, counts and incidents.
@@ -324,18 +324,19 @@ impl Log {
     }
 
     /// Whether it knows all vehicles on these lanes, and whether the vehicles with the ids `waiting` can still begin
-    /// their trips. `next_id` is the first unused id.
+    /// their trips. `next_ids` are the first unused ids, of the demand and of users.
     pub(crate) fn fits(
         &self,
         network: &Network,
         lanes: &[Lane],
         waiting: &[VehicleId],
-        next_id: VehicleId,
+        next_ids: [VehicleId; 2],
     ) -> bool {
         let Log { records, trips, trip_log, aggregates, events: _, touching: _, is_audited: _, counts: _ } =
             self;
+        let is_given = |id: VehicleId| id < next_ids[usize::from(id >= FIRST_INSERTED)];
         let knows =
-            |id: VehicleId| id < next_id && trips.has(id) && trip_log.as_ref().is_none_or(|it| it.has(id));
+            |id: VehicleId| is_given(id) && trips.has(id) && trip_log.as_ref().is_none_or(|it| it.has(id));
         let lane_fits = |lane: &Lane| {
             let mut changes = lane
                 .drivers()
@@ -345,12 +346,12 @@ impl Log {
             lane.motions().iter().all(|it| knows(it.id)) && changes.all(|(_, it)| records.has(it.record))
         };
         let count = waiting.len();
-        let trip_log_fits = |it: &TripLog| it.fits(network.chains.len()) && it.reaches(next_id, count);
+        let trip_log_fits = |it: &TripLog| it.fits(network.chains.len()) && it.reach(next_ids, count);
         records.is_sound()
             && trip_log.as_ref().is_none_or(trip_log_fits)
             && aggregates.as_ref().is_none_or(|it| it.stays.len() == network.lanelets.len())
             && lanes.iter().all(lane_fits)
-            && trips.reach(next_id, count)
-            && waiting.iter().all(|it| *it < next_id && trips.can_begin(*it))
+            && trips.reach(next_ids, count)
+            && waiting.iter().all(|it| *it < next_ids[0] && trips.can_begin(*it))
     }
 }

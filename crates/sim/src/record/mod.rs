@@ -8,6 +8,7 @@ pub(crate) mod incidents;
 pub(crate) mod lane_changes;
 pub(crate) mod lanelet_aggregates;
 pub(crate) mod log;
+pub(crate) mod numbering;
 pub(crate) mod overlap;
 pub(crate) mod trip_log;
 pub(crate) mod trips;

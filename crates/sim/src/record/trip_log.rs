@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::events::{DrivingEvent, DrivingEventKind};
 use crate::record::lanelet_aggregates::Mark;
+use crate::record::numbering::Both;
+use crate::record::trips::is_reached;
 use crate::state::lane::VehicleId;
 use crate::state::vehicle::Class;
 
@@ -86,12 +88,18 @@ impl TripRecord {
 /// The records of all vehicles on the road.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct TripLog {
-    /// The oldest vehicle whose trip has not ended.
-    oldest: VehicleId,
-    /// For each vehicle from the oldest on: the slot of its record.
-    slots: VecDeque<u32>,
+    slots: Both<Slots>,
     records: Vec<TripRecord>,
     free: Vec<u32>,
+}
+
+/// The slots of the records of vehicles, by their number.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Slots {
+    /// The oldest vehicle whose trip has not ended.
+    oldest: u32,
+    /// For each vehicle from the oldest on: the slot of its record.
+    slots: VecDeque<u32>,
 }
 
 /// Values in place of a slot: the trip has not begun, or has ended.
@@ -101,17 +109,20 @@ const OVER: u32 = u32::MAX - 1;
 impl TripLog {
     /// Whether its slots exist, and its records name only this many chains.
     pub(crate) fn fits(&self, chains: usize) -> bool {
-        let TripLog { oldest: _, slots, records, free } = self;
+        let TripLog { slots, records, free } = self;
         let is_there = |it: u32| (it as usize) < records.len();
-        slots.iter().all(|it| *it >= OVER || is_there(*it))
+        slots.all().into_iter().flat_map(|it| &it.slots).all(|it| *it >= OVER || is_there(*it))
             && free.iter().all(|it| is_there(*it))
             && records.iter().all(|it| it.from.chain.at() < chains)
     }
 
-    /// Whether all vehicles before the vehicle `next` have a slot, except at most `but_for`.
-    pub(crate) fn reaches(&self, next: VehicleId, but_for: usize) -> bool {
-        let left = next.checked_sub(self.oldest).and_then(|it| (it as usize).checked_sub(self.slots.len()));
-        left.is_some_and(|it| it <= but_for)
+    /// Whether all vehicles before the vehicles `next`, of the demand and of users, have a slot, except at most
+    /// `but_for` of the demand.
+    pub(crate) fn reach(&self, next: [VehicleId; 2], but_for: usize) -> bool {
+        next.into_iter().zip([but_for, 0]).all(|(next, but_for)| {
+            let (Slots { oldest, slots }, next) = self.slots.of(next);
+            is_reached(next, *oldest, slots.len(), but_for)
+        })
     }
 
     /// Whether a vehicle has a record that has not ended.
@@ -122,11 +133,12 @@ impl TripLog {
     /// Begins a trip.
     pub(crate) fn begin(&mut self, mut record: TripRecord) {
         record.way_to_start = -record.from.x;
-        let place = (record.vehicle - self.oldest) as usize;
-        if place >= self.slots.len() {
-            self.slots.resize(place + 1, AHEAD);
+        let (Slots { oldest, slots }, number) = self.slots.of_mut(record.vehicle);
+        let place = (number - *oldest) as usize;
+        if place >= slots.len() {
+            slots.resize(place + 1, AHEAD);
         }
-        self.slots[place] = match self.free.pop() {
+        slots[place] = match self.free.pop() {
             Some(slot) => {
                 self.records[slot as usize] = record;
                 slot
@@ -150,8 +162,8 @@ impl TripLog {
     }
 
     fn slot(&self, id: VehicleId) -> Option<u32> {
-        let place = id.checked_sub(self.oldest)?;
-        self.slots.get(place as usize).copied()
+        let (Slots { oldest, slots }, number) = self.slots.of(id);
+        slots.get(number.checked_sub(*oldest)? as usize).copied()
     }
 
     /// Records an event of a vehicle during its trip.
@@ -169,11 +181,12 @@ impl TripLog {
     /// Ends a trip, and returns its record.
     pub(crate) fn end(&mut self, id: VehicleId) -> Option<TripRecord> {
         let ended = *self.of(id)?;
-        let place = (id - self.oldest) as usize;
-        self.free.push(std::mem::replace(&mut self.slots[place], OVER));
-        while self.slots.front() == Some(&OVER) {
-            self.slots.pop_front();
-            self.oldest += 1;
+        let (Slots { oldest, slots }, number) = self.slots.of_mut(id);
+        let slot = &mut slots[(number - *oldest) as usize];
+        self.free.push(std::mem::replace(slot, OVER));
+        while slots.front() == Some(&OVER) {
+            slots.pop_front();
+            *oldest += 1;
         }
         Some(ended)
     }
@@ -197,7 +210,7 @@ mod tests {
         trip_log.begin(record(7, 12.0));
         assert_eq!(trip_log.of(0).map(|it| it.way(104.5)), Some(100.0));
         assert_eq!(trip_log.end(0).map(|it| it.vehicle), Some(0));
-        assert_eq!((trip_log.oldest, trip_log.of(7).map(|it| it.vehicle)), (2, Some(7)));
+        assert_eq!((trip_log.slots.of(0).0.oldest, trip_log.of(7).map(|it| it.vehicle)), (2, Some(7)));
         assert_eq!(
             (trip_log.end(0), trip_log.of(1), trip_log.of(6), trip_log.of(8)),
             (None, None, None, None)

@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use laneweave_network::{Chain, ChainIndex, Network, Position, Side};
 use serde::{Deserialize, Serialize};
 
+use crate::record::numbering::Both;
 use crate::route::navigate::Navigator;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
@@ -52,60 +53,78 @@ impl Trip {
     }
 }
 
-/// The trips of all vehicles from the oldest one that has not ended.
+/// The trips of all vehicles.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Trips {
-    oldest: VehicleId,
+pub(crate) struct Trips(Both<Numbered>);
+
+/// The trips of vehicles by their number, from the oldest one that has not ended.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Numbered {
+    oldest: u32,
     trips: VecDeque<Trip>,
 }
 
 impl Trips {
     /// Whether a vehicle has a trip that has begun.
     pub(crate) fn has(&self, id: VehicleId) -> bool {
-        id.checked_sub(self.oldest).is_some_and(|it| (it as usize) < self.trips.len())
+        let (numbered, number) = self.0.of(id);
+        number.checked_sub(numbered.oldest).is_some_and(|it| (it as usize) < numbered.trips.len())
     }
 
     /// Whether a vehicle can still begin a trip.
     pub(crate) fn can_begin(&self, id: VehicleId) -> bool {
-        id >= self.oldest
+        let (numbered, number) = self.0.of(id);
+        number >= numbered.oldest
     }
 
-    /// Whether all vehicles before the vehicle `next` have a trip, except at most `but_for`.
-    pub(crate) fn reach(&self, next: VehicleId, but_for: usize) -> bool {
-        let left = next.checked_sub(self.oldest).and_then(|it| (it as usize).checked_sub(self.trips.len()));
-        left.is_some_and(|it| it <= but_for)
+    /// Whether all vehicles before the vehicles `next`, of the demand and of users, have a trip, except at most
+    /// `but_for` of the demand.
+    pub(crate) fn reach(&self, next: [VehicleId; 2], but_for: usize) -> bool {
+        next.into_iter().zip([but_for, 0]).all(|(next, but_for)| {
+            let (Numbered { oldest, trips }, next) = self.0.of(next);
+            is_reached(next, *oldest, trips.len(), but_for)
+        })
     }
 
     /// Begins a trip.
     pub(crate) fn begin(&mut self, id: VehicleId, free_time: Option<f64>) {
-        let place = (id - self.oldest) as usize;
-        if place >= self.trips.len() {
+        let (Numbered { oldest, trips }, number) = self.0.of_mut(id);
+        let place = (number - *oldest) as usize;
+        if place >= trips.len() {
             // Doubling would leave half of the memory unused.
-            let more = place + 1 - self.trips.len();
-            if self.trips.capacity() <= place {
-                self.trips.reserve_exact(more + self.trips.len() / 16);
+            let more = place + 1 - trips.len();
+            if trips.capacity() <= place {
+                trips.reserve_exact(more + trips.len() / 16);
             }
-            self.trips.resize(place + 1, Trip::AHEAD);
+            trips.resize(place + 1, Trip::AHEAD);
         }
-        self.trips[place].begin(free_time);
+        trips[place].begin(free_time);
     }
 
     /// Counts a halt of the vehicle.
     pub(crate) fn stop(&mut self, id: VehicleId) {
-        self.trips[(id - self.oldest) as usize].stop();
+        let (Numbered { oldest, trips }, number) = self.0.of_mut(id);
+        trips[(number - *oldest) as usize].stop();
     }
 
     /// Ends a trip, and returns it.
     pub(crate) fn end(&mut self, id: VehicleId) -> Trip {
-        let trip = &mut self.trips[(id - self.oldest) as usize];
+        let (Numbered { oldest, trips }, number) = self.0.of_mut(id);
+        let trip = &mut trips[(number - *oldest) as usize];
         trip.0 |= Trip::OVER;
         let ended = *trip;
-        while self.trips.front().is_some_and(|it| it.is_over()) {
-            self.trips.pop_front();
-            self.oldest += 1;
+        while trips.front().is_some_and(|it| it.is_over()) {
+            trips.pop_front();
+            *oldest += 1;
         }
         ended
     }
+}
+
+/// Whether `count` vehicles from the number `oldest` on are all before the number `next`, except at most `but_for`.
+pub(crate) fn is_reached(next: u32, oldest: u32, count: usize, but_for: usize) -> bool {
+    let left = next.checked_sub(oldest).and_then(|it| (it as usize).checked_sub(count));
+    left.is_some_and(|it| it <= but_for)
 }
 
 /// Time that a driver takes `from` a position to its destination on a free road [s]. It drives at `speed` [m/s] under

@@ -121,7 +121,7 @@ impl World {
             (!junctions.fits(own_junctions, clock), "junctions"),
             (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),
             (!roads.accepts(guided.as_ref()), "guidance"),
-            (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_id()), "records"),
+            (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_ids()), "records"),
         ];
         wrong.into_iter().find(|it| it.0).map_or(Ok(()), |it| Err(CheckpointError::Other(it.1)))
     }

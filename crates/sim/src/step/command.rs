@@ -100,7 +100,7 @@ impl World {
         let placement = check_place(self, vehicle)?;
         self.forget_index();
         let World { roads, traffic, arrivals, log, .. } = self;
-        let id = arrivals.new_id();
+        let id = arrivals.new_inserted();
         let now = traffic.clock().time();
         put(roads, traffic, log, placement, Named { id, arrived: now });
         Ok(id)

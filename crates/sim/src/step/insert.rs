@@ -52,7 +52,7 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
         );
         return Err(refused(why));
     }
-    let parameters = world.parameters_of(style, world.arrivals.next_id())?;
+    let parameters = world.parameters_of(style, world.arrivals.next_inserted())?;
     let destination = destination.map(|it| world.destination(it)).transpose()?;
     let destination = navigator.seen_by(*class, destination);
     if !navigator.waypoint_from(network, destination, chain, x).leads_on(x) {
