@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use laneweave::Simulation;
 use laneweave::output::{Inputs, Provenance, Summary, outputs};
 use laneweave::run::simulate;
-use laneweave::scenario::{Origin, Scenario, TableFormat, prepare};
+use laneweave::scenario::{Origin, Scenario, TableFormat};
 
 /// Time of all vehicles on the lanelets [s], and their distance there [m], from the rows of the table; the same from
 /// the world's counters; and the number of completed trips.
@@ -19,13 +20,14 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     scenario.output.format = TableFormat::Csv;
     (scenario.output.record_s, scenario.output.flows_s) = (0.0, f64::from(every) * 0.1);
     let provenance = Provenance::of(String::new(), scenario.run.seed, String::new());
-    let mut prepared = prepare(&scenario, &Origin::default()).expect("it can be done");
-    let mut outputs = outputs(&scenario, &prepared, &provenance).expect("it can be done");
-    let ending = simulate(&mut prepared, &mut outputs, None, None, |_| true, || ()).expect("it can be done");
+    let mut simulation = Simulation::from_scenario(&scenario, &Origin::default()).expect("it can be done");
+    let mut outputs = outputs(&scenario, simulation.prepared(), &provenance).expect("it can be done");
+    let ending =
+        simulate(&mut simulation, &mut outputs, None, None, |_| Ok(true), || ()).expect("it can be done");
     let inputs =
         Inputs { scenario: &scenario, ending: &ending, wall_s: 0.0, load_s: 0.0, provenance: &provenance };
-    let summary = Summary::of(&prepared, inputs);
-    let world = &prepared.world;
+    let summary = Summary::of(simulation.prepared(), inputs);
+    let world = simulation.world();
     for output in outputs {
         output.finish(world, &summary).expect("it can be done");
     }

@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use laneweave::Simulation;
 use laneweave::checkpoint::{self, Checkpoint, Keeper};
 use laneweave::output::{Inputs, Provenance, Summary, outputs};
 use laneweave::run::simulate;
-use laneweave::scenario::{Origin, Prepared, Scenario, TableFormat, prepare};
+use laneweave::scenario::{Origin, Scenario, TableFormat};
 use laneweave::sim::{Class, Placement};
 
 /// A run of half a minute on two lanes, with only the vehicles that the test places there; in a temporary folder.
@@ -39,12 +40,13 @@ impl Run {
     }
 
     /// Two cars, the second with its front 2 m within the first; and a third far ahead.
-    fn prepared(&self) -> Prepared {
-        let mut prepared = prepare(&self.scenario, &Origin::default()).expect("the map is sound");
-        let chain = prepared.world.network().entrances[0].chains[0];
+    fn simulation(&self) -> Simulation {
+        let simulation = Simulation::from_scenario(&self.scenario, &Origin::default());
+        let mut simulation = simulation.expect("the map is sound");
+        let chain = simulation.network().entrances[0].chains[0];
         for x in [102.5, 100.0, 500.0] {
-            prepared
-                .world
+            simulation
+                .world_mut()
                 .place(Placement {
                     chain,
                     x,
@@ -55,28 +57,29 @@ impl Run {
                 })
                 .expect("it fits on the road");
         }
-        prepared
+        simulation
     }
 
     /// Continues from the last checkpoint, if there is one, up to `end` [s]; if that is before its end, the run is
     /// interrupted.
     fn until(&self, end: f64) -> Option<(Summary, Vec<PathBuf>)> {
         let Run { scenario, keeper } = self;
-        let mut prepared = self.prepared();
+        let mut simulation = self.simulation();
         let provenance = Provenance::of(String::new(), 1, "f".into());
-        let mut watching = outputs(scenario, &prepared, &provenance).expect("the folder is there");
+        let mut watching =
+            outputs(scenario, simulation.prepared(), &provenance).expect("the folder is there");
         let from = Checkpoint::read(&keeper.path).expect("it is whole");
-        let goes_on = |world: &laneweave::sim::World| world.clock().time() < end;
-        let ending = simulate(&mut prepared, &mut watching, from, Some(keeper), goes_on, || ())
+        let goes_on = |it: &mut Simulation| Ok(it.time_s() < end);
+        let ending = simulate(&mut simulation, &mut watching, from, Some(keeper), goes_on, || ())
             .expect("it can be written");
         if ending.is_interrupted {
             return None;
         }
         let inputs = Inputs { scenario, ending: &ending, wall_s: 1.0, load_s: 0.0, provenance: &provenance };
-        let summary = Summary::of(&prepared, inputs);
+        let summary = Summary::of(simulation.prepared(), inputs);
         let files = watching
             .into_iter()
-            .flat_map(|it| it.finish(&prepared.world, &summary).expect("it can be written"));
+            .flat_map(|it| it.finish(simulation.world(), &summary).expect("it can be written"));
         let files = files.collect();
         Some((summary, files))
     }

@@ -7,7 +7,9 @@ use std::path::PathBuf;
 use laneweave::branch::{Setting, Twins};
 use laneweave::record::Record;
 use laneweave::run::{Resumed, Run, kept, resume};
-use laneweave::scenario::{Origin, Scenario, TableFormat, prepare};
+#[cfg(feature = "parquet")]
+use laneweave::scenario::TableFormat;
+use laneweave::scenario::{Origin, Scenario, prepare};
 use laneweave::{Class, Control, Lateral, Longitudinal, NewVehicle, Simulation};
 
 use super::runs::{assert_same_tables, folder, run, scenario, simulation, tables};
@@ -40,6 +42,7 @@ fn ten_thousand_commands_are_repeated_bit_for_bit_on_any_number_of_threads() {
     }
 }
 
+#[cfg(feature = "parquet")]
 #[test]
 fn a_table_in_parquet_says_the_same() {
     let (mut scenario, recorded, _, hash) = busy("csv", 60.0);

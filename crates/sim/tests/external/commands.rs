@@ -2,8 +2,8 @@
 
 use laneweave_network::LightState;
 use laneweave_sim::{
-    Class, Command, CommandError, Control, Event, Headways, Lateral, Longitudinal, NewVehicle, Setup,
-    VehicleId, World,
+    Class, Command, CommandError, Control, Event, FIRST_INSERTED, Headways, Lateral, Longitudinal,
+    NewVehicle, Setup, VehicleId, World,
 };
 
 use crate::lanes::{alone, insert};
@@ -200,9 +200,9 @@ fn a_vehicle_is_not_put_where_another_could_not_stay_clear_of_it() {
     for (position_m, speed_mps) in [(150.0, 25.0), (147.0, 25.0), (145.4, 30.0), (152.0, 25.0), (160.0, 0.0)]
     {
         let refused = put(position_m, speed_mps).expect_err("it is too near");
-        assert!(refused.contains("vehicle 0 is too near"), "{refused}");
+        assert!(refused.contains(&format!("vehicle {FIRST_INSERTED} is too near")), "{refused}");
     }
     for (position_m, speed_mps) in [(100.0, 25.0), (130.0, 0.0), (195.0, 25.0)] {
-        assert_eq!(put(position_m, speed_mps), Ok(Some(1)), "{position_m} m");
+        assert_eq!(put(position_m, speed_mps), Ok(Some(FIRST_INSERTED + 1)), "{position_m} m");
     }
 }
