@@ -28,6 +28,7 @@ pub mod compare;
 pub mod run;
 mod simulation;
 
+pub use laneweave_models::Parameter;
 pub use laneweave_network::{LightState, Side};
 #[cfg(feature = "reports")]
 pub use laneweave_results::report;

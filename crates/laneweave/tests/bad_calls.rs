@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use laneweave::scenario::Demand;
 use laneweave::{
-    Class, Columns, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Side, Simulation,
-    VehicleId,
+    Class, Columns, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
+    Simulation, VehicleId,
 };
 
 fn map(name: &str) -> PathBuf {
@@ -93,7 +93,7 @@ fn command(
     let id = numbers.one(&names.vehicles);
     let lanelet = numbers.one(&names.lanelets);
     let style = numbers.one(&["conservative", "aggressive", "nobody", ""]);
-    match numbers.below(8) {
+    match numbers.below(10) {
         0 => {
             let vehicle = NewVehicle {
                 lanelet,
@@ -113,7 +113,12 @@ fn command(
             let shows = numbers.one(&[None, Some(LightState::Red), Some(LightState::Green)]);
             ("set_light", simulation.set_light(numbers.one(&names.lights), shows))
         }
-        6 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),
+        6 => {
+            let (parameter, value) = (numbers.one(Parameter::ALL), numbers.real());
+            ("set_parameter", simulation.set_parameter(style, parameter, value))
+        }
+        7 => ("close_lanelet", simulation.close_lanelet(lanelet, numbers.below(2) == 0)),
+        8 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),
         _ => ("control", simulation.control(id, numbers.control())),
     }
 }
@@ -159,12 +164,14 @@ fn a_hundred_thousand_random_calls_break_nothing_and_each_refusal_says_what_to_d
         assert!(!columns.is_empty());
     }
     let kinds = [
+        "close_lanelet",
         "control",
         "insert",
         "remove",
         "set_demand",
         "set_destination",
         "set_light",
+        "set_parameter",
         "set_style",
         "vehicles_on",
     ];

@@ -11,11 +11,13 @@ mod exponential;
 pub mod follow;
 mod guidance;
 pub mod lateral;
+mod parameter;
 mod style;
 pub mod yielding;
 
 pub use attention::{Alertness, Attention, Concentration};
 pub use guidance::Guidance;
+pub use parameter::{Parameter, Range};
 pub use style::{Manner, Style};
 
 use serde::{Deserialize, Serialize};

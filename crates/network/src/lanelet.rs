@@ -4,7 +4,7 @@ use crate::geometry::Polyline;
 use serde::{Deserialize, Serialize};
 
 /// A lanelet's place in [`crate::Network::lanelets`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct LaneletIndex(pub u32);
 
 impl LaneletIndex {

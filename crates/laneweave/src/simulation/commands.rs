@@ -3,6 +3,7 @@
 //! A command is checked when it is given, and carried out before the decisions of the next step. Only an inserted
 //! vehicle is on the road at once. The order of commands between two steps changes nothing.
 
+use laneweave_models::Parameter;
 use laneweave_network::LightState;
 use laneweave_scenario::{Fault, refused};
 use laneweave_sim::{Command, Control, NewVehicle, VehicleId};
@@ -73,6 +74,34 @@ impl Simulation {
     pub fn set_light(&mut self, light: i64, shows: Option<LightState>) -> Result<(), Fault> {
         let command = Command::SetLight { light, shows };
         self.command(&format!("set_light of light {light}"), command).map(|_| ())
+    }
+
+    /// Closes a lanelet to all vehicles, or opens it again. Vehicles on it drive off it. Drivers change to a lane
+    /// beside it in time, as before the end of a lane.
+    ///
+    /// # Errors
+    /// If there is no such lanelet, if drivers could not leave its lane before it, or if it has such a command in this
+    /// step.
+    pub fn close_lanelet(&mut self, lanelet: i64, is_closed: bool) -> Result<(), Fault> {
+        let command = Command::CloseLanelet { lanelet, is_closed };
+        self.command(&format!("close_lanelet of lanelet {lanelet}"), command).map(|_| ())
+    }
+
+    /// Changes a number of a style, such as [`Parameter::CourtesyWeight`]: for all of its drivers on the road, and for
+    /// those who enter later. A number that is distributed becomes the same for all of them.
+    ///
+    /// # Errors
+    /// If no driver of the scenario has this style, if it has no such number, if the value is not in its range, or if
+    /// the number has such a command in this step.
+    pub fn set_parameter(
+        &mut self,
+        style: impl Into<String>,
+        parameter: Parameter,
+        value: f64,
+    ) -> Result<(), Fault> {
+        let style = style.into();
+        let place = format!("set_parameter of style {style}");
+        self.command(&place, Command::SetParameter { style, parameter, value }).map(|_| ())
     }
 
     fn for_vehicle(&mut self, act: &str, id: VehicleId, command: Command) -> Result<(), Fault> {

@@ -29,7 +29,7 @@ pub use link_time::{bpr, link_time};
 pub use lmrs::Lmrs;
 pub use mcdm::{Appraisal, Combination, INCENTIVES, Mcdm, Row, Rule, at_least_once_in};
 pub use mobil::{Accelerations, Mobil, Traffic};
-pub use model::LaneChangeModel;
+pub use model::{Flaw, LaneChangeModel};
 pub use returning::Returning;
 pub use route::{Route, expected_time};
 pub use safety::{GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};

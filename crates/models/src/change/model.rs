@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, at_least_once_in, padded};
+use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, Rule, at_least_once_in, padded};
 use super::situation::Situation;
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
@@ -22,10 +22,40 @@ pub enum LaneChangeModel {
     ConstantHazard(ConstantHazard),
 }
 
+/// Numbers of a model that contradict each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Flaw {
+    /// The path of their key in a style file.
+    pub path: &'static [&'static str],
+    /// What is wrong.
+    pub what: &'static str,
+    /// What to do.
+    pub remedy: &'static str,
+}
+
 /// Pressure from which a driver signals so that others let it in (ours).
 const ASKS_FROM: f64 = 0.3;
 
 impl LaneChangeModel {
+    /// Which of its numbers contradict each other, if any do.
+    pub fn flaw(&self) -> Option<Flaw> {
+        match self {
+            LaneChangeModel::Mcdm(it) if it.rule == Rule::Logit && it.sigma == 0.0 => Some(Flaw {
+                path: &["change", "sigma"],
+                what: "a logit rule without choice noise",
+                remedy: "give sigma a value above 0, or set rule = \"threshold\"",
+            }),
+            LaneChangeModel::Lmrs(it) if !(it.free <= it.synchronize && it.synchronize < it.cooperate) => {
+                Some(Flaw {
+                    path: &["change"],
+                    what: "desire thresholds in the wrong order",
+                    remedy: "choose free ≤ synchronize < cooperate",
+                })
+            }
+            _ => None,
+        }
+    }
+
     /// The names of the rows of its appraisals, in their order; a row without a name is not used.
     pub fn row_names(&self) -> [&'static str; INCENTIVES] {
         match self {

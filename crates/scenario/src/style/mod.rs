@@ -5,7 +5,6 @@ mod distribution;
 mod library;
 mod model;
 mod population;
-mod ranges;
 mod template;
 
 pub use distribution::Distribution;

@@ -3,13 +3,12 @@
 //! The file is compared with the complete style of the models that it names, so that an unknown key, a wrong type or
 //! a number out of range is reported with its place.
 
-use laneweave_models::Style;
-use laneweave_models::change::{LaneChangeModel, Rule};
+use laneweave_models::change::{Flaw, LaneChangeModel};
+use laneweave_models::{self as models, Range, Style};
 use laneweave_sim::{Purpose, Random};
 use toml::{Table, Value};
 
 use super::distribution::Distribution;
-use super::ranges::Range;
 use crate::fault::{Fault, did_you_mean};
 use crate::source::Source;
 
@@ -52,26 +51,8 @@ impl StyleTemplate {
         if typical.name.trim().is_empty() {
             return Err(Fault::new(source.place(&["name"]), "the name is empty", "give the style a name"));
         }
-        if let LaneChangeModel::Mcdm(it) = &typical.change
-            && it.rule == Rule::Logit
-            && it.sigma == 0.0
-        {
-            let remedy = "give sigma a value above 0, or set rule = \"threshold\"";
-            return Err(Fault::new(
-                source.place(&["change", "sigma"]),
-                "a logit rule without choice noise",
-                remedy,
-            ));
-        }
-        if let LaneChangeModel::Lmrs(it) = &typical.change
-            && !(it.free <= it.synchronize && it.synchronize < it.cooperate)
-        {
-            let remedy = "choose free ≤ synchronize < cooperate";
-            return Err(Fault::new(
-                source.place(&["change"]),
-                "desire thresholds in the wrong order",
-                remedy,
-            ));
+        if let Some(Flaw { path, what, remedy }) = typical.change.flaw() {
+            return Err(Fault::new(source.place(path), what, remedy));
         }
         Ok(StyleTemplate { table, parameters, typical })
     }
@@ -247,8 +228,8 @@ impl Reader<'_> {
     }
 
     fn number(&self, number: f64) -> Result<(), Fault> {
-        let range = Range::of(&self.key());
-        if number.is_finite() && range.holds(number, number) {
+        let range = self.range();
+        if range.holds(number, number) {
             return Ok(());
         }
         Err(self.fault(format!("{} is {number}", self.key()), range.advice()))
@@ -262,7 +243,7 @@ impl Reader<'_> {
         if let Some((what, remedy)) = distribution.flaw() {
             return Err(self.fault(format!("{}: {what}", self.key()), remedy));
         }
-        let range = Range::of(&self.key());
+        let range = self.range();
         let (least, largest) = distribution.support();
         if !range.holds(least, largest) {
             let what = format!("{} ranges from {least} to {largest}", self.key());
@@ -275,6 +256,11 @@ impl Reader<'_> {
 
     fn key(&self) -> String {
         self.path.join(".")
+    }
+
+    /// The values that the number at this key may have.
+    fn range(&self) -> Range {
+        models::Parameter::of_key(&self.key()).map_or(Range::ANY, models::Parameter::range)
     }
 
     fn fault(&self, what: String, remedy: impl std::fmt::Display) -> Fault {

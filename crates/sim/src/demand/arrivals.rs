@@ -7,8 +7,9 @@ use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::source::{Queue, Source};
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
+use crate::state::externals::FIRST_INSERTED;
 use crate::state::goal::Destination;
-use crate::state::lane::{FIRST_INSERTED, Lane, VehicleId};
+use crate::state::lane::{Lane, VehicleId};
 use crate::state::random::Random;
 use crate::view::scene::Scene;
 

@@ -38,12 +38,12 @@ pub(crate) struct OpenRoad {
 }
 
 impl OpenRoad {
-    /// The open road of `chain`. A lane that ends, at `lane_end`, has none.
+    /// The open road of `chain`. A lane that ends, at `lane_end`, or that is closed ahead, has none.
     #[inline]
     pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<LaneEnd>) -> OpenRoad {
         let [first_place, last_place] = scene.network.junctions.places(chain);
-        let fork_clearance =
-            if lane_end.is_some() { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
+        let ends = lane_end.is_some() || scene.navigator.closures().are_near(chain);
+        let fork_clearance = if ends { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
         OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
     }
 
@@ -186,6 +186,12 @@ fn reacting_to_more(
         let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
         wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
         obstacle = Some(Ahead::standing(end - motion.x));
+    }
+    let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot));
+    if let Some(closed) = closed.filter(|closed| obstacle.is_none_or(|it| *closed < it.gap)) {
+        let kept = kept_room(scene, clock, spot);
+        wish = wish.min(to_stop_at(motion.speed, closed - kept, clock.dt));
+        obstacle = Some(Ahead::standing(closed));
     }
     (wish, obstacle)
 }

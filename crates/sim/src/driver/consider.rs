@@ -48,7 +48,7 @@ pub(crate) fn consider(
     outbox.counters.considerations += 1;
     let standing = note_turn(scene, moment, &me, attending.period, plan, outbox);
     let waypoint = waypoint(scene, &me);
-    let is_detour = matches!(waypoint, Cow::Owned(_));
+    let is_detour = matches!(waypoint, Cow::Owned(_)) && takes_a_detour(scene, &me);
     let concern = follow_route(scene, moment, &me, (&waypoint, is_detour), standing, outbox);
     if concern.rerouted.is_some() {
         return push_tight(&mut plan.concerns, concern);
@@ -114,6 +114,11 @@ fn note_turn(
 /// The waypoint of a driver's route at its position.
 pub(crate) fn waypoint<'a>(scene: &Scene<'a>, me: &Me) -> Cow<'a, Waypoint> {
     scene.navigator.waypoint_from(scene.network, me.driver.goal.destination(), me.spot.chain, me.motion.x)
+}
+
+/// Whether it is too late for the usual route of a driver.
+fn takes_a_detour(scene: &Scene, me: &Me) -> bool {
+    !scene.navigator.waypoint(me.driver.goal.destination(), me.spot.chain).leads_on(me.motion.x)
 }
 
 /// Follows the route of a driver who has stood for `standing` [s]. Returns the last place for its next change, or a
@@ -221,7 +226,10 @@ fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Opt
     let (spot, goal, x) = (me.spot, me.driver.goal.destination(), me.motion.x);
     let found = if !waypoint.leads_on(x) {
         scene.navigator.nearest(scene.network, goal, spot.chain, x)
-    } else if standing >= STANDS_IN_VAIN && waypoint.last_place - x < AT_THE_PLACE {
+    } else if standing >= STANDS_IN_VAIN
+        && waypoint.last_place - x < AT_THE_PLACE
+        && scene.closure_ahead(scene.viewpoint(spot)).is_none()
+    {
         // Only a route that needs no lane change here helps it.
         Some(scene.navigator.nearest_in_lane(goal, spot.chain, waypoint.last_place + AT_THE_PLACE)?)
     } else {

@@ -84,7 +84,8 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
     }
 }
 
-/// Aborts a change before the crossing if the new leader forces much harder braking than the old one.
+/// Aborts a change before the crossing if the new leader forces much harder braking than the old one, or if the new
+/// lane is closed.
 pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
@@ -100,7 +101,10 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };
     let there = forced(scene.viewpoint_at(scene.viewpoint(spot), counterpart.chain, counterpart.x));
-    if there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER {
+    let is_forced =
+        there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER;
+    // A user closed that lane in the meantime.
+    if is_forced || scene.navigator.closures().cover(counterpart.chain, counterpart.x) {
         let ask = Ask::Abort;
         outbox.requests.push(Request {
             urgency: lane_change.urgency,

@@ -67,7 +67,7 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
     let beside = window::beside(scene, spot, side)?;
     let x = beside.across(motion.x);
     let from = scene.viewpoint_at(scene.viewpoint(spot), beside.chain, x);
-    scene.network.chain(beside.chain).takes(x, from.is_long).then(|| Gap {
+    scene.takes(beside.chain, x, from.is_long).then(|| Gap {
         chain: beside.chain,
         x,
         is_coming: motion.x < beside.start,
@@ -156,7 +156,12 @@ impl Gap {
         // A driver does not change into a lane that ends if it could not stop before the end.
         let is_long = scene.driver(spot).class.is_long();
         let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
-        if end.is_some_and(|it| it < 2.0 * crossing + stopping_way(speed)) {
+        let there = scene.viewpoint_at(scene.viewpoint(spot), self.chain, self.x);
+        if end
+            .into_iter()
+            .chain(scene.closure_ahead(there))
+            .any(|it| it < 2.0 * crossing + stopping_way(speed))
+        {
             return Err(Hindrance::TooLittleRoad);
         }
         if !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {

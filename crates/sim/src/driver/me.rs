@@ -2,12 +2,11 @@
 
 use std::borrow::Cow;
 
-use laneweave_models::Alertness;
 use laneweave_models::change::LaneChangeModel;
-use laneweave_models::{Concentration, Style};
+use laneweave_models::{Alertness, Attention, Concentration, Style};
 
 use crate::driver::attention::concentration;
-use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeState, VehicleId};
 use crate::state::moment::Moment;
 use crate::view::scene::{Scene, Spot};
 
@@ -45,8 +44,13 @@ impl Attending {
     /// The attention of `me` at this moment.
     #[inline]
     pub(crate) fn of(me: &Me, moment: Moment) -> Attending {
-        let attention = &me.style.attention;
-        let state = concentration(attention, moment.random, me.motion.id, moment.clock.time());
+        Attending::with(&me.style.attention, me.motion.id, moment)
+    }
+
+    /// The attention of the driver of `id` at this moment, if it attends in this way.
+    #[inline]
+    pub(crate) fn with(attention: &Attention, id: VehicleId, moment: Moment) -> Attending {
+        let state = concentration(attention, moment.random, id, moment.clock.time());
         let alertness = attention.alertness(state);
         let period = moment.clock.steps(alertness.epoch);
         let epochs = f64::from(period) * moment.clock.dt / alertness.epoch;

@@ -88,7 +88,7 @@ impl<'s, 'a> Perception<'s, 'a> {
             let there = scene.network.chain(beside.chain);
             // A long vehicle changes into a lane that is tight for it only if its route requires it.
             let is_tight = from.is_long && there.is_tight_for_long && waypoint.changes == 0;
-            if is_tight || !there.takes(beside.across(from.x), from.is_long) {
+            if is_tight || !scene.takes(beside.chain, beside.across(from.x), from.is_long) {
                 return None;
             }
             let (x, hint) = (beside.across(from.x), &mut hints[side.at()]);
@@ -186,7 +186,8 @@ impl<'s, 'a> Perception<'s, 'a> {
         if self.takes_another_route {
             navigator.waypoint_from(network, destination, chain, x)
         } else {
-            Cow::Borrowed(navigator.waypoint(destination, chain))
+            let usual = Cow::Borrowed(navigator.waypoint(destination, chain));
+            navigator.around_closures(network, destination, chain, x, usual)
         }
     }
 

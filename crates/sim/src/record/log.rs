@@ -12,7 +12,8 @@ use crate::record::lanelet_aggregates::{LaneletAggregate, LaneletAggregates, Mar
 use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
-use crate::state::lane::{Entry, FIRST_INSERTED, Kind, Kinematics, Lane, Phase, VehicleId};
+use crate::state::externals::FIRST_INSERTED;
+use crate::state::lane::{Entry, Kind, Kinematics, Lane, Phase, VehicleId};
 use crate::state::milestone::{Milestone, Reached};
 
 /// Lane changes under way, trips, counts and incidents.

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::state::lane::{FIRST_INSERTED, VehicleId};
+use crate::state::externals::FIRST_INSERTED;
+use crate::state::lane::VehicleId;
 
 /// Something for the vehicles of the demand, and the same for those that users put on the road.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

@@ -1,6 +1,7 @@
 //! Which lanes lead where, and what a route costs.
 
 pub(crate) mod class_restrictions;
+pub(crate) mod closures;
 pub(crate) mod disutility;
 pub(crate) mod guidance;
 pub(crate) mod links;

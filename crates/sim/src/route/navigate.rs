@@ -10,6 +10,7 @@ use std::borrow::Cow;
 use laneweave_network::{ChainIndex, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
+use crate::route::closures::Closures;
 use crate::route::links::Links;
 use crate::route::onward::Onward;
 use crate::route::place::{InnerPlace, Place};
@@ -37,6 +38,7 @@ pub struct Navigator {
     pub(super) measurements: u32,
     pub(super) into: Vec<Into>,
     pub(super) restrictions: ClassRestrictions,
+    pub(super) closures: Closures,
     /// For each chain the trip ends on it, before its end.
     pub(super) trip_ends: Vec<Vec<TripEnd>>,
 }
@@ -76,6 +78,7 @@ impl Navigator {
             measurements: 0,
             into: beside_into(network),
             restrictions,
+            closures: Closures::default(),
             trip_ends: vec![Vec::new(); network.chains.len()],
         };
         for restriction in 0..navigator.restrictions.count() {
@@ -283,11 +286,12 @@ impl Navigator {
         x: f64,
     ) -> Cow<'_, Waypoint> {
         let usual = self.waypoint(destination, chain);
-        if usual.leads_on(x) {
+        let waypoint = if usual.leads_on(x) {
             Cow::Borrowed(usual)
         } else {
             Cow::Owned(self.detour(network, destination, chain))
-        }
+        };
+        self.around_closures(network, destination, chain, x, waypoint)
     }
 
     /// The route to `destination` over the end of `chain`.

@@ -3,14 +3,16 @@
 use std::sync::{Arc, OnceLock};
 
 use laneweave_models::Style;
-use laneweave_network::{Ground, Network};
+use laneweave_network::{Ground, LaneletIndex, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
+use crate::route::closures::Closures;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::renew_routes::Guided;
 use crate::state::clock::Clock;
+use crate::state::driver_parameters::DriverParameters;
 use crate::state::lane::Lane;
 use crate::state::random::Random;
 use crate::state::vehicle::Fleet;
@@ -19,8 +21,7 @@ use crate::state::vehicle::Fleet;
 pub(crate) struct Roads {
     network: Arc<Network>,
     navigator: Navigator,
-    /// All sets of driver parameters.
-    driver_parameters: Vec<Style>,
+    driver_parameters: DriverParameters,
     random: Random,
     /// Route guidance, if drivers are guided.
     guidance: Option<Guidance>,
@@ -39,6 +40,7 @@ impl Roads {
     ) -> Roads {
         let restrictions = ClassRestrictions::of(&network, fleet);
         let navigator = Navigator::with_restrictions(&network, destinations, restrictions);
+        let driver_parameters = DriverParameters::new(driver_parameters);
         Roads { network, navigator, driver_parameters, random, guidance: None, ground: OnceLock::new() }
     }
 
@@ -64,21 +66,31 @@ impl Roads {
         &self.navigator
     }
 
+    /// Closes these lanelets to all vehicles, and opens all others.
+    pub(crate) fn close(&mut self, closed: Vec<LaneletIndex>) {
+        self.navigator.close(Closures::of(&self.network, closed));
+    }
+
     /// All sets of driver parameters.
     #[inline]
     pub(crate) fn driver_parameters(&self) -> &[Style] {
-        &self.driver_parameters
+        self.driver_parameters.sets()
     }
 
     /// The driver at this index in the table of driver parameters.
     #[inline]
     pub(crate) fn style(&self, parameters: u32) -> &Style {
-        &self.driver_parameters[parameters as usize]
+        &self.driver_parameters()[parameters as usize]
     }
 
-    /// Replaces each set of driver parameters by the one at the same index. Their number stays the same.
-    pub(crate) fn change_driver_parameters(&mut self, driver_parameters: Vec<Style>) {
-        self.driver_parameters = driver_parameters;
+    /// All sets of driver parameters, with what users changed in them.
+    pub(crate) fn changed_parameters(&self) -> &DriverParameters {
+        &self.driver_parameters
+    }
+
+    /// The same, mutable. Their number stays the same.
+    pub(crate) fn changed_parameters_mut(&mut self) -> &mut DriverParameters {
+        &mut self.driver_parameters
     }
 
     /// The random numbers.

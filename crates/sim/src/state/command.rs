@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use laneweave_models::Parameter;
 use laneweave_network::LightState;
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +38,22 @@ pub enum Command {
         /// What it shows.
         shows: Option<LightState>,
     },
+    /// Closes a lanelet to all vehicles, or opens it again. Those on it drive off it.
+    CloseLanelet {
+        /// The id of the lanelet.
+        lanelet: i64,
+        /// Whether it is closed from now on.
+        is_closed: bool,
+    },
+    /// Changes a number of a style, for all of its drivers on the road and for those who enter later.
+    SetParameter {
+        /// The name of the style.
+        style: String,
+        /// The number.
+        parameter: Parameter,
+        /// Its new value.
+        value: f64,
+    },
 }
 
 /// A vehicle that a user puts on the road.
@@ -71,10 +88,14 @@ pub struct Commanded {
 /// What a command concerns. One thing gets one command of a kind in a step. Its text is its kind and its id.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
+    /// A lanelet, by its id.
+    Lanelet(i64),
     /// An origin, by its smallest lanelet id.
     Origin(i64),
     /// A light, by its id.
     Light(i64),
+    /// A parameter of a style, by the style's name.
+    Parameter(String, Parameter),
     /// A vehicle.
     Vehicle(VehicleId),
 }
@@ -83,7 +104,9 @@ impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Target::Origin(id) => write!(f, "origin {id}"),
+            Target::Lanelet(id) => write!(f, "lanelet {id}"),
             Target::Light(id) => write!(f, "light {id}"),
+            Target::Parameter(style, parameter) => write!(f, "style {style} with its {}", parameter.key()),
             Target::Vehicle(id) => write!(f, "vehicle {id}"),
         }
     }
@@ -100,6 +123,8 @@ impl Command {
             | Command::SetDestination(id, _) => Target::Vehicle(*id),
             Command::SetDemand { origin, .. } => Target::Origin(*origin),
             Command::SetLight { light, .. } => Target::Light(*light),
+            Command::CloseLanelet { lanelet, .. } => Target::Lanelet(*lanelet),
+            Command::SetParameter { style, parameter, .. } => Target::Parameter(style.clone(), *parameter),
         })
     }
 
@@ -118,7 +143,11 @@ impl Command {
             | Command::Control(id, _)
             | Command::SetStyle(id, _)
             | Command::SetDestination(id, _) => Some(id),
-            Command::Insert(_) | Command::SetDemand { .. } | Command::SetLight { .. } => None,
+            Command::Insert(_)
+            | Command::SetDemand { .. }
+            | Command::SetLight { .. }
+            | Command::CloseLanelet { .. }
+            | Command::SetParameter { .. } => None,
         }
     }
 
@@ -130,7 +159,10 @@ impl Command {
             Command::SetDestination(..) => 2,
             Command::Control(..) => 3,
             Command::Remove(_) => 4,
-            Command::SetDemand { .. } | Command::SetLight { .. } => 5,
+            Command::SetDemand { .. }
+            | Command::SetLight { .. }
+            | Command::CloseLanelet { .. }
+            | Command::SetParameter { .. } => 5,
         }
     }
 }

@@ -6,6 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::state::control::Control;
 use crate::state::lane::{Entry, Phase, VehicleId};
 
+/// The first id of the vehicles that users put on the road. So vehicles of the demand have the same ids, and with them
+/// the same random numbers, whatever users do.
+pub const FIRST_INSERTED: VehicleId = 1_000_000_000;
+
 /// The external vehicles, in the order of their ids, and what others see of accidents.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Externals {

@@ -17,10 +17,6 @@ use crate::state::vehicle::Class;
 /// The id of a vehicle. It never changes, and is never used again.
 pub type VehicleId = u32;
 
-/// The first id of the vehicles that users put on the road. So vehicles of the demand have the same ids, and with them
-/// the same random numbers, whatever users do.
-pub const FIRST_INSERTED: VehicleId = 1_000_000_000;
-
 /// The kinematics of a vehicle, which is all that others see of it: half a cache line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]

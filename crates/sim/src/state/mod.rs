@@ -5,6 +5,7 @@ pub(crate) mod clock;
 pub(crate) mod command;
 pub(crate) mod commands;
 pub(crate) mod control;
+pub(crate) mod driver_parameters;
 pub(crate) mod externals;
 pub(crate) mod gamma;
 pub(crate) mod goal;

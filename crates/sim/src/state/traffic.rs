@@ -88,6 +88,11 @@ impl Traffic {
         &mut self.lanes[chain.at()]
     }
 
+    /// All lanes, by chain, mutable. Vehicles come onto them only by [`Traffic::insert`].
+    pub(crate) fn lanes_mut(&mut self) -> &mut [Lane] {
+        &mut self.lanes
+    }
+
     /// Adds an entry to the lane of `chain`.
     pub(crate) fn insert(&mut self, chain: ChainIndex, entry: Entry) {
         self.busy.note(chain);

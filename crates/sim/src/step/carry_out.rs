@@ -12,6 +12,7 @@ use crate::state::externals::{Body, External};
 use crate::state::goal::Destination;
 use crate::state::lane::{Counterpart, DriverState, Entry, Kinematics, LaneChangeState, VehicleId};
 use crate::state::traffic::Traffic;
+use crate::step::change_roads::desire_speed;
 use crate::step::end_change::end_change;
 use crate::step::index::Index;
 use crate::step::move_externals::clear_obstacles;
@@ -38,6 +39,8 @@ impl CarryingOut<'_> {
 
     fn one(&mut self, vehicle: Option<VehicleId>, command: &Command) {
         match command {
+            // The roads are as it says already.
+            Command::SetParameter { .. } | Command::CloseLanelet { .. } => {}
             // It is on the road already.
             Command::Insert(_) => vehicle.into_iter().for_each(|it| self.log.note_inserted(it)),
             Command::Remove(id) => self.remove(*id),
@@ -144,9 +147,7 @@ impl CarryingOut<'_> {
         let step = self.traffic.clock().step;
         self.change(id, |motion, driver, _, chain| {
             driver.parameters = parameters;
-            driver.limit_desired =
-                driver.class.desired_speed(style, network.chain(chain).limit(motion.x)) as f32;
-            driver.desired = driver.desired.max(driver.limit_desired);
+            desire_speed(driver, style, network.chain(chain).limit(motion.x));
             driver.due = step;
             driver.needs_full_update = true;
         });

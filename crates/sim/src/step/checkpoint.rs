@@ -1,6 +1,7 @@
 //! Checkpoints: all parts of a world that change, as bytes. A new world of the same network, drivers and demand that
 //! restores them goes on in the same way, bit for bit.
 
+use laneweave_network::LaneletIndex;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
@@ -15,6 +16,7 @@ use crate::route::guidance::Guidance;
 use crate::route::renew_routes::Guided;
 use crate::route::roads::Roads;
 use crate::state::commands::Commands;
+use crate::state::driver_parameters::{DriverParameters, ParameterChanges};
 use crate::state::goal::Destination;
 use crate::state::traffic::Traffic;
 use crate::step::world::World;
@@ -51,7 +53,7 @@ type Saved = (
     Vec<(Vec<Waiting>, f64)>,
     Counters,
     Option<(Guidance, Guided)>,
-    Commands,
+    (Commands, ParameterChanges, Vec<LaneletIndex>),
 );
 
 /// Length of the hash at the end [bytes].
@@ -66,8 +68,10 @@ impl World {
         let World { roads, traffic, junctions, arrivals, log, commands, index: _, work } = self;
         let kept: Vec<_> = work.plans.iter().map(|it| (&it.waiting, it.distance)).collect();
         let (identity, counters) = (Identity::of(roads, arrivals.demand()), work.counted());
+        let closed = roads.navigator().closures().closed();
+        let users = (commands, roads.changed_parameters().changes(), closed);
         let saved =
-            (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided(), commands);
+            (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided(), users);
         let mut bytes = postcard::to_allocvec(&saved).map_err(unreadable)?;
         bytes.extend(xxh3_64(&bytes).to_le_bytes());
         Ok(bytes)
@@ -85,11 +89,13 @@ impl World {
         let (identity, _) = postcard::take_from_bytes(body).map_err(unreadable)?;
         Identity::of(&self.roads, self.arrivals.demand()).check(&identity)?;
         let saved: Saved = postcard::from_bytes(body).map_err(unreadable)?;
-        self.check(&saved)?;
+        let parameters = self.check(&saved)?;
         let World { roads, traffic, junctions, arrivals, log, commands, index, work } = self;
-        let (_, moving, passing, backlog, remembered, kept, counters, guided, given) = saved;
+        let (_, moving, passing, backlog, remembered, kept, counters, guided, users) = saved;
+        let (given, _, closed) = users;
         index.forget();
         *commands = given;
+        *roads.changed_parameters_mut() = parameters;
         (*traffic, *junctions) = (moving, passing);
         arrivals.restore(backlog);
         log.restore(remembered);
@@ -99,14 +105,15 @@ impl World {
         }
         work.reset_counters(counters);
         roads.restore(guided);
+        roads.close(closed);
         Ok(())
     }
 
     /// Checks whether the saved state fits this world, part by part. It must not refer to anything that does not
-    /// exist.
-    fn check(&self, saved: &Saved) -> Result<(), CheckpointError> {
+    /// exist. Returns its driver parameters.
+    fn check(&self, saved: &Saved) -> Result<DriverParameters, CheckpointError> {
         let World { roads, traffic: own, junctions: own_junctions, arrivals, .. } = self;
-        let (_, traffic, junctions, backlog, log, kept, _, guided, _) = saved;
+        let (_, traffic, junctions, backlog, log, kept, _, guided, (_, changes, closed)) = saved;
         let (chains, driver_parameters) = (roads.network().chains.len(), roads.driver_parameters().len());
         let (clock, lanes) = (traffic.clock(), traffic.lanes());
         let is_known = |it: Destination| match guided {
@@ -121,9 +128,14 @@ impl World {
             (!junctions.fits(own_junctions, clock), "junctions"),
             (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),
             (!roads.accepts(guided.as_ref()), "guidance"),
+            (closed.iter().any(|it| it.at() >= roads.network().lanelets.len()), "closed lanelets"),
             (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_ids()), "records"),
         ];
-        wrong.into_iter().find(|it| it.0).map_or(Ok(()), |it| Err(CheckpointError::Other(it.1)))
+        if let Some((_, what)) = wrong.into_iter().find(|it| it.0) {
+            return Err(CheckpointError::Other(what));
+        }
+        let parameters = roads.changed_parameters().with(changes.clone());
+        parameters.map_err(|_| CheckpointError::Other("driver parameters"))
     }
 }
 

@@ -2,9 +2,11 @@
 //! Only a new vehicle is on the road at once. The order in which a user gives commands between two steps changes
 //! nothing.
 
+use laneweave_models::Parameter;
 use thiserror::Error;
 
 use crate::demand::{Demand, SECONDS_PER_HOUR};
+use crate::route::closures::Closures;
 use crate::state::command::{Command, NewVehicle};
 use crate::state::control::{Control, Lateral, Longitudinal};
 use crate::state::lane::VehicleId;
@@ -66,6 +68,26 @@ pub enum CommandError {
     /// The headways of the scenario are impossible at this demand.
     #[error("{0}; choose a lower demand")]
     Headways(String),
+    /// A lanelet cannot be closed.
+    #[error("lanelet {lanelet} cannot be closed: {why}")]
+    Closing {
+        /// The lanelet.
+        lanelet: i64,
+        /// Why not, and what to do.
+        why: &'static str,
+    },
+    /// A style cannot have this value of a number.
+    #[error("{} of style {style} cannot be {value}: {why}", .parameter.key())]
+    Parameter {
+        /// The style.
+        style: String,
+        /// The number.
+        parameter: Parameter,
+        /// The value.
+        value: f64,
+        /// Why not, and what to do.
+        why: String,
+    },
     /// The driver cannot have this destination now.
     #[error("vehicle {vehicle} cannot drive to {destination}: {why}")]
     Destination {
@@ -146,6 +168,10 @@ impl World {
                 demand.headways.check(of_a_lane).map_err(|it| CommandError::Headways(it.to_string()))
             }
             Command::SetLight { light, .. } => self.light_with(*light).map(|_| ()),
+            Command::CloseLanelet { lanelet, is_closed } => self.check_closing(*lanelet, *is_closed),
+            Command::SetParameter { style, parameter, value } => {
+                self.check_parameter(style, *parameter, *value)
+            }
         }
     }
 
@@ -154,6 +180,39 @@ impl World {
         let drives_in_lanes = matches!(control, Control::Drive { .. });
         let is_astray = drives_in_lanes && self.vehicle(id).is_some_and(|it| !it.is_in_lane());
         if is_astray { Err(CommandError::Astray(id)) } else { Ok(()) }
+    }
+
+    /// Checks that drivers can leave the lane of a lanelet before it, and of all that are closed with it.
+    fn check_closing(&self, lanelet: i64, is_closed: bool) -> Result<(), CommandError> {
+        let index = self.lanelet_with(lanelet)?;
+        if !is_closed {
+            return Ok(());
+        }
+        let network = self.roads.network();
+        let mut closed = self.roads.navigator().closures().closed().to_vec();
+        for waiting in self.commands.waiting() {
+            if let Command::CloseLanelet { lanelet, is_closed: true } = waiting.command {
+                closed.extend(network.lanelet_with(lanelet));
+            }
+        }
+        closed.push(index);
+        let closures = Closures::of(network, closed);
+        let why = closures.closed().iter().find_map(|it| closures.flaw(network, *it));
+        why.map_or(Ok(()), |why| Err(CommandError::Closing { lanelet, why }))
+    }
+
+    /// Checks that a style can have this value, with all that waits to be changed in it.
+    fn check_parameter(&self, style: &str, parameter: Parameter, value: f64) -> Result<(), CommandError> {
+        self.parameters_of(style, VehicleId::MAX)?;
+        let parameters = self.roads.changed_parameters();
+        let mut changes = parameters.changes().clone();
+        changes.extend(self.commands.waiting().iter().filter_map(|it| match &it.command {
+            Command::SetParameter { style, parameter, value } => Some(((style.clone(), *parameter), *value)),
+            _ => None,
+        }));
+        changes.insert((style.into(), parameter), value);
+        let refused = |why| CommandError::Parameter { style: style.into(), parameter, value, why };
+        parameters.with(changes).map(|_| ()).map_err(refused)
     }
 
     /// Checks that the driver of a vehicle can take another destination now.

@@ -22,11 +22,7 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
     let NewVehicle { lanelet, position_m, speed_mps, class, style, destination } = vehicle;
     in_range("a speed", *speed_mps, [0.0, Control::FASTEST], "m/s")?;
     let (network, navigator) = (world.roads.network(), world.roads.navigator());
-    let index = network.lanelet_with(*lanelet).ok_or_else(|| CommandError::Unknown {
-        what: "lanelet",
-        name: lanelet.to_string(),
-        remedy: "choose one that vehicles may use".into(),
-    })?;
+    let index = world.lanelet_with(*lanelet)?;
     let refused = |why: String| CommandError::Place { lanelet: *lanelet, position_m: *position_m, why };
     let long = network.lanelets[index.at()].length();
     if !(0.0..=long).contains(position_m) {
@@ -41,6 +37,9 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
     }
     if !network.chain(chain).takes(x, class.is_long()) {
         return Err(refused("the lane is too narrow for it there; choose another lane".into()));
+    }
+    if navigator.closures().cover(chain, x) {
+        return Err(refused("the lanelet is closed; choose another one, or open it".into()));
     }
     let junctions = &network.junctions;
     let mut zones = junctions.on(chain).crossings.iter().map(|it| junctions.reach(*it));

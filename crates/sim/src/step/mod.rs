@@ -2,6 +2,7 @@
 
 pub(crate) mod advance;
 pub(crate) mod carry_out;
+pub(crate) mod change_roads;
 pub(crate) mod checkpoint;
 pub(crate) mod columns;
 pub(crate) mod command;

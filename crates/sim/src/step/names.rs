@@ -1,6 +1,6 @@
 //! What the names in commands stand for.
 
-use laneweave_network::{LightIndex, Network};
+use laneweave_network::{LaneletIndex, LightIndex, Network};
 
 use crate::demand::Demand;
 use crate::route::place::Place;
@@ -66,6 +66,16 @@ impl World {
         let demand = self.arrivals.demand();
         let places = || ids(demand.origins.iter().map(|it| &it.place));
         origin(demand, name).ok_or_else(|| unknown("origin", &name.to_string(), places()))
+    }
+
+    /// # Errors
+    /// If there is no such lanelet.
+    pub(super) fn lanelet_with(&self, name: i64) -> Result<LaneletIndex, CommandError> {
+        self.roads.network().lanelet_with(name).ok_or_else(|| CommandError::Unknown {
+            what: "lanelet",
+            name: name.to_string(),
+            remedy: "choose one that vehicles may use".into(),
+        })
     }
 
     /// # Errors

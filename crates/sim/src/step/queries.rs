@@ -44,7 +44,7 @@ impl World {
         if found != expected {
             return Err(WorldError::Characters { found, expected });
         }
-        self.roads.change_driver_parameters(driver_parameters);
+        self.roads.changed_parameters_mut().replace(driver_parameters);
         Ok(())
     }
 

@@ -17,6 +17,7 @@ use crate::state::random::Random;
 use crate::state::setup::Setup;
 use crate::state::traffic::Traffic;
 use crate::step::carry_out::CarryingOut;
+use crate::step::change_roads::change_roads;
 use crate::step::enter::enter;
 use crate::step::externals::{follow_externals, hand_out_controls};
 use crate::step::gather::gather;
@@ -125,7 +126,9 @@ impl World {
     pub fn step(&mut self) {
         let World { roads, traffic, junctions, arrivals, log, commands, index, work } = self;
         log.begin_step();
-        CarryingOut { roads, traffic, junctions, arrivals, log, index }.all(commands.begin_step());
+        let commands = commands.begin_step();
+        change_roads(roads, traffic, commands);
+        CarryingOut { roads, traffic, junctions, arrivals, log, index }.all(commands);
         index.forget();
         hand_out_controls(traffic, work);
         // Overlaps are checked once a second; in an audit at every step.

@@ -156,6 +156,24 @@ impl<'a> Scene<'a> {
         &self.lanes[spot.chain.at()].lane_change_states()[spot.index]
     }
 
+    /// Whether a vehicle may change lanes to `chain` at `x` [m].
+    #[inline]
+    pub(crate) fn takes(&self, chain: ChainIndex, x: f64, is_long: bool) -> bool {
+        self.network.chain(chain).takes(x, is_long) && !self.navigator.closures().cover(chain, x)
+    }
+
+    /// Distance to the next closed lanelet ahead of a vehicle, if it may have to brake for it [m].
+    #[inline]
+    pub(crate) fn closure_ahead(&self, from: Viewpoint) -> Option<f64> {
+        /// Drivers brake within this distance [m].
+        const BRAKING: f64 = 400.0;
+        let Viewpoint { destination, chain, x, .. } = from;
+        if !self.navigator.closures().are_near(chain) {
+            return None;
+        }
+        self.navigator.closure_ahead(self.network, destination, chain, x, BRAKING).map(|it| it.0)
+    }
+
     /// The viewpoint of an entry.
     #[inline]
     pub fn viewpoint(&self, spot: Spot) -> Viewpoint {

@@ -1,11 +1,14 @@
 //! External vehicles: a user drives them in the traffic of simulated drivers.
 
 mod abuse;
+mod closed_lanes;
 mod commands;
+mod courtesy;
 #[path = "../roads/drivers.rs"]
 mod drivers;
 mod identity;
 mod lanes;
+mod parameters;
 mod poses;
 mod struck;
 mod worlds;

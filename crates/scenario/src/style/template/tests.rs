@@ -1,4 +1,6 @@
-use laneweave_models::change::{Courtesy, Mcdm};
+use std::collections::BTreeSet;
+
+use laneweave_models::change::{Courtesy, Mcdm, Rule};
 use laneweave_models::follow::FollowingModel;
 use laneweave_models::{Alertness, Attention, Manner, Reading};
 
@@ -129,20 +131,46 @@ fn the_cautious_keep_longer_gaps_than_the_conservative_everywhere_and_drive_slow
 }
 
 #[test]
-fn every_number_of_the_models_has_a_range_but_weights_and_thresholds() {
-    fn unbounded(table: &Table, path: &str, found: &mut Vec<String>) {
+fn every_number_of_a_style_is_a_parameter_and_no_other_key_is() {
+    fn numbers(table: &Table, path: &str, found: &mut Vec<String>) {
         for (key, value) in table {
             let path = format!("{path}{key}");
             match value {
-                Value::Table(inner) => unbounded(inner, &format!("{path}."), found),
-                Value::Float(_) if Range::of(&path).from.is_infinite() => found.push(path),
+                Value::Table(inner) => numbers(inner, &format!("{path}."), found),
+                Value::Float(_) => found.push(path),
                 _ => {}
             }
         }
     }
-    let mut found = Vec::new();
-    for name in ["aggressive", "conservative", "mobil", "lmrs", "constant-hazard"] {
-        unbounded(&Table::try_from(template(name).typical()).unwrap(), "", &mut found);
+    let (mut used, mut unbounded) = (BTreeSet::new(), BTreeSet::new());
+    for follow in ["idm", "fvdm", "acc", "ovm", "gfm", "krauss", "gipps", "newell"] {
+        for change in ["mcdm", "mobil", "lmrs", "constant-hazard"] {
+            let text = format!("name = \"x\"\nfollow.model = {follow:?}\nchange.model = {change:?}");
+            let mut style: Style = toml::from_str(&text).unwrap();
+            let mut found = Vec::new();
+            numbers(&Table::try_from(&style).unwrap(), "", &mut found);
+            let mut style_has = |it: &models::Parameter| it.place(&mut style).is_some();
+            let parameters: BTreeSet<_> =
+                models::Parameter::ALL.iter().copied().filter(|it| style_has(it)).collect();
+            let keys: BTreeSet<_> = parameters.iter().map(|it| it.key().to_string()).collect();
+            assert_eq!(keys, found.into_iter().collect());
+            unbounded.extend(parameters.iter().filter(|it| it.range() == Range::ANY).map(|it| it.key()));
+            used.extend(parameters);
+        }
     }
-    assert!(found.iter().all(|it| it.ends_with(".weight") || it == "change.theta"), "{found:?}");
+    assert_eq!(used.len(), models::Parameter::ALL.len());
+    assert!(unbounded.iter().all(|it| it.ends_with(".weight") || *it == "change.theta"), "{unbounded:?}");
+}
+
+#[test]
+fn a_parameter_is_the_number_at_its_key() {
+    let mut style = template("conservative").typical().clone();
+    for parameter in models::Parameter::ALL {
+        let Some(place) = parameter.place(&mut style) else { continue };
+        *place = 7.5;
+        let table = Value::Table(Table::try_from(&style).unwrap());
+        let found = parameter.key().split('.').try_fold(&table, |inner, key| inner.get(key));
+        assert_eq!(found.and_then(Value::as_float), Some(7.5), "{}", parameter.key());
+        assert_eq!(Value::try_from(parameter).unwrap(), Value::String(parameter.key().into()));
+    }
 }
