@@ -350,3 +350,25 @@ fn what_is_no_table_is_refused() {
     assert!(refused("t.csv", b"\xff\xfe").starts_with("cannot be read: "));
     assert!(TextTable::read(&folder.join("none.csv")).is_err());
 }
+
+#[test]
+fn a_damaged_parquet_table_is_refused_or_read_but_breaks_nothing() {
+    let path = folder("damaged").join("t.parquet");
+    let columns = [Column::real("time_s"), Column::integer("id"), Column::text("values")];
+    let mut table = TableWriter::create(&path, Format::Parquet, &columns).unwrap();
+    for row in 0_u32..20 {
+        table.row(&[f64::from(row).into(), row.into(), "{}".into()]).unwrap();
+    }
+    table.finish().unwrap();
+    let whole = fs::read(&path).unwrap();
+    let mut refused = 0;
+    for place in 0..whole.len() {
+        for by in [1, 0x80, 0xff] {
+            let mut damaged = whole.clone();
+            damaged[place] ^= by;
+            fs::write(&path, damaged).unwrap();
+            refused += usize::from(TextTable::read(&path).is_err());
+        }
+    }
+    assert!(refused > 100, "{refused}");
+}

@@ -3,6 +3,7 @@
 
 use std::fs::File;
 use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use parquet::basic::{Encoding, LogicalType, Repetition, Type as PhysicalType};
@@ -274,13 +275,19 @@ fn write_column<T: DataType>(
 
 /// The table in `file`.
 pub(super) fn read(file: File) -> Result<TextTable, ReadError> {
-    let content = |error: ParquetError| ReadError::Content(format!("it cannot be read as Parquet: {error}"));
-    let reader = SerializedFileReader::new(file).map_err(content)?;
+    // The reader of the crate panics on some damaged files.
+    let read = catch_unwind(AssertUnwindSafe(|| read_rows(file)));
+    let read = read.unwrap_or_else(|_| Err(ParquetError::General("it is damaged".into())));
+    read.map_err(|error| ReadError::Content(format!("it cannot be read as Parquet: {error}")))
+}
+
+fn read_rows(file: File) -> Result<TextTable, ParquetError> {
+    let reader = SerializedFileReader::new(file)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let columns = schema.columns().iter().map(|it| it.name().to_owned()).collect();
     let mut table = TextTable { columns, rows: Vec::new() };
-    for row in reader.get_row_iter(None).map_err(content)? {
-        let row = row.map_err(content)?;
+    for row in reader.get_row_iter(None)? {
+        let row = row?;
         let cells = row.get_column_iter().map(|(_, field)| match field {
             Field::Null => None,
             Field::Str(text) => Some(text.clone()),
