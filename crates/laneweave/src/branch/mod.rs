@@ -50,12 +50,11 @@ impl Twins {
         }
         let driver_parameters = changed(record, settings)?;
         let Prepared { world: mut base, script: mut done, origins, .. } = prepare(scenario, origin)?;
-        let Prepared { world: mut branch, script: mut other, .. } = prepare(scenario, origin)?;
-        if let Some(commands) = settings.iter().rev().find_map(Setting::commands) {
-            other = Script::of_file(commands, &branch)?;
-        }
+        let mut branch = prepare(scenario, origin)?.world;
+        let commands = settings.iter().rev().find_map(Setting::commands);
+        let other = commands.map(|it| Script::of_file(it, &branch)).transpose()?;
         (0..before).for_each(|_| done.step(&mut base));
-        other.go_on_after(&done);
+        let other = other.map_or_else(|| done.clone(), |it| it.after(&done));
         let bug = |error: &dyn std::fmt::Display| Fault::new("branch", error, "report this as a bug");
         let saved = base.save().map_err(|error| bug(&error))?;
         branch.restore(&saved).map_err(|error| bug(&error))?;

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use laneweave::branch::Twins;
+use laneweave::record::{End, Record, fingerprint};
 use laneweave::run::{Resumed, Run, kept, resume};
 use laneweave::scenario::{External, Origin, Scenario};
 use laneweave::{Class, Control, Lateral, Longitudinal, Simulation};
@@ -80,6 +82,21 @@ fn its_run_is_repeated_from_its_table_and_resumed_before_and_after_it_came() {
         resumed.complete(|_| true).expect("it ends");
         assert_same_tables(&dir, &own.output.dir);
     }
+}
+
+#[test]
+fn it_does_not_come_twice_into_a_twin_and_is_part_of_a_saved_state() {
+    let own = with(vec![External { time_s: 5.0, ..lead() }]);
+    let (origin, mut alone) = (Origin::default(), simulation(&own));
+    let saved = alone.save().expect("it can be saved");
+    let told = simulation(&with(Vec::new())).restore(&saved).expect_err("it has no external vehicle");
+    assert!(told.what.ends_with("with other external vehicles"), "{told}");
+    alone.run(60.0, &mut []).expect("it runs");
+    let fingerprint = fingerprint(&own, &origin).expect("the map is there");
+    let end = End { state_hash: String::new(), fingerprint, duration_s: 60.0, warmup_s: 0.0 };
+    let mut twins = Twins::part(&Record { scenario: own, origin, end }, 40.0, &[]).expect("it is repeated");
+    assert!(twins.drive().are_none());
+    assert_eq!((twins.base.state_hash(), twins.base.counts().inserted), (alone.state_hash(), 1));
 }
 
 #[test]

@@ -27,6 +27,7 @@ pub use external::External;
 pub use headways::Headways;
 pub use mixture::mixture;
 pub use origin::Origin;
+pub(crate) use prepare::LONGEST;
 pub use prepare::{Prepared, driven, open_map, prepare, prepare_on};
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;

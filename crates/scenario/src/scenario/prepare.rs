@@ -31,7 +31,7 @@ const STEPS: (f64, f64) = (0.01, 1.0);
 /// Minimum interval of guidance [s].
 const SHORTEST_GUIDANCE: f64 = 1.0;
 /// Maximum simulated time [s].
-const LONGEST: f64 = 1e7;
+pub(crate) const LONGEST: f64 = 1e7;
 /// The names of the intervals of the output.
 const RECORDING: &str = "a recording interval";
 const FLOWS: &str = "an interval of flows";
@@ -39,7 +39,7 @@ const CHECKPOINTS: &str = "an interval of checkpoints";
 
 /// A scenario that is ready to run.
 pub struct Prepared {
-    /// The world at its start.
+    /// The world at its start. [`Prepared::step`] simulates it with the commands of the scenario.
     pub world: World,
     /// The commands that the scenario gives.
     pub script: Script,

@@ -11,15 +11,12 @@ use laneweave_sim::{Command, Control, NewVehicle, VehicleId, World};
 use laneweave_study::seconds;
 
 use crate::fault::Fault;
-use crate::scenario::{External, Origin, Scenario};
+use crate::scenario::{External, LONGEST, Origin, Scenario};
 use row::Row;
 pub(crate) use state::State;
 
 pub use refused::refused;
 pub use row::{COMMAND_COLUMNS, Written};
-
-/// Maximum time at which an external vehicle may come [s].
-const LONGEST: f64 = 1e7;
 
 /// What a scenario does to its traffic. It has no clock of its own: what is due follows from that of the world.
 #[derive(Clone, Default)]
@@ -71,9 +68,10 @@ impl Script {
         Script::default().with_commands(path, empty)
     }
 
-    /// Goes on with the vehicles that the script `before` has inserted.
-    pub fn go_on_after(&mut self, before: &Script) {
-        self.state.go_on_after(&before.state);
+    /// The same script, which knows the vehicles that the script `before` has inserted.
+    #[must_use]
+    pub fn after(self, before: &Script) -> Script {
+        Script { state: self.state.after(&before.state), ..self }
     }
 
     fn with_commands(self, path: Option<&Path>, empty: &World) -> Result<Script, Fault> {

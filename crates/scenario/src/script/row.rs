@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 
 use super::refused::refused;
 use crate::fault::Fault;
+use crate::scenario::LONGEST;
 use crate::source::in_words;
 
 /// The columns of a table of commands.
@@ -19,8 +20,6 @@ pub const COMMAND_COLUMNS: [Column; 5] = [
     Column::text("values"),
 ];
 
-/// Maximum time of a command [s].
-const LONGEST: f64 = 1e7;
 /// Times are written with this error at most, in steps.
 const TOLERANCE: f64 = 1e-3;
 

@@ -33,9 +33,9 @@ impl State {
         self.externals.len() == other.externals.len()
     }
 
-    /// Goes on with the vehicles that were inserted `before`.
-    pub(super) fn go_on_after(&mut self, before: &State) {
-        self.inserted.clone_from(&before.inserted);
+    /// The same state, which knows the vehicles that were inserted `before`.
+    pub(super) fn after(self, before: &State) -> State {
+        State { inserted: before.inserted.clone(), ..self }
     }
 
     /// Gives the command of `row`, in a file with these new vehicles.
