@@ -3,8 +3,11 @@
 use std::collections::BTreeSet;
 
 use laneweave_network::Position;
-use laneweave_sim::{Class, Command, CommandError, Control, NewVehicle, Vehicle, VehicleId, World};
+use laneweave_sim::{
+    Class, Command, CommandError, Control, Lateral, Longitudinal, NewVehicle, Vehicle, VehicleId, World,
+};
 
+use crate::lanes::{drive, insert};
 use crate::worlds::world;
 
 fn close(world: &mut World, lanelet: i64, is_closed: bool) {
@@ -90,6 +93,26 @@ fn nobody_enters_a_closed_lane_and_all_drive_past_it() {
         close_a_lane(&[1], 2500.0, seed);
         close_a_lane(&[0, 1], 1500.0, seed);
     }
+}
+
+#[test]
+fn a_vehicle_that_keeps_its_lane_stops_before_a_closed_lanelet_and_drives_on_when_it_is_open() {
+    let mut world = world("motorway_3_lanes.osm", 0.0, 1, 1);
+    let id = insert(&mut world, 1, 150.0, 30.0);
+    drive(&mut world, id, Longitudinal::Driver, Lateral::Keep);
+    let lanelet = across(&world, 1500.0)[1];
+    let start =
+        world.network().lanelets.iter().find(|it| it.id == lanelet).expect("it is there").centre.at(0.0).x;
+    close(&mut world, lanelet, true);
+    steps(&mut world, 1500);
+    let front = |world: &World| world.vehicle(id).map(|it| it.pose().at.x + 0.5 * Class::Car.body().length);
+    let stands = front(&world).expect("it is on the road");
+    assert_eq!(world.vehicle(id).map(|it| it.speed()), Some(0.0));
+    assert!((start - 20.0..start).contains(&stands), "it stands at {stands} m, and {start} m are closed");
+    assert_eq!(world.counters().emergency_brakings, 0);
+    close(&mut world, lanelet, false);
+    steps(&mut world, 300);
+    assert!(front(&world).is_some_and(|it| it > start + 200.0), "{:?}", front(&world));
 }
 
 #[test]
