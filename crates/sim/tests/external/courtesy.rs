@@ -116,7 +116,6 @@ fn share(place: &Place, are_driven: bool) -> (f64, f64) {
 
 fn assert_let_in_alike(place: &Place) {
     let [(simulated, interval), (external, _)] = [false, true].map(|it| share(place, it));
-    eprintln!("{}: {simulated:.4} ± {interval:.4} simulated, {external:.4} external", place.map);
     assert!(
         (external - simulated).abs() <= interval,
         "{}: {external} is not {simulated} ± {interval}",
