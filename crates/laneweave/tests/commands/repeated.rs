@@ -66,7 +66,7 @@ fn with_another_seed_commands_find_the_inserted_vehicles_and_some_are_refused() 
     let whole = folder("whole");
     let summary = run(&scenario, &whole);
     // Vehicles of the demand have other ids and places now, so that some commands are not possible.
-    assert!(summary.commands_refused > 50 && summary.inserted > 50, "{summary:?}");
+    assert!(summary.commands_refused > 50 && summary.inserted > 30, "{summary:?}");
 
     // Stopped and resumed, it knows which vehicles it has inserted.
     let stopped = folder("stopped");

@@ -1,19 +1,20 @@
 //! A user who does all that users can do, at random.
 
 use laneweave::{
-    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Side, Simulation, VehicleId,
+    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, Simulation,
+    VehicleId,
 };
 
 /// A user, and how often it was obeyed.
 pub(crate) struct User {
     numbers: u64,
     /// Commands that were carried out, by their kind.
-    pub(crate) obeyed: [u32; 7],
+    pub(crate) obeyed: [u32; 10],
 }
 
 impl User {
     pub(crate) fn new() -> User {
-        User { numbers: 1, obeyed: [0; 7] }
+        User { numbers: 1, obeyed: [0; 10] }
     }
 
     fn below(&mut self, end: usize) -> usize {
@@ -78,6 +79,22 @@ impl User {
             5 => {
                 let (origin, rate) = (self.one(&origins).ok_or_else(nobody)?, 600.0 * self.share());
                 simulation.set_demand(origin, rate)
+            }
+            6 => {
+                // Most vehicles stay in lanes.
+                let at = simulation.vehicle(id.ok_or_else(nobody)?).ok_or_else(nobody)?;
+                let (way, heading) = (2.0 * self.share(), at.heading_rad + 0.4 * self.share() - 0.2);
+                let (x, y) = (at.x_m + way * heading.cos(), at.y_m + way * heading.sin());
+                simulation.control(at.id, Control::Pose { x, y, heading, speed: 20.0 * self.share() })
+            }
+            7 => {
+                let value = 2.0 * self.share();
+                simulation.set_parameter(style, Parameter::CourtesyWeight, value)
+            }
+            8 => {
+                let lanelet = self.one(&simulation.lanelets()).ok_or_else(nobody)?;
+                let is_closed = self.below(2) == 0;
+                simulation.close_lanelet(lanelet, is_closed)
             }
             _ => {
                 let lights: Vec<i64> = simulation.lights().iter().map(|it| it.id).collect();
