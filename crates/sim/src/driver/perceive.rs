@@ -187,6 +187,9 @@ impl<'s, 'a> Perception<'s, 'a> {
             navigator.waypoint_from(network, destination, chain, x)
         } else {
             let usual = Cow::Borrowed(navigator.waypoint(destination, chain));
+            if navigator.closures().is_empty() {
+                return usual;
+            }
             navigator.around_closures(network, destination, chain, x, usual)
         }
     }

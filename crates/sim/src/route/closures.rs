@@ -58,7 +58,7 @@ impl Closures {
 
     /// Whether no lanelet is closed.
     #[inline]
-    fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.closed.is_empty()
     }
 
@@ -170,7 +170,7 @@ impl Navigator {
     }
 
     /// The `waypoint` of `chain` from `x` on. Where its lane is closed ahead, the driver has to leave it before.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn around_closures<'a>(
         &self,
         network: &Network,
@@ -179,9 +179,6 @@ impl Navigator {
         x: f64,
         waypoint: Cow<'a, Waypoint>,
     ) -> Cow<'a, Waypoint> {
-        if self.closures.is_empty() {
-            return waypoint;
-        }
         let Some((ahead, at)) = self.closure_ahead(network, destination, chain, x, Navigator::SIGNED) else {
             return waypoint;
         };

@@ -286,12 +286,14 @@ impl Navigator {
         x: f64,
     ) -> Cow<'_, Waypoint> {
         let usual = self.waypoint(destination, chain);
-        let waypoint = if usual.leads_on(x) {
-            Cow::Borrowed(usual)
-        } else {
-            Cow::Owned(self.detour(network, destination, chain))
-        };
-        self.around_closures(network, destination, chain, x, waypoint)
+        if !usual.leads_on(x) {
+            let detour = Cow::Owned(self.detour(network, destination, chain));
+            return self.around_closures(network, destination, chain, x, detour);
+        }
+        if self.closures.is_empty() {
+            return Cow::Borrowed(usual);
+        }
+        self.around_closures(network, destination, chain, x, Cow::Borrowed(usual))
     }
 
     /// The route to `destination` over the end of `chain`.
