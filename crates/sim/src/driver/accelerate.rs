@@ -108,7 +108,6 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let leader = scene.ahead(scene.viewpoint(spot));
     let follow = &scene.style_of(driver).follow;
     let wish = follow.acceleration(pace(motion, driver), leader);
-    let is_cut_off = leader.is_some_and(|it| it.gap < 0.0) && is_cut_off(scene, spot);
     let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
     let (wish, stop) = at_junction(motion, driver, follow, &junction, wish, clock.dt);
@@ -118,12 +117,13 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
     let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
-    let acceleration = if is_cut_off { -HARDEST_BRAKING } else { acceleration };
+    let touches = leader.is_some_and(|it| it.gap < 0.0);
+    let acceleration = if touches && is_cut_off(scene, spot) { -HARDEST_BRAKING } else { acceleration };
     Chosen {
         acceleration,
         // A lower positive acceleration is no braking.
         by_kinematics: acceleration < wish && acceleration < 0.0,
-        touches: leader.is_some_and(|it| it.gap < 0.0),
+        touches,
         junction,
     }
 }
@@ -187,13 +187,28 @@ fn reacting_to_more(
         wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
         obstacle = Some(Ahead::standing(end - motion.x));
     }
-    let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot));
-    if let Some(closed) = closed.filter(|closed| obstacle.is_none_or(|it| *closed < it.gap)) {
-        let kept = kept_room(scene, clock, spot);
-        wish = wish.min(to_stop_at(motion.speed, closed - kept, clock.dt));
-        obstacle = Some(Ahead::standing(closed));
+    if scene.navigator.closures().is_empty() {
+        return (wish, obstacle);
     }
-    (wish, obstacle)
+    before_closure(scene, clock, spot, wish, obstacle)
+}
+
+/// The acceleration of a driver who may have to stop before a closed lanelet, and the nearest end of its lane.
+#[inline(never)]
+fn before_closure(
+    scene: &Scene,
+    clock: Clock,
+    spot: Spot,
+    wish: f64,
+    end: Option<Ahead>,
+) -> (f64, Option<Ahead>) {
+    let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot));
+    let Some(closed) = closed.filter(|closed| end.is_none_or(|it| *closed < it.gap)) else {
+        return (wish, end);
+    };
+    let room = closed - kept_room(scene, clock, spot);
+    let wish = wish.min(to_stop_at(scene.motion(spot).speed, room, clock.dt));
+    (wish, Some(Ahead::standing(closed)))
 }
 
 /// The acceleration for all that a driver reacts to besides its leader.

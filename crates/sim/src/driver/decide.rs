@@ -29,7 +29,8 @@ pub(crate) fn decide(scene: &Scene, moment: Moment, chain: ChainIndex, plan: &mu
 }
 
 /// Decides for the driver at `spot`.
-#[inline]
+// As a call it takes a fiftieth more instructions on a motorway.
+#[inline(always)]
 pub(crate) fn decide_one(
     scene: &Scene,
     moment: Moment,
@@ -104,7 +105,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     let is_forced =
         there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER;
     // A user closed that lane in the meantime.
-    if is_forced || scene.navigator.closures().cover(counterpart.chain, counterpart.x) {
+    if is_forced || scene.is_closed(counterpart.chain, counterpart.x) {
         let ask = Ask::Abort;
         outbox.requests.push(Request {
             urgency: lane_change.urgency,

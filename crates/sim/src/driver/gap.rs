@@ -156,13 +156,15 @@ impl Gap {
         // A driver does not change into a lane that ends if it could not stop before the end.
         let is_long = scene.driver(spot).class.is_long();
         let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
-        let there = scene.viewpoint_at(scene.viewpoint(spot), self.chain, self.x);
-        if end
-            .into_iter()
-            .chain(scene.closure_ahead(there))
-            .any(|it| it < 2.0 * crossing + stopping_way(speed))
-        {
+        let needed = || 2.0 * crossing + stopping_way(speed);
+        if end.is_some_and(|it| it < needed()) {
             return Err(Hindrance::TooLittleRoad);
+        }
+        if !scene.navigator.closures().is_empty() {
+            let there = scene.viewpoint_at(scene.viewpoint(spot), self.chain, self.x);
+            if scene.closure_ahead(there).is_some_and(|it| it < needed()) {
+                return Err(Hindrance::TooLittleRoad);
+            }
         }
         if !self.is_clear_of_junctions(scene, spot, 2.0 * crossing) {
             return Err(Hindrance::Junction);

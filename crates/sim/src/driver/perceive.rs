@@ -88,7 +88,10 @@ impl<'s, 'a> Perception<'s, 'a> {
             let there = scene.network.chain(beside.chain);
             // A long vehicle changes into a lane that is tight for it only if its route requires it.
             let is_tight = from.is_long && there.is_tight_for_long && waypoint.changes == 0;
-            if is_tight || !scene.takes(beside.chain, beside.across(from.x), from.is_long) {
+            if is_tight || !there.takes(beside.across(from.x), from.is_long) {
+                return None;
+            }
+            if scene.is_closed(beside.chain, beside.across(from.x)) {
                 return None;
             }
             let (x, hint) = (beside.across(from.x), &mut hints[side.at()]);
@@ -183,14 +186,10 @@ impl<'s, 'a> Perception<'s, 'a> {
     fn waypoint_beside(&self, there: Viewpoint) -> Cow<'a, Waypoint> {
         let Scene { network, navigator, .. } = self.scene;
         let Viewpoint { destination, chain, x, .. } = there;
-        if self.takes_another_route {
-            navigator.waypoint_from(network, destination, chain, x)
+        if self.takes_another_route || !navigator.closures().is_empty() {
+            navigator.unusual_waypoint(network, destination, chain, x, self.takes_another_route)
         } else {
-            let usual = Cow::Borrowed(navigator.waypoint(destination, chain));
-            if navigator.closures().is_empty() {
-                return usual;
-            }
-            navigator.around_closures(network, destination, chain, x, usual)
+            Cow::Borrowed(navigator.waypoint(destination, chain))
         }
     }
 

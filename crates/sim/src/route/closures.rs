@@ -74,7 +74,7 @@ impl Closures {
     }
 
     /// Whether `chain` is closed at `x` [m].
-    #[inline]
+    #[inline(never)]
     pub(crate) fn cover(&self, chain: ChainIndex, x: f64) -> bool {
         self.on(chain).iter().any(|[from, to]| (*from..*to).contains(&x))
     }
@@ -179,6 +179,9 @@ impl Navigator {
         x: f64,
         waypoint: Cow<'a, Waypoint>,
     ) -> Cow<'a, Waypoint> {
+        if self.closures.is_empty() {
+            return waypoint;
+        }
         let Some((ahead, at)) = self.closure_ahead(network, destination, chain, x, Navigator::SIGNED) else {
             return waypoint;
         };

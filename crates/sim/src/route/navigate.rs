@@ -286,14 +286,30 @@ impl Navigator {
         x: f64,
     ) -> Cow<'_, Waypoint> {
         let usual = self.waypoint(destination, chain);
-        if !usual.leads_on(x) {
-            let detour = Cow::Owned(self.detour(network, destination, chain));
-            return self.around_closures(network, destination, chain, x, detour);
-        }
-        if self.closures.is_empty() {
+        if usual.leads_on(x) && self.closures.is_empty() {
             return Cow::Borrowed(usual);
         }
-        self.around_closures(network, destination, chain, x, Cow::Borrowed(usual))
+        self.unusual_waypoint(network, destination, chain, x, true)
+    }
+
+    /// The waypoint where it may be too late for the usual route, if another one may be taken, or where lanelets are
+    /// closed.
+    #[inline(never)]
+    pub(crate) fn unusual_waypoint(
+        &self,
+        network: &Network,
+        destination: Destination,
+        chain: ChainIndex,
+        x: f64,
+        may_take_another: bool,
+    ) -> Cow<'_, Waypoint> {
+        let usual = self.waypoint(destination, chain);
+        let waypoint = if !may_take_another || usual.leads_on(x) {
+            Cow::Borrowed(usual)
+        } else {
+            Cow::Owned(self.detour(network, destination, chain))
+        };
+        self.around_closures(network, destination, chain, x, waypoint)
     }
 
     /// The route to `destination` over the end of `chain`.

@@ -10,6 +10,7 @@ use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::state::goal::Goal;
+pub use crate::state::phase::{Kind, Phase};
 use crate::state::prefetch::prefetch;
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
@@ -101,28 +102,6 @@ impl DriverState {
     }
 }
 
-/// The phase of a driver's lane change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(u8)]
-pub enum Phase {
-    /// It keeps its lane.
-    Cruises,
-    /// It waits for a gap.
-    Wants,
-    /// It changes lanes.
-    Changes,
-    /// It returns to the old lane.
-    Aborts,
-}
-
-impl Phase {
-    /// Whether the vehicle is between two lanes, with an entry in both.
-    #[inline]
-    pub fn is_between_lanes(self) -> bool {
-        matches!(self, Phase::Changes | Phase::Aborts)
-    }
-}
-
 /// The warm part of a vehicle: its lane-change state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LaneChangeState {
@@ -177,16 +156,6 @@ impl Counterpart {
     pub(crate) fn at(&self) -> Position {
         Position::new(self.chain, self.x)
     }
-}
-
-/// The kind of a lane change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(u8)]
-pub enum Kind {
-    /// Discretionary: between lanes that lead to the same place.
-    Discretionary,
-    /// Route-driven: for the route, or away from it.
-    Route,
 }
 
 /// An entry with all its parts.
@@ -321,7 +290,14 @@ impl Lane {
         const NEAR: f64 = 0.01;
         let from = self.motions.partition_point(|it| it.x < x - NEAR);
         let within = self.motions[from..].iter().take_while(|it| it.x <= x + STEP);
-        within.zip(from..).find(|(it, index)| it.id == id && !self.is_obstacle(*index)).map(|it| it.1)
+        let (_, index) = within.zip(from..).find(|(it, _)| it.id == id)?;
+        if self.is_obstacle(index) { self.find_beyond(id, index) } else { Some(index) }
+    }
+
+    /// Index of the entry of vehicle `id`, of which there is an obstacle at `index`.
+    #[cold]
+    fn find_beyond(&self, id: VehicleId, index: usize) -> Option<usize> {
+        (index + 1..self.motions.len()).find(|it| self.motions[*it].id == id && !self.is_obstacle(*it))
     }
 
     /// Index of the entry at `x` by which vehicle `id`, whose main entry is in another lane, is seen here.

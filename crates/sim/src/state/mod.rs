@@ -13,6 +13,7 @@ pub(crate) mod lane;
 pub(crate) mod milestone;
 pub(crate) mod moment;
 pub(crate) mod normal;
+pub(crate) mod phase;
 pub(crate) mod prefetch;
 pub(crate) mod previous_lanes;
 pub(crate) mod push_tight;

@@ -159,7 +159,14 @@ impl<'a> Scene<'a> {
     /// Whether a vehicle may change lanes to `chain` at `x` [m].
     #[inline]
     pub(crate) fn takes(&self, chain: ChainIndex, x: f64, is_long: bool) -> bool {
-        self.network.chain(chain).takes(x, is_long) && !self.navigator.closures().cover(chain, x)
+        self.network.chain(chain).takes(x, is_long) && !self.is_closed(chain, x)
+    }
+
+    /// Whether a user closed `chain` at `x` [m].
+    #[inline]
+    pub(crate) fn is_closed(&self, chain: ChainIndex, x: f64) -> bool {
+        let closures = self.navigator.closures();
+        !closures.is_empty() && closures.cover(chain, x)
     }
 
     /// Distance to the next closed lanelet ahead of a vehicle, if it may have to brake for it [m].
@@ -167,6 +174,9 @@ impl<'a> Scene<'a> {
     pub(crate) fn closure_ahead(&self, from: Viewpoint) -> Option<f64> {
         /// Drivers brake within this distance [m].
         const BRAKING: f64 = 400.0;
+        if self.navigator.closures().is_empty() {
+            return None;
+        }
         let Viewpoint { destination, chain, x, .. } = from;
         if !self.navigator.closures().are_near(chain) {
             return None;

@@ -1,0 +1,35 @@
+//! Phases and kinds of lane changes.
+
+use serde::{Deserialize, Serialize};
+
+/// The phase of a driver's lane change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u8)]
+pub enum Phase {
+    /// It keeps its lane.
+    Cruises,
+    /// It waits for a gap.
+    Wants,
+    /// It changes lanes.
+    Changes,
+    /// It returns to the old lane.
+    Aborts,
+}
+
+impl Phase {
+    /// Whether the vehicle is between two lanes, with an entry in both.
+    #[inline]
+    pub fn is_between_lanes(self) -> bool {
+        matches!(self, Phase::Changes | Phase::Aborts)
+    }
+}
+
+/// The kind of a lane change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u8)]
+pub enum Kind {
+    /// Discretionary: between lanes that lead to the same place.
+    Discretionary,
+    /// Route-driven: for the route, or away from it.
+    Route,
+}
