@@ -80,7 +80,7 @@ pub(crate) fn behind(
 
 /// Every case. A vehicle in a lane change follows both leaders: both entries take the lower acceleration.
 pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
-    let chosen = in_lane(scene, clock, spot, lane_end);
+    let chosen = beside_others(scene, spot, in_lane(scene, clock, spot, lane_end));
     if !scene.driver(spot).phase.is_between_lanes() {
         return chosen;
     }
@@ -88,7 +88,8 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     let id = scene.motion(spot).id;
     let Some(index) = scene.lanes[counterpart.chain.at()].find(id, counterpart.x) else { return chosen };
     let lane_end = lane_end::lane_end(scene, counterpart.chain);
-    let other = in_lane(scene, clock, Spot { chain: counterpart.chain, index }, lane_end);
+    let there = Spot { chain: counterpart.chain, index };
+    let other = beside_others(scene, there, in_lane(scene, clock, there, lane_end));
     Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
 }
 
@@ -117,19 +118,26 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
     let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
-    let touches = leader.is_some_and(|it| it.gap < 0.0);
-    let acceleration = if touches && is_cut_off(scene, spot) { -HARDEST_BRAKING } else { acceleration };
     Chosen {
         acceleration,
         // A lower positive acceleration is no braking.
         by_kinematics: acceleration < wish && acceleration < 0.0,
-        touches,
+        touches: leader.is_some_and(|it| it.gap < 0.0),
         junction,
     }
 }
 
-/// Whether a vehicle that a user drives comes into the lane beside the driver at `spot`: however fast it is, the
-/// driver lets it go first.
+/// What the driver at `spot` has `chosen`, or the hardest braking: a vehicle that a user drives comes into the lane
+/// beside it. However fast that one is, the driver lets it go first.
+#[inline]
+fn beside_others(scene: &Scene, spot: Spot, chosen: Chosen) -> Chosen {
+    if !chosen.touches || !is_cut_off(scene, spot) {
+        return chosen;
+    }
+    Chosen { acceleration: -HARDEST_BRAKING, by_kinematics: true, ..chosen }
+}
+
+/// Whether the vehicle beside the driver at `spot`, which is its leader, is one that a user drives.
 #[cold]
 fn is_cut_off(scene: &Scene, spot: Spot) -> bool {
     scene.leader_spot(scene.viewpoint(spot)).is_some_and(|it| scene.driver(it).is_external)

@@ -324,12 +324,13 @@ impl Log {
         *self = Log { is_audited: self.is_audited, ..saved };
     }
 
-    /// Whether it knows all vehicles on these lanes, and whether the vehicles with the ids `waiting` can still begin
-    /// their trips. `next_ids` are the first unused ids, of the demand and of users.
+    /// Whether it knows all vehicles on these lanes, and those with the ids `off_road`, and whether the vehicles with
+    /// the ids `waiting` can still begin their trips. `next_ids` are the first unused ids, of the demand and of users.
     pub(crate) fn fits(
         &self,
         network: &Network,
         lanes: &[Lane],
+        mut off_road: impl Iterator<Item = VehicleId>,
         waiting: &[VehicleId],
         next_ids: [VehicleId; 2],
     ) -> bool {
@@ -352,6 +353,7 @@ impl Log {
             && trip_log.as_ref().is_none_or(trip_log_fits)
             && aggregates.as_ref().is_none_or(|it| it.stays.len() == network.lanelets.len())
             && lanes.iter().all(lane_fits)
+            && off_road.all(knows)
             && trips.reach(next_ids, count)
             && waiting.iter().all(|it| *it < next_ids[0] && trips.can_begin(*it))
     }

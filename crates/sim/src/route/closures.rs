@@ -59,7 +59,7 @@ impl Closures {
     /// Whether no lanelet is closed.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
-        self.closed.is_empty()
+        self.of_chain.is_empty()
     }
 
     /// Whether vehicles on `chain` may have to brake for a closed lanelet.

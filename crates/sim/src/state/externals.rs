@@ -132,16 +132,19 @@ impl Externals {
     /// the road have to `fit`.
     pub(crate) fn fit(&self, chains: usize, fit: impl Fn(&Entry) -> bool) -> bool {
         let is_place = |it: &Position| it.chain.at() < chains && it.x.is_finite();
+        let is_number = |it: &Entry| it.motion.x.is_finite() && it.motion.speed.is_finite();
         let body_fits = |it: &Body| {
             let Pose { at, heading } = it.pose;
             [at.x, at.y, at.z, heading, it.speed].iter().all(|it| it.is_finite())
-                && it.off_road.as_ref().is_none_or(&fit)
         };
         let is_sound = |it: &External| {
             it.control.is_sound()
                 && is_place(&it.at)
                 && it.obstacles.iter().all(is_place)
                 && it.body.as_ref().is_none_or(body_fits)
+                && it
+                    .off_road()
+                    .is_none_or(|entry| entry.motion.id == it.id && is_number(entry) && fit(entry))
         };
         self.vehicles.iter().all(is_sound)
             && self.rears.iter().all(|(_, at)| is_place(at))

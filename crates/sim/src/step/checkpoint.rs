@@ -121,6 +121,8 @@ impl World {
             None => roads.navigator().has(it),
         };
         let waits = |it: &(Vec<Waiting>, f64)| it.0.iter().all(|it| it.since <= clock.step);
+        let externals = traffic.externals().all().iter();
+        let off_road = externals.filter_map(|it| Some(it.off_road()?.motion.id));
         let wrong = [
             (clock.dt != own.clock().dt, "steps"),
             (!traffic.fits(chains, driver_parameters, is_known), "lanes"),
@@ -129,7 +131,7 @@ impl World {
             (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),
             (!roads.accepts(guided.as_ref()), "guidance"),
             (closed.iter().any(|it| it.at() >= roads.network().lanelets.len()), "closed lanelets"),
-            (!log.fits(roads.network(), lanes, &backlog.ids(), backlog.next_ids()), "records"),
+            (!log.fits(roads.network(), lanes, off_road, &backlog.ids(), backlog.next_ids()), "records"),
         ];
         if let Some((_, what)) = wrong.into_iter().find(|it| it.0) {
             return Err(CheckpointError::Other(what));
