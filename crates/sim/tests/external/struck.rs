@@ -167,15 +167,17 @@ fn strikes_with_its_front(me: &Seen, before: &Seen, other: &Seen) -> bool {
     rest.length <= 0.0 || rest.depth(&other.rectangle) <= 0.0
 }
 
-/// Whether a vehicle did what no vehicle can do: it braked or accelerated harder than 8 m/s², or moved sideways or
-/// backwards.
+/// Whether a vehicle did what no vehicle can do: it braked or accelerated harder than 8 m/s², moved sideways or
+/// backwards, or turned on the spot.
 fn is_unphysical(before: &Seen, now: &Seen, dt: f64) -> bool {
     let (sin, cos) = before.rectangle.pose.heading.sin_cos();
     let (dx, dy) = before.rectangle.to(&now.rectangle);
     let (along, aside) = (dx * cos + dy * sin, (dy * cos - dx * sin).abs());
+    let turned = (now.rectangle.pose.heading - before.rectangle.pose.heading).sin().abs();
     let least = (before.speed - 0.5 * HARDEST * dt).max(0.0) * dt;
     along < least - 0.01
         || aside > 0.05 + 0.3 * along.abs()
+        || turned > 0.02 + 0.5 * along.abs()
         || now.speed < before.speed - HARDEST * dt - 1e-6
         || along > (before.speed + HARDEST * dt) * dt + 0.05
 }
