@@ -170,7 +170,7 @@ fn main_lane(
 }
 
 /// The angle between −π and π that points in the same direction [rad].
-pub(super) fn angle(angle: f64) -> f64 {
+fn angle(angle: f64) -> f64 {
     angle.sin().atan2(angle.cos())
 }
 
