@@ -1,13 +1,9 @@
 //! A prepared scenario that runs: its steps, and its state as bytes.
 
-use laneweave_sim::CheckpointError;
-use xxhash_rust::xxh3::xxh3_64;
+use laneweave_sim::{CheckpointError, sealed, unsealed};
 
 use super::Prepared;
 use crate::script::State;
-
-/// Length of the hash at the end [bytes].
-const HASH: usize = 8;
 
 impl Prepared {
     /// Gives the commands of the scenario that are due, and simulates a step.
@@ -21,9 +17,7 @@ impl Prepared {
     /// None, as long as there is memory.
     pub fn save(&self) -> Result<Vec<u8>, CheckpointError> {
         let saved = (self.world.save()?, &self.script.state);
-        let mut bytes = postcard::to_allocvec(&saved).map_err(unreadable)?;
-        bytes.extend(xxh3_64(&bytes).to_le_bytes());
-        Ok(bytes)
+        postcard::to_allocvec(&saved).map(sealed).map_err(unreadable)
     }
 
     /// Restores the saved state of the same scenario.
@@ -31,9 +25,7 @@ impl Prepared {
     /// # Errors
     /// If the bytes are not such a state. Nothing changes then.
     pub fn restore(&mut self, saved: &[u8]) -> Result<(), CheckpointError> {
-        let whole = saved.split_last_chunk::<HASH>();
-        let whole = whole.filter(|(body, hash)| xxh3_64(body).to_le_bytes() == **hash);
-        let (body, _) = whole.ok_or_else(|| CheckpointError::Unreadable("it is damaged".into()))?;
+        let body = unsealed(saved)?;
         let (world, state): (Vec<u8>, State) = postcard::from_bytes(body).map_err(unreadable)?;
         if !state.fits(&self.script.state) {
             return Err(CheckpointError::Other("external vehicles"));

@@ -4,7 +4,7 @@
 use laneweave_network::LaneletIndex;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use xxhash_rust::xxh3::{Xxh3, xxh3_64};
+use xxhash_rust::xxh3::Xxh3;
 
 use crate::demand::Demand;
 use crate::demand::arrivals::Backlog;
@@ -19,6 +19,7 @@ use crate::state::commands::Commands;
 use crate::state::driver_parameters::{DriverParameters, ParameterChanges};
 use crate::state::goal::Destination;
 use crate::state::traffic::Traffic;
+use crate::step::seal::{sealed, unsealed};
 use crate::step::world::World;
 
 /// Why a world cannot go on from a checkpoint.
@@ -56,9 +57,6 @@ type Saved = (
     (Commands, ParameterChanges, Vec<LaneletIndex>),
 );
 
-/// Length of the hash at the end [bytes].
-const HASH: usize = 8;
-
 impl World {
     /// Saves all that changes, as it is after the last step.
     ///
@@ -72,9 +70,7 @@ impl World {
         let users = (commands, roads.changed_parameters().changes(), closed);
         let saved =
             (identity, traffic, junctions, arrivals.backlog(), log, kept, counters, roads.guided(), users);
-        let mut bytes = postcard::to_allocvec(&saved).map_err(unreadable)?;
-        bytes.extend(xxh3_64(&bytes).to_le_bytes());
-        Ok(bytes)
+        postcard::to_allocvec(&saved).map(sealed).map_err(unreadable)
     }
 
     /// Restores the saved state of a world of the same network, drivers, demand and seed.
@@ -82,9 +78,7 @@ impl World {
     /// # Errors
     /// If the bytes are not those of such a world. This world is then unchanged.
     pub fn restore(&mut self, saved: &[u8]) -> Result<(), CheckpointError> {
-        let whole = saved.split_last_chunk::<HASH>();
-        let whole = whole.filter(|(body, hash)| xxh3_64(body).to_le_bytes() == **hash);
-        let (body, _) = whole.ok_or_else(|| CheckpointError::Unreadable("it is damaged".into()))?;
+        let body = unsealed(saved)?;
         // The identity comes first: the rest can be read as another world's only by chance.
         let (identity, _) = postcard::take_from_bytes(body).map_err(unreadable)?;
         Identity::of(&self.roads, self.arrivals.demand()).check(&identity)?;
