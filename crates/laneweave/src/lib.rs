@@ -37,8 +37,8 @@ pub use laneweave_scenario::{
     Bottleneck, Capacity, Cause, Fault, Script, Source, did_you_mean, scenario, style,
 };
 pub use laneweave_sim::{
-    Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle, Phase,
-    VehicleId,
+    BrakingCause, Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle,
+    Phase, VehicleId,
 };
 pub use simulation::{
     Builder, Event, Incident, LaneChange, Light, MapSource, Observer, Occurrence, Simulation, VehicleState,

@@ -9,6 +9,9 @@ use crate::follow::Ahead;
 /// b: the hardest braking of any vehicle [m/s²].
 pub const HARDEST_BRAKING: f64 = 8.0;
 
+/// Braking beyond this is hard [m/s²]: drivers avoid it (ours; usual braking is below 3 m/s²).
+pub const HARD_BRAKING: f64 = 4.0;
+
 /// Whether a follower at `speed` [m/s] is secure behind `ahead`, with time step `dt` [s].
 #[inline]
 pub fn is_secure(speed: f64, ahead: Ahead, dt: f64) -> bool {

@@ -7,6 +7,7 @@
 mod attention;
 pub mod braking;
 pub mod change;
+pub mod comfortable;
 mod exponential;
 pub mod follow;
 mod guidance;

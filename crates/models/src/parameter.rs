@@ -166,6 +166,7 @@ parameters! {
         Calm "manner.calm" range(0.0, 3600.0, "s"), manner.calm;
         AdjustDeceleration "manner.adjust_deceleration" range(0.0, 8.0, "m/s²"), manner.adjust_deceleration;
         YieldDeceleration "manner.yield_deceleration" range(0.0, 8.0, "m/s²"), manner.yield_deceleration;
+        ComfortableDeceleration "manner.comfortable_deceleration" range(0.0, 8.0, "m/s²"), manner.comfortable_deceleration;
         Tightest "manner.tightest" range(0.05, 1.0, ""), manner.tightest;
         Relaxation "manner.relaxation" range(0.1, 3600.0, "s"), manner.relaxation;
         CriticalGap "yielding.critical_gap" range(0.0, 60.0, "s"), yielding.critical_gap;

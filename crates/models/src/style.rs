@@ -65,6 +65,9 @@ pub struct Manner {
     pub adjust_deceleration: f64,
     /// Hardest braking to let another vehicle in [m/s²]; 0: does not.
     pub yield_deceleration: f64,
+    /// Braking with which the driver comes to what stands or is slower, see [`crate::comfortable`] [m/s²]; 0: as its
+    /// car-following model alone has it.
+    pub comfortable_deceleration: f64,
     /// Shortest share of the usual time gap accepted around a change.
     pub tightest: f64,
     /// τ: time in which an accepted short gap relaxes to the usual one [s].
@@ -81,6 +84,7 @@ impl Default for Manner {
             calm: 10.0,
             adjust_deceleration: 2.0,
             yield_deceleration: 2.0,
+            comfortable_deceleration: 0.0,
             tightest: 0.56 / 1.2,
             relaxation: 25.0,
         }
@@ -88,10 +92,10 @@ impl Default for Manner {
 }
 
 impl Manner {
-    /// Time [s] that a change takes a driver with `urgency` 0…1.
+    /// Time [s] that a change takes a driver with `urgency` 0…1. Urgency makes no change longer.
     #[inline]
     pub fn duration(&self, urgency: f64) -> f64 {
-        self.change_duration + urgency * (self.pressed_duration - self.change_duration)
+        self.change_duration + urgency * (self.pressed_duration - self.change_duration).min(0.0)
     }
 
     /// Share of the usual time gap that a driver with `desire` 0…1 accepts: d·T_min + (1 − d)·T_max.

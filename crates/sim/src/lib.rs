@@ -38,7 +38,7 @@ pub use junction::reservations::Reservations;
 pub use junction::signals::Signals;
 pub use record::counters::Counters;
 pub use record::counts::Counts;
-pub use record::events::{DrivingEvent, DrivingEventKind, Event, LaneChange};
+pub use record::events::{BrakingCause, DrivingEvent, DrivingEventKind, Event, LaneChange};
 pub use record::incidents::{Incident, IncidentKind};
 pub use record::lanelet_aggregates::LaneletAggregate;
 pub use record::trip_log::TripRecord;

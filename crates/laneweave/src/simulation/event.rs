@@ -1,7 +1,9 @@
 //! What happened in a step, in the words of the road.
 
 use laneweave_network::{Network, Position, Side};
-use laneweave_sim::{self as sim, Class, DrivingEventKind, IncidentKind, Kind, VehicleId, World};
+use laneweave_sim::{
+    self as sim, BrakingCause, Class, DrivingEventKind, IncidentKind, Kind, VehicleId, World,
+};
 use serde::{Deserialize, Serialize};
 
 use super::names;
@@ -28,6 +30,14 @@ pub enum Event {
     Incident(Incident),
     /// A vehicle began to brake as kinematics, not its model, demand.
     EmergencyBraking(Occurrence),
+    /// A vehicle began to brake with more than 4 m/s², whoever decided it.
+    HardBraking {
+        /// Which vehicle, when and where.
+        #[serde(flatten)]
+        occurrence: Occurrence,
+        /// What it braked for.
+        cause: BrakingCause,
+    },
     /// A vehicle came to a halt.
     Halt(Occurrence),
     /// A vehicle drove on after a standstill.
@@ -134,6 +144,7 @@ impl Event {
                 let occurrence = Occurrence::at(network, it.vehicle, it.time, it.at);
                 match it.kind {
                     DrivingEventKind::EmergencyBraking => Event::EmergencyBraking(occurrence),
+                    DrivingEventKind::HardBraking(cause) => Event::HardBraking { occurrence, cause },
                     DrivingEventKind::Halt => Event::Halt(occurrence),
                     DrivingEventKind::SetOff { stood } => {
                         Event::SetOff { occurrence, stood_s: f64::from(stood) }

@@ -23,6 +23,8 @@ pub struct Fvdm {
     pub range: f64,
     /// Gap kept at standstill, in the repaired reading [m].
     pub jam_gap: f64,
+    /// ℓ: factor on the lengths of the optimal velocity, in the repaired reading; below 1: shorter gaps.
+    pub length_scale: f64,
     /// Which optimal velocity.
     pub reading: Reading,
 }
@@ -34,6 +36,7 @@ impl Default for Fvdm {
             relative_sensitivity: 0.5,
             range: 100.0,
             jam_gap: 0.0,
+            length_scale: 1.0,
             reading: Reading::Repaired,
         }
     }
@@ -43,7 +46,7 @@ impl Fvdm {
     /// V: the speed that the driver wants.
     #[inline]
     pub fn optimal_velocity(&self) -> OptimalVelocity {
-        OptimalVelocity { reading: self.reading, jam_gap: self.jam_gap }
+        OptimalVelocity { reading: self.reading, jam_gap: self.jam_gap, length_scale: self.length_scale }
     }
 }
 

@@ -39,6 +39,8 @@ pub struct Gfm {
     pub relative_sensitivity: f64,
     /// Of Jiang et al.: gap beyond which the closing speed does not count [m].
     pub range: f64,
+    /// ℓ: factor on the lengths of the optimal velocity, in the repaired reading; below 1: shorter gaps.
+    pub length_scale: f64,
     /// Of Jiang et al.: which optimal velocity.
     pub reading: Reading,
 }
@@ -66,6 +68,7 @@ impl Default for Gfm {
             sensitivity: 0.41,
             relative_sensitivity: 0.5,
             range: 100.0,
+            length_scale: 1.0,
             reading: Reading::Repaired,
         }
     }
@@ -74,7 +77,7 @@ impl Default for Gfm {
 impl Gfm {
     /// V: the speed that the driver wants in the form of Jiang et al.
     pub fn optimal_velocity(&self) -> OptimalVelocity {
-        OptimalVelocity { reading: self.reading, jam_gap: self.jam_gap }
+        OptimalVelocity { reading: self.reading, jam_gap: self.jam_gap, length_scale: self.length_scale }
     }
 
     /// s − s(v): the gap beyond the one that is kept [m].

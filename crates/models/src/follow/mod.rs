@@ -199,6 +199,12 @@ impl FollowingModel {
         0.5 * (short + long)
     }
 
+    /// s₀: net gap that a driver with this model keeps at standstill [m].
+    #[inline]
+    pub fn jam_gap(&self) -> f64 {
+        ask!(self, model => model.jam_gap)
+    }
+
     /// Gap [m] that emergency braking keeps to another vehicle for a driver with this model, at most
     /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; other models may come up to the
     /// bumper ahead, where there is no space to turn into another lane.

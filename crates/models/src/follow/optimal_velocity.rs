@@ -5,8 +5,8 @@
 //! * literal: V = min(V₁ + V₂ tanh(C₁ s − C₂), v₀). The paper's printed line lost the minus sign. Below 2.32 m V is
 //!   negative: a follower that is too close brakes the harder for it. Only as an expected speed it is floored at 0.
 //! * repaired: V never exceeds V₁ + V₂ = 14.66 m/s whatever the driver wants, so the speed and the lengths are scaled
-//!   to the desired speed: V = v₀ [tanh(C₁ s·14.66/v₀ − C₂) + tanh C₂] / (1 + tanh C₂). The gap is counted beyond the
-//!   jam gap (ours).
+//!   to the desired speed: V = v₀ [tanh(C₁ s·14.66/(v₀ ℓ) − C₂) + tanh C₂] / (1 + tanh C₂). The gap is counted beyond
+//!   the jam gap. A length scale ℓ below 1 shortens all gaps (both ours).
 
 use super::{Ahead, Pace};
 use crate::Reading;
@@ -19,6 +19,8 @@ pub struct OptimalVelocity {
     pub reading: Reading,
     /// Gap kept at standstill, in the repaired reading [m].
     pub jam_gap: f64,
+    /// ℓ: factor on all other lengths, in the repaired reading.
+    pub length_scale: f64,
 }
 
 /// V₁ [m/s].
@@ -48,9 +50,9 @@ impl OptimalVelocity {
         match self.reading {
             Reading::Literal => (V1 + V2 * tanh(C1 * gap - C2)).min(pace.desired),
             Reading::Repaired => {
-                let length_scale = FITTED_SPEED / pace.desired;
+                let shrunk = FITTED_SPEED / (pace.desired * self.length_scale);
                 let beyond_jam = (gap - self.jam_gap / pace.headway_relaxation).max(0.0);
-                let rise = tanh(C1 * beyond_jam * length_scale - C2) + TANH_C2;
+                let rise = tanh(C1 * beyond_jam * shrunk - C2) + TANH_C2;
                 // The share is rounded to at most 1, so that no driver expects more than it desires.
                 pace.desired * (rise / (1.0 + TANH_C2)).max(0.0)
             }
@@ -62,7 +64,7 @@ impl OptimalVelocity {
     pub(super) fn scaled(&self, pace: Pace, length: f64) -> f64 {
         match self.reading {
             Reading::Literal => length,
-            Reading::Repaired => length * pace.desired / FITTED_SPEED,
+            Reading::Repaired => length * self.length_scale * pace.desired / FITTED_SPEED,
         }
     }
 }

@@ -22,20 +22,22 @@ pub struct Ovm {
     pub sensitivity: f64,
     /// Gap kept at standstill, in the repaired reading [m].
     pub jam_gap: f64,
+    /// ℓ: factor on the lengths of the optimal velocity, in the repaired reading; below 1: shorter gaps.
+    pub length_scale: f64,
     /// Which optimal velocity.
     pub reading: Reading,
 }
 
 impl Default for Ovm {
     fn default() -> Ovm {
-        Ovm { sensitivity: 0.85, jam_gap: 0.0, reading: Reading::Repaired }
+        Ovm { sensitivity: 0.85, jam_gap: 0.0, length_scale: 1.0, reading: Reading::Repaired }
     }
 }
 
 impl Ovm {
     /// V: the speed that the driver wants.
     pub fn optimal_velocity(&self) -> OptimalVelocity {
-        OptimalVelocity { reading: self.reading, jam_gap: self.jam_gap }
+        OptimalVelocity { reading: self.reading, jam_gap: self.jam_gap, length_scale: self.length_scale }
     }
 }
 

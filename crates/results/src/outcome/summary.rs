@@ -71,6 +71,8 @@ pub struct Summary {
     pub first_incident: Option<FirstIncident>,
     /// Braking events that kinematics, not the model, decided.
     pub emergency_brakings: u64,
+    /// Times that a vehicle began to brake with more than 4 m/s², whoever decided it.
+    pub hard_brakings: u64,
     /// Vehicles that stood for 300 s.
     pub stuck: u64,
     /// Drivers who missed a turn.
@@ -176,6 +178,7 @@ impl Summary {
             incidents: counters.collisions + counters.overlaps,
             first_incident: counts.first_incident.map(|it| FirstIncident::of(world.network(), &it)),
             emergency_brakings: counters.emergency_brakings,
+            hard_brakings: counters.hard_brakings,
             stuck: counters.stuck,
             missed_turns: counters.missed_turns,
             lost: counters.lost,
@@ -314,10 +317,19 @@ impl Summary {
 
     /// Problems of the run, in words.
     fn safety(&self) -> String {
-        let &Summary { collisions, overlaps, stuck, emergency_brakings, missed_turns, lost, .. } = self;
+        let &Summary {
+            collisions,
+            overlaps,
+            stuck,
+            emergency_brakings,
+            hard_brakings,
+            missed_turns,
+            lost,
+            ..
+        } = self;
         format!(
-            "{collisions} collisions, {overlaps} overlaps, {stuck} stuck, {emergency_brakings} emergency brakings, \
-             {missed_turns} missed turns, {lost} lost"
+            "{collisions} collisions, {overlaps} overlaps, {stuck} stuck, {hard_brakings} hard brakings, \
+             {emergency_brakings} emergency brakings, {missed_turns} missed turns, {lost} lost"
         )
     }
 }

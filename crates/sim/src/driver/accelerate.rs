@@ -1,6 +1,7 @@
 //! Drivers choose accelerations: behind leaders, at lane ends, and in lane changes. Emergency braking overrides them.
 
-use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
+use laneweave_models::braking::{HARD_BRAKING, HARDEST_BRAKING, secure_speed, stays_secure};
+use laneweave_models::comfortable::comfortably;
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 use laneweave_network::ChainIndex;
 
@@ -8,6 +9,7 @@ use crate::driver::lane_end::{self, LaneEnd, is_leaving};
 use crate::driver::last_place::{HARDLY_MOVES, before_the_last_place, kept_room, within_window};
 use crate::driver::stopping::{stopping_way, to_stop_at};
 use crate::driver::window::leader_beside;
+use crate::record::events::BrakingCause;
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::Junction;
 use crate::state::clock::Clock;
@@ -20,6 +22,8 @@ use crate::view::scene::{Scene, Spot};
 pub(crate) struct Chosen {
     /// Acceleration [m/s²].
     pub(crate) acceleration: f64,
+    /// What it is for, if it brakes.
+    pub(crate) cause: BrakingCause,
     /// Kinematics, not the model, decided the braking.
     pub(crate) by_kinematics: bool,
     /// The vehicle overlaps its leader.
@@ -69,13 +73,36 @@ pub(crate) fn behind(
     dt: f64,
 ) -> Option<f64> {
     let ahead = leader.ahead(leader.rear() - motion.x);
-    let follow = &scene.style_of(driver).follow;
-    let wish = follow.acceleration(pace(motion, driver), Some(ahead));
+    let wish = behind_one(scene, motion, driver, ahead);
     let acceleration = within(wish, -HARDEST_BRAKING, driver.class.strength());
     let next = motion.speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
     let clear = ahead.nearer(FollowingModel::LARGEST_CLEARANCE);
-    (ahead.gap >= 0.0 && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
+    let is_usual = ahead.gap >= 0.0 && acceleration >= -HARD_BRAKING;
+    (is_usual && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
+}
+
+/// The acceleration behind one leader [m/s²]: by the driver's model, within its comfortable braking.
+#[inline(always)]
+fn behind_one(scene: &Scene, motion: &Kinematics, driver: &DriverState, leader: Ahead) -> f64 {
+    let (style, pace) = (scene.style_of(driver), pace(motion, driver));
+    let wish = style.follow.acceleration(pace, Some(leader));
+    comfortably(&style.follow, style.manner.comfortable_deceleration, pace, leader, wish)
+}
+
+/// The lowest acceleration of several [m/s²], and what it is for.
+#[derive(Clone, Copy)]
+struct Wish {
+    acceleration: f64,
+    cause: BrakingCause,
+}
+
+impl Wish {
+    /// This, or a lower `acceleration` for another `cause`.
+    #[inline]
+    fn or(self, acceleration: f64, cause: BrakingCause) -> Wish {
+        if acceleration < self.acceleration { Wish { acceleration, cause } } else { self }
+    }
 }
 
 /// Every case. A vehicle in a lane change follows both leaders: both entries take the lower acceleration.
@@ -90,7 +117,8 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     let lane_end = lane_end::lane_end(scene, counterpart.chain);
     let there = Spot { chain: counterpart.chain, index };
     let other = beside_others(scene, there, in_lane(scene, clock, there, lane_end));
-    Chosen { acceleration: chosen.acceleration.min(other.acceleration), ..chosen }
+    let lower = if other.acceleration < chosen.acceleration { other } else { chosen };
+    Chosen { acceleration: lower.acceleration, cause: lower.cause, ..chosen }
 }
 
 /// The acceleration for one entry. Its leader may be on another chain, and kinematics may have to decide.
@@ -104,27 +132,58 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let is_usual = |it: &&Kinematics| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
     let usual = next.filter(is_usual);
     if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, driver, it, clock.dt)) {
-        return Chosen { acceleration, by_kinematics: false, touches: false, junction: Junction::default() };
+        let junction = Junction::default();
+        return Chosen {
+            acceleration,
+            cause: BrakingCause::Leader,
+            by_kinematics: false,
+            touches: false,
+            junction,
+        };
     }
     let leader = scene.ahead(scene.viewpoint(spot));
-    let follow = &scene.style_of(driver).follow;
-    let wish = follow.acceleration(pace(motion, driver), leader);
+    let acceleration = match leader {
+        Some(leader) => behind_one(scene, motion, driver, leader),
+        None => scene.style_of(driver).follow.acceleration(pace(motion, driver), None),
+    };
+    let wish = Wish { acceleration, cause: BrakingCause::Leader };
     let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
-    let (wish, stop) = at_junction(motion, driver, follow, &junction, wish, clock.dt);
+    let (wish, stop) = at_junction(scene, motion, driver, &junction, wish, clock.dt);
+    let Wish { acceleration: wish, cause } = wish;
     let wish = within(wish, -HARDEST_BRAKING, driver.class.strength());
-    let clear = |it: Ahead| it.nearer(follow.clearance());
+    let clearance = scene.style_of(driver).follow.clearance();
+    let clear = |it: Ahead| it.nearer(clearance);
     let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
     let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
     let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
+    // A lower positive acceleration is no braking.
+    let by_kinematics = acceleration < wish && acceleration < 0.0;
     Chosen {
         acceleration,
-        // A lower positive acceleration is no braking.
-        by_kinematics: acceleration < wish && acceleration < 0.0,
+        cause: if by_kinematics { BrakingCause::Kinematics } else { cause },
+        by_kinematics,
         touches: leader.is_some_and(|it| it.gap < 0.0),
         junction,
     }
+}
+
+/// What a driver brakes hard for, who has `chosen` that: its leader may have changed lanes, and a lower desired speed
+/// counts on its own.
+#[cold]
+pub(crate) fn cause(scene: &Scene, spot: Spot, chosen: &Chosen) -> BrakingCause {
+    if chosen.cause != BrakingCause::Leader {
+        return chosen.cause;
+    }
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
+    if scene.style_of(driver).follow.acceleration(pace(motion, driver), None) < -HARD_BRAKING {
+        return BrakingCause::DesiredSpeed;
+    }
+    let leader = scene.leader_spot(scene.viewpoint(spot)).map(|it| scene.driver(it));
+    let is_between_lanes = |it: &DriverState| it.phase.is_between_lanes();
+    let is_cut_in = is_between_lanes(driver) || leader.is_some_and(is_between_lanes);
+    if is_cut_in { BrakingCause::CutIn } else { BrakingCause::Leader }
 }
 
 /// What the driver at `spot` has `chosen`, or the hardest braking: a vehicle that a user drives comes into the lane
@@ -134,7 +193,8 @@ fn beside_others(scene: &Scene, spot: Spot, chosen: Chosen) -> Chosen {
     if !chosen.touches || !is_cut_off(scene, spot) {
         return chosen;
     }
-    Chosen { acceleration: -HARDEST_BRAKING, by_kinematics: true, ..chosen }
+    let (acceleration, cause) = (-HARDEST_BRAKING, BrakingCause::Kinematics);
+    Chosen { acceleration, cause, by_kinematics: true, ..chosen }
 }
 
 /// Whether the vehicle beside the driver at `spot`, which is its leader, is one that a user drives.
@@ -145,20 +205,20 @@ fn is_cut_off(scene: &Scene, spot: Spot) -> bool {
 
 /// The acceleration of a driver at a junction, and the place where it has to stop there.
 fn at_junction(
+    scene: &Scene,
     motion: &Kinematics,
     driver: &DriverState,
-    follow: &FollowingModel,
     junction: &Junction,
-    wish: f64,
+    wish: Wish,
     dt: f64,
-) -> (f64, Option<Ahead>) {
-    let mut wish = wish;
-    if junction.leader.is_some() {
-        wish = wish.min(follow.acceleration(pace(motion, driver), junction.leader));
-    }
+) -> (Wish, Option<Ahead>) {
+    let wish = match junction.leader {
+        Some(leader) => wish.or(behind_one(scene, motion, driver, leader), BrakingCause::Leader),
+        None => wish,
+    };
     let Some(stop) = junction.stop else { return (wish, None) };
-    wish = wish.min(to_stop_at(motion.speed, stop - ROOM_AT_A_STOP, dt));
-    (wish, Some(Ahead::standing(stop)))
+    let stopping = to_stop_at(motion.speed, stop - ROOM_AT_A_STOP, dt);
+    (wish.or(stopping, BrakingCause::Stop), Some(Ahead::standing(stop)))
 }
 
 fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
@@ -181,18 +241,19 @@ fn reacting_to_more(
     scene: &Scene,
     clock: Clock,
     spot: Spot,
-    behind_leader: f64,
+    behind_leader: Wish,
     lane_end: Option<LaneEnd>,
-) -> (f64, Option<Ahead>) {
+) -> (Wish, Option<Ahead>) {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let (mut wish, mut obstacle) = (behind_leader, None);
     if driver.phase == Phase::Wants || driver.needs_full_update {
-        wish = wish.min(beyond_the_leader(scene, clock, spot));
+        wish = beyond_the_leader(scene, clock, spot, wish);
     }
     if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
         let end = lane_end.of_entry(scene, spot);
         let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
-        wish = wish.min(to_stop_at(motion.speed, end - kept - motion.x, clock.dt));
+        let stopping = to_stop_at(motion.speed, end - kept - motion.x, clock.dt);
+        wish = wish.or(stopping, BrakingCause::LaneEnd);
         obstacle = Some(Ahead::standing(end - motion.x));
     }
     if scene.navigator.closures().is_empty() {
@@ -207,24 +268,25 @@ fn before_closure(
     scene: &Scene,
     clock: Clock,
     spot: Spot,
-    wish: f64,
+    wish: Wish,
     end: Option<Ahead>,
-) -> (f64, Option<Ahead>) {
+) -> (Wish, Option<Ahead>) {
     let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot));
     let Some(closed) = closed.filter(|closed| end.is_none_or(|it| *closed < it.gap)) else {
         return (wish, end);
     };
     let room = closed - kept_room(scene, clock, spot);
-    let wish = wish.min(to_stop_at(scene.motion(spot).speed, room, clock.dt));
+    let stopping = to_stop_at(scene.motion(spot).speed, room, clock.dt);
+    let wish = wish.or(stopping, BrakingCause::LaneEnd);
     (wish, Some(Ahead::standing(closed)))
 }
 
 /// The acceleration for all that a driver reacts to besides its leader.
-fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
+fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wish {
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
     let pace = pace(motion, driver);
     let style = scene.style_of(driver);
-    let mut acceleration = f64::INFINITY;
+    let mut wish = wish;
     if driver.phase == Phase::Wants {
         let beside = leader_beside(scene, spot, lane_change.side);
         // Along a standing queue a driver drives on: there may be a gap ahead, and others behind want to pass.
@@ -232,28 +294,28 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
         let falls_in = f64::from(lane_change.urgency) >= style.change.synchronizes_from();
         if falls_in && !drives_on {
             let falling_in = style.follow.acceleration(pace, beside);
-            acceleration = falling_in.max(-style.manner.adjust_deceleration);
+            wish = wish.or(falling_in.max(-style.manner.adjust_deceleration), BrakingCause::CutIn);
         }
     }
     if style.change.minds_offside() {
         let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
         if offside.is_some_and(|it| style.change.stays_behind(motion.speed, it)) {
             let staying_behind = style.follow.acceleration(pace, offside);
-            acceleration = acceleration.min(staying_behind.max(-style.manner.adjust_deceleration));
+            wish = wish.or(staying_behind.max(-style.manner.adjust_deceleration), BrakingCause::Leader);
         }
     }
     let (gap, speed) = lane_change.lets_in;
     if gap < f32::INFINITY {
         let ahead = Ahead::steady(f64::from(gap).max(0.1), f64::from(speed));
         let giving_way = style.follow.acceleration(pace, Some(ahead));
-        acceleration = acceleration.min(giving_way.max(-style.manner.yield_deceleration));
+        wish = wish.or(giving_way.max(-style.manner.yield_deceleration), BrakingCause::CutIn);
     }
     // A driver with a reservation for a junction does not wait for a gap there.
     let may_wait = matches!(driver.phase, Phase::Cruises | Phase::Wants) && scene.reservation(spot).is_none();
     if lane_change.last_place.is_finite() && may_wait {
-        acceleration = acceleration.min(before_the_last_place(scene, clock, spot));
+        wish = wish.or(before_the_last_place(scene, clock, spot), BrakingCause::LaneEnd);
     }
-    acceleration
+    wish
 }
 
 /// The acceleration, limited by kinematics behind `obstacle`.

@@ -1,8 +1,9 @@
 //! Drivers drive on: the kinematics of all vehicles at the end of the step, computed on the snapshot.
 
+use laneweave_models::braking::HARD_BRAKING;
 use laneweave_network::ChainIndex;
 
-use crate::driver::accelerate::{Chosen, OpenRoad, behind, with_care};
+use crate::driver::accelerate::{Chosen, OpenRoad, behind, cause, with_care};
 use crate::driver::lane_end::{LaneEnd, lane_end};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
 use crate::junction::reservations::NO_RESERVATION;
@@ -91,11 +92,14 @@ fn drive_with_care(
 ) -> (f64, f64) {
     let driver = scene.driver(spot);
     let chosen = with_care(scene, clock, spot, lane_end);
-    let Chosen { acceleration, by_kinematics, touches, junction } = chosen;
+    let Chosen { acceleration, by_kinematics, touches, junction, .. } = chosen;
     let in_emergency = by_kinematics || (driver.in_emergency && acceleration < 0.0);
     // A shadow counts too: kinematics decides for the vehicle in either lane.
     if by_kinematics && !driver.in_emergency {
         outbox.note(scene, clock, spot, DrivingEventKind::EmergencyBraking);
+    }
+    if !driver.is_shadow && begins_to_brake_hard(scene.motion(spot), acceleration, clock.dt) {
+        outbox.note(scene, clock, spot, DrivingEventKind::HardBraking(cause(scene, spot, &chosen)));
     }
     if touches && let Some(leader) = scene.leader_spot(scene.viewpoint(spot)) {
         touch(scene, spot, leader, clock.time(), &mut outbox.incidents);
@@ -115,6 +119,13 @@ fn drive_with_care(
     }
     outbox.returns.extend(junction.revokes_from.map(|from| (index, from)));
     (acceleration, stretch(scene, spot))
+}
+
+/// Whether a vehicle that accelerates with `acceleration` [m/s²] begins to brake hard.
+pub(crate) fn begins_to_brake_hard(motion: &Kinematics, acceleration: f64, dt: f64) -> bool {
+    let (next, _) = moved(motion, acceleration, 1.0, dt);
+    let is_hard = |it: &Kinematics| f64::from(it.acceleration) < -HARD_BRAKING;
+    is_hard(&next) && !is_hard(motion)
 }
 
 /// Metres along the chain for a metre driven.

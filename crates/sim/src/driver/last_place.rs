@@ -66,7 +66,7 @@ pub(super) fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> 
     }
     let room = place_to_wait(scene, clock, spot, window);
     let passing = 0.5 * (f64::from(driver.desired) - WAITS_BELOW).max(0.0);
-    let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.change_duration)));
+    let passing = window.map_or(passing, |it| passing.min(it.speed_for(manner.duration(1.0))));
     if passing > 0.0 && driver.desired > WAITS_BELOW as f32 {
         approach(motion.speed, room, passing)
     } else {

@@ -6,11 +6,12 @@ use laneweave_network::{ChainIndex, Side};
 
 use crate::driver::choice::Choice;
 use crate::driver::consider::{look, waypoint};
-use crate::driver::drive::{moved, stretch};
+use crate::driver::drive::{begins_to_brake_hard, moved, stretch};
 use crate::driver::me::{Attending, Me};
 use crate::driver::plan::{Ask, Concern, Controlled, Outbox, Plan, Request, Told};
 use crate::driver::wish::{asks, wish};
-use crate::record::events::DrivingEventKind;
+use crate::record::events::{BrakingCause, DrivingEventKind};
+use crate::state::clock::Clock;
 use crate::state::control::{Control, Lateral, Longitudinal};
 use crate::state::lane::{Kinematics, Phase};
 use crate::state::moment::Moment;
@@ -49,7 +50,7 @@ pub(crate) fn obey(
             Told::Drive(longitudinal, lateral) => (*longitudinal, *lateral),
             Told::Stay => {
                 change(scene, moment, &me, None, before, plan, outbox);
-                drive(scene, &me, (*me.motion, 0.0), before, plan, outbox);
+                drive(scene, &me, (*me.motion, 0.0), (moment.clock, before), plan, outbox);
                 let_others_go(scene, &me, would_go, *gives_way, plan, outbox);
                 continue;
             }
@@ -61,7 +62,8 @@ pub(crate) fn obey(
         }
         if let Some(acceleration) = acceleration(longitudinal, &me, moment.clock.dt) {
             let stretch = stretch(scene, me.spot);
-            drive(scene, &me, moved(me.motion, acceleration, stretch, moment.clock.dt), before, plan, outbox);
+            let next = moved(me.motion, acceleration, stretch, moment.clock.dt);
+            drive(scene, &me, next, (moment.clock, before), plan, outbox);
             let_others_go(scene, &me, would_go, *gives_way, plan, outbox);
         }
     }
@@ -189,7 +191,7 @@ fn drive(
     scene: &Scene,
     me: &Me,
     (next, distance): (Kinematics, f64),
-    before: Before,
+    (clock, before): (Clock, Before),
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) {
@@ -209,11 +211,22 @@ fn drive(
     }
     let mut at = before.driving;
     while let Some(event) = outbox.driving.get(at) {
-        if event.vehicle == motion.id && event.kind == DrivingEventKind::EmergencyBraking {
+        let counter = match event.kind {
+            DrivingEventKind::EmergencyBraking => &mut outbox.counters.emergency_brakings,
+            DrivingEventKind::HardBraking(_) => &mut outbox.counters.hard_brakings,
+            _ => {
+                at += 1;
+                continue;
+            }
+        };
+        if event.vehicle == motion.id {
             outbox.driving.swap_remove(at);
-            outbox.counters.emergency_brakings -= 1;
+            *counter -= 1;
         } else {
             at += 1;
         }
+    }
+    if !driver.is_shadow && begins_to_brake_hard(motion, f64::from(next.acceleration), clock.dt) {
+        outbox.note(scene, clock, spot, DrivingEventKind::HardBraking(BrakingCause::User));
     }
 }

@@ -102,6 +102,7 @@ impl Outbox {
     pub(crate) fn note(&mut self, scene: &Scene, clock: Clock, spot: Spot, kind: DrivingEventKind) {
         match kind {
             DrivingEventKind::EmergencyBraking => self.counters.emergency_brakings += 1,
+            DrivingEventKind::HardBraking(_) => self.counters.hard_brakings += 1,
             DrivingEventKind::MissedTurn => self.counters.missed_turns += 1,
             DrivingEventKind::RouteChange => self.counters.route_changes += 1,
             DrivingEventKind::Halt | DrivingEventKind::SetOff { .. } => {}

@@ -23,6 +23,8 @@ pub struct Counters {
     pub distance: f64,
     /// Braking events that kinematics, not the model, decided.
     pub emergency_brakings: u64,
+    /// Times that a vehicle began to brake with more than 4 m/s².
+    pub hard_brakings: u64,
     /// Times that a vehicle began to touch the one ahead of it, or that two vehicles began to overlap while they
     /// approached each other.
     pub collisions: u64,
@@ -62,6 +64,7 @@ impl Counters {
             updates,
             distance,
             emergency_brakings,
+            hard_brakings,
             collisions,
             overlaps,
             stuck,
@@ -77,6 +80,7 @@ impl Counters {
         self.updates += updates;
         self.distance += distance;
         self.emergency_brakings += emergency_brakings;
+        self.hard_brakings += hard_brakings;
         self.collisions += collisions;
         self.overlaps += overlaps;
         self.stuck += stuck;

@@ -59,6 +59,8 @@ pub struct DrivingEvent {
 pub enum DrivingEventKind {
     /// It began to brake as kinematics, not its model, demand.
     EmergencyBraking,
+    /// It began to brake with more than 4 m/s², whoever decided it.
+    HardBraking(BrakingCause),
     /// It came to a halt.
     Halt,
     /// It drove on after a standstill.
@@ -72,15 +74,62 @@ pub enum DrivingEventKind {
     RouteChange,
 }
 
+/// What a vehicle brakes for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BrakingCause {
+    /// A place to stop at a junction, such as a red light.
+    Stop,
+    /// The end of its lane, or the last place for a lane change.
+    LaneEnd,
+    /// Its leader.
+    Leader,
+    /// Its leader, where one of the two changes lanes.
+    CutIn,
+    /// A lower desired speed.
+    DesiredSpeed,
+    /// Kinematics, not its model, decided.
+    Kinematics,
+    /// Its user.
+    User,
+}
+
+impl BrakingCause {
+    /// All of them, in their order.
+    pub const ALL: [BrakingCause; 7] = [
+        BrakingCause::Stop,
+        BrakingCause::LaneEnd,
+        BrakingCause::Leader,
+        BrakingCause::CutIn,
+        BrakingCause::DesiredSpeed,
+        BrakingCause::Kinematics,
+        BrakingCause::User,
+    ];
+
+    /// In a few words.
+    pub fn name(self) -> &'static str {
+        match self {
+            BrakingCause::Stop => "stop at a junction",
+            BrakingCause::LaneEnd => "lane end",
+            BrakingCause::Leader => "leader",
+            BrakingCause::CutIn => "cut-in",
+            BrakingCause::DesiredSpeed => "lower desired speed",
+            BrakingCause::Kinematics => "emergency",
+            BrakingCause::User => "user",
+        }
+    }
+}
+
 impl DrivingEventKind {
     /// The order in which a vehicle's events of one step are reported.
     pub(crate) fn rank(self) -> u8 {
         match self {
             DrivingEventKind::EmergencyBraking => 0,
-            DrivingEventKind::Halt => 1,
-            DrivingEventKind::SetOff { .. } => 2,
-            DrivingEventKind::MissedTurn => 3,
-            DrivingEventKind::RouteChange => 4,
+            DrivingEventKind::HardBraking(_) => 1,
+            DrivingEventKind::Halt => 2,
+            DrivingEventKind::SetOff { .. } => 3,
+            DrivingEventKind::MissedTurn => 4,
+            DrivingEventKind::RouteChange => 5,
         }
     }
 }

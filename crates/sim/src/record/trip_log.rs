@@ -170,7 +170,7 @@ impl TripLog {
     pub(crate) fn note(&mut self, event: &DrivingEvent) {
         let Some(record) = self.of_mut(event.vehicle) else { return };
         match event.kind {
-            DrivingEventKind::EmergencyBraking => {}
+            DrivingEventKind::EmergencyBraking | DrivingEventKind::HardBraking(_) => {}
             DrivingEventKind::Halt => record.stops += 1,
             DrivingEventKind::SetOff { stood } => record.stood += f64::from(stood),
             DrivingEventKind::MissedTurn => record.missed_turns += 1,

@@ -1,5 +1,6 @@
 //! The data of a run for its report.
 
+mod brakings;
 mod driving;
 mod reasons;
 mod trip_times;
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::seen::{Boxes, Traces};
 
+pub(crate) use brakings::HardBrakings;
 pub use driving::{Driving, StyleDriving};
 pub use reasons::Reasons;
 pub use trip_times::{Crowd, TripTimes};
@@ -35,6 +37,8 @@ pub struct Record {
     pub trips: TripTimes,
     /// Numbers of vehicles over time.
     pub crowd: Crowd,
+    /// Hard brakings.
+    pub(crate) brakings: HardBrakings,
     /// The first incidents.
     pub incidents: Vec<Incident>,
 }
@@ -51,19 +55,21 @@ impl Record {
             reasons: Reasons::new(world, begin),
             trips: TripTimes::of(world),
             crowd: Crowd::default(),
+            brakings: HardBrakings::default(),
             incidents: Vec::new(),
         }
     }
 
     /// Observes the world after a step.
     pub(crate) fn observe(&mut self, world: &World) {
-        let Record { boxes, roads, driving, reasons, trips, crowd, incidents } = self;
+        let Record { boxes, roads, driving, reasons, trips, crowd, brakings, incidents } = self;
         boxes.observe(world);
         roads.iter_mut().for_each(|it| it.observe(world));
         driving.observe(world);
         reasons.observe(world);
         trips.observe(world);
         crowd.observe(world);
+        brakings.observe(world);
         let seen = world.events().iter().filter_map(|it| match it {
             Event::Incident(incident) => Some(*incident),
             _ => None,

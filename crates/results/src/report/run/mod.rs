@@ -1,6 +1,7 @@
 //! The report of a run.
 
 mod about;
+mod brakings;
 mod changes;
 mod flow;
 mod following;

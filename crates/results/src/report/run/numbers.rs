@@ -82,6 +82,7 @@ fn troubles(summary: &Summary) -> Vec<Tile> {
             "emergency brakings",
             "decided by kinematics, not by the model".into(),
         ),
+        tile(counted(summary.hard_brakings), "hard brakings", "beyond 4 m/s², whoever decided".into()),
         tile(counted(summary.stuck), "vehicles stuck", "stood for 300 s".into()),
         tile(counted(summary.lost), "lost", "drivers without a route to any destination".into()),
         tile(counted(summary.missed_turns), "missed turns", "drivers who had to take another route".into()),

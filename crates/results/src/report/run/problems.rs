@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use laneweave_maps::Problem;
 use laneweave_scenario::Remark;
 
-use super::{RunReport, incidents};
+use super::{RunReport, brakings, incidents};
 use crate::outcome::Summary;
 use crate::report::{Align, Section, Table, counted};
 
@@ -46,6 +46,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     Section::new("problems", "Problems and remedies")
         .table_unless_empty(of_run, "The run had no problems.")
         .table_unless_empty(incidents::table(run), "")
+        .table_unless_empty(brakings::table(run), "")
         .table_unless_empty(odd, "")
         .table_unless_empty(
             of_map,
@@ -84,6 +85,11 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
             summary.emergency_brakings,
             "Emergency brakings",
             "find the strongest decelerations in trajectories; use a style with larger gaps, or a shorter step",
+        ),
+        (
+            summary.hard_brakings,
+            "Hard brakings, beyond 4 m/s²",
+            "see their places below; use a style with larger gaps or with comfortable_deceleration, or look at the map there",
         ),
         (
             summary.missed_turns,
