@@ -41,7 +41,14 @@ static MODELS: [FollowingModel; 3] = [
 ];
 
 const fn fvdm(reading: Reading) -> Fvdm {
-    Fvdm { sensitivity: 0.41, relative_sensitivity: 0.5, range: 100.0, jam_gap: 0.0, reading }
+    Fvdm {
+        sensitivity: 0.41,
+        relative_sensitivity: 0.5,
+        range: 100.0,
+        jam_gap: 0.0,
+        length_scale: 1.0,
+        reading,
+    }
 }
 
 fn any_follow() -> impl Strategy<Value = &'static FollowingModel> {

@@ -107,7 +107,9 @@ fn accelerations_are_those_of_everybodys_own_model() {
         between(Toward::Offside, Some(Ahead::steady(20.0, 20.0)), Some(Ahead::steady(50.0, 31.0)));
     (situation.here.behind, situation.there.behind) = (behind(15.0, slow), behind(25.0, quick));
     let (me, length) = (situation.me.pace, situation.me.length);
-    let idm = |pace: Pace, gap, speed| IDM.acceleration(pace, Some(Ahead::steady(gap, speed)));
+    // Nobody brakes harder than vehicles can.
+    let idm = |pace: Pace, gap, speed| IDM.acceleration(pace, Some(Ahead::steady(gap, speed))).max(-8.0);
+    assert_eq!(idm(me, 20.0, 20.0), -8.0);
     let expected = Accelerations {
         own: [idm(me, 20.0, 20.0), idm(me, 50.0, 31.0)],
         new_follower: [idm(quick.pace, 25.0 + length + 50.0, 31.0), idm(quick.pace, 25.0, 30.0)],
@@ -159,7 +161,10 @@ fn urgency_outweighs_any_loss_at_the_last_place_and_none_far_before_it() {
         .map(|lane: LaneView| DRIVERS.acceleration(situation.me.pace, lane.ahead));
     let loss = own - DRIVERS.acceleration(situation.me.pace, situation.there.ahead);
     assert!((1.0..4.0).contains(&loss), "{loss}");
-    assert_near(at(&mut situation, 0.0).gain, 8.0 - loss, 1e-12);
+    assert_near(at(&mut situation, 0.0).gain, 8.0, 1e-12);
+    // d = 1 − 147.5/295, or more in time: 1 − 147.5/(43 v).
+    let d = 1.0 - (147.5 / situation.me.pace.speed / 43.0).min(0.5);
+    assert_near(at(&mut situation, 147.5).gain, 8.0 * d - (1.0 - d) * loss, 1e-12);
     assert_near(at(&mut situation, 5000.0).gain, -loss, 1e-12);
 }
 

@@ -24,10 +24,15 @@ impl RouteKeeping {
         f64::from(situation.here.route.changes) - f64::from(situation.there.route.changes)
     }
 
-    /// Urgency that the side takes away, −1…1.
-    pub(crate) fn urgency_relieved(situation: &Situation) -> f64 {
+    /// Urgency, −1…1, with which the route asks for the side: that of the own lane if the side takes a change off the
+    /// route, that of the side, negative, if it adds one. LMRS has the same form (Schakel, Knoop, van Arem 2012).
+    pub(crate) fn urgency_for(situation: &Situation) -> f64 {
         let of = |lane: &LaneView| urgency(lane.route.changes, lane.route.remaining, situation.me.pace.speed);
-        of(&situation.here) - of(&situation.there)
+        match RouteKeeping::changes_saved(situation) {
+            saved if saved > 0.0 => of(&situation.here),
+            saved if saved < 0.0 => -of(&situation.there),
+            _ => 0.0,
+        }
     }
 
     /// The rows of route and urgency. One of them counts: either with its weight `decisive`, which no other gain
@@ -38,7 +43,7 @@ impl RouteKeeping {
                 [Row { earning: RouteKeeping::changes_saved(situation), weight: decisive }, Row::default()]
             }
             RouteKeeping::Urgency => {
-                [Row::default(), Row { earning: RouteKeeping::urgency_relieved(situation), weight }]
+                [Row::default(), Row { earning: RouteKeeping::urgency_for(situation), weight }]
             }
         }
     }

@@ -19,8 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::keeping::RouteKeeping;
 use super::mcdm::{Appraisal, Row, by_threshold, padded};
-use super::situation::{RouteView, Situation, Toward};
-use super::urgency::urgency;
+use super::situation::{Situation, Toward};
 use crate::follow::CarFollowing;
 
 /// Lane changes with relaxation and synchronization.
@@ -79,16 +78,13 @@ impl Lmrs {
 
     /// d_r.
     fn route_desire(&self, situation: &Situation) -> f64 {
-        let saved = RouteKeeping::changes_saved(situation);
-        let pressure = |route: &RouteView| urgency(route.changes, route.remaining, situation.me.pace.speed);
-        let (here, there) = (pressure(&situation.here.route), pressure(&situation.there.route));
+        let (saved, urgency) = (RouteKeeping::changes_saved(situation), RouteKeeping::urgency_for(situation));
         match self.route {
-            RouteKeeping::Urgency if saved > 0.0 => here,
-            RouteKeeping::Urgency if saved < 0.0 => -there,
+            RouteKeeping::Urgency => urgency,
             // A driver who stays in the lanes that lead on looks for one from the beginning.
-            RouteKeeping::Lanes if saved > 0.0 => here.max(self.synchronize),
+            RouteKeeping::Lanes if saved > 0.0 => urgency.max(self.synchronize),
             RouteKeeping::Lanes if saved < 0.0 => -1.0,
-            RouteKeeping::Urgency | RouteKeeping::Lanes => 0.0,
+            RouteKeeping::Lanes => 0.0,
         }
     }
 

@@ -9,14 +9,16 @@
 //!   (ã_n − a_n) > a_thr + a_bias. On the slow side of a leader slower than the driver, but faster than v_crit, a^eur
 //!   is at most the acceleration behind that leader: nobody passes on that side in free traffic.
 //!
-//! The model has no route. [`RouteKeeping`] gives it one (ours). Its safety criterion applies to discretionary
-//! changes. For route-driven changes the gap test, which all models share, replaces it.
+//! The model has no route. [`RouteKeeping`] gives it one (ours); with the urgency d, the accelerations count only
+//! 1 − |d|: who has to change waits for a gap, however bad the present one is. The safety criterion applies to
+//! discretionary changes. For route-driven changes the gap test, which all models share, replaces it.
 
 use serde::{Deserialize, Serialize};
 
 use super::keeping::RouteKeeping;
 use super::mcdm::{Appraisal, Row, by_threshold, padded};
-use super::situation::{LaneView, Situation, Toward};
+use super::situation::{Driver, LaneView, Situation, Toward};
+use crate::braking::HARDEST_BRAKING;
 use crate::follow::{Ahead, CarFollowing};
 
 /// Minimizing overall braking induced by lane changes.
@@ -85,15 +87,16 @@ pub struct Accelerations {
 const DECISIVE: f64 = 1000.0;
 
 impl Accelerations {
-    /// The accelerations in `situation`, by every driver's own car-following model.
+    /// The accelerations in `situation`, by every driver's own car-following model; nobody brakes harder than vehicles
+    /// can.
     pub fn of(situation: &Situation) -> Accelerations {
         let Situation { me, here, there, .. } = situation;
-        let own = |lane: &LaneView| me.follow.acceleration(me.pace, lane.ahead);
+        let of =
+            |driver: &Driver, ahead| driver.follow.acceleration(driver.pace, ahead).max(-HARDEST_BRAKING);
+        let own = |lane: &LaneView| of(me, lane.ahead);
         // Acceleration of the vehicle behind in a lane, with the driver in that lane and without.
         let behind = |lane: &LaneView| {
-            lane.behind.map_or([0.0; 2], |it| {
-                it.leaders(me, lane.ahead).map(|ahead| it.driver.follow.acceleration(it.driver.pace, ahead))
-            })
+            lane.behind.map_or([0.0; 2], |it| it.leaders(me, lane.ahead).map(|ahead| of(&it.driver, ahead)))
         };
         let [new_with, new_without] = behind(there);
         Accelerations {
@@ -165,11 +168,13 @@ impl Mobil {
         let accelerations = self.without_passing(situation, Accelerations::of(situation));
         let [own, others] = self.gains(situation.toward, &accelerations);
         let [route, urgency] = self.route.rows(situation, DECISIVE, self.urgency);
+        // The stronger the urgency, the less the accelerations of the moment count: the driver waits for a gap.
+        let free = 1.0 - urgency.earning.abs();
         let rows = padded([
-            Row { earning: own, weight: 1.0 },
+            Row { earning: own, weight: free },
             route,
             Row::default(),
-            Row { earning: others, weight: self.politeness },
+            Row { earning: others, weight: free * self.politeness },
             urgency,
         ]);
         let helps_the_route = RouteKeeping::changes_saved(situation) > 0.0;

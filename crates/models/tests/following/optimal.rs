@@ -9,8 +9,10 @@ use crate::assert_near;
 use crate::points::{behind, optimum};
 use crate::sets::{literal_fvdm, literal_gfm, literal_ovm};
 
-const LITERAL: OptimalVelocity = OptimalVelocity { reading: Reading::Literal, jam_gap: 0.0 };
-const REPAIRED: OptimalVelocity = OptimalVelocity { reading: Reading::Repaired, jam_gap: 0.0 };
+const LITERAL: OptimalVelocity =
+    OptimalVelocity { reading: Reading::Literal, jam_gap: 0.0, length_scale: 1.0 };
+const REPAIRED: OptimalVelocity =
+    OptimalVelocity { reading: Reading::Repaired, jam_gap: 0.0, length_scale: 1.0 };
 
 #[test]
 fn v3_the_literal_optimal_velocity() {

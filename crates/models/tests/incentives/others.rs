@@ -18,6 +18,7 @@ static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
     relative_sensitivity: 0.5,
     range: 100.0,
     jam_gap: 0.0,
+    length_scale: 1.0,
     reading: Literal,
 });
 
