@@ -24,6 +24,7 @@ pub fn act(account: &Account) -> String {
                     "route-driven, as this is the last place for it".into()
                 }
                 Kind::Route => "route-driven".into(),
+                Kind::Keeping => "to keep to the slow side".into(),
             };
             format!("wants to change to the {}: {why}", name(side))
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use laneweave_network::{DrivingSide, Network};
+use laneweave_network::{DrivingSide, LaneUse, Network};
 
 use crate::commonroad;
 use crate::contents::Contents;
@@ -56,6 +56,17 @@ pub enum Law {
     Germany,
     /// That of most of the United States.
     UnitedStates,
+}
+
+impl Law {
+    /// Which lanes it wants drivers to use. Many states ask only slower traffic to keep to the slow side; none of that
+    /// is read here.
+    pub fn lane_use(self) -> LaneUse {
+        match self {
+            Law::Germany => LaneUse::SlowSide,
+            Law::UnitedStates => LaneUse::Free,
+        }
+    }
 }
 
 /// A format of map files.

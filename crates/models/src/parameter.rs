@@ -130,6 +130,8 @@ parameters! {
         ComfortBeta "change.comfort.beta" range(0.0, 20.0, ""), Mcdm comfort.beta;
         CourtesyWeight "change.courtesy.weight" Range::ANY, Mcdm courtesy.weight;
         UrgencyWeight "change.urgency.weight" Range::ANY, Mcdm urgency.weight;
+        KeepingWeight "change.keeping.weight" Range::ANY, Mcdm keeping.weight;
+        KeepingStay "change.keeping.stay" range(0.1, 600.0, "s"), Mcdm keeping.stay;
         ReturningAlpha "change.returning.alpha" range(0.0, 100.0, "1/(s m)"), Mcdm returning.alpha;
         NeededGap "change.returning.needed_gap" range(0.0, 60.0, "s"), Mcdm returning.needed_gap;
         ChangeTime "change.returning.change_time" range(0.0, 60.0, "s"), Mcdm returning.change_time;
@@ -165,6 +167,7 @@ parameters! {
         Patience "manner.patience" range(0.1, 3600.0, "s"), manner.patience;
         Calm "manner.calm" range(0.0, 3600.0, "s"), manner.calm;
         AdjustDeceleration "manner.adjust_deceleration" range(0.0, 8.0, "m/s²"), manner.adjust_deceleration;
+        FreeAdjustDeceleration "manner.free_adjust_deceleration" range(0.0, 8.0, "m/s²"), manner.free_adjust_deceleration;
         YieldDeceleration "manner.yield_deceleration" range(0.0, 8.0, "m/s²"), manner.yield_deceleration;
         ComfortableDeceleration "manner.comfortable_deceleration" range(0.0, 8.0, "m/s²"), manner.comfortable_deceleration;
         Tightest "manner.tightest" range(0.05, 1.0, ""), manner.tightest;

@@ -61,8 +61,10 @@ pub struct Manner {
     pub patience: f64,
     /// Time after a change without a new discretionary one [s].
     pub calm: f64,
-    /// Hardest braking to adapt the speed to the target lane [m/s²].
+    /// Hardest braking to adapt the speed to the target lane, at full urgency [m/s²].
     pub adjust_deceleration: f64,
+    /// The same without urgency [m/s²].
+    pub free_adjust_deceleration: f64,
     /// Hardest braking to let another vehicle in [m/s²]; 0: does not.
     pub yield_deceleration: f64,
     /// Braking with which the driver comes to what stands or is slower, see [`crate::comfortable`] [m/s²]; 0: as its
@@ -83,6 +85,7 @@ impl Default for Manner {
             patience: 15.0,
             calm: 10.0,
             adjust_deceleration: 2.0,
+            free_adjust_deceleration: 2.0,
             yield_deceleration: 2.0,
             comfortable_deceleration: 0.0,
             tightest: 0.56 / 1.2,
@@ -96,6 +99,12 @@ impl Manner {
     #[inline]
     pub fn duration(&self, urgency: f64) -> f64 {
         self.change_duration + urgency * (self.pressed_duration - self.change_duration).min(0.0)
+    }
+
+    /// Hardest braking [m/s²] to adapt the speed to the target lane, of a driver with `urgency` 0…1.
+    #[inline]
+    pub fn adjusting(&self, urgency: f64) -> f64 {
+        self.free_adjust_deceleration + urgency * (self.adjust_deceleration - self.free_adjust_deceleration)
     }
 
     /// Share of the usual time gap that a driver with `desire` 0…1 accepts: d·T_min + (1 − d)·T_max.

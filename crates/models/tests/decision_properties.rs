@@ -96,25 +96,28 @@ fn any_merging() -> impl Strategy<Value = Merging<'static>> {
 
 fn any_situation() -> impl Strategy<Value = Situation<'static>> {
     let merging = [option::of(any_merging()), option::of(any_merging())];
-    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging).prop_map(
-        |(me, here, there, section, merging)| Situation {
-            toward: Toward::Offside,
+    let toward = prop_oneof![Just(Toward::Offside), Just(Toward::Nearside)];
+    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging, toward, any::<bool>()).prop_map(
+        |(me, here, there, section, merging, toward, keeps_to_the_slow_side)| Situation {
+            toward,
             me,
             here,
             there,
             section,
             band: 0.0,
+            keeps_to_the_slow_side,
             merging,
         },
     )
 }
 
-/// The paper's incentives and urgency, all weighed.
+/// The paper's incentives, urgency and keeping, all weighed.
 fn any_model() -> impl Strategy<Value = Mcdm> {
-    (any_reading(), prop::array::uniform4(0.01..2.0_f64), 0.5..3.0_f64, 0.0..1.0_f64).prop_map(
-        |(reading, weights, beta, urgency)| {
+    (any_reading(), prop::array::uniform4(0.01..2.0_f64), 0.5..3.0_f64, 0.0..1.0_f64, 0.0..0.5_f64).prop_map(
+        |(reading, weights, beta, urgency, keeping)| {
             let mut model = mcdm(reading, weights, beta);
             model.urgency.weight = urgency;
+            model.keeping.weight = keeping;
             model
         },
     )
@@ -138,8 +141,10 @@ proptest! {
     fn v34_a_faster_target_never_lowers_the_gain(
         model in any_model(), mut situation in any_situation(), faster in 0.0..20.0_f64,
     ) {
-        // A new follower would lose the faster leader; this is a harm to it, and another case.
+        // A new follower would lose the faster leader; this is a harm to it, and another case. Where drivers keep to
+        // the slow side, a faster leader in the overtaking lane lets the own lane go faster, too.
         situation.there.behind = None;
+        situation.keeps_to_the_slow_side = false;
         let before = model.appraise(&situation).gain;
         situation.there.anticipated_speed += faster;
         if let Some(ahead) = &mut situation.there.ahead {
@@ -184,15 +189,21 @@ proptest! {
         for lane in [&mut situation.here, &mut situation.there] {
             lane.route = RouteView { changes: 0, remaining: f64::INFINITY, ..lane.route };
         }
-        let Situation { me, here, there, section, band, .. } = situation;
+        let Situation { toward, me, here, there, section, band, .. } = situation;
+        let (leaders, keeps) = ([here.ahead, there.ahead], situation.keeps_to_the_slow_side && model.keeping.weight > 0.0);
+        let speeds = |hidden: f64| {
+            let speeds = [here.anticipated_speed, there.anticipated_speed + hidden];
+            if keeps { model.without_passing(toward, me.pace.speed, leaders, speeds) } else { speeds }
+        };
         let harm = there.behind.map_or(0.0, |it| model.courtesy.harm(&me, there.ahead, &it));
         let bound = |hidden: f64| GainBound {
             desired: me.pace.desired,
-            anticipated_speeds: [here.anticipated_speed, there.anticipated_speed + hidden],
+            anticipated_speeds: speeds(hidden),
             routes: [here.route, there.route],
             section,
             band,
             courtesy: model.courtesy.relief(&me, &here) + harm,
+            slow_side: if keeps { model.keeping.toward(toward, leaders, me.pace.desired) } else { 0.0 },
         };
         prop_assert!(model.gain_at_most(&bound(hidden)) >= model.appraise(&situation).gain);
         // Only the comfort is left out where the longer look finds the same anticipated speed.

@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
 use crate::gate::{Gate, gates, lane_drops};
 use crate::junction::{Crossing, Junctions, LightConflict, Reach, Regulations, SignalPlan};
-use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+use crate::lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
 use crate::width::note_open;
 
 /// A road network; it never changes after loading.
@@ -23,6 +23,8 @@ pub struct Network {
     pub lane_drops: Vec<ChainIndex>,
     /// On which side traffic drives.
     pub driving_side: DrivingSide,
+    /// Which lanes the law wants drivers to use.
+    pub lane_use: LaneUse,
     /// Conflict zones, and where drivers stop; empty until [`Network::regulated`].
     pub junctions: Junctions,
     /// For each lanelet where it starts.
@@ -96,8 +98,19 @@ impl Network {
         let starts = place.iter().map(start).collect();
         let mut by_id: Vec<LaneletIndex> = (0..lanelets.len() as u32).map(LaneletIndex).collect();
         by_id.sort_by_key(|it| lanelets[it.at()].id);
-        let junctions = Junctions::default();
-        Ok(Network { lanelets, chains, entrances, exits, lane_drops, driving_side, junctions, starts, by_id })
+        let (junctions, lane_use) = (Junctions::default(), LaneUse::default());
+        Ok(Network {
+            lanelets,
+            chains,
+            entrances,
+            exits,
+            lane_drops,
+            driving_side,
+            lane_use,
+            junctions,
+            starts,
+            by_id,
+        })
     }
 
     /// The same network with its junctions, at which `regulations` hold.

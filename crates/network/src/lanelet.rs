@@ -71,6 +71,16 @@ impl DrivingSide {
     }
 }
 
+/// Which of several lanes the law wants drivers to use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LaneUse {
+    /// Any; faster drivers may pass on either side.
+    #[default]
+    Free,
+    /// The slow side, unless they overtake; in free traffic nobody passes on the slow side.
+    SlowSide,
+}
+
 /// A piece of lane that vehicles may use, oriented in its direction of travel.
 #[derive(Clone, Debug)]
 pub struct Lanelet {

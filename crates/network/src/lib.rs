@@ -28,7 +28,7 @@ pub use junction::{
     Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind,
     StopRule, Touch, Turn, Zone, ZoneIndex, ZoneKind,
 };
-pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+pub use lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;
 pub use rectangle::Rectangle;
 pub use section::{Branch, Section, Sections};

@@ -82,8 +82,9 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     truck(&mut world, 1, 700.0, 22.0);
     car(&mut world, 1, 495.0, 25.0);
     let scene = world.scene();
-    let Situation { toward, me, here, there, section, band, merging } = look(&scene, &world, me, Side::Left);
-    assert_eq!(toward, Toward::Offside);
+    let seen = look(&scene, &world, me, Side::Left);
+    let Situation { toward, me, here, there, section, band, keeps_to_the_slow_side, merging } = seen;
+    assert!(toward == Toward::Offside && !keeps_to_the_slow_side);
     // A driver without a recommended route keeps its own.
     assert_eq!(band, f64::INFINITY);
     assert_eq!(

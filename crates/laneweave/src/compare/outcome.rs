@@ -16,7 +16,7 @@ const BACK_WITHIN: f64 = 30.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Lane changes between lanes of equal worth for the route, and all others, per vehicle-kilometre.
-    pub per_veh_km: [f64; 2],
+    pub per_veh_km: [f64; 3],
     /// Share of the former that gain anticipated speed.
     pub gaining: Option<f64>,
     /// The share that is undone within 30 s.
@@ -63,11 +63,14 @@ const fn measure(
 }
 
 /// All measures.
-pub const MEASURES: [Measure; 12] = [
+pub const MEASURES: [Measure; 13] = [
     measure("discretionary_per_veh_km", "discretionary lane changes [1/veh-km]", 3, |it| {
         Some(it.per_veh_km[0])
     }),
     measure("route_per_veh_km", "route-driven lane changes [1/veh-km]", 3, |it| Some(it.per_veh_km[1])),
+    measure("keeping_per_veh_km", "lane changes to keep to the slow side [1/veh-km]", 3, |it| {
+        Some(it.per_veh_km[2])
+    }),
     measure("gaining", "discretionary, with a gain of speed [%]", 1, |it| it.gaining.map(|it| 100.0 * it)),
     measure("going_back", "discretionary, reversed within 30 s [%]", 1, |it| {
         it.going_back.map(|it| 100.0 * it)
@@ -120,7 +123,8 @@ impl Outcome {
         let held_up = chance(counters.held_up_desires, counters.held_up_considerations);
         let dt = world.clock().dt;
         let outcome = Outcome {
-            per_veh_km: [counts.discretionary_changes, counts.route_changes].map(|it| per(it, veh_km)),
+            per_veh_km: [counts.discretionary_changes, counts.route_changes, counts.keeping_changes]
+                .map(|it| per(it, veh_km)),
             gaining: share(gaining),
             going_back: share(going_back),
             held_up_ratio: held_up.zip(free).map(|(held_up, free)| held_up / free),

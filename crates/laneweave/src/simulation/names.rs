@@ -31,7 +31,7 @@ impl Named for Phase {
 
 impl Named for Kind {
     const NAMES: &'static [(&'static str, Kind)] =
-        &[("discretionary", Kind::Discretionary), ("route", Kind::Route)];
+        &[("discretionary", Kind::Discretionary), ("route", Kind::Route), ("keeping", Kind::Keeping)];
 }
 
 impl Named for Side {

@@ -58,7 +58,8 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     let (graph, heaps) = Graph::of(&lanelets);
     problems.extend(heaps);
     problems.sort_by_key(|it| it.line);
-    let network = Network::new(lanelets, options.driving_side.unwrap_or_default())?;
+    let mut network = Network::new(lanelets, options.driving_side.unwrap_or_default())?;
+    network.lane_use = options.law.lane_use();
     Ok(Map { network, graph, rules: Vec::new(), contents, problems, origin: None })
 }
 

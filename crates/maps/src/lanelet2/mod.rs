@@ -67,7 +67,8 @@ impl<'a> Document<'a> {
         // This frees its memory for the network.
         drop(self);
         match drawing.build() {
-            Ok(map) => {
+            Ok(mut map) => {
+                map.network.lane_use = options.law.lane_use();
                 problems.extend(map.problems);
                 problems.sort_by_key(|it| it.line);
                 Ok(Map { contents, problems, origin, ..map })

@@ -22,4 +22,6 @@ pub struct GainBound {
     pub band: f64,
     /// A: what a change means for the others concerned, see [`super::Courtesy`].
     pub courtesy: f64,
+    /// Y of keeping to the slow side, see [`super::Keeping`].
+    pub slow_side: f64,
 }

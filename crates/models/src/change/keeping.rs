@@ -1,50 +1,74 @@
-//! How a lane-change model without a route of its own follows one: two ways, so that models can be compared fairly.
+//! Keeping to the slow side: a wish for the lane on the slow side that grows with the time one could stay there. Ours, a
+//! sixth incentive; it counts only where the law of the road wants drivers there.
+//!
+//! k = min(t/τ, 1)²,  t = s/(v₀ − v_l): the time until a driver with the desired speed v₀ comes up with the leader there,
+//! who is slower. Without a slower leader in sight k = 1.
+//!
+//! Y = k of the lane beside, towards the slow side; −k of the own lane, towards the fast side. So the incentive asks a
+//! driver to the slow side and keeps it there, by the same amount.
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::Row;
-use super::situation::{LaneView, Situation};
-use super::urgency::urgency;
+use super::situation::{LaneView, Situation, Toward};
+use super::{Chances, Incentive, Outcomes};
+use crate::follow::Ahead;
 
-/// How the driver follows a route, in a model that knows no route.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum RouteKeeping {
-    /// It never leaves the lanes that lead on. While it is in none of them, it wants to change to one.
-    Lanes,
-    /// It changes lanes freely until it feels the urgency to be in a lane that leads on; the urgency has the same
-    /// form as in [`super::Mcdm`].
-    #[default]
-    Urgency,
+/// Keeping incentive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Keeping {
+    /// Its weight.
+    pub weight: f64,
+    /// τ: time that a driver wants to be able to stay on the slow side [s].
+    pub stay: f64,
 }
 
-impl RouteKeeping {
-    /// Changes that the side takes off the route's. It counts for drivers who stay in the lanes that lead on.
-    pub(crate) fn changes_saved(situation: &Situation) -> f64 {
-        f64::from(situation.here.route.changes) - f64::from(situation.there.route.changes)
+impl Default for Keeping {
+    /// Without weight; τ is what German courts expect, from memory.
+    fn default() -> Keeping {
+        Keeping { weight: 0.0, stay: 20.0 }
     }
+}
 
-    /// Urgency, −1…1, with which the route asks for the side: that of the own lane if the side takes a change off the
-    /// route, that of the side, negative, if it adds one. LMRS has the same form (Schakel, Knoop, van Arem 2012).
-    pub(crate) fn urgency_for(situation: &Situation) -> f64 {
-        let of = |lane: &LaneView| urgency(lane.route.changes, lane.route.remaining, situation.me.pace.speed);
-        match RouteKeeping::changes_saved(situation) {
-            saved if saved > 0.0 => of(&situation.here),
-            saved if saved < 0.0 => -of(&situation.there),
-            _ => 0.0,
+impl Keeping {
+    /// k, 0…1, in a lane with the leader `ahead`, for a driver who wants `desired` [m/s].
+    #[inline]
+    pub fn wish(&self, ahead: Option<Ahead>, desired: f64) -> f64 {
+        match ahead {
+            Some(ahead) if ahead.speed < desired => {
+                let share = ahead.gap.max(0.0) / ((desired - ahead.speed) * self.stay);
+                if share < 1.0 { share * share } else { 1.0 }
+            }
+            _ => 1.0,
         }
     }
 
-    /// The rows of route and urgency. One of them counts: either with its weight `decisive`, which no other gain
-    /// outweighs, or with `weight`.
-    pub(crate) fn rows(self, situation: &Situation, decisive: f64, weight: f64) -> [Row; 2] {
-        match self {
-            RouteKeeping::Lanes => {
-                [Row { earning: RouteKeeping::changes_saved(situation), weight: decisive }, Row::default()]
-            }
-            RouteKeeping::Urgency => {
-                [Row::default(), Row { earning: RouteKeeping::urgency_for(situation), weight }]
-            }
+    /// Y towards a side, with the leaders in the own lane and there.
+    #[inline]
+    pub fn toward(&self, toward: Toward, [here, there]: [Option<Ahead>; 2], desired: f64) -> f64 {
+        match toward {
+            Toward::Nearside => self.wish(there, desired),
+            Toward::Offside => -self.wish(here, desired),
         }
+    }
+}
+
+impl Incentive for Keeping {
+    fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
+        let wish = |lane: &LaneView| self.wish(lane.ahead, situation.me.pace.desired);
+        let [keep, there] = match situation.toward {
+            _ if !situation.keeps_to_the_slow_side => [0.0, 0.0],
+            Toward::Nearside => [0.0, wish(&situation.there)],
+            Toward::Offside => [wish(&situation.here), 0.0],
+        };
+        Outcomes { keep, back: there, away: there }
+    }
+
+    fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
+        1.0
     }
 }

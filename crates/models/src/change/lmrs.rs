@@ -17,8 +17,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::keeping::RouteKeeping;
 use super::mcdm::{Appraisal, Row, by_threshold, padded};
+use super::route_keeping::RouteKeeping;
 use super::situation::{Situation, Toward};
 use crate::follow::CarFollowing;
 
@@ -86,6 +86,12 @@ impl Lmrs {
             RouteKeeping::Lanes if saved < 0.0 => -1.0,
             RouteKeeping::Lanes => 0.0,
         }
+    }
+
+    /// Whether only d_b, the bias to the slow side, makes the driver of this `appraisal` want the change.
+    pub(super) fn is_for_the_slow_side(&self, toward: Toward, appraisal: &Appraisal) -> bool {
+        let bias = appraisal.rows[2];
+        toward == Toward::Nearside && appraisal.gain - bias.weight * bias.earning < self.free
     }
 
     /// Chances within one epoch of the desire for either side: from d_free on, the stronger one is certain.

@@ -7,9 +7,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::returning::Returning;
-use super::{Chances, Comfort, Courtesy, GainBound, Incentive, Route, Situation, Speed, Urgency};
+use super::situation::{CONGESTED, LaneView, Toward, may_not_pass};
+use super::{Chances, Comfort, Courtesy, GainBound, Incentive, Keeping, Route, Situation, Speed, Urgency};
 use crate::Reading;
 use crate::exponential::exp;
+use crate::follow::Ahead;
 
 /// Multi-criteria decision-making.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,6 +35,8 @@ pub struct Mcdm {
     pub courtesy: Courtesy,
     /// Urgency, ours.
     pub urgency: Urgency,
+    /// Keeping to the slow side, ours.
+    pub keeping: Keeping,
     /// The chance of coming back.
     pub returning: Returning,
 }
@@ -61,7 +65,7 @@ pub enum Combination {
 }
 
 /// How many incentives there are.
-pub const INCENTIVES: usize = 5;
+pub const INCENTIVES: usize = 6;
 
 /// The rows of a model that has fewer of them than there are incentives: the last ones are empty.
 pub(super) fn padded<T: Copy + Default, const N: usize>(rows: [T; N]) -> [T; INCENTIVES] {
@@ -101,7 +105,7 @@ impl Appraisal {
 
 impl Mcdm {
     /// The incentives, in the order of the rows.
-    pub const NAMES: [&str; INCENTIVES] = ["speed", "route", "comfort", "courtesy", "urgency"];
+    pub const NAMES: [&str; INCENTIVES] = ["speed", "route", "comfort", "courtesy", "urgency", "keeping"];
 
     fn rows(&self, situation: &Situation, chances: Chances) -> [Row; INCENTIVES] {
         fn row(incentive: &impl Incentive, situation: &Situation, chances: Chances) -> Row {
@@ -116,13 +120,22 @@ impl Mcdm {
             row(&self.comfort, situation, chances),
             row(&self.courtesy, situation, chances),
             row(&self.urgency, situation, chances),
+            row(&self.keeping, situation, chances),
         ]
     }
 
     /// The driver's appraisal of the side in `situation`.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
+        let seen = self.keeping_there(situation);
+        let situation = seen.as_ref().unwrap_or(situation);
         let rows = self.rows(situation, self.returning.chances(situation));
         Appraisal { rows, gain: self.combine(&rows), theta: self.theta }
+    }
+
+    /// Whether only the wish for the slow side makes the driver of this `appraisal` want the change.
+    pub(super) fn is_for_the_slow_side(&self, appraisal: &Appraisal) -> bool {
+        let [others @ .., keeping] = &appraisal.rows;
+        keeping.weight * keeping.earning > 0.0 && self.combine(others) <= self.theta
     }
 
     /// The driver's appraisal of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference
@@ -135,6 +148,41 @@ impl Mcdm {
             _ => Row::default(),
         });
         Some(Appraisal { rows, gain: self.combine(&rows), theta: self.theta })
+    }
+
+    /// The anticipated speeds [m/s] here and there, where a driver at `speed` [m/s] on the slow side does not pass its
+    /// leader in the overtaking lane: one of `ahead`, the leaders here and there.
+    #[inline]
+    pub fn without_passing(
+        &self,
+        toward: Toward,
+        speed: f64,
+        ahead: [Option<Ahead>; 2],
+        [here, there]: [f64; 2],
+    ) -> [f64; 2] {
+        let offside = match toward {
+            Toward::Offside => ahead[1],
+            Toward::Nearside => ahead[0],
+        };
+        match toward {
+            _ if !offside.is_some_and(|it| may_not_pass(speed, it, CONGESTED)) => [here, there],
+            Toward::Offside => [here.min(there), there],
+            Toward::Nearside => [here, there.min(here)],
+        }
+    }
+
+    /// The situation of a driver who keeps to the slow side, where it does not pass there; `None` for all others.
+    fn keeping_there<'a>(&self, situation: &Situation<'a>) -> Option<Situation<'a>> {
+        let Situation { me, here, there, toward, keeps_to_the_slow_side, .. } = *situation;
+        if !keeps_to_the_slow_side || self.keeping.weight <= 0.0 {
+            return None;
+        }
+        let (speed, speeds) = (me.pace.speed, [here.anticipated_speed, there.anticipated_speed]);
+        let [at_most_here, at_most_there] =
+            self.without_passing(toward, speed, [here.ahead, there.ahead], speeds);
+        let here = LaneView { anticipated_speed: at_most_here, ..here };
+        let there = LaneView { anticipated_speed: at_most_there, ..there };
+        Some(Situation { here, there, ..*situation })
     }
 
     /// G.
@@ -156,6 +204,7 @@ impl Mcdm {
             comfort,
             courtesy,
             urgency: _,
+            keeping,
             rule: _,
             theta: _,
             sigma: _,
@@ -166,7 +215,8 @@ impl Mcdm {
         if !is_repaired || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
             return f64::INFINITY;
         }
-        let GainBound { desired, anticipated_speeds, routes, section, band, courtesy: for_others } = bound;
+        let GainBound { desired, anticipated_speeds, routes, section, band, courtesy: for_others, slow_side } =
+            bound;
         let [here, there] = *anticipated_speeds;
         // A longer look would add the discomfort.
         self.combine(&[
@@ -176,6 +226,7 @@ impl Mcdm {
                 weight: route.weight,
             },
             Row { earning: *for_others, weight: courtesy.weight },
+            Row { earning: *slow_side, weight: keeping.weight },
         ])
     }
 

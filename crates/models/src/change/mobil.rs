@@ -15,9 +15,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::keeping::RouteKeeping;
 use super::mcdm::{Appraisal, Row, by_threshold, padded};
-use super::situation::{Driver, LaneView, Situation, Toward};
+use super::route_keeping::RouteKeeping;
+use super::situation::{Driver, LaneView, Situation, Toward, may_not_pass};
 use crate::braking::HARDEST_BRAKING;
 use crate::follow::{Ahead, CarFollowing};
 
@@ -136,7 +136,7 @@ impl Mobil {
     /// it.
     #[inline]
     pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
-        self.traffic == Traffic::European && speed > offside.speed && offside.speed > self.critical_speed
+        self.traffic == Traffic::European && may_not_pass(speed, offside, self.critical_speed)
     }
 
     /// The same accelerations where the lane on the slow side counts as no faster than passing there allows: a^eur.
@@ -155,6 +155,12 @@ impl Mobil {
             Toward::Nearside => [now, then.min(now)],
         };
         Accelerations { own, ..accelerations }
+    }
+
+    /// Whether only the preference for the slow side makes the driver of this `appraisal` want the change.
+    pub(super) fn is_for_the_slow_side(&self, toward: Toward, appraisal: &Appraisal) -> bool {
+        let prefers_it = self.traffic == Traffic::European && toward == Toward::Nearside;
+        prefers_it && appraisal.gain <= self.threshold
     }
 
     /// Chances within one epoch of the desire for either side: the better one above its threshold is certain.

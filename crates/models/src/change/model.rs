@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, Rule, at_least_once_in, padded};
-use super::situation::Situation;
+use super::situation::{CONGESTED, Situation, Toward, may_not_pass};
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
 use crate::follow::Ahead;
@@ -133,16 +133,36 @@ impl LaneChangeModel {
         }
     }
 
-    /// Whether drivers may have to stay behind slower ones in the overtaking lane.
+    /// Whether drivers may have to stay behind slower ones in the overtaking lane; `keeps` where the law wants them on
+    /// the slow side.
     #[inline]
-    pub fn minds_offside(&self) -> bool {
-        matches!(self, LaneChangeModel::Mobil(model) if model.traffic == super::Traffic::European)
+    pub fn minds_offside(&self, keeps: bool) -> bool {
+        match self {
+            LaneChangeModel::Mcdm(model) => keeps && model.keeping.weight > 0.0,
+            LaneChangeModel::Mobil(model) => model.traffic == super::Traffic::European,
+            LaneChangeModel::Lmrs(_) | LaneChangeModel::ConstantHazard(_) => false,
+        }
     }
 
-    /// Whether a driver at `speed` [m/s] may not pass `offside`, its leader in the overtaking lane.
+    /// Whether a driver who minds the overtaking lane, at `speed` [m/s], may not pass `offside`, its leader there.
     #[inline]
     pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
-        matches!(self, LaneChangeModel::Mobil(model) if model.stays_behind(speed, offside))
+        match self {
+            LaneChangeModel::Mcdm(_) => may_not_pass(speed, offside, CONGESTED),
+            LaneChangeModel::Mobil(model) => model.stays_behind(speed, offside),
+            LaneChangeModel::Lmrs(_) | LaneChangeModel::ConstantHazard(_) => false,
+        }
+    }
+
+    /// Whether the wish for the slow side decides: without it, the driver of this `appraisal` would not want the change
+    /// `toward` a side.
+    pub fn is_for_the_slow_side(&self, toward: Toward, appraisal: &Appraisal) -> bool {
+        match self {
+            LaneChangeModel::Mcdm(model) => model.is_for_the_slow_side(appraisal),
+            LaneChangeModel::Mobil(model) => model.is_for_the_slow_side(toward, appraisal),
+            LaneChangeModel::Lmrs(model) => model.is_for_the_slow_side(toward, appraisal),
+            LaneChangeModel::ConstantHazard(_) => false,
+        }
     }
 
     /// The driver's appraisal of leaving a route of `on_route` [s] for one of `alternative` [s], if that is better by

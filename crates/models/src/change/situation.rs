@@ -15,6 +15,17 @@ pub enum Toward {
     Nearside,
 }
 
+/// Speed below which traffic is congested, so that drivers may pass on the slow side [m/s] (as v_crit of Kesting,
+/// Treiber, Helbing 2007).
+pub(super) const CONGESTED: f64 = 60.0 / 3.6;
+
+/// Whether a driver at `speed` [m/s] may not pass on the slow side of `offside`, its leader in the overtaking lane, in
+/// traffic that is not congested: faster than `congested` [m/s].
+#[inline]
+pub(super) fn may_not_pass(speed: f64, offside: Ahead, congested: f64) -> bool {
+    speed > offside.speed && offside.speed > congested
+}
+
 /// A driver considers changing to the lane `there`.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
@@ -31,6 +42,8 @@ pub struct Situation<'a> {
     pub section: f64,
     /// Gain for which the driver leaves its route [s]; infinite: it always keeps its route.
     pub band: f64,
+    /// The law wants drivers on the slow side.
+    pub keeps_to_the_slow_side: bool,
     /// Vehicles that signal a change into the driver's lane and for which it would give way.
     pub merging: [Option<Merging<'a>>; 2],
 }

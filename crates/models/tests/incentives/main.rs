@@ -5,6 +5,7 @@ mod situations;
 #[path = "../weights/mod.rs"]
 mod weights;
 
+mod keeping;
 mod others;
 mod route;
 

@@ -217,7 +217,8 @@ fn a_change_earns_the_urgency_that_it_takes_away() {
 fn the_rows_of_an_appraisal_are_the_incentives_in_their_order() {
     let mut model = mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1);
     model.urgency.weight = 5.0;
-    let situation = leaving_route(between_followers(), 40.0);
+    model.keeping.weight = 6.0;
+    let situation = Situation { keeps_to_the_slow_side: true, ..leaving_route(between_followers(), 40.0) };
     let chances = model.returning.chances(&situation);
     let expected = [
         model.speed.earning(&situation, chances),
@@ -225,10 +226,11 @@ fn the_rows_of_an_appraisal_are_the_incentives_in_their_order() {
         model.comfort.earning(&situation, chances),
         model.courtesy.earning(&situation, chances),
         model.urgency.earning(&situation, chances),
+        model.keeping.earning(&situation, chances),
     ];
     let appraisal = model.appraise(&situation);
     for (row, (earning, weight)) in
-        appraisal.rows.iter().zip(expected.into_iter().zip([1.0, 2.0, 3.0, 4.0, 5.0]))
+        appraisal.rows.iter().zip(expected.into_iter().zip([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]))
     {
         assert_eq!((row.earning, row.weight), (earning, weight));
     }

@@ -32,6 +32,7 @@ pub(crate) fn empty_road(me: Driver<'_>) -> Situation<'_> {
         there: lane,
         section: 200.0,
         band: 0.0,
+        keeps_to_the_slow_side: false,
         merging: [None; 2],
     }
 }

@@ -56,6 +56,8 @@ pub struct Summary {
     pub lane_changes_route: u64,
     /// Of them, route-driven (mandatory) ones.
     pub lane_changes_route_driven: u64,
+    /// Of them, those made only to keep to the slow side.
+    pub lane_changes_keeping: u64,
     /// Lane changes per vehicle-kilometre.
     pub lane_changes_per_veh_km: Option<f64>,
     /// Distance driven [veh km].
@@ -152,7 +154,7 @@ impl Summary {
         let (counters, counts) = (world.counters(), world.counts());
         let trips = ending.short_trips.means_without(counts);
         let veh_km = counters.distance / METRES_PER_KM;
-        let lane_changes = counts.discretionary_changes + counts.route_changes;
+        let lane_changes = counts.discretionary_changes + counts.route_changes + counts.keeping_changes;
         Summary {
             entered: counts.entered,
             left: counts.left,
@@ -171,6 +173,7 @@ impl Summary {
             lane_changes_discretionary: counts.discretionary_changes,
             lane_changes_route: counts.route_changes,
             lane_changes_route_driven: counts.route_changes,
+            lane_changes_keeping: counts.keeping_changes,
             lane_changes_per_veh_km: ratio(lane_changes as f64, veh_km),
             veh_km,
             collisions: counters.collisions,
@@ -298,10 +301,11 @@ impl Summary {
         let per_km =
             |count: u64| ratio(count as f64, self.veh_km).map_or("-".into(), |it| format!("{it:.3}"));
         format!(
-            "{} per veh-km: {} discretionary, {} route-driven",
+            "{} per veh-km: {} discretionary, {} route-driven, {} keeping to the slow side",
             per_km(self.lane_changes),
             per_km(self.lane_changes_discretionary),
-            per_km(self.lane_changes_route)
+            per_km(self.lane_changes_route),
+            per_km(self.lane_changes_keeping)
         )
     }
 

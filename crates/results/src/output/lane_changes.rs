@@ -49,6 +49,7 @@ const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
     ["comfort_yield", "comfort_weight"],
     ["courtesy_yield", "courtesy_weight"],
     ["urgency_yield", "urgency_weight"],
+    ["keeping_yield", "keeping_weight"],
 ];
 
 /// Lane changes in a batch; those of one step more at most.
@@ -153,6 +154,7 @@ fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
         match change.kind {
             Kind::Discretionary => "discretionary",
             Kind::Route => "route",
+            Kind::Keeping => "keeping",
         }
         .into(),
         change.speed.into(),

@@ -294,10 +294,11 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
         let falls_in = f64::from(lane_change.urgency) >= style.change.synchronizes_from();
         if falls_in && !drives_on {
             let falling_in = style.follow.acceleration(pace, beside);
-            wish = wish.or(falling_in.max(-style.manner.adjust_deceleration), BrakingCause::CutIn);
+            let hardest = style.manner.adjusting(f64::from(lane_change.urgency));
+            wish = wish.or(falling_in.max(-hardest), BrakingCause::CutIn);
         }
     }
-    if style.change.minds_offside() {
+    if lane_change.minds_offside {
         let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
         if offside.is_some_and(|it| style.change.stays_behind(motion.speed, it)) {
             let staying_behind = style.follow.acceleration(pace, offside);

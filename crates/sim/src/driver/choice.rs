@@ -14,6 +14,8 @@ use crate::state::moment::Moment;
 pub(crate) struct Choice {
     pub(crate) side: Side,
     pub(crate) appraisal: Appraisal,
+    /// Only the wish for the slow side makes it wanted.
+    pub(crate) is_for_the_slow_side: bool,
     pub(crate) is_symmetric: bool,
     /// Fewer lane changes are left to make there.
     pub(crate) helps_the_route: bool,
@@ -57,6 +59,7 @@ impl Choice {
         Choice {
             side,
             appraisal,
+            is_for_the_slow_side: change.is_for_the_slow_side(situation.toward, &appraisal),
             is_symmetric: situation.is_symmetric(),
             helps_the_route: situation.there.route.changes < situation.here.route.changes,
             pressure: change.pressure(situation, &appraisal),
@@ -67,7 +70,11 @@ impl Choice {
     pub(crate) fn want(&self, prospect_here: f64) -> Want {
         Want {
             side: self.side,
-            kind: if self.is_symmetric { Kind::Discretionary } else { Kind::Route },
+            kind: match self.is_symmetric {
+                true if self.is_for_the_slow_side => Kind::Keeping,
+                true => Kind::Discretionary,
+                false => Kind::Route,
+            },
             appraisal: self.appraisal,
             speed_gain: (self.anticipated_speed - prospect_here) as f32,
         }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use laneweave_models::Style;
 use laneweave_models::change::{Appraisal, LaneChangeModel};
-use laneweave_network::Side;
+use laneweave_network::{LaneUse, Side};
 
 use crate::driver::beliefs::Beliefs;
 use crate::driver::choice::{Choice, desire};
@@ -131,13 +131,13 @@ fn follow_route(
     standing: f32,
     outbox: &mut Outbox,
 ) -> Concern {
-    let Me { spot, motion, style, .. } = *me;
+    let Me { spot, motion, .. } = *me;
     let concern = Concern {
         index: spot.index as u32,
         last_place: f64::INFINITY,
         urgency: 0.0,
         gives_up: false,
-        minds_offside: style.change.minds_offside(),
+        minds_offside: minds_offside(scene, me),
         rerouted: None,
     };
     if let Some(other) = other_goal(scene, me, waypoint, standing) {
@@ -155,6 +155,14 @@ fn follow_route(
     }
     let is_near = waypoint.last_place - motion.x < REACTS_WITHIN;
     Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
+}
+
+/// Whether a driver may have to stay behind its leader in the overtaking lane.
+fn minds_offside(scene: &Scene, me: &Me) -> bool {
+    let (network, change) = (scene.network, &me.style.change);
+    change.minds_offside(network.lane_use == LaneUse::SlowSide)
+        && window::leader_beside(scene, me.spot, network.driving_side.overtaking())
+            .is_some_and(|it| change.stays_behind(me.motion.speed, it))
 }
 
 /// Whether a driver may change to a side, or is recommended a route. Without that it has nothing to decide or to wait
@@ -286,7 +294,7 @@ fn gives_up(
 ) -> bool {
     let Some(appraisal) = wanted else { return true };
     let waited = moment.clock.since(lane_change.since);
-    let is_tired = lane_change.kind == Kind::Discretionary && waited > style.manner.patience;
+    let is_tired = lane_change.kind != Kind::Route && waited > style.manner.patience;
     let is_pointless = style.change.would_rather_stay(appraisal);
     let is_better_elsewhere =
         other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());

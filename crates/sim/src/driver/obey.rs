@@ -181,7 +181,7 @@ fn give_up(me: &Me, plan: &mut Plan) {
         last_place: me.lane_change.last_place,
         urgency: me.lane_change.urgency,
         gives_up: true,
-        minds_offside: false,
+        minds_offside: me.lane_change.minds_offside,
         rerouted: None,
     });
 }

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
 use laneweave_models::follow::{Ahead, Pace};
-use laneweave_network::{Beside, Side};
+use laneweave_network::{Beside, LaneUse, Side};
 
 use crate::driver::beliefs::Beliefs;
 use crate::driver::window;
@@ -139,10 +139,20 @@ impl<'s, 'a> Perception<'s, 'a> {
         let (section, [route_here, route_there]) = self.routes(from);
         let here = LaneView { route: route_here, ..self.here };
         let there = lane_view(self.scene, &self.me, &sight, route_there);
-        let offside = self.scene.network.driving_side.overtaking();
-        let toward = if side == offside { Toward::Offside } else { Toward::Nearside };
         let (me, band, merging) = (self.me, self.beliefs.band, self.merging(side, from, &sight));
-        Situation { toward, me, here, there, section, band, merging }
+        let (toward, keeps_to_the_slow_side) = (self.toward(side), self.keeps_to_the_slow_side());
+        Situation { toward, me, here, there, section, band, keeps_to_the_slow_side, merging }
+    }
+
+    /// Where the lane on `side` lies.
+    fn toward(&self, side: Side) -> Toward {
+        let offside = self.scene.network.driving_side.overtaking();
+        if side == offside { Toward::Offside } else { Toward::Nearside }
+    }
+
+    /// Whether the law wants drivers on the slow side.
+    fn keeps_to_the_slow_side(&self) -> bool {
+        self.scene.network.lane_use == LaneUse::SlowSide
     }
 
     /// The length of road on which the speeds of the own lane and of the lane at `from` are compared [m], and what

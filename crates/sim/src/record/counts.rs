@@ -19,6 +19,8 @@ pub struct Counts {
     pub discretionary_changes: u64,
     /// Route-driven lane changes: for the route, or away from it.
     pub route_changes: u64,
+    /// Lane changes to the slow side for the law alone.
+    pub keeping_changes: u64,
     /// Time on the map of the completed trips [s].
     pub trip_time: f64,
     /// Halts during the completed trips.

@@ -280,6 +280,7 @@ impl Log {
         match kind {
             Kind::Discretionary => self.counts.discretionary_changes += 1,
             Kind::Route => self.counts.route_changes += 1,
+            Kind::Keeping => self.counts.keeping_changes += 1,
         }
         if let Some(trip) = self.trip_mut(milestone.id) {
             trip.way_to_start += x - x_there;

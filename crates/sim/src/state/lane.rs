@@ -109,6 +109,8 @@ pub struct LaneChangeState {
     pub side: Side,
     /// Kind of the desired or current change.
     pub kind: Kind,
+    /// The driver may have to stay behind its leader in the overtaking lane.
+    pub minds_offside: bool,
     /// Step in which the vehicle entered the map.
     pub entered: u32,
     /// Step in which the desire came, or the change began.

@@ -28,8 +28,15 @@ impl Phase {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Kind {
-    /// Discretionary: between lanes that lead to the same place.
+    /// Discretionary: between lanes that lead to the same place, for more than the law.
     Discretionary,
     /// Route-driven: for the route, or away from it.
     Route,
+    /// Keeping: to the slow side, only because the law wants drivers there.
+    Keeping,
+}
+
+impl Kind {
+    /// All of them, in their order.
+    pub const ALL: [Kind; 3] = [Kind::Discretionary, Kind::Route, Kind::Keeping];
 }

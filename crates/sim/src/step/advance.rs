@@ -68,10 +68,9 @@ pub(crate) fn advance(
             if upkeep.reservation_is_over {
                 lane_change.reservation = NO_RESERVATION;
             }
-            let minds_offside = driver_parameters[driver.parameters as usize].change.minds_offside();
             driver.needs_full_update = lane_change.last_place.is_finite()
                 || lane_change.reservation != NO_RESERVATION
-                || minds_offside;
+                || lane_change.minds_offside;
         }
     }
     // Only an external vehicle drives through another one.
@@ -132,6 +131,7 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
         }
         lane_change.last_place = concern.last_place;
         lane_change.urgency = concern.urgency;
+        lane_change.minds_offside = concern.minds_offside;
         driver.needs_full_update |= concern.last_place.is_finite() || concern.minds_offside;
         if concern.gives_up && driver.phase == Phase::Wants {
             driver.phase = Phase::Cruises;

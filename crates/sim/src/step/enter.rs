@@ -125,19 +125,18 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
     /// A driver who would have to enter slower than its leader, and than this share of its desired speed, waits
     /// (ours).
     const LEAST_SHARE: f64 = 0.8;
-    let Some(ahead) = ahead else { return Some(desired) };
-    /// A vehicle this far ahead has no influence [m].
-    const FAR: f64 = 1e4;
+    let fastest = speed_on_a_free_road(style, desired);
+    let Some(ahead) = ahead else { return Some(fastest) };
     let fits = |speed: f64| {
         let behind = |gap| style.follow.acceleration(Pace::new(speed, desired), Some(Ahead { gap, ..ahead }));
         // A driver who would have to brake at once delays those behind. Some models brake even on a free road.
         let least = behind(FAR).min(0.0);
         ahead.gap >= style.safety.min_gap && behind(ahead.gap) >= least && is_secure(speed, ahead, dt)
     };
-    if fits(desired) {
-        return Some(desired);
+    if fits(fastest) {
+        return Some(fastest);
     }
-    let (mut slow, mut fast) = (ahead.speed.min(LEAST_SHARE * desired), desired);
+    let (mut slow, mut fast) = (ahead.speed.min(LEAST_SHARE * fastest), fastest);
     if !fits(slow) {
         return None;
     }
@@ -146,6 +145,29 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
         if fits(middle) { slow = middle } else { fast = middle }
     }
     Some(slow)
+}
+
+/// A vehicle this far ahead has no influence [m].
+const FAR: f64 = 1e4;
+
+/// Speed that a driver who wants `desired` keeps on a free road [m/s]: less where its car-following model never
+/// reaches that, as the literal optimal velocity does not.
+fn speed_on_a_free_road(style: &Style, desired: f64) -> f64 {
+    /// A model that brakes less than this on a free road keeps its speed there [m/s²].
+    const KEEPS: f64 = 0.01;
+    let keeps = |speed: f64| {
+        let ahead = Ahead::steady(FAR, speed);
+        style.follow.acceleration(Pace::new(speed, desired), Some(ahead)) >= -KEEPS
+    };
+    if keeps(desired) {
+        return desired;
+    }
+    let (mut slow, mut fast) = (0.0, desired);
+    for _ in 0..30 {
+        let middle = 0.5 * (slow + fast);
+        if keeps(middle) { slow = middle } else { fast = middle }
+    }
+    slow
 }
 
 /// Gap to a leader with which a driver starts from a trip end inside the map [m]. It does not start into a queue.

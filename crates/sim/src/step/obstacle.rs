@@ -93,6 +93,7 @@ pub(super) fn parked(entry: &Entry) -> Entry {
             previous_lanes: PreviousLanes::NONE,
             last_place: f64::INFINITY,
             lets_in: LaneChangeState::NOBODY,
+            minds_offside: false,
             reservation: NO_RESERVATION,
             ..lane_change
         },

@@ -108,6 +108,7 @@ pub(crate) fn put(
         counterpart: None,
         last_place: f64::INFINITY,
         lets_in: LaneChangeState::NOBODY,
+        minds_offside: false,
         reservation: NO_RESERVATION,
     };
     traffic.enter(chain, Entry { motion, driver, lane_change });

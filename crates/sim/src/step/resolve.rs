@@ -162,6 +162,7 @@ impl Resolving<'_> {
                 previous_lanes: PreviousLanes::NONE,
                 last_place: f64::INFINITY,
                 lets_in: LaneChangeState::NOBODY,
+                minds_offside: false,
                 reservation: NO_RESERVATION,
                 ..lane_change
             },

@@ -152,6 +152,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         counterpart: seen.change.map(counterpart),
         last_place: f64::INFINITY,
         lets_in: LaneChangeState::NOBODY,
+        minds_offside: false,
         reservation: NO_RESERVATION,
     };
     Entry { motion, driver, lane_change }

@@ -64,6 +64,7 @@ fn reason(kind: Kind) -> &'static str {
     match kind {
         Kind::Discretionary => "speedGain",
         Kind::Route => "strategic",
+        Kind::Keeping => "keepRight",
     }
 }
 

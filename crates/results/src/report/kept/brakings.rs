@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// Hard brakings by place and cause.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub struct HardBrakings {
+pub(crate) struct HardBrakings {
     /// By lanelet, the counts in the order of [`BrakingCause::ALL`].
     places: BTreeMap<i64, [u64; BrakingCause::ALL.len()]>,
 }
@@ -27,7 +27,7 @@ impl HardBrakings {
     }
 
     /// The lanelets with most of them, at most `most`, each with its counts by cause; of equal ones the lower id first.
-    pub fn worst(&self, most: usize) -> Vec<(i64, [u64; BrakingCause::ALL.len()])> {
+    pub(crate) fn worst(&self, most: usize) -> Vec<(i64, [u64; BrakingCause::ALL.len()])> {
         let mut places: Vec<_> = self.places.iter().map(|(lanelet, counts)| (*lanelet, *counts)).collect();
         places.sort_by_key(|(lanelet, counts)| (std::cmp::Reverse(counts.iter().sum::<u64>()), *lanelet));
         places.truncate(most);

@@ -13,6 +13,9 @@ const TIMES_TO_COLLISION: (f64, usize) = (1.0, 20);
 /// Bins of gains of speed [m/s]: the first, their width and number.
 const GAINS: (f64, f64, usize) = (-20.0, 1.0, 60);
 
+/// Number of kinds of lane changes.
+const KINDS: usize = Kind::ALL.len();
+
 /// The name where no incentive was in favour of the change.
 const NONE: &str = "none";
 
@@ -26,7 +29,7 @@ pub struct Reasons {
     /// The incentives of each style's model; an unused one has no name.
     incentives: Vec<[String; INCENTIVES]>,
     /// Completed changes by style, by kind and by the index of the leading incentive; the last index is none.
-    completed: Vec<[[u64; INCENTIVES + 1]; 2]>,
+    completed: Vec<[[u64; INCENTIVES + 1]; KINDS]>,
     /// Aborted changes.
     pub aborted: u64,
     /// Gaps ahead and behind at the begin of the completed changes, where there is a vehicle [m].
@@ -34,7 +37,7 @@ pub struct Reasons {
     /// Times to collision there, where a vehicle closes in [s].
     pub times_to_collision: [Histogram; 2],
     /// Gains of speed that were anticipated when the desire began, by kind [m/s].
-    pub gains: [Histogram; 2],
+    pub gains: [Histogram; KINDS],
 }
 
 impl Reasons {
@@ -52,7 +55,7 @@ impl Reasons {
             aborted: 0,
             gaps: histograms(GAPS),
             times_to_collision: histograms(TIMES_TO_COLLISION),
-            gains: [(); 2].map(|()| Histogram::new(GAINS.0, GAINS.1, GAINS.2)),
+            gains: [(); KINDS].map(|()| Histogram::new(GAINS.0, GAINS.1, GAINS.2)),
         }
     }
 
@@ -107,7 +110,7 @@ impl Reasons {
 
     /// Completed changes of a kind with that leading incentive.
     pub fn of_incentive(&self, incentive: &str, kind: Kind) -> u64 {
-        let of_style = |(names, counts): (&[String; INCENTIVES], &[[u64; INCENTIVES + 1]; 2])| {
+        let of_style = |(names, counts): (&[String; INCENTIVES], &[[u64; INCENTIVES + 1]; KINDS])| {
             let named = names.iter().map(String::as_str).chain([NONE]).zip(counts[place(kind)]);
             // A change that a row without a name leads has no incentive.
             let is_it = |name: &str| name == incentive || (name.is_empty() && incentive == NONE);
@@ -123,7 +126,7 @@ impl Reasons {
 
     /// All completed changes.
     pub fn total(&self) -> u64 {
-        self.of_kind(Kind::Discretionary) + self.of_kind(Kind::Route)
+        Kind::ALL.iter().map(|it| self.of_kind(*it)).sum()
     }
 }
 
@@ -131,5 +134,6 @@ fn place(kind: Kind) -> usize {
     match kind {
         Kind::Discretionary => 0,
         Kind::Route => 1,
+        Kind::Keeping => 2,
     }
 }

@@ -12,7 +12,8 @@ use super::numbers::rate_per;
 use crate::report::kept::Reasons;
 use crate::report::{Align, Figure, Section, Table, counted, number};
 
-const KINDS: [(Kind, &str); 2] = [(Kind::Discretionary, "discretionary"), (Kind::Route, "route-driven")];
+const KINDS: [(Kind, &str); Kind::ALL.len()] =
+    [(Kind::Discretionary, "discretionary"), (Kind::Route, "route-driven"), (Kind::Keeping, "keeping")];
 /// Incentives are counted per this number of vehicle-kilometres.
 const MANY_KM: f64 = 100.0;
 /// Minimum number of values in a distribution.
@@ -33,7 +34,8 @@ pub(super) fn section(run: &RunReport) -> Section {
         .note(format!(
             "The figures by style, by incentive and of gaps show the {} lane changes that were completed in the measured time (the \
              rows of the table lane_changes); {} more were aborted. Discretionary: between lanes that lead to the same place for \
-             the driver. Route-driven (mandatory): all others. A distribution of fewer than {LEAST} values is not drawn.",
+             the driver. Keeping: of them, those that the driver makes only to keep to the slow side. Route-driven (mandatory): all \
+             others. A distribution of fewer than {LEAST} values is not drawn.",
             counted(reasons.total()),
             counted(reasons.aborted)
         ))
@@ -137,22 +139,24 @@ fn gaps(reasons: &Reasons) -> Option<Figure> {
 }
 
 fn gains(reasons: &Reasons) -> Option<Figure> {
-    let [discretionary, route] = &reasons.gains;
-    if [discretionary, route].iter().map(|it| it.total()).sum::<u64>() < LEAST {
+    let [discretionary, route, keeping] = &reasons.gains;
+    if reasons.gains.iter().map(|it| it.total()).sum::<u64>() < LEAST {
         return None;
     }
-    let trimmed = [discretionary.trimmed(&[route]), route.trimmed(&[discretionary])];
-    let all = [(KINDS[0].1, &trimmed[0]), (KINDS[1].1, &trimmed[1])];
-    let all = all.map(|(name, histogram)| Distributed { name, histogram });
+    let trimmed = reasons.gains.each_ref().map(|it| it.trimmed(&[discretionary, route, keeping]));
+    let named = KINDS.iter().zip(&trimmed).filter(|(_, histogram)| histogram.total() > 0);
+    let all: Vec<Distributed> = named.map(|((_, name), histogram)| Distributed { name, histogram }).collect();
     let labels = ["Speed gain [m/s]", "Share of lane changes [% per m/s]"];
     Some(Figure {
         svg: distribution(Sheet::Column, labels, Upwards::Linear, &all),
         title: "Anticipated speed gain".into(),
         caption: format!(
             "Anticipated speed in the target lane minus that in the driver's own lane, when the desire began, of completed changes. \
-             n = {} discretionary, {} route-driven. Route-driven changes, and changes out of courtesy, may cost speed.",
+             n = {} discretionary, {} route-driven, {} keeping. Changes for the route, out of courtesy or to keep to the slow side may \
+             cost speed.",
             counted(discretionary.total()),
-            counted(route.total())
+            counted(route.total()),
+            counted(keeping.total())
         ),
     })
 }
@@ -191,13 +195,15 @@ fn table(run: &RunReport) -> Table {
         ("style", Words),
         ("discretionary", Numbers),
         ("route-driven", Numbers),
+        ("keeping", Numbers),
         ("veh-km", Numbers),
         ("lane changes per veh-km (95 % interval)", Numbers),
     ];
     let mut table = Table::new("Completed lane changes by style.", &columns);
-    let mut row = |name: &str, [discretionary, route]: [u64; 2], km: f64| {
-        let [count, others] = [discretionary, route].map(counted);
-        table.row([name.into(), count, others, number(km, 4), rate_per(discretionary + route, km)]);
+    let mut row = |name: &str, counts: [u64; Kind::ALL.len()], km: f64| {
+        let [discretionary, route, keeping] = counts.map(counted);
+        let rate = rate_per(counts.iter().sum(), km);
+        table.row([name.into(), discretionary, route, keeping, number(km, 4), rate]);
     };
     for (style, name) in reasons.styles.iter().enumerate() {
         row(name, KINDS.map(|(kind, _)| reasons.of_style(style, kind)), veh_km(run, style));

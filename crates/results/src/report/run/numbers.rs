@@ -45,6 +45,11 @@ pub(super) fn section(run: &RunReport) -> Section {
             "route-driven lane changes",
             if_driven(per_km(summary.lane_changes_route)),
         ),
+        tile(
+            counted(summary.lane_changes_keeping),
+            "lane changes to keep to the slow side",
+            if_driven(per_km(summary.lane_changes_keeping)),
+        ),
         tile(speed, "mean speed", "distance divided by time, all vehicles".into()),
         tile(summary.mean_delay_s.map_or("–".into(), |it| format!("{it:.1} s")), "mean trip delay", interval),
         tile(

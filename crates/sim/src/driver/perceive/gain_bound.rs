@@ -30,7 +30,9 @@ impl Perception<'_, '_> {
         let is_courteous = model.courtesy.weight != 0.0;
         let relief = if is_courteous { model.courtesy.relief(&self.me, &self.here) } else { 0.0 };
         let mut best_anticipated_speed = None;
-        for from in self.beside.into_iter().flatten() {
+        let keeps = self.keeps_to_the_slow_side() && model.keeping.weight != 0.0;
+        for side in Side::BOTH {
+            let Some(from) = self.beside[side.at()] else { continue };
             let (section, routes) = self.routes(from);
             if routes[1].changes != 0 {
                 return None;
@@ -43,13 +45,22 @@ impl Perception<'_, '_> {
                     Behind { gap: it.distance - self.me.length, driver: driver_of(self.scene, it.spot) };
                 model.courtesy.harm(&self.me, ahead, &behind)
             });
+            let (toward, leaders) = (self.toward(side), [self.here.ahead, ahead]);
+            let mut anticipated_speeds = [self.here.anticipated_speed, anticipated_speed];
+            let mut slow_side = 0.0;
+            if keeps {
+                let speed = self.me.pace.speed;
+                anticipated_speeds = model.without_passing(toward, speed, leaders, anticipated_speeds);
+                slow_side = model.keeping.toward(toward, leaders, desired);
+            }
             let bound = GainBound {
                 desired,
-                anticipated_speeds: [self.here.anticipated_speed, anticipated_speed],
+                anticipated_speeds,
                 routes,
                 section,
                 band: self.beliefs.band,
                 courtesy: relief + harm,
+                slow_side,
             };
             if model.gain_at_most(&bound) >= reach {
                 return None;
