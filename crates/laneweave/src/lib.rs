@@ -25,6 +25,7 @@
 pub mod branch;
 pub mod check;
 pub mod compare;
+mod parallel;
 pub mod run;
 mod simulation;
 
@@ -40,6 +41,7 @@ pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle,
     Phase, VehicleId,
 };
+pub use parallel::in_parallel;
 pub use simulation::{
     Builder, Event, Incident, LaneChange, Light, MapSource, Observer, Occurrence, Simulation, VehicleState,
 };

@@ -6,12 +6,13 @@ use std::path::Path;
 use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
-const LEVELS: [&[&str]; 7] = [
+const LEVELS: [&[&str]; 8] = [
     &["network", "models", "study"],
     &["maps", "sim"],
     &["recordings", "scenario", "explain"],
     &["results"],
     &["laneweave"],
+    &["experiments"],
     &["cli"],
     &["bench"],
 ];

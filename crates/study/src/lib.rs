@@ -18,7 +18,7 @@ pub use edie::{EdieError, EdieGrid, EdieRow, Window};
 #[cfg(feature = "figures")]
 pub use figures::{
     BarRow, Distributed, Estimated, Scattered, Sheet, TimeLine, Upwards, bars, distribution, escaped,
-    over_time, rate_density, scatter, text_width, time_space,
+    estimates, over_time, rate_density, scatter, text_width, time_space,
 };
 pub use histogram::Histogram;
 pub use rate::{RatePoint, RateSeries, rate_by_density};

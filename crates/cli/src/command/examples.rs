@@ -51,6 +51,16 @@ Examples:
   # Two ways to follow a route
   laneweave compare maps/ramps.osm --model mobil --model mobil-lanes --seeds 3 --duration 120";
 
+pub(super) const REPRODUCE: &str = "The same command gives the same files, byte for byte, on any machine. Each experiment writes its words (.md), its data (.csv) and its figures (.svg).
+
+Examples:
+  # A try of everything
+  laneweave reproduce --quick
+  # Are the drivers plausible? With ten seeds
+  laneweave reproduce plausibility --seeds 10
+  # On a motorway, is the rate of lane changes like MOBIL's?
+  laneweave reproduce C1 --out claims";
+
 pub(super) const CHECK: &str = "Problems of a map are not errors of the command: its exit code is 0.
 
 Examples:

@@ -8,6 +8,7 @@ mod explain;
 mod generate;
 mod numbers;
 mod progress;
+mod reproduce;
 mod resume;
 mod routes;
 mod run;
@@ -52,6 +53,9 @@ enum Command {
     /// Run scenarios with several lane-change models and seeds, and compare the results.
     #[command(after_help = examples::COMPARE)]
     Compare(compare::Arguments),
+    /// Run experiments: the drivers beside published values, and the claims of the paper.
+    #[command(after_help = examples::REPRODUCE)]
+    Reproduce(reproduce::Arguments),
     /// Report what a map or a recording contains, and the problems in it.
     #[command(after_help = examples::CHECK)]
     Check(check::Arguments),
@@ -90,6 +94,7 @@ impl Cli {
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Compare(arguments)) => arguments.execute(),
+            Some(Command::Reproduce(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Scenario(deed)) => deed.execute(),

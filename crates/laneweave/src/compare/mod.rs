@@ -4,15 +4,13 @@ mod outcome;
 #[cfg(feature = "reports")]
 mod page;
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
-
 use laneweave_results::About;
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 use laneweave_scenario::style::Model;
 use laneweave_study::{EdieRow, Estimate, mean};
+
+use crate::parallel::in_parallel;
 
 pub use outcome::{MEASURES, Measure, Outcome};
 #[cfg(feature = "reports")]
@@ -62,23 +60,7 @@ pub fn compare(
     let models: Vec<Model> = models.iter().enumerate().filter(is_first).map(|(_, model)| *model).collect();
     let jobs: Vec<(Model, u64)> =
         models.iter().flat_map(|model| seeds.iter().map(|seed| (*model, *seed))).collect();
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let work = || {
-        while let Some((model, seed)) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let ended = trial(scenario, origin, *model, *seed);
-            done.lock().unwrap_or_else(PoisonError::into_inner).push(ended);
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(work);
-        }
-        work();
-    });
-    let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let mut trials = done.into_iter().collect::<Result<Vec<Trial>, Fault>>()?;
-    let place = |model: Model| models.iter().position(|it| *it == model);
-    trials.sort_by_key(|it| (place(it.model), it.seed));
+    let trials = in_parallel(&jobs, threads, |(model, seed)| trial(scenario, origin, *model, *seed))?;
     Ok(Comparison { about, models, trials })
 }
 

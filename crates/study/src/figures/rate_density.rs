@@ -1,45 +1,21 @@
 //! Lane-change rate against density, with exact Poisson intervals.
 
-use super::axes::Axis;
-use super::drawing::{Around, Drawing};
-use super::series::{Estimated, curve, key};
+use super::estimates::estimates;
+use super::series::Estimated;
 use super::sheet::Sheet;
 use crate::rate::{RatePoint, RateSeries};
 
-/// Horizontal offset between series at the same density, so that their bars do not hide each other [px].
-const STAGGER: f64 = 3.0;
-
 /// Draws the lane-change rate [1/(km h)] against the density [veh/km per lane], each point with the exact Poisson
-/// 95 % interval of its count. Points that are not finite are left out; several series are staggered by a few pixels.
+/// 95 % interval of its count.
 pub fn rate_density(sheet: Sheet, title: &str, series: &[RateSeries]) -> String {
-    let finite: Vec<Vec<Estimated>> = series.iter().map(|it| finite_points(&it.points)).collect();
-    let all = || finite.iter().flatten();
-    let [across, upwards] = sheet.layout().steps;
-    let densest = all().map(|it| it.at).fold(0.0, f64::max);
-    let highest = all().map(|it| it.interval.upper).fold(0.0, f64::max);
-    let x = Axis::from_zero("Density [veh/km per lane]", densest, across);
-    let y = Axis::from_zero("Lane-change rate [1/(km h)]", highest, upwards);
-
-    let keys = series.iter().enumerate().map(|(index, it)| key(&it.name, index)).collect();
-    let mut drawing = Drawing::new(sheet, Around { title, keys, ..Around::default() });
-    drawing.axes(&x, &y);
-    drawing.frame();
-    let plot = drawing.plot;
-    for (index, points) in finite.iter().enumerate() {
-        let shift = STAGGER * (index as f64 - 0.5 * (series.len() - 1) as f64);
-        let place = |density: f64| plot.across(&x, density) + shift;
-        drawing.add(&curve(points, index, place, |rate| plot.down(&y, rate)));
-    }
-    drawing.finish()
-}
-
-fn finite_points(points: &[RatePoint]) -> Vec<Estimated> {
     let estimated = |it: &RatePoint| Estimated {
         at: it.density_veh_per_km,
         value: it.rate_per_km_h(),
         interval: it.interval_per_km_h(),
     };
-    points.iter().map(estimated).filter(Estimated::is_finite).collect()
+    let points = |it: &RateSeries| (it.name.clone(), it.points.iter().map(estimated).collect());
+    let series: Vec<(String, Vec<Estimated>)> = series.iter().map(points).collect();
+    estimates(sheet, title, ["Density [veh/km per lane]", "Lane-change rate [1/(km h)]"], &series)
 }
 
 #[cfg(test)]

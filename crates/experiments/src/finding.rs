@@ -1,0 +1,101 @@
+//! What an experiment found.
+
+use laneweave::study::Estimate;
+
+/// What an experiment found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Finding {
+    /// In words, as Markdown.
+    pub text: String,
+    /// Tables as CSV, by name.
+    pub tables: Vec<(String, String)>,
+    /// Figures as SVG, by name.
+    pub figures: Vec<(String, String)>,
+    /// What was measured, beside what it should be.
+    pub rows: Vec<Row>,
+}
+
+/// A measured value beside the range in which it should be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What is measured.
+    pub what: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The value over seeds; `None` if there was nothing to measure.
+    pub value: Option<Estimate>,
+    /// The least and the greatest value that it should have.
+    pub range: [f64; 2],
+    /// Where the range comes from.
+    pub source: &'static str,
+}
+
+impl Row {
+    /// Whether the value is in its range.
+    pub fn is_inside(&self) -> bool {
+        let [least, most] = self.range;
+        self.value.is_some_and(|it| it.mean >= least && it.mean <= most)
+    }
+
+    /// The value with its 95 % interval.
+    fn value_text(&self) -> String {
+        match &self.value {
+            None => "nothing to measure".into(),
+            Some(it) if it.replications < 2 => number(it.mean),
+            Some(it) => format!("{} ± {}", number(it.mean), number(it.half_width)),
+        }
+    }
+
+    fn range_text(&self) -> String {
+        match self.range {
+            [f64::NEG_INFINITY, most] => format!("at most {}", number(most)),
+            [least, f64::INFINITY] => format!("at least {}", number(least)),
+            [least, most] => format!("{} to {}", number(least), number(most)),
+        }
+    }
+}
+
+/// A number with three digits that count.
+fn number(value: f64) -> String {
+    let digits = if value == 0.0 { 0 } else { (2 - value.abs().log10().floor() as i32).clamp(0, 4) };
+    format!("{value:.*}", digits as usize)
+}
+
+/// The `rows` as a Markdown table, and how many of them are inside their ranges.
+pub(crate) fn table_of(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "| what | measured (95 % interval) | should be | inside | source |\n|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        let inside = if row.is_inside() { "yes" } else { "**no**" };
+        let what =
+            if row.unit.is_empty() { row.what.clone() } else { format!("{} [{}]", row.what, row.unit) };
+        text += &format!(
+            "| {what} | {} | {} | {inside} | {} |\n",
+            row.value_text(),
+            row.range_text(),
+            row.source
+        );
+    }
+    let inside = rows.iter().filter(|it| it.is_inside()).count();
+    text + &format!("\n{inside} of {} values are inside their ranges.\n", rows.len())
+}
+
+/// The `rows` as CSV.
+pub(crate) fn csv_of(rows: &[Row]) -> String {
+    let mut text = String::from("what,unit,mean,half_width,replications,least,most,inside,source\n");
+    for row in rows {
+        let value =
+            row.value.map_or(",,".into(), |it| format!("{},{},{}", it.mean, it.half_width, it.replications));
+        let [least, most] = row.range;
+        let quoted = |it: &str| format!("\"{}\"", it.replace('"', "\"\""));
+        text += &format!(
+            "{},{},{value},{least},{most},{},{}\n",
+            quoted(&row.what),
+            quoted(row.unit),
+            row.is_inside(),
+            quoted(row.source)
+        );
+    }
+    text
+}

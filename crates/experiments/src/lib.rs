@@ -1,0 +1,52 @@
+//! Experiments: what the drivers do, beside what is published, and the claims of the paper.
+//!
+//! An [`Experiment`] drives traffic over several seeds, the same arriving traffic for everything that it compares, and
+//! returns a [`Finding`]: words, tables and figures. They follow from the command alone, whatever the machine and the
+//! number of threads.
+
+mod drive;
+mod effort;
+mod finding;
+mod motorway_rates;
+mod plausibility;
+mod seen;
+mod traffic;
+
+pub use effort::Effort;
+pub use finding::{Finding, Row};
+
+use laneweave::Fault;
+
+/// An experiment.
+#[derive(Clone, Copy, Debug)]
+pub struct Experiment {
+    /// Its name in commands and files.
+    pub name: &'static str,
+    /// What it shows, in a few words.
+    pub about: &'static str,
+    run: fn(&Effort) -> Result<Finding, Fault>,
+}
+
+/// All experiments, in the order in which they run.
+pub const EXPERIMENTS: &[Experiment] = &[
+    Experiment {
+        name: "plausibility",
+        about: "the drivers beside published values",
+        run: plausibility::plausibility,
+    },
+    Experiment {
+        name: "C1",
+        about: "the paper's first claim: on a motorway the rate of lane changes is like MOBIL's",
+        run: motorway_rates::motorway_rates,
+    },
+];
+
+impl Experiment {
+    /// Runs the experiment with this `effort`.
+    ///
+    /// # Errors
+    /// None, as long as the built-in maps and styles are valid.
+    pub fn run(&self, effort: &Effort) -> Result<Finding, Fault> {
+        (self.run)(effort)
+    }
+}

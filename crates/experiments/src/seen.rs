@@ -1,0 +1,123 @@
+//! What is observed of a run.
+
+use std::collections::BTreeMap;
+
+use laneweave::models::follow::Ahead;
+use laneweave::network::Side;
+use laneweave::sim::{Counters, Counts, Event, Kind, LaneChange, VehicleId, World};
+use laneweave::study::Moments;
+
+/// Length of a section in which speeds are averaged [m], and time over which they are [s].
+pub(crate) const SECTION: f64 = 100.0;
+pub(crate) const INTERVAL: f64 = 10.0;
+/// Vehicles are looked at in this rhythm [s].
+const EVERY: f64 = 1.0;
+/// A change is reversed if the driver goes back within this time [s] (model.md §11 has the same).
+const BACK_WITHIN: f64 = 30.0;
+/// Time gaps are measured of drivers within 10 km/h of 100 km/h [m/s] who follow as fast as their leader, within
+/// 1 m/s, up to this gap [s].
+const FOLLOWING_SPEED: [f64; 2] = [25.0, 30.556];
+const AS_FAST: f64 = 1.0;
+const LONGEST_GAP: f64 = 3.0;
+
+/// What is observed of a run, after its warm-up.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Seen {
+    /// Counts of the simulation.
+    pub(crate) counters: Counters,
+    pub(crate) counts: Counts,
+    /// Completed discretionary changes: anticipated gains of speed [m/s], how many gain, how many are reversed.
+    pub(crate) gains: Moments,
+    pub(crate) gaining: u32,
+    pub(crate) reversed: u32,
+    /// Durations of completed changes [s]: discretionary and route-driven.
+    pub(crate) durations: [Vec<f64>; 2],
+    /// By style: completed discretionary changes, and vehicle-kilometres.
+    pub(crate) of_style: BTreeMap<String, (u32, f64)>,
+    /// By lane from the slow side, on motorways: vehicle-seconds times speed, the metres driven.
+    pub(crate) metres_by_lane: Vec<f64>,
+    /// Time gaps of followers at about 100 km/h by style [s].
+    pub(crate) time_gaps: BTreeMap<String, Moments>,
+    /// Times at which vehicles completed their trips, from the end of the warm-up [s].
+    pub(crate) completed: Vec<f64>,
+    /// By section and by interval: sum of speeds and number of samples.
+    pub(crate) speeds: Vec<Vec<(f64, u32)>>,
+    last: BTreeMap<VehicleId, (f64, Side)>,
+}
+
+impl Seen {
+    /// Observes `world` after a step; `time` is counted from the end of the warm-up [s].
+    pub(crate) fn observe(&mut self, world: &World, time: f64) {
+        for event in world.events() {
+            match event {
+                Event::Left { .. } => self.completed.push(time),
+                Event::LaneChange(it) if it.is_completed => self.note_change(world, it),
+                _ => {}
+            }
+        }
+        if (time / EVERY).fract() < world.clock().dt / EVERY * 0.999 {
+            self.look(world, time);
+        }
+    }
+
+    /// The end of a run.
+    pub(crate) fn end(&mut self, world: &World) {
+        (self.counters, self.counts) = (world.counters(), *world.counts());
+    }
+
+    fn note_change(&mut self, world: &World, change: &LaneChange) {
+        let before = self.last.insert(change.vehicle, (change.time, change.side));
+        match change.kind {
+            Kind::Discretionary => {
+                self.gains.add(change.speed_gain);
+                self.gaining += u32::from(change.speed_gain > 0.0);
+                let is_back = |(time, side)| side != change.side && change.time - time <= BACK_WITHIN;
+                self.reversed += u32::from(before.is_some_and(is_back));
+                self.durations[0].push(change.duration);
+                let style = &world.driver_parameters()[change.parameters as usize].name;
+                self.of_style.entry(style.clone()).or_default().0 += 1;
+            }
+            Kind::Route => self.durations[1].push(change.duration),
+            Kind::Keeping => {}
+        }
+    }
+
+    fn look(&mut self, world: &World, time: f64) {
+        let scene = world.scene();
+        let interval = (time / INTERVAL) as usize;
+        for vehicle in world.vehicles() {
+            let (style, speed) = (&vehicle.style().name, vehicle.speed());
+            self.of_style.entry(style.clone()).or_default().1 += speed * EVERY / 1000.0;
+            let lane = vehicle.spot.chain.at();
+            if self.metres_by_lane.len() <= lane {
+                self.metres_by_lane.resize(lane + 1, 0.0);
+            }
+            self.metres_by_lane[lane] += speed * EVERY;
+            let section = (vehicle.pose().at.x.max(0.0) / SECTION) as usize;
+            if self.speeds.len() <= section {
+                self.speeds.resize(section + 1, Vec::new());
+            }
+            let of_section = &mut self.speeds[section];
+            if of_section.len() <= interval {
+                of_section.resize(interval + 1, (0.0, 0));
+            }
+            of_section[interval].0 += speed;
+            of_section[interval].1 += 1;
+            if let Some(gap) = time_gap(scene.ahead(scene.viewpoint(vehicle.spot)), speed) {
+                self.time_gaps.entry(style.clone()).or_default().add(gap);
+            }
+        }
+    }
+
+    /// Vehicle-kilometres.
+    pub(crate) fn veh_km(&self) -> f64 {
+        self.counters.distance / 1000.0
+    }
+}
+
+/// The time gap [s] of a driver who follows at about 100 km/h.
+fn time_gap(ahead: Option<Ahead>, speed: f64) -> Option<f64> {
+    let ahead = ahead.filter(|it| (it.speed - speed).abs() < AS_FAST)?;
+    let [least, most] = FOLLOWING_SPEED;
+    ((least..most).contains(&speed) && ahead.gap < LONGEST_GAP * speed).then(|| ahead.gap / speed)
+}
