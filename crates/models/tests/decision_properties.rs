@@ -190,7 +190,7 @@ proptest! {
             lane.route = RouteView { changes: 0, remaining: f64::INFINITY, ..lane.route };
         }
         let Situation { toward, me, here, there, section, band, .. } = situation;
-        let (leaders, keeps) = ([here.ahead, there.ahead], situation.keeps_to_the_slow_side && model.keeping.weight > 0.0);
+        let (leaders, keeps) = ([here.ahead, there.ahead], situation.keeps_to_the_slow_side && model.keeping.weight != 0.0);
         let speeds = |hidden: f64| {
             let speeds = [here.anticipated_speed, there.anticipated_speed + hidden];
             if keeps { model.without_passing(toward, me.pace.speed, leaders, speeds) } else { speeds }

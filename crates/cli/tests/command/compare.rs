@@ -63,7 +63,7 @@ fn the_report_shows_every_model_on_every_input_with_its_interval() {
         .map(|(name, cells)| (name, cells_of(cells)))
         .filter(|(name, _)| !name.is_empty())
         .collect();
-    assert_eq!(rows.len(), 24);
+    assert_eq!(rows.len(), 26);
     for (name, cells) in rows {
         assert_eq!(cells.len(), 3, "{name}");
         let numbers: String = ["mcdm", "lmrs", "constant-hazard"]

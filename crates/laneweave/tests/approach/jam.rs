@@ -7,7 +7,7 @@ use laneweave::models::Style;
 use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
 use laneweave::network::{ChainIndex, Position};
 use laneweave::sim::{
-    Class, Demand, Event, Fleet, InnerPlace, Place, Placement, Places, Setup, Share, VehicleId, World,
+    Class, Demand, Event, Fleet, InnerPlace, Kind, Place, Placement, Places, Setup, Share, VehicleId, World,
 };
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
@@ -26,7 +26,9 @@ const AFTER: u32 = 60;
 /// Seconds between two of them.
 const HEADWAY: u32 = 4;
 /// Weights of the route.
-const WEIGHTS: [f64; 3] = [0.0, 0.05, 0.4];
+const WEIGHTS: [f64; 3] = [0.0, 0.005, 0.05];
+/// A weight with which all leave a jam, and a far larger one.
+const ALL_LEAVE: [f64; 2] = [0.05, 3.2];
 /// Desired speed of the drivers who cause the jam, as a share of the limit, and their flow on each lane [veh/h].
 const CRAWL: f64 = 0.15;
 const CRAWLERS: f64 = 240.0;
@@ -110,7 +112,8 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
         for event in world.events() {
             let Event::LaneChange(it) = event else { continue };
             let is_before = approach.road(it.from.chain, it.from.x).is_none();
-            lane_changes += u32::from(it.is_completed && is_before && come.contains(&it.vehicle));
+            let counts = it.kind != Kind::Keeping && it.is_completed && is_before;
+            lane_changes += u32::from(counts && come.contains(&it.vehicle));
         }
     }
     let counters = world.counters();
@@ -146,14 +149,21 @@ fn replicate(what: &str, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> [Estima
 }
 
 #[test]
-fn with_a_jam_on_the_own_route_lane_changes_and_route_changes_grow_with_the_weight_of_the_route() {
+fn with_a_jam_on_the_own_route_more_leave_it_the_more_the_route_weighs() {
     let found = WEIGHTS.map(|it| replicate(&format!("route weight {it}"), with_route_weight(it), CRAWLERS));
     assert_eq!(found[0][1].mean, 0.0, "nobody leaves a route that it does not weigh");
     for pair in found.windows(2) {
-        for (less, more) in pair[0].iter().zip(&pair[1]) {
+        for (less, more) in pair[0].iter().zip(&pair[1]).skip(1) {
             assert!(less.interval().upper < more.interval().lower, "{less:?} {more:?}");
         }
     }
+}
+
+#[test]
+fn where_all_leave_the_jam_lane_changes_grow_with_the_weight_of_the_route() {
+    let [[less, ..], [more, ..]] =
+        ALL_LEAVE.map(|it| replicate(&format!("route weight {it}"), with_route_weight(it), CRAWLERS));
+    assert!(less.interval().upper < more.interval().lower, "{less:?} {more:?}");
 }
 
 #[test]

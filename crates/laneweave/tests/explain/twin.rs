@@ -38,7 +38,7 @@ pub(crate) struct Otherwise {
 pub(crate) struct Weighed {
     pub(crate) side: Side,
     /// Yields of speed, route, comfort, courtesy, urgency.
-    pub(crate) yields: [f64; 5],
+    pub(crate) yields: [f64; 6],
     pub(crate) gain: f64,
 }
 
@@ -236,6 +236,19 @@ impl<'a> Twin<'a> {
         both.filter_map(|(side, more)| {
             let there = self.around(&me, self.beside(me.lane, side)?);
             let speed_there = there.anticipated_speed + more;
+            // Nobody counts on passing on the right of a slower leader in the left lane who is faster than 60 km/h.
+            let on_the_left = if side == Side::Left { there.ahead } else { here.ahead };
+            let is_bound = |(it, _): (Body, f64)| me.speed > it.speed && it.speed > 60.0 / 3.6;
+            let least =
+                if on_the_left.is_some_and(is_bound) { speed_here.min(speed_there) } else { f64::INFINITY };
+            let [speed_here, speed_there] = match side {
+                Side::Left => [speed_here.min(least), speed_there],
+                Side::Right => [speed_here, speed_there.min(least)],
+            };
+            let stays = |ahead: Option<(Body, f64)>| {
+                let slower = ahead.filter(|(it, _)| it.speed < me.desired);
+                slower.map_or(1.0, |(it, gap)| (gap / (me.desired - it.speed) / 20.0).clamp(0.0, 1.0).powi(2))
+            };
             let time = |speed: f64| 295.0 / speed.max(1.0);
             let [spacing, speed, length] = there.flow;
             let headway = (spacing - length - 2.0).max(0.0) / speed.max(2.0);
@@ -245,6 +258,7 @@ impl<'a> Twin<'a> {
                 -headway.max(0.3).powf(-model.comfort.beta),
                 self.courtesy(&me, side, &here, &there),
                 0.0,
+                if side == Side::Right { stays(there.ahead) } else { -stays(here.ahead) },
             ];
             let gain = weights(model).into_iter().zip(yields).map(|(weight, it)| weight * it).sum();
             Some(Weighed { side, yields, gain })
@@ -343,7 +357,7 @@ pub(crate) fn mcdm(change: &LaneChangeModel) -> &Mcdm {
     }
 }
 
-fn weights(model: &Mcdm) -> [f64; 5] {
-    let Mcdm { speed, route, comfort, courtesy, urgency, .. } = model;
-    [speed.weight, route.weight, comfort.weight, courtesy.weight, urgency.weight]
+fn weights(model: &Mcdm) -> [f64; 6] {
+    let Mcdm { speed, route, comfort, courtesy, urgency, keeping, .. } = model;
+    [speed.weight, route.weight, comfort.weight, courtesy.weight, urgency.weight, keeping.weight]
 }

@@ -1,8 +1,8 @@
-//! Keeping to the slow side: a wish for the lane on the slow side that grows with the time one could stay there. Ours, a
-//! sixth incentive; it counts only where the law of the road wants drivers there.
+//! Keeping to the slow side: a wish for the lane on the slow side that grows with the time one could stay there.
+//! Ours, a sixth incentive; it counts only where the law of the road wants drivers there.
 //!
-//! k = min(t/τ, 1)²,  t = s/(v₀ − v_l): the time until a driver with the desired speed v₀ comes up with the leader there,
-//! who is slower. Without a slower leader in sight k = 1.
+//! k = min(t/τ, 1)²,  t = s/(v₀ − v_l): the time until a driver with the desired speed v₀ comes up with the leader
+//! there, who is slower. Without a slower leader in sight k = 1.
 //!
 //! Y = k of the lane beside, towards the slow side; −k of the own lane, towards the fast side. So the incentive asks a
 //! driver to the slow side and keeps it there, by the same amount.

@@ -174,7 +174,7 @@ impl Mcdm {
     /// The situation of a driver who keeps to the slow side, where it does not pass there; `None` for all others.
     fn keeping_there<'a>(&self, situation: &Situation<'a>) -> Option<Situation<'a>> {
         let Situation { me, here, there, toward, keeps_to_the_slow_side, .. } = *situation;
-        if !keeps_to_the_slow_side || self.keeping.weight <= 0.0 {
+        if !keeps_to_the_slow_side || self.keeping.weight == 0.0 {
             return None;
         }
         let (speed, speeds) = (me.pace.speed, [here.anticipated_speed, there.anticipated_speed]);

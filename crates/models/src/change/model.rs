@@ -138,7 +138,7 @@ impl LaneChangeModel {
     #[inline]
     pub fn minds_offside(&self, keeps: bool) -> bool {
         match self {
-            LaneChangeModel::Mcdm(model) => keeps && model.keeping.weight > 0.0,
+            LaneChangeModel::Mcdm(model) => keeps && model.keeping.weight != 0.0,
             LaneChangeModel::Mobil(model) => model.traffic == super::Traffic::European,
             LaneChangeModel::Lmrs(_) | LaneChangeModel::ConstantHazard(_) => false,
         }

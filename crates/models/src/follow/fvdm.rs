@@ -4,6 +4,9 @@
 //! memory.
 //!
 //! κ [V(s) − v] + λ (v_l − v),  λ = 0 beyond the range
+//!
+//! In the repaired reading a leader counts as no faster than the driver wants to be (ours): otherwise it would pull the
+//! driver beyond its desired speed.
 
 use serde::{Deserialize, Serialize};
 
@@ -53,9 +56,11 @@ impl Fvdm {
 impl CarFollowing for Fvdm {
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
         let (pace, optimal) = (wary(pace, ahead), self.optimal_velocity());
-        let relative = match ahead {
-            Some(ahead) if ahead.gap <= optimal.scaled(pace, self.range) => ahead.speed - pace.speed,
-            _ => 0.0,
+        let relative = match (ahead, self.reading) {
+            (Some(ahead), _) if ahead.gap > optimal.scaled(pace, self.range) => 0.0,
+            (Some(ahead), Reading::Literal) => ahead.speed - pace.speed,
+            (Some(ahead), Reading::Repaired) => ahead.speed.min(pace.desired) - pace.speed,
+            (None, _) => 0.0,
         };
         self.sensitivity * (optimal.signed(pace, gap_of(ahead)) - pace.speed)
             + self.relative_sensitivity * relative

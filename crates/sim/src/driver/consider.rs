@@ -157,12 +157,12 @@ fn follow_route(
     Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
 }
 
-/// Whether a driver may have to stay behind its leader in the overtaking lane.
+/// Whether a driver may have to stay behind its leader in the overtaking lane: it wants to be faster.
 fn minds_offside(scene: &Scene, me: &Me) -> bool {
     let (network, change) = (scene.network, &me.style.change);
     change.minds_offside(network.lane_use == LaneUse::SlowSide)
         && window::leader_beside(scene, me.spot, network.driving_side.overtaking())
-            .is_some_and(|it| change.stays_behind(me.motion.speed, it))
+            .is_some_and(|it| change.stays_behind(f64::from(me.driver.desired), it))
 }
 
 /// Whether a driver may change to a side, or is recommended a route. Without that it has nothing to decide or to wait

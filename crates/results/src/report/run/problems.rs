@@ -68,14 +68,9 @@ fn kinds(problems: &[Problem]) -> Vec<(&Problem, u64)> {
     kinds
 }
 
-fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String, String)> {
-    let mut found = incidents::problems(run);
-    let mut note = |is_there: bool, what, count: String, remedy: &str| {
-        if is_there {
-            found.push((what, count, remedy.to_owned()));
-        }
-    };
-    let counts = [
+/// What is counted of a run, each with its name and the remedy.
+fn counts(summary: &Summary) -> [(u64, &'static str, &'static str); 6] {
+    [
         (
             summary.stuck,
             "Vehicles stuck for 300 s",
@@ -106,8 +101,17 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
             "Vehicles waiting to enter at the end",
             "fewer vehicles can enter than the demand: see the causes of the queues above; reduce the demand, or remove the causes",
         ),
-    ];
-    for (count, what, remedy) in counts {
+    ]
+}
+
+fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String, String)> {
+    let mut found = incidents::problems(run);
+    let mut note = |is_there: bool, what, count: String, remedy: &str| {
+        if is_there {
+            found.push((what, count, remedy.to_owned()));
+        }
+    };
+    for (count, what, remedy) in counts(summary) {
         note(count > 0, what, counted(count), remedy);
     }
     let demand_is_higher = summary.demand_veh_h > summary.entrance_capacity;

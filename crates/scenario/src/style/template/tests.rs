@@ -45,12 +45,15 @@ fn draws_depend_on_seed_style_and_number_only() {
 #[test]
 fn several_parameters_are_drawn_independently_of_each_other() {
     let text = built_in("conservative").unwrap().text.replace(
-        "time_gap = 1.2",
+        "time_gap = 1.0",
         "time_gap = { distribution = \"lognormal\", mean = 1.2, sd = 0.3, min = 0.5, max = 3 }",
     );
     let template = StyleTemplate::parse(&Source { path: "own".into(), text }).unwrap();
     let paths: Vec<String> = template.parameters().iter().map(|it| it.path.join(".")).collect();
-    assert_eq!(paths, ["follow.time_gap", "speed_factor"]);
+    assert_eq!(
+        paths,
+        ["follow.time_gap", "manner.change_duration", "manner.pressed_duration", "speed_factor"]
+    );
     let pairs: Vec<(f64, f64)> = (0..512)
         .map(|number| template.draw(&Random::new(1), 0, number).unwrap())
         .map(|style| match style.follow {
@@ -82,7 +85,7 @@ fn the_built_in_styles_have_the_papers_weights_in_both_readings() {
         assert_eq!((it.speed.reading, others), (reading, [reading; 4]), "{name}");
         let decision = match reading {
             Reading::Literal => (Rule::Threshold, 0.0, 0.0),
-            Reading::Repaired => (Rule::Logit, 0.112, 0.014),
+            Reading::Repaired => (Rule::Logit, 0.012, 0.0015),
         };
         assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
     }
