@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use laneweave_models::change::{
-    Comfort, ConstantHazard, Courtesy, LaneChangeModel, Lmrs, Mcdm, Mobil, Route, RouteKeeping, Speed,
-    Urgency,
+    Comfort, ConstantHazard, Courtesy, Keeping, LaneChangeModel, Lmrs, Mcdm, Mobil, Route, RouteKeeping,
+    Speed, Urgency,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -121,6 +121,7 @@ fn without_weights(model: Mcdm) -> Mcdm {
         comfort: Comfort { weight: 0.0, ..model.comfort },
         courtesy: Courtesy { weight: 0.0, ..model.courtesy },
         urgency: Urgency { weight: 0.0 },
+        keeping: Keeping { weight: 0.0, ..model.keeping },
         ..model
     }
 }
