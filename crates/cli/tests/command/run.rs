@@ -10,7 +10,8 @@ use crate::program::Folder;
 const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
     lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
     lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
-    state_hash route_changes completed waiting_to_enter estimated_capacity_veh_h lane_changes_route_driven";
+    state_hash route_changes completed waiting_to_enter estimated_capacity_veh_h lane_changes_route_driven \
+    lane_changes_keeping";
 
 /// Fields of the summary, columns of `trips` and one of `lanelets` that have an old name, each with it.
 const RENAMED: [(&str, &str); 7] = [
@@ -28,8 +29,8 @@ const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset
 
 const LANE_CHANGES: &str = "time_s,started_s,duration_s,vehicle,style,class,from_lanelet,to_lanelet,x_m,y_m,side,\
     kind,speed_mps,speed_gain_mps,speed_yield,speed_weight,route_yield,route_weight,comfort_yield,comfort_weight,\
-    courtesy_yield,courtesy_weight,urgency_yield,urgency_weight,g,theta,gap_ahead_m,gap_behind_m,ttc_ahead_s,\
-    ttc_behind_s,outcome";
+    courtesy_yield,courtesy_weight,urgency_yield,urgency_weight,keeping_yield,keeping_weight,g,theta,gap_ahead_m,\
+    gap_behind_m,ttc_ahead_s,ttc_behind_s,outcome";
 
 const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,left_s,\
     completed_s,waiting_s,insertion_delay_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,\
@@ -71,9 +72,11 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     for field in FIELDS.split_whitespace() {
         assert!(!summary[field].is_null(), "{field}");
     }
-    let of = |field| number(&summary, field);
+    let of = |field: &str| number(&summary, field);
     assert_eq!(of("entered"), of("left") + of("on_road"));
-    assert_eq!(of("lane_changes"), of("lane_changes_discretionary") + of("lane_changes_route"));
+    let kinds = ["discretionary", "route", "keeping"].map(|it| of(&format!("lane_changes_{it}")));
+    assert_eq!(of("lane_changes"), kinds.iter().sum::<f64>());
+    assert!(kinds.iter().all(|it| *it > 0.0), "{kinds:?}");
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
     assert_eq!(of("incidents"), of("collisions") + of("overlaps"));
     assert_eq!((of("incidents"), &summary["first_incident"]), (0.0, &Value::Null));
