@@ -96,7 +96,7 @@ fn v33_the_worked_case_of_both_classes_and_both_courtesies() {
 
 #[test]
 fn v33_the_route_term_breaks_even_at_15_of_23() {
-    let route = Route { weight: 1.0, reading: Literal, ..Route::default() };
+    let route = Route { weight: 1.0, reading: Literal.into(), ..Route::default() };
     let there = 15.0 / 23.0;
     assert_near(there, 0.652174, 1e-6);
     assert_near(route.earning(&worked_case(), Chances { here: 1.0, there }), 0.0, 1e-9);
@@ -289,5 +289,8 @@ fn the_defaults_weigh_nothing_and_are_the_repaired_reading() {
     assert_eq!(comfort, Comfort { weight: 0.0, reading, beta: 1.1 });
     assert_eq!(courtesy, Courtesy { weight: 0.0, reading });
     assert_eq!(ConstantHazard::default().hazard, 0.01);
-    assert_eq!((route.weight, route.reading, route.reference, route.penalty), (0.0, reading, 60.0, 600.0));
+    assert_eq!(
+        (route.weight, route.reading, route.reference, route.penalty),
+        (0.0, reading.into(), 60.0, 600.0)
+    );
 }

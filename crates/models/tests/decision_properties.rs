@@ -6,7 +6,7 @@ mod weights;
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
     Appraisal, Behind, Combination, Comfort, Driver, Flow, GainBound, LaneChangeModel, LaneView, Mcdm,
-    Merging, RouteView, Rule, Situation, Toward, at_least_once_in,
+    Merging, RouteReading, RouteView, Rule, Situation, Toward, at_least_once_in,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
 use proptest::option;
@@ -113,11 +113,15 @@ fn any_situation() -> impl Strategy<Value = Situation<'static>> {
 
 /// The paper's incentives, urgency and keeping, all weighed.
 fn any_model() -> impl Strategy<Value = Mcdm> {
-    (any_reading(), prop::array::uniform4(0.01..2.0_f64), 0.5..3.0_f64, 0.0..1.0_f64, 0.0..0.5_f64).prop_map(
-        |(reading, weights, beta, urgency, keeping)| {
+    let (weights, keeping) = (prop::array::uniform4(0.01..2.0_f64), -0.2..0.5_f64);
+    (any_reading(), weights, 0.5..3.0_f64, 0.0..1.0_f64, keeping, any::<bool>()).prop_map(
+        |(reading, weights, beta, urgency, keeping, is_separate)| {
             let mut model = mcdm(reading, weights, beta);
             model.urgency.weight = urgency;
             model.keeping.weight = keeping;
+            if is_separate && reading == Repaired {
+                model.route.reading = RouteReading::Separate;
+            }
             model
         },
     )
@@ -190,10 +194,10 @@ proptest! {
             lane.route = RouteView { changes: 0, remaining: f64::INFINITY, ..lane.route };
         }
         let Situation { toward, me, here, there, section, band, .. } = situation;
-        let (leaders, keeps) = ([here.ahead, there.ahead], situation.keeps_to_the_slow_side && model.keeping.weight != 0.0);
+        let (leaders, keeps) = ([here.ahead, there.ahead], situation.keeps_to_the_slow_side);
         let speeds = |hidden: f64| {
             let speeds = [here.anticipated_speed, there.anticipated_speed + hidden];
-            if keeps { model.without_passing(toward, me.pace.speed, leaders, speeds) } else { speeds }
+            if model.minds_offside(keeps) { model.without_passing(toward, me.pace.speed, leaders, speeds) } else { speeds }
         };
         let harm = there.behind.map_or(0.0, |it| model.courtesy.harm(&me, there.ahead, &it));
         let bound = |hidden: f64| GainBound {

@@ -28,7 +28,7 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
 
 /// Left-hand side of the criterion [m/s²].
 fn advantage(model: &Mobil, toward: Toward, accelerations: &Accelerations) -> f64 {
-    let [own, others] = model.gains(toward, accelerations);
+    let [own, others] = model.gains(toward, false, accelerations);
     own + model.politeness * others
 }
 
@@ -65,21 +65,21 @@ fn v44_the_worked_case_weighs_others_by_politeness() {
         let model = Mobil { politeness, ..Mobil::default() };
         let sum = advantage(&model, Toward::Offside, &WORKED);
         assert_near(sum, expected, 1e-6);
-        assert_eq!(sum > model.threshold(Toward::Offside), politeness < 1.0);
+        assert_eq!(sum > model.threshold(Toward::Offside, false), politeness < 1.0);
     }
 }
 
 #[test]
 fn v44_in_european_traffic_the_fast_side_asks_four_tenths_and_the_slow_side_gives_two() {
-    assert_near(european().threshold(Toward::Nearside), -0.2, 1e-12);
-    assert_near(european().threshold(Toward::Offside), 0.4, 1e-12);
+    assert_near(european().threshold(Toward::Nearside, false), -0.2, 1e-12);
+    assert_near(european().threshold(Toward::Offside, false), 0.4, 1e-12);
     let symmetric = Mobil::default();
-    assert_eq!([Toward::Nearside, Toward::Offside].map(|it| symmetric.threshold(it)), [0.1; 2]);
+    assert_eq!([Toward::Nearside, Toward::Offside].map(|it| symmetric.threshold(it, true)), [0.1; 2]);
 }
 
 #[test]
 fn v44_in_european_traffic_only_the_follower_on_the_fast_lane_counts() {
-    let others = |toward| european().gains(toward, &WORKED)[1];
+    let others = |toward| european().gains(toward, false, &WORKED)[1];
     assert_near(others(Toward::Offside), -2.761785 - 0.439446, 1e-12);
     assert_near(others(Toward::Nearside), 0.565107 - 0.147121, 1e-12);
 }
@@ -98,6 +98,26 @@ fn v44_above_60_kmh_nobody_gains_by_passing_on_the_slow_side() {
     assert!(gain(european(), Toward::Offside, None, slower(16.0)) < -1.0);
     let me = |speed, leader| european().stays_behind(speed, Ahead::steady(40.0, leader));
     assert_eq!([me(30.0, 25.0), me(25.0, 30.0), me(30.0, 16.0)], [true, false, false]);
+}
+
+#[test]
+fn by_law_traffic_is_european_where_the_law_wants_drivers_on_the_slow_side_and_symmetric_elsewhere() {
+    let by_law = Mobil { traffic: Traffic::Law, ..Mobil::default() };
+    let slower = |speed| Some(Ahead::steady(40.0, speed));
+    for toward in [Toward::Offside, Toward::Nearside] {
+        for [here, there] in [[None, slower(25.0)], [slower(25.0), None], [slower(16.0), slower(28.0)]] {
+            let situation = between(toward, here, there);
+            for (keeps, same) in [(false, Mobil::default()), (true, european())] {
+                let situation = Situation { keeps_to_the_slow_side: keeps, ..situation };
+                let appraisal = by_law.appraise(&situation);
+                assert_eq!(appraisal, same.appraise(&situation));
+                let [by_law, same] = [by_law, same].map(LaneChangeModel::Mobil);
+                assert_eq!(by_law.minds_offside(keeps), same.minds_offside(keeps));
+                let for_it = |model: &LaneChangeModel| model.is_for_the_slow_side(&situation, &appraisal);
+                assert_eq!(for_it(&by_law), for_it(&same));
+            }
+        }
+    }
 }
 
 #[test]
@@ -180,7 +200,7 @@ proptest! {
         let accelerations = Accelerations { own, new_follower, old_follower };
         let sum = |at: usize| own[at] + new_follower[at] + old_follower[at];
         prop_assume!((sum(1) - sum(0)).abs() > 1e-9);
-        let is_above = advantage(&model, Toward::Offside, &accelerations) > model.threshold(Toward::Offside);
+        let is_above = advantage(&model, Toward::Offside, &accelerations) > model.threshold(Toward::Offside, false);
         prop_assert_eq!(is_above, sum(1) > sum(0));
     }
 }

@@ -28,7 +28,8 @@ fn every_model_drives_with_every_seed_and_what_comes_out_is_what_a_run_gives() {
     );
     let column = |name: &str| table.lines().next().unwrap().split(',').position(|it| it == name).unwrap();
     let found = |name: &str| runs[3][column(name)].parse::<f64>().unwrap();
-    let per_km = found("discretionary_per_veh_km") + found("route_per_veh_km");
+    let kinds = ["discretionary", "route", "keeping"];
+    let per_km: f64 = kinds.iter().map(|it| found(&format!("{it}_per_veh_km"))).sum();
     let expected = |name: &str| summary[name].as_f64().unwrap();
     assert!((per_km - expected("lane_changes_per_veh_km")).abs() < 1e-12);
     assert_eq!(found("mean_delay_s"), expected("mean_delay_s"));

@@ -109,6 +109,7 @@ fn the_numbers_of_the_report_are_those_of_the_summary_and_the_table() {
     for (field, name) in [
         ("lane_changes_discretionary", "discretionary lane changes"),
         ("lane_changes_route", "route-driven lane changes"),
+        ("lane_changes_keeping", "lane changes to keep to the slow side"),
         ("entered", "vehicles entered"),
         ("waiting", "vehicles waiting to enter"),
         ("collisions", "collisions"),
@@ -134,15 +135,15 @@ fn the_numbers_of_the_report_are_those_of_the_summary_and_the_table() {
         rows(&table, &wanted)
     };
     for style in [Some("aggressive"), Some("conservative"), None] {
-        let [discretionary, route] = ["discretionary", "route"].map(|it| of(style, it));
+        let [discretionary, route, keeping] = ["discretionary", "route", "keeping"].map(|it| of(style, it));
         let row = format!(
             "<th scope=\"row\" data-name=\"style\">{}</th><td data-name=\"discretionary\" class=\"number\">{discretionary}</td><td \
-             data-name=\"route-driven\" class=\"number\">{route}</td>",
+             data-name=\"route-driven\" class=\"number\">{route}</td><td data-name=\"keeping\" class=\"number\">{keeping}</td>",
             style.unwrap_or("all")
         );
         assert!(page.contains(&row), "{row}");
     }
-    assert!(of(None, "discretionary") > 20 && of(None, "route") > 20);
+    assert!(["discretionary", "route", "keeping"].iter().all(|it| of(None, it) > 20));
 }
 
 #[test]

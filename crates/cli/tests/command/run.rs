@@ -29,9 +29,8 @@ const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset
 
 const LANE_CHANGES: &str = "time_s,started_s,duration_s,vehicle,style,class,from_lanelet,to_lanelet,x_m,y_m,side,\
     kind,speed_mps,speed_gain_mps,speed_yield,speed_weight,route_yield,route_weight,comfort_yield,comfort_weight,\
-    courtesy_yield,courtesy_weight,urgency_yield,urgency_weight,keeping_yield,keeping_weight,\
-    g,theta,gap_ahead_m,gap_behind_m,ttc_ahead_s,\
-    ttc_behind_s,outcome";
+    courtesy_yield,courtesy_weight,urgency_yield,urgency_weight,keeping_yield,keeping_weight,g,theta,gap_ahead_m,\
+    gap_behind_m,ttc_ahead_s,ttc_behind_s,outcome";
 
 const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,left_s,\
     completed_s,waiting_s,insertion_delay_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,\
@@ -73,12 +72,11 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     for field in FIELDS.split_whitespace() {
         assert!(!summary[field].is_null(), "{field}");
     }
-    let of = |field| number(&summary, field);
+    let of = |field: &str| number(&summary, field);
     assert_eq!(of("entered"), of("left") + of("on_road"));
-    assert_eq!(
-        of("lane_changes"),
-        of("lane_changes_discretionary") + of("lane_changes_route") + of("lane_changes_keeping")
-    );
+    let kinds = ["discretionary", "route", "keeping"].map(|it| of(&format!("lane_changes_{it}")));
+    assert_eq!(of("lane_changes"), kinds.iter().sum::<f64>());
+    assert!(kinds.iter().all(|it| *it > 0.0), "{kinds:?}");
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
     assert_eq!(of("incidents"), of("collisions") + of("overlaps"));
     assert_eq!((of("incidents"), &summary["first_incident"]), (0.0, &Value::Null));

@@ -1,8 +1,8 @@
 //! Keeping to the slow side: a wish for the lane on the slow side that grows with the time one could stay there.
 //! Ours, a sixth incentive; it counts only where the law of the road wants drivers there.
 //!
-//! k = min(t/τ, 1)²,  t = s/(v₀ − v_l): the time until a driver with the desired speed v₀ comes up with the leader
-//! there, who is slower. Without a slower leader in sight k = 1.
+//! k = min(t/τ, 1)²,  t = min(s/(v₀ − v_l), S/v₀): the time until a driver with the desired speed v₀ comes up with the
+//! leader there, who is slower, or has to leave that lane for its route. Without both in sight k = 1.
 //!
 //! Y = k of the lane beside, towards the slow side; −k of the own lane, towards the fast side. So the incentive asks a
 //! driver to the slow side and keeps it there, by the same amount.
@@ -31,24 +31,25 @@ impl Default for Keeping {
 }
 
 impl Keeping {
-    /// k, 0…1, in a lane with the leader `ahead`, for a driver who wants `desired` [m/s].
+    /// k, 0…1, in a lane with the leader `ahead`, for a driver who wants `desired` [m/s] and may use the lane for
+    /// `remaining` [m].
     #[inline]
-    pub fn wish(&self, ahead: Option<Ahead>, desired: f64) -> f64 {
-        match ahead {
-            Some(ahead) if ahead.speed < desired => {
-                let share = ahead.gap.max(0.0) / ((desired - ahead.speed) * self.stay);
-                if share < 1.0 { share * share } else { 1.0 }
-            }
+    pub fn wish(&self, ahead: Option<Ahead>, remaining: f64, desired: f64) -> f64 {
+        let share = |distance: f64, closing: f64| distance.max(0.0) / (closing * self.stay);
+        let by_leader = match ahead {
+            Some(ahead) if ahead.speed < desired => share(ahead.gap, desired - ahead.speed),
             _ => 1.0,
-        }
+        };
+        let share = by_leader.min(share(remaining, desired));
+        if share < 1.0 { share * share } else { 1.0 }
     }
 
-    /// Y towards a side, with the leaders in the own lane and there.
+    /// Y towards a side between lanes that lead to the same place, with the leaders in the own lane and there.
     #[inline]
     pub fn toward(&self, toward: Toward, [here, there]: [Option<Ahead>; 2], desired: f64) -> f64 {
         match toward {
-            Toward::Nearside => self.wish(there, desired),
-            Toward::Offside => -self.wish(here, desired),
+            Toward::Nearside => self.wish(there, f64::INFINITY, desired),
+            Toward::Offside => -self.wish(here, f64::INFINITY, desired),
         }
     }
 }
@@ -59,7 +60,10 @@ impl Incentive for Keeping {
     }
 
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
-        let wish = |lane: &LaneView| self.wish(lane.ahead, situation.me.pace.desired);
+        let wish = |lane: &LaneView| {
+            let remaining = if lane.route.changes == 0 { f64::INFINITY } else { lane.route.remaining };
+            self.wish(lane.ahead, remaining, situation.me.pace.desired)
+        };
         let [keep, there] = match situation.toward {
             _ if !situation.keeps_to_the_slow_side => [0.0, 0.0],
             Toward::Nearside => [0.0, wish(&situation.there)],

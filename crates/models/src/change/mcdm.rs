@@ -7,6 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::returning::Returning;
+use super::route::RouteReading;
 use super::situation::{CONGESTED, LaneView, Toward, may_not_pass};
 use super::{Chances, Comfort, Courtesy, GainBound, Incentive, Keeping, Route, Situation, Speed, Urgency};
 use crate::Reading;
@@ -150,6 +151,12 @@ impl Mcdm {
         Some(Appraisal { rows, gain: self.combine(&rows), theta: self.theta })
     }
 
+    /// Whether its drivers do not pass on the slow side in free traffic; `keeps` where the law wants them there.
+    #[inline]
+    pub fn minds_offside(&self, keeps: bool) -> bool {
+        keeps && self.keeping.weight != 0.0
+    }
+
     /// The anticipated speeds [m/s] here and there, where a driver at `speed` [m/s] on the slow side does not pass its
     /// leader in the overtaking lane: one of `ahead`, the leaders here and there.
     #[inline]
@@ -174,7 +181,7 @@ impl Mcdm {
     /// The situation of a driver who keeps to the slow side, where it does not pass there; `None` for all others.
     fn keeping_there<'a>(&self, situation: &Situation<'a>) -> Option<Situation<'a>> {
         let Situation { me, here, there, toward, keeps_to_the_slow_side, .. } = *situation;
-        if !keeps_to_the_slow_side || self.keeping.weight == 0.0 {
+        if !self.minds_offside(keeps_to_the_slow_side) {
             return None;
         }
         let (speed, speeds) = (me.pace.speed, [here.anticipated_speed, there.anticipated_speed]);
@@ -211,8 +218,8 @@ impl Mcdm {
             combination: _,
             returning: _,
         } = self;
-        let is_repaired = [speed.reading, route.reading] == [Reading::Repaired; 2];
-        if !is_repaired || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
+        let is_literal = speed.reading == Reading::Literal || route.reading == RouteReading::Literal;
+        if is_literal || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
             return f64::INFINITY;
         }
         let GainBound { desired, anticipated_speeds, routes, section, band, courtesy: for_others, slow_side } =

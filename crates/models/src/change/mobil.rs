@@ -9,6 +9,8 @@
 //!   (ã_n − a_n) > a_thr + a_bias. On the slow side of a leader slower than the driver, but faster than v_crit, a^eur
 //!   is at most the acceleration behind that leader: nobody passes on that side in free traffic.
 //!
+//! Which of the two holds is a key of the style; it may leave the choice to the law of the map (ours).
+//!
 //! The model has no route. [`RouteKeeping`] gives it one (ours); with the urgency d, the accelerations count only
 //! 1 − |d|: who has to change waits for a gap, however bad the present one is. The safety criterion applies to
 //! discretionary changes. For route-driven changes the gap test, which all models share, replaces it.
@@ -52,6 +54,20 @@ pub enum Traffic {
     Symmetric,
     /// Drivers keep to the slow side, and overtake on the other.
     European,
+    /// European where the law of the map wants drivers on the slow side, elsewhere symmetric.
+    Law,
+}
+
+impl Traffic {
+    /// Whether it is European; `keeps` where the law wants drivers on the slow side.
+    #[inline]
+    pub fn is_european(self, keeps: bool) -> bool {
+        match self {
+            Traffic::Symmetric => false,
+            Traffic::European => true,
+            Traffic::Law => keeps,
+        }
+    }
 }
 
 impl Default for Mobil {
@@ -112,42 +128,45 @@ fn gain([now, then]: [f64; 2]) -> f64 {
 }
 
 impl Mobil {
-    /// The own gain, and the gain of the other vehicles that count [m/s²], in a change `toward` a side.
-    pub fn gains(&self, toward: Toward, accelerations: &Accelerations) -> [f64; 2] {
+    /// The own gain, and the gain of the other vehicles that count [m/s²], in a change `toward` a side; `keeps` where
+    /// the law wants drivers on the slow side.
+    pub fn gains(&self, toward: Toward, keeps: bool, accelerations: &Accelerations) -> [f64; 2] {
         let Accelerations { own, new_follower, old_follower } = accelerations;
-        let others = match (self.traffic, toward) {
-            (Traffic::Symmetric, _) => gain(*new_follower) + gain(*old_follower),
-            (Traffic::European, Toward::Offside) => gain(*new_follower),
-            (Traffic::European, Toward::Nearside) => gain(*old_follower),
+        let others = match (self.traffic.is_european(keeps), toward) {
+            (false, _) => gain(*new_follower) + gain(*old_follower),
+            (true, Toward::Offside) => gain(*new_follower),
+            (true, Toward::Nearside) => gain(*old_follower),
         };
         [gain(*own), others]
     }
 
-    /// θ: gain [m/s²] from which a change `toward` a side is worthwhile.
-    pub fn threshold(&self, toward: Toward) -> f64 {
-        match (self.traffic, toward) {
-            (Traffic::Symmetric, _) => self.threshold,
-            (Traffic::European, Toward::Offside) => self.threshold + self.bias,
-            (Traffic::European, Toward::Nearside) => self.threshold - self.bias,
+    /// θ: gain [m/s²] from which a change `toward` a side is worthwhile; `keeps` where the law wants drivers on the
+    /// slow side.
+    pub fn threshold(&self, toward: Toward, keeps: bool) -> f64 {
+        match (self.traffic.is_european(keeps), toward) {
+            (false, _) => self.threshold,
+            (true, Toward::Offside) => self.threshold + self.bias,
+            (true, Toward::Nearside) => self.threshold - self.bias,
         }
     }
 
-    /// Whether a driver at `speed` [m/s] on the slow side of `offside`, the leader in the lane beside, may not pass
-    /// it.
+    /// Whether a driver in European traffic at `speed` [m/s] on the slow side of `offside`, the leader in the lane
+    /// beside, may not pass it.
     #[inline]
     pub fn stays_behind(&self, speed: f64, offside: Ahead) -> bool {
-        self.traffic == Traffic::European && may_not_pass(speed, offside, self.critical_speed)
+        may_not_pass(speed, offside, self.critical_speed)
     }
 
     /// The same accelerations where the lane on the slow side counts as no faster than passing there allows: a^eur.
     fn without_passing(&self, situation: &Situation, accelerations: Accelerations) -> Accelerations {
         let Accelerations { own: [now, then], .. } = accelerations;
-        let Situation { me, here, there, toward, .. } = situation;
+        let Situation { me, here, there, toward, keeps_to_the_slow_side, .. } = situation;
         let offside = match toward {
             Toward::Offside => there.ahead,
             Toward::Nearside => here.ahead,
         };
-        if !offside.is_some_and(|it| self.stays_behind(me.pace.speed, it)) {
+        let is_european = self.traffic.is_european(*keeps_to_the_slow_side);
+        if !is_european || !offside.is_some_and(|it| self.stays_behind(me.pace.speed, it)) {
             return accelerations;
         }
         let own = match toward {
@@ -158,9 +177,10 @@ impl Mobil {
     }
 
     /// Whether only the preference for the slow side makes the driver of this `appraisal` want the change.
-    pub(super) fn is_for_the_slow_side(&self, toward: Toward, appraisal: &Appraisal) -> bool {
-        let prefers_it = self.traffic == Traffic::European && toward == Toward::Nearside;
-        prefers_it && appraisal.gain <= self.threshold
+    pub(super) fn is_for_the_slow_side(&self, situation: &Situation, appraisal: &Appraisal) -> bool {
+        let Situation { toward, keeps_to_the_slow_side, .. } = *situation;
+        let is_european = self.traffic.is_european(keeps_to_the_slow_side);
+        is_european && toward == Toward::Nearside && appraisal.gain <= self.threshold
     }
 
     /// Chances within one epoch of the desire for either side: the better one above its threshold is certain.
@@ -172,7 +192,8 @@ impl Mobil {
     /// that of courtesy. Where the change is neither safe nor for the route, the gain is −∞.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let accelerations = self.without_passing(situation, Accelerations::of(situation));
-        let [own, others] = self.gains(situation.toward, &accelerations);
+        let Situation { toward, keeps_to_the_slow_side, .. } = *situation;
+        let [own, others] = self.gains(toward, keeps_to_the_slow_side, &accelerations);
         let [route, urgency] = self.route.rows(situation, DECISIVE, self.urgency);
         // The stronger the urgency, the less the accelerations of the moment count: the driver waits for a gap.
         let free = 1.0 - urgency.earning.abs();
@@ -191,6 +212,6 @@ impl Mobil {
         } else {
             f64::NEG_INFINITY
         };
-        Appraisal { rows, gain, theta: self.threshold(situation.toward) }
+        Appraisal { rows, gain, theta: self.threshold(toward, keeps_to_the_slow_side) }
     }
 }

@@ -32,7 +32,7 @@ pub use mcdm::{Appraisal, Combination, INCENTIVES, Mcdm, Row, Rule, at_least_onc
 pub use mobil::{Accelerations, Mobil, Traffic};
 pub use model::{Flaw, LaneChangeModel};
 pub use returning::Returning;
-pub use route::{Route, expected_time};
+pub use route::{Route, RouteReading, expected_time};
 pub use route_keeping::RouteKeeping;
 pub use safety::{GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
 pub use situation::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};

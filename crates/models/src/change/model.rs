@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, Rule, at_least_once_in, padded};
-use super::situation::{CONGESTED, Situation, Toward, may_not_pass};
+use super::situation::{CONGESTED, Situation, may_not_pass};
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
 use crate::follow::Ahead;
@@ -138,8 +138,8 @@ impl LaneChangeModel {
     #[inline]
     pub fn minds_offside(&self, keeps: bool) -> bool {
         match self {
-            LaneChangeModel::Mcdm(model) => keeps && model.keeping.weight != 0.0,
-            LaneChangeModel::Mobil(model) => model.traffic == super::Traffic::European,
+            LaneChangeModel::Mcdm(model) => model.minds_offside(keeps),
+            LaneChangeModel::Mobil(model) => model.traffic.is_european(keeps),
             LaneChangeModel::Lmrs(_) | LaneChangeModel::ConstantHazard(_) => false,
         }
     }
@@ -155,12 +155,12 @@ impl LaneChangeModel {
     }
 
     /// Whether the wish for the slow side decides: without it, the driver of this `appraisal` would not want the change
-    /// `toward` a side.
-    pub fn is_for_the_slow_side(&self, toward: Toward, appraisal: &Appraisal) -> bool {
+    /// of `situation`.
+    pub fn is_for_the_slow_side(&self, situation: &Situation, appraisal: &Appraisal) -> bool {
         match self {
             LaneChangeModel::Mcdm(model) => model.is_for_the_slow_side(appraisal),
-            LaneChangeModel::Mobil(model) => model.is_for_the_slow_side(toward, appraisal),
-            LaneChangeModel::Lmrs(model) => model.is_for_the_slow_side(toward, appraisal),
+            LaneChangeModel::Mobil(model) => model.is_for_the_slow_side(situation, appraisal),
+            LaneChangeModel::Lmrs(model) => model.is_for_the_slow_side(situation.toward, appraisal),
             LaneChangeModel::ConstantHazard(_) => false,
         }
     }

@@ -8,10 +8,12 @@
 //!   lost. A driver who finds the other route faster does not come back: E_there = P_n min(T, T_alt) + (1 − P_n)
 //!   T_alt. The minimum applies where T_alt is less by more than the driver's indifference band. Between symmetric
 //!   lanes the speeds count, and whether a better route forks off from either (ours): E = min(T, T_alt) in both.
+//! * separate: as repaired, but between symmetric lanes the speeds do not count (ours): there they are a second term of
+//!   [`super::Speed`]. Only the times beyond the section remain: where the lanes' routes or their alternatives differ.
 //!
 //! The speeds of the lanes count over the section, at most as far as a driver sees (ours).
 //!
-//! In the repaired reading a driver leaves a route in the same way as a lane (ours): Y = (T − T_alt − band)/T_ref,
+//! In these two readings a driver leaves a route in the same way as a lane (ours): Y = (T − T_alt − band)/T_ref,
 //! alone and weighed with μ₂, is compared with the threshold of the driver's rule.
 
 use serde::{Deserialize, Serialize};
@@ -21,6 +23,28 @@ use super::{Chances, Incentive, Outcomes};
 use crate::Reading;
 use crate::follow::CarFollowing;
 
+/// Which of three readings of the route incentive a style uses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RouteReading {
+    /// As printed.
+    Literal,
+    /// Against a fixed reference time.
+    #[default]
+    Repaired,
+    /// As repaired, but without speeds between lanes that lead to the same place. Ours.
+    Separate,
+}
+
+impl From<Reading> for RouteReading {
+    fn from(reading: Reading) -> RouteReading {
+        match reading {
+            Reading::Literal => RouteReading::Literal,
+            Reading::Repaired => RouteReading::Repaired,
+        }
+    }
+}
+
 /// Route incentive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -28,7 +52,7 @@ pub struct Route {
     /// μ₂.
     pub weight: f64,
     /// Which reading.
-    pub reading: Reading,
+    pub reading: RouteReading,
     /// Added to the travel time where there is no alternative route [s].
     pub penalty: f64,
     /// T_ref of the repaired reading [s].
@@ -37,7 +61,7 @@ pub struct Route {
 
 impl Default for Route {
     fn default() -> Route {
-        Route { weight: 0.0, reading: Reading::Repaired, penalty: 600.0, reference: 60.0 }
+        Route { weight: 0.0, reading: RouteReading::Repaired, penalty: 600.0, reference: 60.0 }
     }
 }
 
@@ -68,8 +92,14 @@ impl Route {
         (on_route, alternative)
     }
 
-    /// Y of the repaired reading between lanes that lead to the same place, with the anticipated speeds `prospects`
-    /// [m/s].
+    /// Length [m] of `section` over which the speeds of lanes that lead to the same place count.
+    #[inline]
+    fn between_over(&self, section: f64) -> f64 {
+        if self.reading == RouteReading::Separate { 0.0 } else { section }
+    }
+
+    /// Y of the repaired and the separate reading between lanes that lead to the same place, with the anticipated
+    /// speeds `anticipated_speeds` [m/s].
     #[inline]
     pub(crate) fn between(
         &self,
@@ -78,6 +108,7 @@ impl Route {
         section: f64,
         band: f64,
     ) -> f64 {
+        let section = self.between_over(section);
         let [here, there] = [0, 1].map(|lane| {
             let (on_route, alternative) = self.times(&routes[lane], section, anticipated_speeds[lane]);
             better(on_route, alternative, band)
@@ -89,7 +120,8 @@ impl Route {
     /// where it is not worthwhile, or where the reading has no such term.
     pub fn leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<f64> {
         let gain = on_route - alternative - band;
-        (self.reading == Reading::Repaired && gain > 0.0).then(|| (gain / self.reference).min(LARGEST_YIELD))
+        (self.reading != RouteReading::Literal && gain > 0.0)
+            .then(|| (gain / self.reference).min(LARGEST_YIELD))
     }
 }
 
@@ -105,21 +137,23 @@ impl Incentive for Route {
 
     fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes {
         let Situation { me, here, there, section, band, .. } = situation;
+        let is_symmetric = situation.is_symmetric();
         let speed = |lane: &LaneView| match self.reading {
-            Reading::Literal => me.follow.anticipated_speed(me.pace, lane.ahead),
-            Reading::Repaired => lane.anticipated_speed,
+            RouteReading::Literal => me.follow.anticipated_speed(me.pace, lane.ahead),
+            RouteReading::Repaired | RouteReading::Separate => lane.anticipated_speed,
         };
-        let (route_here, alternative_here) = self.times(&here.route, *section, speed(here));
-        let (route_there, alternative_there) = self.times(&there.route, *section, speed(there));
+        let section = if is_symmetric { self.between_over(*section) } else { *section };
+        let (route_here, alternative_here) = self.times(&here.route, section, speed(here));
+        let (route_there, alternative_there) = self.times(&there.route, section, speed(there));
         let keep = -expected_time(chances.here, route_here, alternative_here);
         match self.reading {
-            Reading::Literal if situation.is_symmetric() => Outcomes { keep, back: keep, away: keep },
-            Reading::Literal => Outcomes { keep, back: -route_there, away: -alternative_there },
-            Reading::Repaired if situation.is_symmetric() => {
+            RouteReading::Literal if is_symmetric => Outcomes { keep, back: keep, away: keep },
+            RouteReading::Literal => Outcomes { keep, back: -route_there, away: -alternative_there },
+            RouteReading::Repaired | RouteReading::Separate if is_symmetric => {
                 let there = -better(route_there, alternative_there, *band);
                 Outcomes { keep: -better(route_here, alternative_here, *band), back: there, away: there }
             }
-            Reading::Repaired => {
+            RouteReading::Repaired | RouteReading::Separate => {
                 let back = -better(route_there, alternative_there, *band);
                 Outcomes { keep, back, away: -alternative_there }
             }
@@ -128,8 +162,8 @@ impl Incentive for Route {
 
     fn scale(&self, _situation: &Situation, outcomes: &Outcomes) -> f64 {
         match self.reading {
-            Reading::Literal => outcomes.keep.abs().max(LITERAL_FLOOR),
-            Reading::Repaired => self.reference,
+            RouteReading::Literal => outcomes.keep.abs().max(LITERAL_FLOOR),
+            RouteReading::Repaired | RouteReading::Separate => self.reference,
         }
     }
 
@@ -138,8 +172,8 @@ impl Incentive for Route {
         let gain = expected_time(chances.there, outcomes.back, outcomes.away) - outcomes.keep;
         let earning = gain / self.scale(situation, &outcomes);
         match self.reading {
-            Reading::Literal => earning,
-            Reading::Repaired => earning.clamp(-LARGEST_YIELD, LARGEST_YIELD),
+            RouteReading::Literal => earning,
+            RouteReading::Repaired | RouteReading::Separate => earning.clamp(-LARGEST_YIELD, LARGEST_YIELD),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::situations::{driver, empty_road};
 use crate::weights::mcdm;
-use crate::{IDM, assert_near, chances};
+use crate::{IDM, assert_near, chances, leaving_route};
 use laneweave_models::Reading::Repaired;
 use laneweave_models::change::{Incentive, Keeping, Mcdm, Situation, Toward};
 use laneweave_models::follow::Ahead;
@@ -10,12 +10,17 @@ use laneweave_models::follow::Ahead;
 #[test]
 fn keeping_to_the_slow_side_grows_with_the_time_that_one_could_stay_there() {
     let keeping = Keeping { weight: 1.0, stay: 20.0 };
+    let wish = |ahead| keeping.wish(ahead, f64::INFINITY, 30.0);
     // 100 m behind a leader 10 m/s slower than desired: 10 s of 20 s.
-    assert_near(keeping.wish(Some(Ahead::steady(100.0, 20.0)), 30.0), 0.25, 1e-12);
-    assert_eq!(keeping.wish(Some(Ahead::steady(200.0, 20.0)), 30.0), 1.0);
-    assert_eq!(keeping.wish(Some(Ahead::steady(5.0, 31.0)), 30.0), 1.0);
-    assert_eq!(keeping.wish(None, 30.0), 1.0);
-    assert_eq!(keeping.wish(Some(Ahead::steady(-1.0, 0.0)), 30.0), 0.0);
+    assert_near(wish(Some(Ahead::steady(100.0, 20.0))), 0.25, 1e-12);
+    assert_eq!(wish(Some(Ahead::steady(200.0, 20.0))), 1.0);
+    assert_eq!(wish(Some(Ahead::steady(5.0, 31.0))), 1.0);
+    assert_eq!(wish(None), 1.0);
+    assert_eq!(wish(Some(Ahead::steady(-1.0, 0.0))), 0.0);
+    // 150 m to the last place for the change back at 30 m/s: 5 s.
+    assert_near(keeping.wish(None, 150.0, 30.0), 0.0625, 1e-12);
+    assert_near(keeping.wish(Some(Ahead::steady(100.0, 20.0)), 150.0, 30.0), 0.0625, 1e-12);
+    assert_eq!(keeping.wish(None, -1.0, 30.0), 0.0);
 }
 
 #[test]
@@ -35,6 +40,17 @@ fn keeping_asks_a_driver_to_the_slow_side_and_holds_it_there_where_the_law_has_i
     for toward in [Toward::Nearside, Toward::Offside] {
         assert_eq!(earns(toward, false, &situation), 0.0);
     }
+}
+
+#[test]
+fn keeping_asks_nobody_to_a_lane_that_it_would_have_to_leave_at_once_and_holds_nobody_in_one() {
+    let keeping = Keeping { weight: 1.0, stay: 20.0 };
+    let law = Situation { keeps_to_the_slow_side: true, ..empty_road(driver(&IDM, 30.0, 30.0)) };
+    let mut situation = leaving_route(Situation { toward: Toward::Nearside, ..law }, 300.0);
+    assert_near(keeping.earning(&situation, chances(1.0)), 0.25, 1e-12);
+    situation.toward = Toward::Offside;
+    std::mem::swap(&mut situation.here, &mut situation.there);
+    assert_near(keeping.earning(&situation, chances(1.0)), -0.25, 1e-12);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::weights::mcdm;
 use crate::{IDM, assert_near, chances, flow, leaving_route};
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Chances, Flow, Incentive, Returning, Route, RouteView, Situation, expected_time,
+    Chances, Flow, Incentive, Returning, Route, RouteReading, RouteView, Situation, expected_time,
 };
 use laneweave_models::follow::Ahead;
 
@@ -47,7 +47,7 @@ fn minute_to_go(reading: Reading) -> (Route, Situation<'static>) {
     situation.section = 400.0;
     situation.here.route.onward = 20.0;
     situation.there.route.onward = 20.0;
-    (Route { weight: 1.0, reading, ..Route::default() }, situation)
+    (Route { weight: 1.0, reading: reading.into(), ..Route::default() }, situation)
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn the_repaired_route_yield_is_clamped() {
     let (route, situation) = minute_to_go(Repaired);
     let costly = Route { penalty: 6000.0, ..route };
     assert_eq!(costly.earning(&leaving_route(situation, 1.0), chances(0.0)), -10.0);
-    let literal = Route { reading: Literal, ..costly };
+    let literal = Route { reading: RouteReading::Literal, ..costly };
     assert_near(literal.earning(&leaving_route(situation, 1.0), chances(0.0)), -100.0, 1e-9);
 }
 
@@ -164,7 +164,7 @@ fn a_symmetric_change_earns_of_the_route_only_its_speed_part() {
         // 400 m at 8 and at 10 m/s: ten seconds.
         situation.here.anticipated_speed = 8.0;
         assert_near(route.earning(&situation, chances(1.0)), 10.0 / 60.0, 1e-12);
-        let literal = Route { reading: Literal, ..route };
+        let literal = Route { reading: RouteReading::Literal, ..route };
         situation.here.ahead = Some(Ahead::steady(20.0, 8.0));
         assert_eq!(literal.earning(&situation, chances(1.0)), 0.0);
     }
@@ -176,4 +176,45 @@ fn a_travel_time_is_counted_at_a_metre_a_second_at_least() {
     situation.here.anticipated_speed = 0.0;
     // 400 s against 40 s.
     assert_near(route.earning(&situation, chances(1.0)), 6.0, 1e-12);
+}
+
+/// As [`minute_to_go`] in the separate reading, at 8 m/s in the own lane: ten seconds more over the section.
+fn minute_to_go_apart() -> (Route, Situation<'static>) {
+    let (route, mut situation) = minute_to_go(Repaired);
+    situation.here.anticipated_speed = 8.0;
+    (Route { reading: RouteReading::Separate, ..route }, situation)
+}
+
+#[test]
+fn apart_from_speed_a_symmetric_change_earns_of_the_route_only_the_better_way_that_forks_off() {
+    let (route, mut situation) = minute_to_go_apart();
+    situation.here.route.onward = 50.0;
+    situation.there.route.onward = 50.0;
+    let yields = |here, there, band| {
+        let mut it = Situation { band, ..situation };
+        (it.here.route.alternative, it.there.route.alternative) = (here, there);
+        route.earning(&it, chances(1.0))
+    };
+    for same in [None, Some(20.0), Some(500.0)] {
+        assert_eq!(yields(same, same, 0.0), 0.0);
+    }
+    assert_near(yields(None, Some(20.0), 0.0), 30.0 / 60.0, 1e-12);
+    assert_near(yields(Some(20.0), None, 0.0), -30.0 / 60.0, 1e-12);
+    assert_near(yields(Some(35.0), Some(20.0), 0.0), 15.0 / 60.0, 1e-12);
+    assert_eq!(yields(None, Some(20.0), 40.0), 0.0);
+    // One of the lanes leads to a longer way on.
+    situation.there.route.onward = 62.0;
+    assert_near(route.earning(&situation, chances(1.0)), -12.0 / 60.0, 1e-12);
+}
+
+#[test]
+fn apart_from_speed_leaving_the_route_earns_what_it_does_in_the_repaired_reading() {
+    let (separate, situation) = minute_to_go_apart();
+    let repaired = Route { reading: RouteReading::Repaired, ..separate };
+    let leaving = leaving_route(situation, 20.0);
+    for chance in [0.0, 0.6, 1.0] {
+        let [one, other] = [separate, repaired].map(|it| it.earning(&leaving, chances(chance)));
+        assert_eq!(one, other);
+    }
+    assert_eq!(separate.leaving(120.0, 60.0, 30.0), Some(0.5));
 }

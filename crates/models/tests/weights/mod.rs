@@ -8,7 +8,7 @@ pub(crate) fn mcdm(reading: Reading, [speed, route, comfort, courtesy]: [f64; 4]
     Mcdm {
         rule: Rule::Threshold,
         speed: Speed { weight: speed, reading },
-        route: Route { weight: route, reading, ..Route::default() },
+        route: Route { weight: route, reading: reading.into(), ..Route::default() },
         comfort: Comfort { weight: comfort, reading, beta },
         courtesy: Courtesy { weight: courtesy, reading },
         returning: Returning { reading, ..Returning::default() },

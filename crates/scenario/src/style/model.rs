@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use laneweave_models::change::{
-    Comfort, ConstantHazard, Courtesy, LaneChangeModel, Lmrs, Mcdm, Mobil, Route, RouteKeeping, Speed,
-    Urgency,
+    Comfort, ConstantHazard, Courtesy, Keeping, LaneChangeModel, Lmrs, Mcdm, Mobil, Route, RouteKeeping,
+    Speed, Traffic, Urgency,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,6 +21,8 @@ pub enum Model {
     Mcdm,
     /// MOBIL, symmetric, which follows its route by urgency.
     Mobil,
+    /// MOBIL, European or symmetric by the law of the map, which follows its route by urgency.
+    MobilLaw,
     /// MOBIL, symmetric, which never leaves the lanes of its route.
     MobilLanes,
     /// LMRS, which follows its route by urgency.
@@ -35,9 +37,10 @@ pub enum Model {
 
 impl Model {
     /// All of them.
-    pub const ALL: [Model; 7] = [
+    pub const ALL: [Model; 8] = [
         Model::Mcdm,
         Model::Mobil,
+        Model::MobilLaw,
         Model::MobilLanes,
         Model::Lmrs,
         Model::LmrsLanes,
@@ -50,6 +53,7 @@ impl Model {
         match self {
             Model::Mcdm => "mcdm",
             Model::Mobil => "mobil",
+            Model::MobilLaw => "mobil-law",
             Model::MobilLanes => "mobil-lanes",
             Model::Lmrs => "lmrs",
             Model::LmrsLanes => "lmrs-lanes",
@@ -64,6 +68,10 @@ impl Model {
             Model::Mcdm => "multi-criteria decision-making (Li et al.): the weights of the styles",
             Model::Mobil => {
                 "minimizing overall braking (Kesting et al.), symmetric; follows its route by urgency"
+            }
+            Model::MobilLaw => {
+                "minimizing overall braking (Kesting et al.), keeping to the slow side where the law of the map has it; \
+                 follows its route by urgency"
             }
             Model::MobilLanes => {
                 "minimizing overall braking (Kesting et al.), symmetric; never leaves the lanes of its route"
@@ -95,6 +103,7 @@ impl Model {
                 _ => LaneChangeModel::Mcdm(without_weights(usual()?)),
             },
             Model::Mobil => LaneChangeModel::Mobil(Mobil::default()),
+            Model::MobilLaw => LaneChangeModel::Mobil(Mobil { traffic: Traffic::Law, ..Mobil::default() }),
             Model::MobilLanes => LaneChangeModel::Mobil(Mobil { route: lanes, ..Mobil::default() }),
             Model::Lmrs => LaneChangeModel::Lmrs(Lmrs::default()),
             Model::LmrsLanes => LaneChangeModel::Lmrs(Lmrs { route: lanes, ..Lmrs::default() }),
@@ -121,6 +130,7 @@ fn without_weights(model: Mcdm) -> Mcdm {
         comfort: Comfort { weight: 0.0, ..model.comfort },
         courtesy: Courtesy { weight: 0.0, ..model.courtesy },
         urgency: Urgency { weight: 0.0 },
+        keeping: Keeping { weight: 0.0, ..model.keeping },
         ..model
     }
 }

@@ -59,7 +59,7 @@ impl Choice {
         Choice {
             side,
             appraisal,
-            is_for_the_slow_side: change.is_for_the_slow_side(situation.toward, &appraisal),
+            is_for_the_slow_side: change.is_for_the_slow_side(situation, &appraisal),
             is_symmetric: situation.is_symmetric(),
             helps_the_route: situation.there.route.changes < situation.here.route.changes,
             pressure: change.pressure(situation, &appraisal),

@@ -30,7 +30,8 @@ impl Perception<'_, '_> {
         let is_courteous = model.courtesy.weight != 0.0;
         let relief = if is_courteous { model.courtesy.relief(&self.me, &self.here) } else { 0.0 };
         let mut best_anticipated_speed = None;
-        let keeps = self.keeps_to_the_slow_side() && model.keeping.weight != 0.0;
+        let keeps = self.keeps_to_the_slow_side();
+        let minds_offside = model.minds_offside(keeps);
         for side in Side::BOTH {
             let Some(from) = self.beside[side.at()] else { continue };
             let (section, routes) = self.routes(from);
@@ -47,12 +48,11 @@ impl Perception<'_, '_> {
             });
             let (toward, leaders) = (self.toward(side), [self.here.ahead, ahead]);
             let mut anticipated_speeds = [self.here.anticipated_speed, anticipated_speed];
-            let mut slow_side = 0.0;
-            if keeps {
+            if minds_offside {
                 let speed = self.me.pace.speed;
                 anticipated_speeds = model.without_passing(toward, speed, leaders, anticipated_speeds);
-                slow_side = model.keeping.toward(toward, leaders, desired);
             }
+            let slow_side = if keeps { model.keeping.toward(toward, leaders, desired) } else { 0.0 };
             let bound = GainBound {
                 desired,
                 anticipated_speeds,
