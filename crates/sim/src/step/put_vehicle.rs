@@ -7,6 +7,7 @@ use crate::record::lanelet_aggregates::Mark;
 use crate::record::log::Log;
 use crate::record::trip_log::TripRecord;
 use crate::record::trips::free_time;
+use crate::route::fitting_speed::Outlook;
 use crate::route::roads::Roads;
 use crate::state::lane::{DriverState, Entry, Kind, Kinematics, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
@@ -79,13 +80,15 @@ pub(crate) fn put(
     });
     let length = class.body().length as f32;
     let motion = Kinematics { x, speed, acceleration: 0.0, headway_relaxation: 1.0, length, id };
-    let desired = desires(network.chain(chain).limit(x)) as f32;
+    let due = next_turn(id, clock.step, clock.steps(style.attention.epoch));
+    let outlook = Outlook { network, navigator, style, class, destination };
+    let desired = outlook.until_turn(Position::new(chain, x), speed, due, clock);
     let driver = DriverState {
         desired,
         limit_desired: desired,
         standing: 0.0,
         parameters,
-        due: next_turn(id, clock.step, clock.steps(style.attention.epoch)),
+        due,
         cooldown_until: 0,
         goal: destination.into(),
         class,
