@@ -197,3 +197,99 @@ fn curvatures(points: &[Point], half_arc: f64) -> Vec<f64> {
     };
     points.windows(2 * around + 1).map(curvature).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::Network;
+    use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex};
+
+    /// The network of one chain for each of `lines`, one after the other, under `limit` [m/s]. At the end of each but
+    /// the last, a lane to nowhere forks off: the next line is another chain.
+    fn network(lines: &[Vec<Point>], limit: f64) -> Network {
+        let line = |points: &[Point]| Polyline::new(points.iter().copied()).unwrap();
+        let mut all: Vec<Lanelet> = Vec::new();
+        for (number, points) in lines.iter().enumerate() {
+            let centre = line(points);
+            all.push(Lanelet::alone(number as i64, [centre.clone(), centre.clone(), centre], limit));
+        }
+        let count = lines.len();
+        for number in 0..count - 1 {
+            let end = lines[number][lines[number].len() - 1];
+            let astray = line(&[end, Point::new(end.x, end.y - 50.0, 0.0)]);
+            all.push(Lanelet::alone(100 + number as i64, [astray.clone(), astray.clone(), astray], limit));
+            let fork = LaneletIndex(all.len() as u32 - 1);
+            all[number].following = vec![LaneletIndex(number as u32 + 1), fork];
+        }
+        Network::new(all, DrivingSide::Right).unwrap()
+    }
+
+    /// Points from `from` to `to` [m] along a line that is straight for 100 m, turns left by 90° with `radius`, and is
+    /// straight again.
+    fn turning(radius: f64, [from, to]: [f64; 2]) -> Vec<Point> {
+        let arc = radius * std::f64::consts::FRAC_PI_2;
+        let count = ((to - from) / 2.0).ceil() as usize;
+        let at = |s: f64| match s - 100.0 {
+            way if way < 0.0 => Point::new(s, 0.0, 0.0),
+            way if way < arc => {
+                let (sin, cos) = (way / radius).sin_cos();
+                Point::new(100.0 + radius * sin, radius * (1.0 - cos), 0.0)
+            }
+            way => Point::new(100.0 + radius, radius + way - arc, 0.0),
+        };
+        (0..=count).map(|it| at(from + (to - from) * it as f64 / count as f64)).collect()
+    }
+
+    #[test]
+    fn a_bend_is_found_where_it_is_with_its_radius() {
+        for radius in [25.0, 50.0, 100.0] {
+            let network = network(&[turning(radius, [0.0, 400.0])], 50.0 / 3.6);
+            let bends = &network.chains[0].bends;
+            let tightest = bends.iter().map(|it| it.curvature).fold(0.0, f64::max);
+            assert!((0.9..1.02).contains(&(radius * tightest)), "{radius}: {}", 1.0 / tightest);
+            let arc = radius * std::f64::consts::FRAC_PI_2;
+            let tight = bends.iter().filter(|it| it.curvature > 0.7 / radius);
+            let (start, end) = tight.fold((f64::MAX, 0.0_f64), |it, b| (it.0.min(b.start), it.1.max(b.end)));
+            assert!(
+                (start - 100.0).abs() < 6.0 && (end - 100.0 - arc).abs() < 6.0,
+                "{radius}: {start} {end}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_bend_over_several_chains_is_as_tight_as_in_one() {
+        let pieces = [[0.0, 110.0], [110.0, 122.0], [122.0, 130.0], [130.0, 300.0]];
+        let network = network(&pieces.map(|it| turning(20.0, it)), 50.0 / 3.6);
+        let tightest =
+            |chain: usize| network.chains[chain].bends.iter().map(|it| it.curvature).fold(0.0, f64::max);
+        assert!((0.85..1.05).contains(&(20.0 * tightest(1))), "{}", tightest(1));
+        assert!(tightest(0) > 0.0 && tightest(2) > 0.0);
+        assert!(network.chains[0].has_slow_places);
+    }
+
+    #[test]
+    fn a_crooked_straight_line_and_a_motorway_have_no_bends() {
+        let crooked = |aside: f64| -> Vec<Point> {
+            let y = |it: usize| aside * [0.0, 1.0, -0.4, 0.7, -1.0, 0.2][it % 6];
+            (0..100).map(|it| Point::new(5.0 * it as f64, y(it), 0.0)).collect()
+        };
+        for limit in [30.0, 50.0, 100.0, 130.0] {
+            assert_eq!(network(&[crooked(0.15)], limit / 3.6).chains[0].bends, [], "{limit}");
+        }
+        let wide = network(&[turning(1200.0, [0.0, 3000.0])], 120.0 / 3.6);
+        assert_eq!(wide.chains[0].bends, []);
+        assert!(!wide.chains[0].has_slow_places && wide.chains[0].slow_beyond == f64::INFINITY);
+    }
+
+    #[test]
+    fn a_chain_knows_how_far_beyond_it_the_next_bend_is() {
+        let network =
+            network(&[[0.0, 20.0], [20.0, 80.0], [80.0, 300.0]].map(|it| turning(20.0, it)), 50.0 / 3.6);
+        let bend = network.chains[2].bends[0].start;
+        // The arc begins at 20 m; an averaged line is curved half an arc before.
+        assert!((9.0..20.0).contains(&bend), "{bend}");
+        assert_eq!(network.chains[1].slow_beyond, bend);
+        assert_eq!(network.chains[0].slow_beyond, 60.0 + bend);
+    }
+}

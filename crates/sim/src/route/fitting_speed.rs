@@ -4,7 +4,7 @@
 //! braking. The places are those on its route (all ours).
 
 use laneweave_models::{Style, bends};
-use laneweave_network::{Chain, Limit, Network, Position};
+use laneweave_network::{Bend, Chain, Limit, Network, Position};
 
 use crate::route::navigate::Navigator;
 use crate::route::walk::Leg;
@@ -41,7 +41,22 @@ impl Outlook<'_> {
         if is_clear || !style.manner.looks_ahead() { desired } else { self.slowed(at, way, reach, desired) }
     }
 
-    /// The same where slow places may be within `reach` [m], for a driver who otherwise desires `desired` [m/s].
+    /// The speed [m/s] at which the driver drives through a bend; infinite for one who does not slow for bends.
+    pub(crate) fn bend_speed(&self, bend: &Bend) -> f64 {
+        if self.style.manner.lateral_acceleration > 0.0 {
+            self.bend_speed_squared(bend).sqrt()
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn bend_speed_squared(&self, bend: &Bend) -> f64 {
+        let largest = self.style.manner.lateral_acceleration;
+        bends::speed_squared(largest, self.class.is_long(), bend.curvature)
+    }
+
+    /// The fitting speed where slow places may be within `reach` [m], for a driver who would otherwise desire `desired`
+    /// [m/s].
     #[inline(never)]
     fn slowed(&self, at: Position, way: f64, reach: f64, desired: f64) -> f64 {
         let Outlook { network, navigator, style, class, destination } = *self;
@@ -63,12 +78,11 @@ impl Outlook<'_> {
                 }
             }
             if style.manner.lateral_acceleration > 0.0 {
-                // A bend lasts until most of the vehicle has left it.
-                let rear = from - 0.5 * class.body().length;
-                let first = chain.bends.partition_point(|it| it.end <= rear);
+                // A bend lasts until half of the vehicle has left it.
+                let middle = from - 0.5 * class.body().length;
+                let first = chain.bends.partition_point(|it| it.end <= middle);
                 for bend in chain.bends[first..].iter().take_while(|it| start + it.start < reach) {
-                    let (largest, is_long) = (style.manner.lateral_acceleration, class.is_long());
-                    slow(start + bend.start, bends::speed_squared(largest, is_long, bend.curvature));
+                    slow(start + bend.start, self.bend_speed_squared(bend));
                 }
             }
         }
