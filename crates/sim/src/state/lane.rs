@@ -56,9 +56,9 @@ impl Kinematics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
 pub struct DriverState {
-    /// Desired speed [m/s]; it falls gradually to a lower speed limit.
+    /// Desired speed [m/s]; it falls gradually to a lower one.
     pub desired: f32,
-    /// Desired speed under the present speed limit [m/s].
+    /// Desired speed at the next turn of the driver, under the limits and in the bends ahead [m/s].
     pub limit_desired: f32,
     /// Time at standstill [s].
     pub standing: f32,
