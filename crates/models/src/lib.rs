@@ -5,6 +5,7 @@
 //! its own intent, both readings exist: [`Reading::Literal`] and [`Reading::Repaired`], chosen by a style.
 
 mod attention;
+pub mod bends;
 pub mod braking;
 pub mod change;
 pub mod comfortable;

@@ -170,6 +170,7 @@ parameters! {
         FreeAdjustDeceleration "manner.free_adjust_deceleration" range(0.0, 8.0, "m/s²"), manner.free_adjust_deceleration;
         YieldDeceleration "manner.yield_deceleration" range(0.0, 8.0, "m/s²"), manner.yield_deceleration;
         ComfortableDeceleration "manner.comfortable_deceleration" range(0.0, 8.0, "m/s²"), manner.comfortable_deceleration;
+        LateralAcceleration "manner.lateral_acceleration" range(0.0, 10.0, "m/s²"), manner.lateral_acceleration;
         Tightest "manner.tightest" range(0.05, 1.0, ""), manner.tightest;
         Relaxation "manner.relaxation" range(0.1, 3600.0, "s"), manner.relaxation;
         CriticalGap "yielding.critical_gap" range(0.0, 60.0, "s"), yielding.critical_gap;

@@ -70,6 +70,8 @@ pub struct Manner {
     /// Braking with which the driver comes to what stands or is slower, see [`crate::comfortable`] [m/s²]; 0: as its
     /// car-following model alone has it.
     pub comfortable_deceleration: f64,
+    /// Largest lateral acceleration in bends, see [`crate::bends`] [m/s²]; 0: does not slow for them.
+    pub lateral_acceleration: f64,
     /// Shortest share of the usual time gap accepted around a change.
     pub tightest: f64,
     /// τ: time in which an accepted short gap relaxes to the usual one [s].
@@ -88,6 +90,7 @@ impl Default for Manner {
             free_adjust_deceleration: 2.0,
             yield_deceleration: 2.0,
             comfortable_deceleration: 0.0,
+            lateral_acceleration: 0.0,
             tightest: 0.56 / 1.2,
             relaxation: 25.0,
         }
@@ -95,6 +98,33 @@ impl Default for Manner {
 }
 
 impl Manner {
+    /// Whether the driver slows down before bends or lower speed limits, and not only when it has reached them.
+    #[inline]
+    pub fn looks_ahead(&self) -> bool {
+        self.lateral_acceleration > 0.0 || self.comfortable_deceleration > 0.0
+    }
+
+    /// Braking with which the driver comes to bends and lower limits [m/s²] (ours): less than its comfortable braking,
+    /// since it sees them from far away.
+    #[inline]
+    pub fn anticipating(&self) -> f64 {
+        /// Of a style without comfortable braking, share of that braking, and most [m/s²].
+        const USUAL: f64 = 1.5;
+        const SHARE: f64 = 0.75;
+        const MOST: f64 = 2.0;
+        let own = SHARE * self.comfortable_deceleration;
+        if own > 0.0 { own.min(MOST) } else { USUAL }
+    }
+
+    /// Rate [m/s²] at which a desired speed falls by `less` [m/s] in `time` [s], the time until the driver looks again
+    /// (ours). What it sees late is braked for harder, up to a limit.
+    pub fn slowing(&self, less: f64, time: f64) -> f64 {
+        /// Of a driver who does not look ahead, and the most [m/s²].
+        const USUAL: f64 = 1.5;
+        const MOST: f64 = 2.5;
+        if self.looks_ahead() { (less / time).clamp(self.anticipating(), MOST) } else { USUAL }
+    }
+
     /// Time [s] that a change takes a driver with `urgency` 0…1. Urgency makes no change longer.
     #[inline]
     pub fn duration(&self, urgency: f64) -> f64 {

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::bend::note_slow_places;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
 use crate::gate::{Gate, gates, lane_drops};
 use crate::junction::{Crossing, Junctions, LightConflict, Reach, Regulations, SignalPlan};
@@ -92,6 +93,7 @@ impl Network {
         for index in &lane_drops {
             chains[index.at()].is_lane_drop = true;
         }
+        note_slow_places(&mut chains);
         note_open(&mut chains, &lanelets, [&entrances, &exits]);
         let start =
             |(chain, number): &(ChainIndex, usize)| Position::new(*chain, chains[chain.at()].starts[*number]);

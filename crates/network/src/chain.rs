@@ -1,5 +1,6 @@
 //! Chains: maximal fork-free runs of lanelets, the lanes of the simulation.
 
+use crate::bend::Bend;
 use crate::geometry::Polyline;
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,10 @@ pub struct Chain {
     pub is_lane_drop: bool,
     /// Somewhere it is too narrow for some vehicles: for them it begins later or ends earlier than drawn.
     pub is_narrow: bool,
+    /// It has bends, or a speed limit below the one before it.
+    pub has_slow_places: bool,
+    /// From its end to the next bend or lower speed limit on any route [m]; infinite if there is none near.
+    pub slow_beyond: f64,
     /// Chains that this one continues.
     pub previous: Vec<ChainIndex>,
     /// Speed limits in order of their start.
@@ -68,6 +73,8 @@ pub struct Chain {
     pub open: [[f64; 2]; 2],
     /// On the path through it, it is narrower somewhere than a long vehicle.
     pub is_tight_for_long: bool,
+    /// Bends in order.
+    pub bends: Vec<Bend>,
 }
 
 /// A speed limit from `start` on.
@@ -227,6 +234,9 @@ impl Chain {
             right: Vec::new(),
             is_lane_drop: false,
             is_narrow: false,
+            has_slow_places: false,
+            slow_beyond: f64::INFINITY,
+            bends: Vec::new(),
             open: Chain::WIDE,
             is_tight_for_long: false,
             fork_clearance: 0.0,

@@ -4,6 +4,7 @@
 //! appear in input and output only.
 
 mod alongside;
+mod bend;
 mod build;
 mod chain;
 mod gate;
@@ -18,6 +19,7 @@ mod symmetry;
 mod width;
 
 pub use alongside::Alongside;
+pub use bend::Bend;
 pub use build::{Network, NetworkError};
 pub use chain::{Beside, Chain, ChainIndex, Limit, Position};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};

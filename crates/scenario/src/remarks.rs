@@ -293,7 +293,7 @@ fn bends(network: &Network) -> Option<Remark> {
     let (sharpest, lateral) = found.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let what = format!(
         "{} of {} lanelets have bends in which the speed limit gives a lateral acceleration above {LATERAL} m/s² (lanelet {}: \
-         {lateral:.0} m/s² at {}): drivers do not slow down for bends",
+         {lateral:.0} m/s² at {}): drivers whose style has no lateral_acceleration do not slow down for bends",
         found.len(),
         network.lanelets.len(),
         sharpest.id,

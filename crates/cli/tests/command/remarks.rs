@@ -118,7 +118,7 @@ fn bends_are_held_against_the_limit() {
             .starts_with("8 of 64 lanelets have bends in which the speed limit gives a lateral acceleration above 4 m/s² (lanelet ")
     );
     assert!(found[0].ends_with(
-        ": 19 m/s² at 50 km/h): drivers do not slow down for bends; reduce speed_limit there if this matters"
+        ": 19 m/s² at 50 km/h): drivers whose style has no lateral_acceleration do not slow down for bends; reduce speed_limit there if this matters"
     ));
     assert_eq!(remarks("grid --rows 1 --columns 1 --speed-limit 20", &[]), [""; 0]);
 }

@@ -6,6 +6,7 @@ use laneweave_models::yielding::{MARGIN, time_to_cover};
 use laneweave_network::{ChainIndex, Precedence, Touch, ZoneKind};
 use laneweave_sim::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 
+use super::stream::Mixture;
 use super::{Roads, once};
 
 /// A movement through a junction.
@@ -39,7 +40,7 @@ impl Movement {
     }
 }
 
-/// Values that are the same for all movements under a limit.
+/// Values that are the same for all movements under a limit in bends of the same curvature.
 #[derive(Clone, Copy)]
 struct Pace {
     /// Headway of a stream, and of vehicles that start from rest [s].
@@ -50,11 +51,10 @@ struct Pace {
 /// All movements through zones without lights, those with the largest shares of time first.
 pub(super) fn movements(roads: &Roads) -> Vec<Movement> {
     let mut all = in_order_of_chains(roads);
-    let mut paces: Vec<(f64, Pace)> = Vec::new();
+    let mut paces: Vec<((f64, f64), Pace)> = Vec::new();
     for movement in &mut all {
-        let limit = roads.network.chain(movement.chain).limit(movement.start);
-        let pace = once(&mut paces, limit, || {
-            let mixture = roads.mixture(limit);
+        let pace = once(&mut paces, limits(roads, movement), || {
+            let mixture = mixture(roads, movement);
             Pace { headway: 1.0 / mixture.stream(), start: 1.0 / mixture.starts() }
         });
         take_time(roads, pace, movement);
@@ -120,12 +120,28 @@ fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Moveme
         return;
     }
     let distance = movement.end - movement.start + stands_before(roads, movement);
-    let limit = roads.network.chain(movement.chain).limit(movement.start);
-    let mixture = roads.mixture(limit);
+    let mixture = mixture(roads, movement);
     let covers = mixture.mean_of(|length, desired| time_to_cover(distance + length, 0.0, desired));
     movement.time = MARGIN + covers + NOTICES_AFTER;
     movement.gap = mixture.critical_gap().max(movement.time);
     movement.follow_up = start.max(headway) + NOTICES_AFTER;
+}
+
+/// The vehicles and drivers in a movement.
+fn mixture<'a>(roads: &Roads<'a>, movement: &Movement) -> Mixture<'a> {
+    let (limit, curvature) = limits(roads, movement);
+    roads.mixture(limit).in_bend(curvature)
+}
+
+/// The limit [m/s] at the begin of a movement, and its largest curvature [1/m], rounded so that there are few.
+fn limits(roads: &Roads, movement: &Movement) -> (f64, f64) {
+    /// Speeds at 1 m/s² are rounded to this [m/s].
+    const STEP: f64 = 0.5;
+    let chain = roads.network.chain(movement.chain);
+    let bends = chain.bends.iter().filter(|it| it.end > movement.start && it.start < movement.end);
+    let tightest = bends.map(|it| it.curvature).reduce(f64::max);
+    let rounded = |it: f64| ((1.0 / it.sqrt() / STEP).round() * STEP).max(STEP);
+    (chain.limit(movement.start), tightest.map_or(0.0, |it| rounded(it).powi(-2)))
 }
 
 /// Distance before its first zone at which `movement` starts from rest: at the zone, or at a line before it [m].

@@ -1,7 +1,7 @@
 //! The flow of one lane: in a stream, of drivers who start from rest, and through a light.
 
-use laneweave_models::Style;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_models::{Style, bends};
 use laneweave_network::{Phase, Program};
 use laneweave_sim::{Class, Fleet, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
 
@@ -31,6 +31,18 @@ impl<'a> Mixture<'a> {
             desired: class.desired_speed(style, limit),
         });
         Mixture(all.filter(|it| it.share > 0.0).collect())
+    }
+
+    /// The same in a bend of this `curvature` [1/m]; 0: on a straight lane.
+    pub(super) fn in_bend(mut self, curvature: f64) -> Mixture<'a> {
+        for kind in
+            self.0.iter_mut().filter(|it| curvature > 0.0 && it.style.manner.lateral_acceleration > 0.0)
+        {
+            let largest = kind.style.manner.lateral_acceleration;
+            let squared = bends::speed_squared(largest, kind.class.is_long(), curvature);
+            kind.desired = kind.desired.min(squared.sqrt());
+        }
+        self
     }
 
     /// The mean of a quantity over all vehicles.

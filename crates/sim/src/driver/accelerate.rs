@@ -130,7 +130,8 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         scene.motions(spot.chain).get(spot.index + 1).filter(|it| !needs_full_update && it.id != motion.id);
     let road = OpenRoad::on(scene, spot.chain, lane_end);
     let is_usual = |it: &&Kinematics| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
-    let usual = next.filter(is_usual);
+    let slows = driver.desired > driver.limit_desired && scene.style_of(driver).manner.looks_ahead();
+    let usual = next.filter(|it| !slows && is_usual(it));
     if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, driver, it, clock.dt)) {
         let junction = Junction::default();
         return Chosen {
@@ -147,6 +148,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         None => scene.style_of(driver).follow.acceleration(pace(motion, driver), None),
     };
     let wish = Wish { acceleration, cause: BrakingCause::Leader };
+    let wish = if slows { slowing(scene, clock, motion, driver, wish) } else { wish };
     let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
     let junction = junction::look(scene, spot);
     let (wish, stop) = at_junction(scene, motion, driver, &junction, wish, clock.dt);
@@ -167,6 +169,21 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         touches: leader.is_some_and(|it| it.gap < 0.0),
         junction,
     }
+}
+
+/// The acceleration of a driver whose desired speed falls, because of the road ahead: it falls with it.
+fn slowing(scene: &Scene, clock: Clock, motion: &Kinematics, driver: &DriverState, wish: Wish) -> Wish {
+    /// A driver slower than it desires by more than this may still accelerate [m/s], and one who is too fast brakes
+    /// harder by at most this [m/s²]; ours.
+    const SLOWER: f64 = 0.5;
+    const HARDER: f64 = 1.0;
+    let pace = pace(motion, driver);
+    if pace.speed < pace.desired - SLOWER {
+        return wish;
+    }
+    let style = scene.style_of(driver);
+    let on_a_free_road = style.follow.acceleration(pace, None).max(-HARDER);
+    wish.or(on_a_free_road - driver.slowing(&style.manner, clock), BrakingCause::DesiredSpeed)
 }
 
 /// What a driver brakes hard for, who has `chosen` that: its leader may have changed lanes, and a lower desired speed

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use laneweave_models::Style;
 use laneweave_models::change::{Appraisal, LaneChangeModel};
-use laneweave_network::{LaneUse, Side};
+use laneweave_network::{LaneUse, Position, Side};
 
 use crate::driver::beliefs::Beliefs;
 use crate::driver::choice::{Choice, desire};
@@ -270,16 +270,17 @@ fn keep_in_mind(concern: Concern, driver: &DriverState, plan: &mut Plan) {
 
 /// The note that is stored at every turn. The driver considers lanes once in `period` steps.
 fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
-    let Me { spot, motion, driver, style, .. } = *me;
-    let limit = scene.network.chain(spot.chain).limit(motion.x);
+    let Me { spot, motion, driver, .. } = *me;
+    let due = next_turn(motion.id, moment.clock.step + 1, period);
+    let at = Position::new(spot.chain, motion.x);
     let stands = motion.speed < STANDSTILL;
     // A consideration between two turns adds nothing to the time, which is counted from turn to turn.
     let is_turn = next_turn(motion.id, moment.clock.step, period) == moment.clock.step;
     let since_last = if is_turn { (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 };
     Note {
         index: spot.index as u32,
-        due: next_turn(motion.id, moment.clock.step + 1, period),
-        limit_desired: driver.class.desired_speed(style, limit) as f32,
+        due,
+        limit_desired: scene.outlook(driver).until_turn(at, motion.speed, due, moment.clock),
         standing: if stands { driver.standing + since_last } else { 0.0 },
     }
 }

@@ -7,6 +7,8 @@ use crate::junction::waiting_priority::ZoneReservation;
 
 /// Storage space that a vehicle needs beyond the zones, in addition to its length [m] (ours).
 pub(crate) const SPARE_SPACE: f64 = 2.0;
+/// A line belongs to the zones that follow within this distance [m] (ours).
+pub(crate) const LINE_TO_ZONE: f64 = 30.0;
 
 /// The reservation that a driver needs. Distances are measured from the front of its vehicle [m].
 #[derive(Clone, Debug)]

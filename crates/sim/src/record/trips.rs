@@ -3,13 +3,12 @@
 
 use std::collections::VecDeque;
 
-use laneweave_network::{Chain, ChainIndex, Network, Position, Side};
+use laneweave_network::{Bend, Chain, ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::record::numbering::Both;
-use crate::route::navigate::Navigator;
+use crate::route::fitting_speed::Outlook;
 use crate::route::waypoint::Waypoint;
-use crate::state::goal::Destination;
 use crate::state::lane::VehicleId;
 
 /// A trip in one number. The low bits are the time that its route takes at the speeds that the driver desires, in
@@ -127,15 +126,10 @@ pub(crate) fn is_reached(next: u32, oldest: u32, count: usize, but_for: usize) -
     left.is_some_and(|it| it <= but_for)
 }
 
-/// Time that a driver takes `from` a position to its destination on a free road [s]. It drives at `speed` [m/s] under
-/// each limit, and changes lanes at the last place. None without a destination, or without a route to it.
-pub(crate) fn free_time(
-    network: &Network,
-    navigator: &Navigator,
-    destination: Destination,
-    from: Position,
-    speed: impl Fn(f64) -> f64,
-) -> Option<f64> {
+/// Time that a driver takes `from` a position to its destination on a free road [s]. It desires the speed of each limit
+/// and of each bend, and changes lanes at the last place. None without a destination, or without a route to it.
+pub(crate) fn free_time(driver: &Outlook, from: Position) -> Option<f64> {
+    let Outlook { network, navigator, destination, .. } = *driver;
     destination?;
     let Position { mut chain, mut x } = from;
     let mut time = 0.0;
@@ -148,7 +142,7 @@ pub(crate) fn free_time(
             return None;
         }
         let until = end.min(last_place).min(here.length).max(x);
-        time += time_between(here, [x, until], &speed);
+        time += time_between(here, [x, until], driver);
         if end <= here.length {
             return Some(time);
         }
@@ -170,8 +164,15 @@ pub(crate) fn free_time(
 }
 
 /// Time from one station of `chain` to another [s].
-fn time_between(chain: &Chain, [from, to]: [f64; 2], speed: &impl Fn(f64) -> f64) -> f64 {
+fn time_between(chain: &Chain, [from, to]: [f64; 2], driver: &Outlook) -> f64 {
+    let speed = |limit| driver.class.desired_speed(driver.style, limit);
+    let within = |start: f64, end: f64| (end.min(to) - start.max(from)).max(0.0);
+    let lost = |it: &Bend| {
+        let [slow, fast] = [driver.bend_speed(it), speed(chain.limit(it.start))];
+        within(it.start, it.end) * (1.0 / slow - 1.0 / fast).max(0.0)
+    };
+    let in_bends: f64 = chain.bends.iter().map(lost).sum();
     let ends = chain.limits.iter().skip(1).map(|it| it.start).chain([chain.length]);
     let pieces = chain.limits.iter().zip(ends);
-    pieces.map(|(limit, end)| (end.min(to) - limit.start.max(from)).max(0.0) / speed(limit.speed)).sum()
+    in_bends + pieces.map(|(limit, end)| within(limit.start, end) / speed(limit.speed)).sum::<f64>()
 }

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
 
-use crate::junction::need::{SPARE_SPACE, Survey};
+use crate::junction::need::{LINE_TO_ZONE, SPARE_SPACE, Survey};
 use crate::junction::storage_section::StorageSection;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
@@ -25,8 +25,6 @@ const BEFORE_A_LINE: f64 = 0.3;
 pub const STANDS_BEFORE_A_LINE: f64 = BEFORE_A_LINE + ROOM_AT_A_STOP;
 /// A reservation reaches this far beyond the last place within it [m]: more than the rounding of distances (ours).
 const PAST_A_PLACE: f64 = 0.1;
-/// A line belongs to the zones that follow within this distance [m] (ours).
-const LINE_TO_ZONE: f64 = 30.0;
 
 /// A place on a driver's route where it may have to stop.
 #[derive(Clone, Copy)]

@@ -3,6 +3,7 @@
 pub(crate) mod class_restrictions;
 pub(crate) mod closures;
 pub(crate) mod disutility;
+pub(crate) mod fitting_speed;
 pub(crate) mod guidance;
 pub(crate) mod links;
 pub(crate) mod navigate;

@@ -7,13 +7,14 @@ use laneweave_network::{Ground, LaneletIndex, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::closures::Closures;
+use crate::route::fitting_speed::Outlook;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::renew_routes::Guided;
 use crate::state::clock::Clock;
 use crate::state::driver_parameters::DriverParameters;
-use crate::state::lane::Lane;
+use crate::state::lane::{DriverState, Lane};
 use crate::state::random::Random;
 use crate::state::vehicle::Fleet;
 
@@ -81,6 +82,13 @@ impl Roads {
     #[inline]
     pub(crate) fn style(&self, parameters: u32) -> &Style {
         &self.driver_parameters()[parameters as usize]
+    }
+
+    /// The road ahead of a driver.
+    #[inline]
+    pub(crate) fn outlook(&self, driver: &DriverState) -> Outlook<'_> {
+        let (network, navigator, style) = (self.network(), self.navigator(), self.style(driver.parameters));
+        Outlook { network, navigator, style, class: driver.class, destination: driver.goal.destination() }
     }
 
     /// All sets of driver parameters, with what users changed in them.

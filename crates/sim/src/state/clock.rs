@@ -23,6 +23,12 @@ impl Clock {
         f64::from(self.step - step) * self.dt
     }
 
+    /// Time until step `step` [s]; 0 if it is over.
+    #[inline]
+    pub(crate) fn until(&self, step: u32) -> f64 {
+        f64::from(step.saturating_sub(self.step)) * self.dt
+    }
+
     /// Whether a step begins at a whole second: work that is done once a second is done now.
     pub(crate) fn begins_a_second(&self) -> bool {
         self.step.is_multiple_of(self.steps(1.0))

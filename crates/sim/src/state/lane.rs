@@ -5,10 +5,12 @@
 //! [`LaneChangeState`] is what only lane changes need. A vehicle that changes lanes has an entry in both lanes: its
 //! main entry where its centre is, and a shadow in the other.
 
+use laneweave_models::Manner;
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
+use crate::state::clock::Clock;
 use crate::state::goal::Goal;
 pub use crate::state::phase::{Kind, Phase};
 use crate::state::prefetch::prefetch;
@@ -54,9 +56,9 @@ impl Kinematics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(align(32))]
 pub struct DriverState {
-    /// Desired speed [m/s]; it falls gradually to a lower speed limit.
+    /// Desired speed [m/s]; it falls gradually to a lower one.
     pub desired: f32,
-    /// Desired speed under the present speed limit [m/s].
+    /// Desired speed at the next turn of the driver, under the limits and in the bends ahead [m/s].
     pub limit_desired: f32,
     /// Time at standstill [s].
     pub standing: f32,
@@ -90,6 +92,12 @@ impl DriverState {
     #[inline]
     pub(crate) fn has_to_decide(&self, step: u32) -> bool {
         self.phase != Phase::Cruises || self.due <= step
+    }
+
+    /// Rate at which its desired speed, which is too high for the road ahead, falls [m/s²].
+    pub(crate) fn slowing(&self, manner: &Manner, clock: Clock) -> f64 {
+        let less = f64::from(self.desired - self.limit_desired);
+        manner.slowing(less, clock.until(self.due).max(clock.dt))
     }
 
     /// Whether its driver only follows: it changes no lane, reacts to nothing else, and has nothing else to store.

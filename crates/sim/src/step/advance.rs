@@ -11,9 +11,6 @@ use crate::state::milestone::{Milestone, Reached};
 use crate::view::pose::crossing;
 use laneweave_network::{ChainIndex, Position};
 
-/// Rate at which a desired speed above a new, lower limit decreases [m/s²].
-const EASING: f64 = 1.5;
-
 /// Where vehicles leave a chain.
 #[derive(Clone, Copy)]
 pub(crate) struct Ends<'a> {
@@ -46,7 +43,8 @@ pub(crate) fn advance(
         let (motion, driver, lane_change) = lane.entry_mut(upkeep.index as usize);
         driver.in_emergency = upkeep.in_emergency;
         if driver.desired != driver.limit_desired {
-            let eased = driver.desired - (EASING * clock.dt) as f32;
+            let manner = &driver_parameters[driver.parameters as usize].manner;
+            let eased = driver.desired - (driver.slowing(manner, clock) * clock.dt) as f32;
             driver.desired = eased.max(driver.limit_desired);
         }
         if lane_change.reservation != NO_RESERVATION && !upkeep.reservation_is_over {

@@ -143,11 +143,13 @@ impl CarryingOut<'_> {
 
     /// Gives the driver of a vehicle another set of parameters. It considers lanes at once.
     fn set_style(&mut self, id: VehicleId, parameters: u32) {
-        let (network, style) = (self.roads.network(), self.roads.style(parameters));
-        let step = self.traffic.clock().step;
+        let (roads, step) = (self.roads, self.traffic.clock().step);
         self.change(id, |motion, driver, _, chain| {
             driver.parameters = parameters;
-            desire_speed(driver, style, network.chain(chain).limit(motion.x));
+            desire_speed(
+                driver,
+                roads.outlook(driver).fitting_speed(Position::new(chain, motion.x), 0.0) as f32,
+            );
             driver.due = step;
             driver.needs_full_update = true;
         });

@@ -1,7 +1,6 @@
 //! Commands of users that change what all drivers know, before any of them decides.
 
-use laneweave_models::Style;
-use laneweave_network::{ChainIndex, LaneletIndex};
+use laneweave_network::{ChainIndex, LaneletIndex, Position};
 
 use crate::driver::me::Attending;
 use crate::driver::turn::next_turn;
@@ -77,12 +76,13 @@ fn closures_ahead(roads: &Roads, traffic: &Traffic) -> impl Iterator<Item = Opti
 fn renew_drivers(roads: &Roads, traffic: &mut Traffic, style: &str) {
     let (network, clock) = (roads.network(), traffic.clock());
     let moment = Moment { clock, random: roads.random(), overtaking: network.driving_side.overtaking() };
-    for (lane, chain) in traffic.lanes_mut().iter_mut().zip(&network.chains) {
+    for (lane, number) in traffic.lanes_mut().iter_mut().zip(0..) {
         for index in 0..lane.drivers().len() {
             let (motion, driver, _) = lane.entry_mut(index);
             let own = roads.style(driver.parameters);
             if own.name == style {
-                desire_speed(driver, own, chain.limit(motion.x));
+                let at = Position::new(ChainIndex(number), motion.x);
+                desire_speed(driver, roads.outlook(driver).until_turn(at, motion.speed, driver.due, clock));
                 let period = Attending::with(&own.attention, motion.id, moment).period;
                 driver.due = driver.due.min(next_turn(motion.id, clock.step, period));
             }
@@ -90,8 +90,8 @@ fn renew_drivers(roads: &Roads, traffic: &mut Traffic, style: &str) {
     }
 }
 
-/// Gives a driver with `style` the speed that it desires under `limit` [m/s]. It falls to a lower one gradually.
-pub(super) fn desire_speed(driver: &mut DriverState, style: &Style, limit: f64) {
-    driver.limit_desired = driver.class.desired_speed(style, limit) as f32;
+/// Lets a driver desire the speed `desired` [m/s]. It falls to a lower one gradually.
+pub(super) fn desire_speed(driver: &mut DriverState, desired: f32) {
+    driver.limit_desired = desired;
     driver.desired = driver.desired.max(driver.limit_desired);
 }

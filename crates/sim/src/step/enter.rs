@@ -6,6 +6,8 @@ use laneweave_models::braking::is_secure;
 use laneweave_models::change::deceleration_to_avoid;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
+use laneweave_network::Position;
+
 use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::driver::perceive::driver_of;
@@ -16,6 +18,7 @@ use crate::record::log::Log;
 use crate::right_of_way::approach::sight;
 use crate::right_of_way::may_pass::PassHindrance;
 use crate::right_of_way::survey::stop_ahead;
+use crate::route::fitting_speed::Outlook;
 use crate::route::roads::Roads;
 use crate::state::setup::Placement;
 use crate::state::traffic::Traffic;
@@ -103,7 +106,9 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
     let ahead = nearer(ahead, before);
     let speed = match queue.start {
         Start::Driving => {
-            let desired = class.desired_speed(style, scene.network.chain(chain).limit(x));
+            let Scene { network, navigator, .. } = *scene;
+            let outlook = Outlook { network, navigator, style, class, destination };
+            let desired = outlook.fitting_speed(Position::new(chain, x), 0.0);
             let speed = entry_speed(style, desired, ahead, dt)?;
             let stop = stop_ahead(scene, from, granted, sight(desired));
             stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))

@@ -7,6 +7,7 @@ use crate::record::lanelet_aggregates::Mark;
 use crate::record::log::Log;
 use crate::record::trip_log::TripRecord;
 use crate::record::trips::free_time;
+use crate::route::fitting_speed::Outlook;
 use crate::route::roads::Roads;
 use crate::state::lane::{DriverState, Entry, Kind, Kinematics, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
@@ -65,12 +66,13 @@ pub(crate) fn put(
     let (network, navigator, clock) = (roads.network(), roads.navigator(), traffic.clock());
     let destination = navigator.seen_by(class, destination);
     let style = roads.style(parameters);
-    let desires = |limit| class.desired_speed(style, limit);
-    let free_time = free_time(network, navigator, destination, Position::new(chain, x), desires);
+    let outlook = Outlook { network, navigator, style, class, destination };
+    let at = Position::new(chain, x);
+    let free_time = free_time(&outlook, at);
     log.begin_trip(id, free_time, || TripRecord {
         arrived,
         entered: clock.time(),
-        from: Position::new(chain, x),
+        from: at,
         speed,
         destination: navigator.number(destination),
         free_time,
@@ -79,13 +81,14 @@ pub(crate) fn put(
     });
     let length = class.body().length as f32;
     let motion = Kinematics { x, speed, acceleration: 0.0, headway_relaxation: 1.0, length, id };
-    let desired = desires(network.chain(chain).limit(x)) as f32;
+    let due = next_turn(id, clock.step, clock.steps(style.attention.epoch));
+    let desired = outlook.until_turn(at, speed, due, clock);
     let driver = DriverState {
         desired,
         limit_desired: desired,
         standing: 0.0,
         parameters,
-        due: next_turn(id, clock.step, clock.steps(style.attention.epoch)),
+        due,
         cooldown_until: 0,
         goal: destination.into(),
         class,

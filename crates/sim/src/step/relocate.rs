@@ -97,9 +97,8 @@ impl Relocating<'_> {
         lane_change.last_place = f64::INFINITY;
         driver.due = self.traffic.clock().step;
         driver.needs_full_update = true;
-        if let Some(Position { chain, x }) = at {
-            let (style, limit) = (self.roads.style(driver.parameters), network.chain(chain).limit(x));
-            driver.limit_desired = driver.class.desired_speed(style, limit) as f32;
+        if let Some(at) = at {
+            driver.limit_desired = self.roads.outlook(driver).fitting_speed(at, 0.0) as f32;
             driver.desired = driver.limit_desired;
         }
     }

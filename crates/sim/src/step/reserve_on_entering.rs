@@ -2,7 +2,7 @@
 //! stand.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ZoneIndex, ZoneKind};
+use laneweave_network::{Position, ZoneIndex, ZoneKind};
 
 use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
@@ -16,6 +16,7 @@ use crate::right_of_way::may_pass::{Asking, PassHindrance, leader_of, may_pass};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
 use crate::right_of_way::turns::turns;
+use crate::route::fitting_speed::Outlook;
 use crate::state::clock::Clock;
 use crate::state::traffic::Traffic;
 use crate::view::scene::{Scene, Viewpoint};
@@ -43,7 +44,9 @@ pub(crate) enum Entry {
 pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival) -> Applicant<'a> {
     let Arrival { id, class, parameters, destination, .. } = *arrival;
     let style = &scene.driver_parameters[parameters as usize];
-    let desired = class.desired_speed(style, scene.network.chain(queue.chain).limit(0.0));
+    let Scene { network, navigator, .. } = *scene;
+    let outlook = Outlook { network, navigator, style, class, destination };
+    let desired = outlook.fitting_speed(Position::new(queue.chain, 0.0), 0.0);
     let x = queue.start.station() - WAITS_BEFORE;
     let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, is_long: class.is_long() };
     Applicant { from, length: class.body().length, speed: desired, desired, style, reservation: None }

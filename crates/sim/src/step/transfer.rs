@@ -85,9 +85,9 @@ impl Transfer<'_> {
         entry.motion.x = onto.x;
         entry.lane_change.last_place -= network.chain(from).length;
         entry.lane_change.previous_lanes = entry.lane_change.previous_lanes.left(from);
-        let limit = network.chain(onto.chain).limit(onto.x);
-        let style = self.roads.style(entry.driver.parameters);
-        entry.driver.limit_desired = entry.driver.class.desired_speed(style, limit) as f32;
+        let Entry { motion, driver, .. } = &mut entry;
+        let outlook = self.roads.outlook(driver);
+        driver.limit_desired = outlook.until_turn(onto, motion.speed, driver.due, self.traffic.clock());
         self.tell_counterpart(&entry, Some(onto));
         self.traffic.insert(onto.chain, entry);
     }

@@ -8,6 +8,7 @@ use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach};
 use crate::junction::reservations::{Reservation, Reservations};
 use crate::junction::signals::Signals;
 use crate::junction::state::JunctionState;
+use crate::route::fitting_speed::Outlook;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
 use crate::route::walk::{Leg, Walk};
@@ -98,6 +99,14 @@ impl<'a> Scene<'a> {
     #[inline]
     pub(crate) fn style_of(&self, driver: &DriverState) -> &'a Style {
         &self.driver_parameters[driver.parameters as usize]
+    }
+
+    /// The road ahead of a driver.
+    #[inline]
+    pub(crate) fn outlook(&self, driver: &DriverState) -> Outlook<'a> {
+        let Scene { network, navigator, .. } = *self;
+        let (class, destination) = (driver.class, driver.goal.destination());
+        Outlook { network, navigator, style: self.style_of(driver), class, destination }
     }
 
     /// The vehicles on `chain`, as others see them.

@@ -2,10 +2,12 @@
 
 use laneweave_models::change::{Flow, anticipated_speed};
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, LightState, Sign, Stop};
+use laneweave_network::{ChainIndex, Crossing, LightState, Place, PlaceKind, Sign};
 
+use crate::junction::need::LINE_TO_ZONE;
 use crate::route::walk::Leg;
 use crate::state::lane::{Kinematics, VehicleId};
+use crate::state::standstill::STANDS;
 use crate::view::scene::{Found, REAR_SIGHT, Scene, Spot, Viewpoint};
 
 /// Length of the window of T_h ahead [m].
@@ -67,6 +69,7 @@ impl Scene<'_> {
             ahead: None,
             leader: None,
             anticipated_speed: desired,
+            line: None,
         };
         let ahead = self.look_ahead(from, desired, &mut view);
         let (follower, back) = self.look_back(from, &mut view.window);
@@ -82,9 +85,9 @@ impl Scene<'_> {
         let mut walk = self.walk(from).within(view.sight);
         let mut first = from.ahead;
         for Leg { chain, start, .. } in walk.by_ref() {
-            let stops = &self.network.junctions.on(chain).stops[..];
-            if !stops.is_empty() {
-                self.stop_at_red(stops, start, desired, view);
+            let on = self.network.junctions.on(chain);
+            if !on.stops.is_empty() || (view.line.is_some() && !on.crossings.is_empty()) {
+                self.stop_before_a_junction(&on.places, start, from, desired, view);
             }
             if view.pass(&self.motions(chain)[first..], chain, first, start, from.id, desired) {
                 return window_ahead;
@@ -103,16 +106,46 @@ impl Scene<'_> {
         end.clamp(1.0, window_ahead)
     }
 
-    /// Counts the first line ahead with a red light as a standing leader, for the anticipated speed. The `stops` are
-    /// those of a chain that starts `base` ahead [m].
+    /// Counts a line ahead as a standing leader, for the anticipated speed, if its light is red or if others stand in
+    /// the junction behind it. The `places` are those of a chain that starts `base` ahead [m].
     #[inline(never)]
-    fn stop_at_red(&self, stops: &[Stop], base: f64, desired: f64, view: &mut View) {
-        let is_red = |sign: Sign| matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red);
-        let red = stops.iter().find(|it| base + it.station > 0.0 && is_red(it.sign));
-        if let Some(line) = red.map(|it| base + it.station).filter(|it| *it <= view.sight) {
-            view.anticipated_speed =
-                view.anticipated_speed.min(anticipated_speed(Ahead::standing(line), desired));
+    fn stop_before_a_junction(
+        &self,
+        places: &[Place],
+        base: f64,
+        from: Viewpoint,
+        desired: f64,
+        view: &mut View,
+    ) {
+        let passed = places.partition_point(|it| base + it.station <= 0.0);
+        for place in &places[passed..] {
+            let at = base + place.station;
+            if at > view.sight {
+                return;
+            }
+            let is_closed = match place.what {
+                PlaceKind::Sign(sign) => {
+                    view.line = Some(at);
+                    matches!(sign, Sign::Light(it) if self.light(it) == LightState::Red)
+                }
+                PlaceKind::Zone { crossing, touch, .. } => {
+                    view.line = view.line.filter(|line| at - line <= LINE_TO_ZONE);
+                    touch.concerns(from.is_long) && self.is_occupied(crossing, from.id)
+                }
+            };
+            if let Some(line) = view.line.filter(|_| is_closed) {
+                let stopped = anticipated_speed(Ahead::standing(line), desired);
+                view.anticipated_speed = view.anticipated_speed.min(stopped);
+                return;
+            }
         }
+    }
+
+    /// Whether another vehicle that stands may pass a crossing before the vehicle `id`, which has no reservation there.
+    fn is_occupied(&self, crossing: Crossing, id: VehicleId) -> bool {
+        let others = || self.reservations.order(crossing.zone);
+        others().any(|(it, other)| it.side != crossing.side && other.speed < STANDS)
+            && others().all(|(_, it)| it.vehicle != id)
     }
 
     /// Looks back; returns the follower and the window's extent [m].
@@ -165,6 +198,8 @@ struct View {
     ahead: Option<Ahead>,
     leader: Option<Spot>,
     anticipated_speed: f64,
+    /// The last place to stop ahead, if a junction may follow [m].
+    line: Option<f64>,
 }
 
 impl View {
