@@ -29,6 +29,8 @@ const LEAST_ACCELERATION: f64 = 1.0;
 const FASTEST: f64 = 1.3;
 /// A bend turns by at least this angle in all [rad]: less is a crooked line, or a lane that moves aside; ours.
 const LEAST_TURN: f64 = 0.15;
+/// A part of a bend that goes on in the next chain turns by at least this angle [rad]; ours.
+const LEAST_PART: f64 = 0.5 * LEAST_TURN;
 /// Samples of one bend differ by no more than this factor.
 const SAME: f64 = 1.25;
 
@@ -78,6 +80,10 @@ fn bends_of(chains: &[Chain], chain: &Chain) -> Vec<Bend> {
     let half_arc = 0.5 * (ARC_TIME * fastest_limit).clamp(ARC[0], ARC[1]);
     let reach = 2.0 * half_arc;
     let (line, before) = prolonged(chains, chain, reach);
+    // A line that turns less than that in all has no bend.
+    if turn_of(&line) < LEAST_PART {
+        return Vec::new();
+    }
     let line = averaged(&line, before, chain.length, half_arc);
     let curvatures: Vec<f64> = curvatures(&line, half_arc);
     let mut bends = Vec::new();
@@ -87,7 +93,7 @@ fn bends_of(chains: &[Chain], chain: &Chain) -> Vec<Bend> {
         let turn: f64 = run.iter().sum::<f64>().abs() * STEP;
         // A bend may go on in the next chain.
         let is_whole = from > 0 && from + run.len() < curvatures.len();
-        if side(run[0], least) != 0 && (turn >= LEAST_TURN || (!is_whole && turn >= 0.5 * LEAST_TURN)) {
+        if side(run[0], least) != 0 && turn >= if is_whole { LEAST_TURN } else { LEAST_PART } {
             add(&mut bends, run, from, chain.length);
         }
         from += run.len();
@@ -186,14 +192,24 @@ fn averaged(line: &Polyline, before: f64, length: f64, half_arc: f64) -> Vec<Poi
     means.map(|it| Point::new(mean(it[0].0, it[width].0), mean(it[0].1, it[width].1), 0.0)).collect()
 }
 
+/// The angle from the direction between the first two points to that between the last two [rad], to the left positive.
+fn angle([from, at]: [&Point; 2], [back, to]: [&Point; 2]) -> f64 {
+    let ((ax, ay), (bx, by)) = ((at.x - from.x, at.y - from.y), (to.x - back.x, to.y - back.y));
+    (ax * by - ay * bx).atan2(ax * bx + ay * by)
+}
+
+/// By how much a line turns in all, to the left and to the right [rad].
+fn turn_of(line: &Polyline) -> f64 {
+    line.points().windows(3).map(|it| angle([&it[0], &it[1]], [&it[1], &it[2]]).abs()).sum()
+}
+
 /// Curvatures between the chords of length `half_arc` before and after each point [1/m], to the left positive.
 fn curvatures(points: &[Point], half_arc: f64) -> Vec<f64> {
     let around = (half_arc / STEP).ceil() as usize;
-    let heading = |from: &Point, to: &Point| (to.y - from.y).atan2(to.x - from.x);
     let curvature = |it: &[Point]| {
-        let turn = heading(&it[around], &it[2 * around]) - heading(&it[0], &it[around]);
-        let way = 0.5 * (it[0].distance(&it[around]) + it[around].distance(&it[2 * around]));
-        if way > 0.0 { turn.sin().atan2(turn.cos()) / way } else { 0.0 }
+        let [from, at, to] = [&it[0], &it[around], &it[2 * around]];
+        let way = 0.5 * (from.distance(at) + at.distance(to));
+        if way > 0.0 { angle([from, at], [at, to]) / way } else { 0.0 }
     };
     points.windows(2 * around + 1).map(curvature).collect()
 }
@@ -204,8 +220,8 @@ mod tests {
     use crate::build::Network;
     use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex};
 
-    /// The network of one chain for each of `lines`, one after the other, under `limit` [m/s]. At the end of each but
-    /// the last, a lane to nowhere forks off: the next line is another chain.
+    /// The network of one chain for each of `lines`, one after the other, under `limit` [m/s]. A lane from aside
+    /// merges where the next line begins, so that it is another chain.
     fn network(lines: &[Vec<Point>], limit: f64) -> Network {
         let line = |points: &[Point]| Polyline::new(points.iter().copied()).unwrap();
         let mut all: Vec<Lanelet> = Vec::new();
@@ -214,12 +230,13 @@ mod tests {
             all.push(Lanelet::alone(number as i64, [centre.clone(), centre.clone(), centre], limit));
         }
         let count = lines.len();
-        for number in 0..count - 1 {
-            let end = lines[number][lines[number].len() - 1];
-            let astray = line(&[end, Point::new(end.x, end.y - 50.0, 0.0)]);
-            all.push(Lanelet::alone(100 + number as i64, [astray.clone(), astray.clone(), astray], limit));
-            let fork = LaneletIndex(all.len() as u32 - 1);
-            all[number].following = vec![LaneletIndex(number as u32 + 1), fork];
+        for number in 1..count {
+            let start = lines[number][0];
+            let aside = line(&[Point::new(start.x, start.y - 50.0, 0.0), start]);
+            let mut lane = Lanelet::alone(100 + number as i64, [aside.clone(), aside.clone(), aside], limit);
+            lane.following = vec![LaneletIndex(number as u32)];
+            all.push(lane);
+            all[number - 1].following = vec![LaneletIndex(number as u32)];
         }
         Network::new(all, DrivingSide::Right).unwrap()
     }

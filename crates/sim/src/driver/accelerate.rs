@@ -172,16 +172,16 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
 }
 
 /// The acceleration of a driver whose desired speed falls, because of the road ahead: it falls with it.
+#[inline(never)]
 fn slowing(scene: &Scene, clock: Clock, motion: &Kinematics, driver: &DriverState, wish: Wish) -> Wish {
     /// A driver slower than it desires by more than this may still accelerate [m/s], and one who is too fast brakes
     /// harder by at most this [m/s²]; ours.
     const SLOWER: f64 = 0.5;
     const HARDER: f64 = 1.0;
-    let pace = pace(motion, driver);
+    let (pace, style) = (pace(motion, driver), scene.style_of(driver));
     if pace.speed < pace.desired - SLOWER {
         return wish;
     }
-    let style = scene.style_of(driver);
     let on_a_free_road = style.follow.acceleration(pace, None).max(-HARDER);
     wish.or(on_a_free_road - driver.slowing(&style.manner, clock), BrakingCause::DesiredSpeed)
 }
