@@ -13,7 +13,7 @@ use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::may_pass::Asking;
 use crate::right_of_way::survey::is_place_ahead;
 use crate::state::clock::Clock;
-use crate::state::lane::Phase;
+use crate::state::lane::{Kind, LaneChangeState, Phase};
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 
@@ -80,7 +80,7 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
 
 /// How far ahead a change to `side` stays allowed [m]. No more road is counted than a change needs.
 fn permitted_ahead(scene: &Scene, spot: Spot, side: Side) -> f64 {
-    const ENOUGH: f64 = 150.0;
+    const ENOUGH: f64 = 300.0;
     const ROUNDING: f64 = 1e-6;
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let start = window::beside(scene, spot, side).map_or(motion.x, |it| it.start.max(motion.x));
@@ -134,7 +134,7 @@ impl Gap {
     /// # Errors
     /// The reason why the gap is not accepted.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Hindrance> {
-        self.has_road(scene, spot, scene.motion(spot).speed)?;
+        self.urgency_on_road(scene, spot, scene.motion(spot).speed)?;
         let style = scene.style(spot);
         let [ahead, behind] = self.pairings(scene, spot);
         ahead
@@ -145,10 +145,25 @@ impl Gap {
             .map_err(|(why, pair)| Hindrance::Behind(why, pair))
     }
 
-    /// Checks whether the road is long enough for the change at that `speed` [m/s] of the driver at `spot`.
-    fn has_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<(), Hindrance> {
+    /// The urgency with which the driver at `spot` changes lanes at that `speed` [m/s]: its own, or, if the road is too
+    /// short for that and the change is for its route, the full one (ours).
+    ///
+    /// # Errors
+    /// The reason why the road is too short.
+    pub(crate) fn urgency_on_road(&self, scene: &Scene, spot: Spot, speed: f64) -> Result<f32, Hindrance> {
+        const FULL: f32 = 1.0;
+        let &LaneChangeState { urgency, kind, .. } = scene.lane_change(spot);
+        match self.has_road(scene, spot, speed, urgency) {
+            Err(_) if kind == Kind::Route => self.has_road(scene, spot, speed, FULL).map(|()| FULL),
+            found => found.map(|()| urgency),
+        }
+    }
+
+    /// Checks whether the road is long enough for a change with this `urgency` at that `speed` [m/s] of the driver at
+    /// `spot`.
+    fn has_road(&self, scene: &Scene, spot: Spot, speed: f64, urgency: f32) -> Result<(), Hindrance> {
         let style = scene.style(spot);
-        let duration = style.manner.duration(f64::from(scene.lane_change(spot).urgency));
+        let duration = style.manner.duration(f64::from(urgency));
         let crossing = 0.5 * duration * speed;
         if self.room < crossing {
             return Err(Hindrance::TooLittleRoad);
@@ -176,7 +191,7 @@ impl Gap {
     /// infinite if this is higher than any driver's speed, and 0 if the road is too short at every speed.
     pub(crate) fn fastest(&self, scene: &Scene, spot: Spot) -> f64 {
         const NOBODY: f64 = 128.0;
-        let does = |speed: f64| self.has_road(scene, spot, speed).is_ok();
+        let does = |speed: f64| self.urgency_on_road(scene, spot, speed).is_ok();
         let (mut does_for, mut too_fast) = (0.0, NOBODY);
         if does(too_fast) {
             return f64::INFINITY;

@@ -138,6 +138,8 @@ impl Resolving<'_> {
         if gap.is_coming || gap.accepted(&scene, spot, self.traffic.clock().dt).is_err() {
             return;
         }
+        let speed = scene.motion(spot).speed;
+        let urgency = gap.urgency_on_road(&scene, spot, speed).unwrap_or(lane_change.urgency);
         let [gap_ahead, gap_behind, ttc_ahead, ttc_behind] = gap.measures(&scene, spot);
         let headway_relaxation = gap.headway_relaxation(&scene, spot) as f32;
         let clock = self.traffic.clock();
@@ -149,6 +151,7 @@ impl Resolving<'_> {
         motion.headway_relaxation = headway_relaxation;
         driver.phase = Phase::Changes;
         lane_change.progress = 0.0;
+        lane_change.urgency = urgency;
         lane_change.since = clock.step;
         let (x, stretch) = (gap.x, gap.scale as f32);
         lane_change.counterpart = Some(Counterpart { chain: gap.chain, x, stretch });
