@@ -19,6 +19,8 @@ const BACK_WITHIN: f64 = 30.0;
 const FOLLOWING_SPEED: [f64; 2] = [25.0, 30.556];
 const AS_FAST: f64 = 1.0;
 const LONGEST_GAP: f64 = 3.0;
+/// Gaps of lane changes count up to this length [m].
+const FURTHEST: f64 = 200.0;
 
 /// What is observed of a run, after its warm-up.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +34,8 @@ pub(crate) struct Seen {
     pub(crate) reversed: u32,
     /// Durations of completed changes [s]: discretionary and route-driven.
     pub(crate) durations: [Vec<f64>; 2],
+    /// Gaps to the new leader and to the new follower when completed changes began [m]; none where nobody was in sight.
+    pub(crate) gaps: [Vec<f64>; 2],
     /// By style: completed discretionary changes, and vehicle-kilometres.
     pub(crate) of_style: BTreeMap<String, (u32, f64)>,
     /// By lane from the slow side, on motorways: vehicle-seconds times speed, the metres driven.
@@ -67,6 +71,9 @@ impl Seen {
 
     fn note_change(&mut self, world: &World, change: &LaneChange) {
         let before = self.last.insert(change.vehicle, (change.time, change.side));
+        for (gaps, gap) in self.gaps.iter_mut().zip([change.gap_ahead, change.gap_behind]) {
+            gaps.extend(Some(gap).filter(|it| it.is_finite() && *it < FURTHEST));
+        }
         match change.kind {
             Kind::Discretionary => {
                 self.gains.add(change.speed_gain);
