@@ -7,10 +7,13 @@
 mod drive;
 mod effort;
 mod finding;
+mod measures;
 mod motorway_rates;
 mod plausibility;
+mod readings;
 mod route_weights;
 mod seen;
+mod styles;
 mod town_rates;
 mod traffic;
 
@@ -50,6 +53,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         name: "C3",
         about: "the paper's third claim: in congestion lane changes rise sharply with the weight of the route",
         run: route_weights::route_weights,
+    },
+    Experiment { name: "styles", about: "what the drivers of each style do", run: styles::styles },
+    Experiment {
+        name: "readings",
+        about: "the paper's formulas as printed, beside the repaired ones",
+        run: readings::readings,
     },
 ];
 
