@@ -37,8 +37,8 @@ fn kinds() -> Vec<(String, Traffic)> {
 /// Where they drive, with its name.
 fn places() -> [(&'static str, Road, f64); 2] {
     [
-        ("motorway with ramps at 4,000 veh/h", Road::Own("ramps.osm"), 4000.0),
-        ("town of 5 streets in each direction at 4,000 veh/h", Road::Town(5), 4000.0),
+        ("Motorway with ramps at 4,000 veh/h", Road::Own("ramps.osm"), 4000.0),
+        ("Town of 5 streets in each direction at 4,000 veh/h", Road::Town(5), 4000.0),
     ]
 }
 
@@ -57,7 +57,7 @@ pub(crate) fn readings(effort: &Effort) -> Result<Finding, Fault> {
         let runs = drive(effort, &kinds.iter().map(at).collect::<Vec<_>>())?;
         let values: Vec<Vec<Option<Estimate>>> = runs.iter().map(|it| measured(it)).collect();
         let table = side_by_side(&names, &values);
-        text += &format!("\n## On a {place}\n\n{}\n{table}", differences(&names, &runs));
+        text += &format!("\n## {place}\n\n{}\n{table}", differences(&names, &runs));
         found.push((place.to_owned(), names.clone(), values));
     }
     let text = format!(

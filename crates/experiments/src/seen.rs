@@ -94,7 +94,13 @@ impl Seen {
         let interval = (time / INTERVAL) as usize;
         for vehicle in world.vehicles() {
             let (style, speed) = (&vehicle.style().name, vehicle.speed());
-            self.of_style.entry(style.clone()).or_default().1 += speed * EVERY / 1000.0;
+            // A name is copied once only.
+            if !self.of_style.contains_key(style) {
+                self.of_style.insert(style.clone(), (0, 0.0));
+            }
+            if let Some((_, km)) = self.of_style.get_mut(style) {
+                *km += speed * EVERY / 1000.0;
+            }
             let lane = vehicle.spot.chain.at();
             if self.metres_by_lane.len() <= lane {
                 self.metres_by_lane.resize(lane + 1, 0.0);
@@ -110,7 +116,9 @@ impl Seen {
             }
             of_section[interval].0 += speed;
             of_section[interval].1 += 1;
-            if let Some(gap) = time_gap(scene.ahead(scene.viewpoint(vehicle.spot)), speed) {
+            let is_fast = (FOLLOWING_SPEED[0]..FOLLOWING_SPEED[1]).contains(&speed);
+            let ahead = || scene.ahead(scene.viewpoint(vehicle.spot));
+            if let Some(gap) = is_fast.then(ahead).and_then(|it| time_gap(it, speed)) {
                 self.time_gaps.entry(style.clone()).or_default().add(gap);
             }
         }
@@ -122,9 +130,8 @@ impl Seen {
     }
 }
 
-/// The time gap [s] of a driver who follows at about 100 km/h.
+/// The time gap [s] of a driver at `speed` who follows.
 fn time_gap(ahead: Option<Ahead>, speed: f64) -> Option<f64> {
     let ahead = ahead.filter(|it| (it.speed - speed).abs() < AS_FAST)?;
-    let [least, most] = FOLLOWING_SPEED;
-    ((least..most).contains(&speed) && ahead.gap < LONGEST_GAP * speed).then(|| ahead.gap / speed)
+    (ahead.gap < LONGEST_GAP * speed).then(|| ahead.gap / speed)
 }

@@ -12,13 +12,13 @@ use crate::traffic::{Arriving, Road, Traffic};
 
 /// Where the styles drive, each with its name and the demand [veh/h].
 const PLACES: [(&str, fn() -> Traffic); 3] = [
-    ("motorway of three lanes at 1,100 veh/h/lane", || Traffic::on_motorway(3, 1100.0)),
-    ("motorway with ramps at 4,000 veh/h", || Traffic {
+    ("Motorway of three lanes at 1,100 veh/h/lane", || Traffic::on_motorway(3, 1100.0)),
+    ("Motorway with ramps at 4,000 veh/h", || Traffic {
         road: Road::Own("ramps.osm"),
         demand: Arriving::Total(4000.0),
         ..Traffic::on_motorway(3, 0.0)
     }),
-    ("town with a motorway at 1,500 veh/h", || Traffic {
+    ("Town with a motorway at 1,500 veh/h", || Traffic {
         road: Road::Own("town.osm"),
         demand: Arriving::Total(1500.0),
         ..Traffic::on_motorway(3, 0.0)
@@ -37,7 +37,7 @@ pub(crate) fn styles(effort: &Effort) -> Result<Finding, Fault> {
     }
     let tables: String = places
         .iter()
-        .map(|(place, names, values)| format!("\n## On a {place}\n\n{}", side_by_side(names, values)))
+        .map(|(place, names, values)| format!("\n## {place}\n\n{}", side_by_side(names, values)))
         .collect();
     let text = format!(
         "# What the drivers of each style do\n\n\

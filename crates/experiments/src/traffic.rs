@@ -9,7 +9,9 @@ use laneweave::maps::generate::{Arterial, Motorway, arterial, large_town, motorw
 use laneweave::maps::{Law, Map, MapError};
 use laneweave::models::Style;
 use laneweave::network::DrivingSide;
-use laneweave::scenario::{OdRow, Origin, Prepared, Scenario, VehiclesPerHour, mixture, prepare_on};
+use laneweave::scenario::{
+    OdRow, Origin, Prepared, Scenario, Signal, SignalPhase, VehiclesPerHour, mixture, prepare_on,
+};
 use laneweave::style::{Model, Population, StyleTemplate};
 use toml::{Table, Value};
 
@@ -22,7 +24,7 @@ pub(crate) enum Road {
     Own(&'static str),
     /// The larger town with so many streets in each direction.
     Town(usize),
-    /// A main street with one junction at lights.
+    /// A main street with one junction at lights, which are green for the approach from the west for most of the time.
     Lights,
 }
 
@@ -107,6 +109,7 @@ impl Traffic {
                 scenario.demand.od = vec![OdRow { from, to, vehicles_per_hour: *flow }];
             }
         }
+        scenario.signals = self.road.signals();
         let whole = |seconds: f64| (seconds * length).round().max(1.0);
         [scenario.run.warmup_s, scenario.run.duration_s] = self.times.map(whole);
         scenario.run.seed = seed;
@@ -157,6 +160,30 @@ impl Change {
 }
 
 impl Road {
+    /// Signal programs other than the generated ones.
+    fn signals(&self) -> Vec<Signal> {
+        /// The lights of the approach from the west, and of the others.
+        const WEST: [i64; 2] = [162, 163];
+        const OTHERS: [&[i64]; 3] = [&[159, 160], &[161], &[164]];
+        let phase = |green: &[i64], seconds: f64| SignalPhase {
+            green: green.to_vec(),
+            green_s: Some(seconds),
+            max_green_s: None,
+            min_green_s: None,
+            gap_s: None,
+            yellow_s: 3.0,
+            all_red_s: 2.0,
+        };
+        match self {
+            Road::Lights => {
+                let others = OTHERS.map(|it| phase(it, 5.0));
+                let phases = [phase(&WEST, 50.0)].into_iter().chain(others).collect();
+                vec![Signal { offset_s: 0.0, cycle_s: None, phases }]
+            }
+            _ => Vec::new(),
+        }
+    }
+
     fn map(&self) -> Result<Map, MapError> {
         match self {
             Road::Motorway(road) => motorway(road).map_err(|_| MapError::Missing)?.build(),
