@@ -19,6 +19,6 @@ impl Effort {
 
     /// A try: it shows that everything runs, and no more.
     pub fn quick(threads: usize) -> Effort {
-        Effort { seeds: 2, length: 0.2, threads }
+        Effort { seeds: 2, length: 0.1, threads }
     }
 }

@@ -39,11 +39,7 @@ impl Row {
 
     /// The value with its 95 % interval.
     fn value_text(&self) -> String {
-        match &self.value {
-            None => "nothing to measure".into(),
-            Some(it) if it.replications < 2 => number(it.mean),
-            Some(it) => format!("{} ± {}", number(it.mean), number(it.half_width)),
-        }
+        text_of(self.value.as_ref())
     }
 
     fn range_text(&self) -> String {
@@ -53,6 +49,23 @@ impl Row {
             [least, most] => format!("{} to {}", number(least), number(most)),
         }
     }
+}
+
+/// A value with its 95 % interval.
+pub(crate) fn text_of(value: Option<&Estimate>) -> String {
+    match value {
+        None => "nothing to measure".into(),
+        Some(it) if it.replications < 2 => number(it.mean),
+        Some(it) => format!("{} ± {}", number(it.mean), number(it.half_width)),
+    }
+}
+
+/// A Markdown table with this header.
+pub(crate) fn markdown(header: &[&str], rows: &[Vec<String>]) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let head: Vec<String> = header.iter().map(|it| (*it).to_owned()).collect();
+    let body: String = rows.iter().map(|it| line(it)).collect();
+    format!("{}|{}\n{body}", line(&head), "---|".repeat(header.len()))
 }
 
 /// A number with three digits that count.

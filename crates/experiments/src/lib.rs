@@ -7,9 +7,14 @@
 mod drive;
 mod effort;
 mod finding;
+mod measures;
 mod motorway_rates;
 mod plausibility;
+mod readings;
+mod route_weights;
 mod seen;
+mod styles;
+mod town_rates;
 mod traffic;
 
 pub use effort::Effort;
@@ -38,6 +43,22 @@ pub const EXPERIMENTS: &[Experiment] = &[
         name: "C1",
         about: "the paper's first claim: on a motorway the rate of lane changes is like MOBIL's",
         run: motorway_rates::motorway_rates,
+    },
+    Experiment {
+        name: "C2",
+        about: "the paper's second claim: in a town the rate of lane changes follows the recorded one, and MOBIL's does not",
+        run: town_rates::town_rates,
+    },
+    Experiment {
+        name: "C3",
+        about: "the paper's third claim: in congestion lane changes rise sharply with the weight of the route",
+        run: route_weights::route_weights,
+    },
+    Experiment { name: "styles", about: "what the drivers of each style do", run: styles::styles },
+    Experiment {
+        name: "readings",
+        about: "the paper's formulas as printed, beside the repaired ones",
+        run: readings::readings,
     },
 ];
 

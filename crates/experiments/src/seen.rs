@@ -19,6 +19,8 @@ const BACK_WITHIN: f64 = 30.0;
 const FOLLOWING_SPEED: [f64; 2] = [25.0, 30.556];
 const AS_FAST: f64 = 1.0;
 const LONGEST_GAP: f64 = 3.0;
+/// Gaps of lane changes count up to this length [m].
+const FURTHEST: f64 = 200.0;
 
 /// What is observed of a run, after its warm-up.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +34,8 @@ pub(crate) struct Seen {
     pub(crate) reversed: u32,
     /// Durations of completed changes [s]: discretionary and route-driven.
     pub(crate) durations: [Vec<f64>; 2],
+    /// Gaps to the new leader and to the new follower when completed changes began [m]; none where nobody was in sight.
+    pub(crate) gaps: [Vec<f64>; 2],
     /// By style: completed discretionary changes, and vehicle-kilometres.
     pub(crate) of_style: BTreeMap<String, (u32, f64)>,
     /// By lane from the slow side, on motorways: vehicle-seconds times speed, the metres driven.
@@ -67,6 +71,9 @@ impl Seen {
 
     fn note_change(&mut self, world: &World, change: &LaneChange) {
         let before = self.last.insert(change.vehicle, (change.time, change.side));
+        for (gaps, gap) in self.gaps.iter_mut().zip([change.gap_ahead, change.gap_behind]) {
+            gaps.extend(Some(gap).filter(|it| it.is_finite() && *it < FURTHEST));
+        }
         match change.kind {
             Kind::Discretionary => {
                 self.gains.add(change.speed_gain);
@@ -87,7 +94,13 @@ impl Seen {
         let interval = (time / INTERVAL) as usize;
         for vehicle in world.vehicles() {
             let (style, speed) = (&vehicle.style().name, vehicle.speed());
-            self.of_style.entry(style.clone()).or_default().1 += speed * EVERY / 1000.0;
+            // A name is copied once only.
+            if !self.of_style.contains_key(style) {
+                self.of_style.insert(style.clone(), (0, 0.0));
+            }
+            if let Some((_, km)) = self.of_style.get_mut(style) {
+                *km += speed * EVERY / 1000.0;
+            }
             let lane = vehicle.spot.chain.at();
             if self.metres_by_lane.len() <= lane {
                 self.metres_by_lane.resize(lane + 1, 0.0);
@@ -103,7 +116,9 @@ impl Seen {
             }
             of_section[interval].0 += speed;
             of_section[interval].1 += 1;
-            if let Some(gap) = time_gap(scene.ahead(scene.viewpoint(vehicle.spot)), speed) {
+            let is_fast = (FOLLOWING_SPEED[0]..FOLLOWING_SPEED[1]).contains(&speed);
+            let ahead = || scene.ahead(scene.viewpoint(vehicle.spot));
+            if let Some(gap) = is_fast.then(ahead).and_then(|it| time_gap(it, speed)) {
                 self.time_gaps.entry(style.clone()).or_default().add(gap);
             }
         }
@@ -115,9 +130,8 @@ impl Seen {
     }
 }
 
-/// The time gap [s] of a driver who follows at about 100 km/h.
+/// The time gap [s] of a driver at `speed` who follows.
 fn time_gap(ahead: Option<Ahead>, speed: f64) -> Option<f64> {
     let ahead = ahead.filter(|it| (it.speed - speed).abs() < AS_FAST)?;
-    let [least, most] = FOLLOWING_SPEED;
-    ((least..most).contains(&speed) && ahead.gap < LONGEST_GAP * speed).then(|| ahead.gap / speed)
+    (ahead.gap < LONGEST_GAP * speed).then(|| ahead.gap / speed)
 }

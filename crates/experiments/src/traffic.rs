@@ -5,10 +5,15 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use laneweave::Fault;
-use laneweave::maps::generate::{Motorway, motorway, own_maps};
+use laneweave::maps::generate::{Arterial, Motorway, arterial, large_town, motorway, own_maps};
 use laneweave::maps::{Law, Map, MapError};
-use laneweave::scenario::{Origin, Prepared, Scenario, VehiclesPerHour, prepare_on};
-use laneweave::style::Model;
+use laneweave::models::Style;
+use laneweave::network::DrivingSide;
+use laneweave::scenario::{
+    OdRow, Origin, Prepared, Scenario, Signal, SignalPhase, VehiclesPerHour, mixture, prepare_on,
+};
+use laneweave::style::{Model, Population, StyleTemplate};
+use toml::{Table, Value};
 
 /// A road.
 #[derive(Clone, Debug)]
@@ -17,6 +22,19 @@ pub(crate) enum Road {
     Motorway(Motorway),
     /// The map of ours with this file name.
     Own(&'static str),
+    /// The larger town with so many streets in each direction.
+    Town(usize),
+    /// A main street with one junction at lights, which are green for the approach from the west for most of the time.
+    Lights,
+}
+
+/// A change of the styles, in those that have its key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Change {
+    /// The number at this key is multiplied.
+    Times(&'static str, f64),
+    /// The name at this key is replaced.
+    Named(&'static str, &'static str),
 }
 
 /// Traffic on a road.
@@ -28,6 +46,8 @@ pub(crate) struct Traffic {
     pub(crate) law: Law,
     /// The styles with their weights; none: the usual mixture.
     pub(crate) styles: Vec<(&'static str, f64)>,
+    /// Changes of the styles.
+    pub(crate) changes: Vec<Change>,
     /// One lane-change model for all drivers.
     pub(crate) model: Option<Model>,
     /// Vehicles per hour, in total or at single entrances.
@@ -45,6 +65,8 @@ pub(crate) enum Arriving {
     Total(f64),
     /// At the entrances with these smallest lanelet ids.
     At(Vec<(&'static str, f64)>),
+    /// From the entrance to the exit with these smallest lanelet ids.
+    Between([&'static str; 2], f64),
 }
 
 impl Traffic {
@@ -55,6 +77,7 @@ impl Traffic {
             road: Road::Motorway(Motorway { lanes, ..Motorway::default() }),
             law: Law::UnitedStates,
             styles: Vec::new(),
+            changes: Vec::new(),
             model: None,
             demand: Arriving::Total(flow * lanes as f64),
             trucks: 0.1,
@@ -80,7 +103,13 @@ impl Traffic {
                 let at = |(id, flow): &(&str, f64)| ((*id).to_owned(), VehiclesPerHour::Constant(*flow));
                 scenario.demand.entrances = entrances.iter().map(at).collect::<BTreeMap<_, _>>();
             }
+            Arriving::Between([from, to], flow) => {
+                let [from, to] = [from, to].map(|it| (*it).to_owned());
+                scenario.demand.vehicles_per_hour = Some(0.0);
+                scenario.demand.od = vec![OdRow { from, to, vehicles_per_hour: *flow }];
+            }
         }
+        scenario.signals = self.road.signals();
         let whole = |seconds: f64| (seconds * length).round().max(1.0);
         [scenario.run.warmup_s, scenario.run.duration_s] = self.times.map(whole);
         scenario.run.seed = seed;
@@ -88,14 +117,81 @@ impl Traffic {
         let mut map =
             self.road.map().map_err(|error| Fault::new("built-in map", error, "report this as a bug"))?;
         map.network.lane_use = self.law.lane_use();
-        prepare_on(map, &scenario, &Origin::default())
+        let mut prepared = prepare_on(map, &scenario, &Origin::default())?;
+        if !self.changes.is_empty() {
+            let drivers = self.changed_drivers(&scenario)?;
+            let refused = |error| Fault::new("changed styles", error, "report this as a bug");
+            prepared.world.change_driver_parameters(drivers).map_err(refused)?;
+        }
+        Ok(prepared)
+    }
+
+    /// The drivers of `scenario` with the changes of their styles.
+    fn changed_drivers(&self, scenario: &Scenario) -> Result<Vec<Style>, Fault> {
+        let usual = mixture(scenario, &Origin::default())?;
+        let mut changed = usual.clone();
+        for change in &self.changes {
+            for (template, _) in &mut changed {
+                *template = change.of(template)?;
+            }
+        }
+        Population::draw(&usual, scenario.run.seed)?.redrawn(&changed, scenario.run.seed)
+    }
+}
+
+impl Change {
+    /// The style `template` with the change.
+    fn of(&self, template: &StyleTemplate) -> Result<StyleTemplate, Fault> {
+        let (Change::Times(key, _) | Change::Named(key, _)) = self;
+        let path: Vec<String> = key.split('.').map(str::to_owned).collect();
+        let Some(value) = Table::try_from(template.typical())
+            .ok()
+            .and_then(|table| path.iter().try_fold(Value::Table(table), |it, key| it.get(key).cloned()))
+        else {
+            return Ok(template.clone());
+        };
+        let value = match (self, value) {
+            (Change::Times(_, factor), Value::Float(number)) => Value::Float(number * factor),
+            (Change::Named(_, name), Value::String(_)) => Value::String((*name).to_owned()),
+            _ => return Ok(template.clone()),
+        };
+        template.with_value(&path, value, key)
     }
 }
 
 impl Road {
+    /// Signal programs other than the generated ones.
+    fn signals(&self) -> Vec<Signal> {
+        /// The lights of the approach from the west, and of the others.
+        const WEST: [i64; 2] = [162, 163];
+        const OTHERS: [&[i64]; 3] = [&[159, 160], &[161], &[164]];
+        let phase = |green: &[i64], seconds: f64| SignalPhase {
+            green: green.to_vec(),
+            green_s: Some(seconds),
+            max_green_s: None,
+            min_green_s: None,
+            gap_s: None,
+            yellow_s: 3.0,
+            all_red_s: 2.0,
+        };
+        match self {
+            Road::Lights => {
+                let others = OTHERS.map(|it| phase(it, 5.0));
+                let phases = [phase(&WEST, 50.0)].into_iter().chain(others).collect();
+                vec![Signal { offset_s: 0.0, cycle_s: None, phases }]
+            }
+            _ => Vec::new(),
+        }
+    }
+
     fn map(&self) -> Result<Map, MapError> {
         match self {
             Road::Motorway(road) => motorway(road).map_err(|_| MapError::Missing)?.build(),
+            Road::Town(size) => large_town(*size, DrivingSide::Right).map_err(|_| MapError::Missing)?.build(),
+            Road::Lights => {
+                let street = Arterial { junctions: 1, block_length_m: 600.0, ..Arterial::default() };
+                arterial(&street).map_err(|_| MapError::Missing)?.build()
+            }
             Road::Own(name) => {
                 let maps = own_maps().map_err(|_| MapError::Missing)?;
                 let drawing = maps.into_iter().find(|it| it.0 == *name).ok_or(MapError::Missing)?.1;

@@ -135,7 +135,9 @@ Examples:
 pub(super) const TOWN: &str = "\
 Examples:
   laneweave generate town town.osm
-  laneweave generate town --driving-side left town-left.osm";
+  laneweave generate town --driving-side left town-left.osm
+  # Seven streets in each direction, without a motorway
+  laneweave generate town --size 7 large.osm";
 
 pub(super) const RANDOM: &str = "\
 Examples:

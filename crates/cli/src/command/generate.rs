@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
 use laneweave::maps::generate::{
-    Arterial, Control, GenerateError, Grid, Hazard, Motorway, approach, arterial, grid, motorway, random,
-    roundabout, town,
+    Arterial, Control, GenerateError, Grid, Hazard, Motorway, approach, arterial, grid, large_town, motorway,
+    random, roundabout, town,
 };
 use laneweave::maps::{Drawing, FORMATS, lanelet2};
 use laneweave::network::DrivingSide;
@@ -36,9 +36,9 @@ pub(crate) enum Kind {
     /// Three lanes before a junction: A leads left, B left and straight on, C straight on.
     #[command(after_help = examples::APPROACH)]
     Approach(Plain),
-    /// A town with junctions of all kinds, and a motorway through it.
+    /// A town with junctions of all kinds, and a motorway through it; with --size a larger one without a motorway.
     #[command(after_help = examples::TOWN)]
-    Town(Plain),
+    Town(TownArguments),
     /// A random map of elements that are difficult for a simulator; it lists these elements.
     #[command(after_help = examples::RANDOM)]
     Random(RandomArguments),
@@ -123,6 +123,15 @@ pub(crate) struct ArterialArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct TownArguments {
+    /// Streets in each direction of a larger town, 3 to 20 [default: the town with the motorway].
+    #[arg(long, value_name = "N")]
+    size: Option<usize>,
+    #[command(flatten)]
+    plain: Plain,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct RandomArguments {
     /// Seed of the map: the same seed gives the same map.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -166,7 +175,7 @@ impl Kind {
             Kind::Arterial(it) => ("arterial", &it.plain.file),
             Kind::Roundabout(plain) => ("roundabout", &plain.file),
             Kind::Approach(plain) => ("approach", &plain.file),
-            Kind::Town(plain) => ("town", &plain.file),
+            Kind::Town(it) => ("town", &it.plain.file),
             Kind::Random(it) => ("random", &it.file),
         };
         check_name(file)?;
@@ -190,7 +199,10 @@ impl Kind {
             Kind::Arterial(it) => it.draw(),
             Kind::Roundabout(it) => Ok(roundabout(it.side())),
             Kind::Approach(it) => Ok(approach(it.side())),
-            Kind::Town(it) => Ok(town(it.side())),
+            Kind::Town(it) => match it.size {
+                Some(size) => large_town(size, it.plain.side()),
+                None => Ok(town(it.plain.side())),
+            },
             Kind::Random(it) => Ok(random(it.seed).drawing),
         }
     }

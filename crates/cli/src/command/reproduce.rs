@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// Number of seeds of each kind of traffic [default: 5].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000))]
     seeds: Option<u64>,
-    /// A try of a minute: 2 seeds, and a fifth of the simulated times.
+    /// A try of a minute: 2 seeds, and a tenth of the simulated times.
     #[arg(long)]
     quick: bool,
     /// Folder for the words, tables and figures.

@@ -10,6 +10,7 @@ use crate::drive::{between, drive, over};
 use crate::effort::Effort;
 use crate::finding::Row;
 use crate::plausibility::capacity::largest_flow;
+use crate::seen::Seen;
 use crate::traffic::Traffic;
 
 /// 100 km/h, and the limit of a motorway [m/s].
@@ -33,7 +34,7 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
         let value = laneweave::study::mean(&[gap]);
         Ok(row(format!("time gap of {style} drivers at 100 km/h in equilibrium"), "s", value, range, SOURCE))
     };
-    let measured = |style: &str, runs, range| {
+    let measured = |style: &str, runs: &[Seen], range| {
         let value = over(runs, |it| it.time_gaps.get(style)?.estimate().map(|it| it.mean));
         row(
             format!("time gap of {style} drivers who follow at about 100 km/h, in traffic"),

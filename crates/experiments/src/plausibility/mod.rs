@@ -4,6 +4,7 @@ mod capacity;
 mod changes;
 mod following;
 mod lanes;
+mod lights;
 mod safety;
 
 use laneweave::Fault;
@@ -18,6 +19,7 @@ pub(crate) fn plausibility(effort: &Effort) -> Result<Finding, Fault> {
         lanes::rows(effort)?,
         following::rows(effort)?,
         capacity::rows(effort)?,
+        lights::rows(effort)?,
         safety::rows(effort)?,
     ]
     .concat();

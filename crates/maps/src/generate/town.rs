@@ -99,8 +99,8 @@ fn motorway(canvas: &mut Canvas) -> Ramps {
 
 /// The plan of the town's streets.
 #[derive(Default)]
-struct Town {
-    layout: Layout,
+pub(super) struct Town {
+    pub(super) layout: Layout,
 }
 
 impl Town {
@@ -147,12 +147,12 @@ impl Town {
     }
 
     /// Adds a street to the east through the places at `xs`.
-    fn row(&mut self, y: f64, xs: &[f64], profile: Profile) {
+    pub(super) fn row(&mut self, y: f64, xs: &[f64], profile: Profile) {
         self.through(xs.iter().map(|x| [*x, y]).collect(), East, profile);
     }
 
     /// Adds a street to the north through the places at `ys`.
-    fn column(&mut self, x: f64, ys: &[f64], profile: Profile) {
+    pub(super) fn column(&mut self, x: f64, ys: &[f64], profile: Profile) {
         self.through(ys.iter().map(|y| [x, *y]).collect(), North, profile);
     }
 

@@ -1,0 +1,278 @@
+//! C2, the paper's second claim: in a town the rate of lane changes against density follows the recorded one, and that
+//! of MOBIL does not.
+
+use laneweave::Fault;
+use laneweave::output::Boxes;
+use laneweave::scenario::Prepared;
+use laneweave::sim::Kind;
+use laneweave::study::{EdieRow, Estimate, Estimated, Sheet, estimates};
+use laneweave::style::Model;
+
+use crate::drive::{each, over, steps};
+use crate::effort::Effort;
+use crate::finding::{Finding, Row, csv_of, markdown, table_of, text_of};
+use crate::traffic::{Arriving, Road, Traffic};
+
+/// Streets of the town in each direction.
+const SIZE: usize = 6;
+/// Demands, from free traffic to more than the town takes [veh/h].
+const DEMANDS: [f64; 5] = [2000.0, 4000.0, 6000.0, 9000.0, 14_000.0];
+/// The models, with their names.
+const MODELS: [(Option<Model>, &str); 4] = [
+    (None, "the paper's model, repaired"),
+    (Some(Model::Mobil), "MOBIL"),
+    (Some(Model::Lmrs), "LMRS"),
+    (Some(Model::ConstantHazard), "constant hazard"),
+];
+/// Ends of the classes of density [veh/km per lane].
+const CLASSES: [f64; 8] = [5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 70.0, 150.0];
+/// A class with less traffic in a run has no rate there [veh-km].
+const LEAST_KM: f64 = 10.0;
+/// The recorded rate on mona_east: 132 to 138 changes on 207 veh-km, with its interval [1/veh-km].
+const RECORDED: [f64; 2] = [0.53, 0.76];
+const SOURCE: &str = "recorded on mona_east: .64 [.53, .76]";
+
+/// The traffic of a run in boxes: with its discretionary changes, and with all.
+struct Town {
+    discretionary: Vec<EdieRow>,
+    all: Vec<EdieRow>,
+}
+
+impl Town {
+    fn of(prepared: &mut Prepared) -> Town {
+        let dt = prepared.world.clock().dt;
+        let [begin, duration] = [prepared.warmup_steps, prepared.steps].map(|it| f64::from(it) * dt);
+        let mut boxes = Boxes::new(&prepared.world, begin, duration);
+        steps(prepared, |world| boxes.observe(world));
+        let end = prepared.world.clock().time();
+        Town {
+            discretionary: boxes.with_changes(end, |it| it == Kind::Discretionary),
+            all: boxes.with_changes(end, |_| true),
+        }
+    }
+}
+
+/// Vehicle-kilometres in a box.
+fn km(row: &EdieRow) -> f64 {
+    row.flow_veh_per_h * row.exposure_km_h
+}
+
+/// Changes per vehicle-kilometre in boxes whose density is in a class; `None` with too little traffic.
+fn rate<'a>(boxes: impl IntoIterator<Item = &'a EdieRow>, [from, to]: [f64; 2]) -> Option<f64> {
+    let is_in = |it: &&EdieRow| (from..to).contains(&it.density_veh_per_km);
+    let (mut changes, mut distance) = (0.0, 0.0);
+    for row in boxes.into_iter().filter(is_in) {
+        changes += row.changes as f64;
+        distance += km(row);
+    }
+    (distance >= LEAST_KM).then(|| changes / distance)
+}
+
+/// Every density.
+const ALL: [f64; 2] = [0.0, f64::INFINITY];
+
+/// Slope of changes per vehicle-kilometre against density, by least squares over boxes weighted by their traffic
+/// [1/veh-km per veh/km].
+fn slope(boxes: &[EdieRow]) -> Option<f64> {
+    let driven = || boxes.iter().filter(|it| km(it) > 0.0);
+    let weight: f64 = driven().map(km).sum();
+    let mean = |of: fn(&EdieRow) -> f64| driven().map(|it| km(it) * of(it)).sum::<f64>() / weight;
+    let density = mean(|it| it.density_veh_per_km);
+    let rate = mean(|it| it.changes as f64 / km(it));
+    let (mut product, mut square) = (0.0, 0.0);
+    for row in driven() {
+        let off = row.density_veh_per_km - density;
+        product += km(row) * off * (row.changes as f64 / km(row) - rate);
+        square += km(row) * off * off;
+    }
+    (square > 0.0).then(|| product / square)
+}
+
+/// What was found of one model.
+struct OfModel {
+    name: &'static str,
+    /// All changes by demand, and the mean density there.
+    by_demand: Vec<(f64, Option<Estimate>, Option<Estimate>)>,
+    /// By class of density: discretionary and all changes.
+    by_density: Vec<(f64, Option<Estimate>, Option<Estimate>)>,
+    slope: Option<Estimate>,
+}
+
+impl OfModel {
+    /// Of runs by demand, and by seed.
+    fn of(name: &'static str, runs: &[Vec<Town>]) -> OfModel {
+        let mean_density = |it: &Town| {
+            let size: f64 = it.all.iter().map(|it| it.exposure_km_h).sum();
+            let vehicles = |it: &EdieRow| it.density_veh_per_km * it.exposure_km_h;
+            (size > 0.0).then(|| it.all.iter().map(vehicles).sum::<f64>() / size)
+        };
+        let by_demand = DEMANDS.iter().zip(runs);
+        let by_demand = by_demand
+            .map(|(demand, runs)| (*demand, over(runs, mean_density), over(runs, |it| rate(&it.all, ALL))));
+        // The traffic of a seed at all demands.
+        let seeds: Vec<Town> = (0..runs.first().map_or(0, Vec::len))
+            .map(|seed| {
+                let pooled = |boxes: fn(&Town) -> &[EdieRow]| {
+                    runs.iter().flat_map(|it| boxes(&it[seed])).copied().collect()
+                };
+                Town { discretionary: pooled(|it| &it.discretionary), all: pooled(|it| &it.all) }
+            })
+            .collect();
+        let classes = [0.0].into_iter().chain(CLASSES).zip(CLASSES);
+        let by_density = classes.map(|(from, to)| {
+            let of = |boxes: fn(&Town) -> &[EdieRow]| over(&seeds, |it| rate(boxes(it), [from, to]));
+            (0.5 * (from + to), of(|it| &it.discretionary), of(|it| &it.all))
+        });
+        OfModel {
+            name,
+            by_demand: by_demand.collect(),
+            by_density: by_density.collect(),
+            slope: over(&seeds, |it| slope(&it.all)),
+        }
+    }
+}
+
+/// Drives all models at all demands, and compares.
+pub(crate) fn town_rates(effort: &Effort) -> Result<Finding, Fault> {
+    let of = |model: Option<Model>, demand: f64| Traffic {
+        road: Road::Town(SIZE),
+        model,
+        demand: Arriving::Total(demand),
+        times: [600.0, 900.0],
+        ..Traffic::on_motorway(1, 0.0)
+    };
+    let traffic: Vec<Traffic> =
+        MODELS.iter().flat_map(|(model, _)| DEMANDS.map(|demand| of(*model, demand))).collect();
+    let runs = each(effort, &traffic, Town::of)?;
+    let models = MODELS.iter().zip(runs.chunks(DEMANDS.len()));
+    let models: Vec<OfModel> = models.map(|((_, name), runs)| OfModel::of(name, runs)).collect();
+    let rows: Vec<Row> = models.iter().flat_map(rows_of).collect();
+    let points = |all: bool| -> Vec<(String, Vec<Estimated>)> {
+        let of = |it: &OfModel| {
+            let points = it.by_density.iter().filter_map(|(at, discretionary, of_all)| {
+                let it = if all { of_all } else { discretionary }.as_ref()?;
+                Some(Estimated { at: *at, value: it.mean, interval: it.interval() })
+            });
+            (it.name.to_owned(), points.collect())
+        };
+        models.iter().map(of).collect()
+    };
+    let figure = |what: &str, all: bool| {
+        let labels = ["Density [veh/km per lane]", "Lane changes [1/veh-km]"];
+        estimates(Sheet::Page, what, labels, &points(all))
+    };
+    Ok(Finding {
+        text: words(&models, &rows, effort),
+        tables: vec![
+            ("C2".into(), csv_by_density(&models)),
+            ("C2_demand".into(), csv_by_demand(&models)),
+            ("C2_level".into(), csv_of(&rows)),
+        ],
+        figures: vec![
+            ("C2_all".into(), figure("All lane changes in a town", true)),
+            ("C2_discretionary".into(), figure("Discretionary lane changes in a town", false)),
+        ],
+        rows,
+    })
+}
+
+/// The level of a model beside the recorded one, in the lightest and in the heaviest traffic.
+fn rows_of(model: &OfModel) -> Vec<Row> {
+    let ends = [model.by_demand.first(), model.by_demand.last()];
+    let row = |(demand, _, value): &(f64, Option<Estimate>, Option<Estimate>)| Row {
+        what: format!("all lane changes per veh-km in a town at {demand:.0} veh/h, {}", model.name),
+        unit: "1/veh-km",
+        value: *value,
+        range: RECORDED,
+        source: SOURCE,
+    };
+    ends.into_iter().flatten().map(row).collect()
+}
+
+fn csv_by_density(models: &[OfModel]) -> String {
+    let mut csv = String::from("model,density_veh_km_lane,changes,rate_per_veh_km,half_width,replications\n");
+    for model in models {
+        for (at, discretionary, all) in &model.by_density {
+            for (kind, it) in [("discretionary", discretionary), ("all", all)] {
+                let Some(it) = it else { continue };
+                csv += &format!(
+                    "{},{at},{kind},{},{},{}\n",
+                    model.name, it.mean, it.half_width, it.replications
+                );
+            }
+        }
+    }
+    csv
+}
+
+fn csv_by_demand(models: &[OfModel]) -> String {
+    let mut csv =
+        String::from("model,demand_veh_h,density_veh_km_lane,rate_per_veh_km,half_width,replications\n");
+    for model in models {
+        for (demand, density, it) in &model.by_demand {
+            let (Some(density), Some(it)) = (density, it) else { continue };
+            let (name, density) = (model.name, density.mean);
+            csv += &format!("{name},{demand},{density},{},{},{}\n", it.mean, it.half_width, it.replications);
+        }
+    }
+    csv
+}
+
+fn words(models: &[OfModel], rows: &[Row], effort: &Effort) -> String {
+    let demands: Vec<Vec<String>> = (0..DEMANDS.len())
+        .map(|at| {
+            let density = models[0].by_demand[at].1.as_ref();
+            let rates = models.iter().map(|it| text_of(it.by_demand[at].2.as_ref()));
+            [format!("{:.0}", DEMANDS[at]), text_of(density)].into_iter().chain(rates).collect()
+        })
+        .collect();
+    let names: Vec<&str> = models.iter().map(|it| it.name).collect();
+    let header = [&["demand [veh/h]", "density of the first model [veh/km per lane]"], &names[..]].concat();
+    let sentence = |it: &OfModel| {
+        let direction = match &it.slope {
+            Some(slope) if slope.interval().lower > 0.0 => "rises with density",
+            Some(slope) if slope.interval().upper < 0.0 => "falls with density",
+            _ => "neither rises nor falls surely with density",
+        };
+        // In thousandths, so that the digits count.
+        let slope =
+            it.slope.map(|it| Estimate { mean: 1e3 * it.mean, half_width: 1e3 * it.half_width, ..it });
+        format!(
+            "* {}: the rate {direction}: slope {} · 10⁻³ 1/veh-km per veh/km.\n",
+            it.name,
+            text_of(slope.as_ref())
+        )
+    };
+    let slopes: String = models.iter().map(sentence).collect();
+    format!(
+        "# C2: in a town the rate of lane changes follows the recorded one\n\n\
+         A town of {SIZE} streets in each direction (`laneweave generate town --size {SIZE}`), 10 % trucks, {} seeds. Densities and flows are \
+         measured in boxes of about 500 m of all lanes side by side and a minute, by Edie's definitions. Rates are all completed lane changes per \
+         vehicle-kilometre.\n\n{}\nAgainst the density of the boxes at all demands:\n\n{slopes}\n\
+         Beside the recorded rate, which has no density of its own: mona_east is one road at one time, so only the level can be compared, and the \
+         claim that the curve follows the recorded one cannot be decided with it.\n\n{}\n{}",
+        effort.seeds,
+        markdown(&header, &demands),
+        table_of(rows),
+        verdict(rows)
+    )
+}
+
+/// What the levels say, in words.
+fn verdict(rows: &[Row]) -> &'static str {
+    let inside = |name: &str| rows.iter().any(|it| it.what.ends_with(name) && it.is_inside());
+    match (inside(MODELS[0].1), inside(MODELS[1].1)) {
+        (true, true) => {
+            "Both the paper's model and MOBIL reach the recorded level at one of these demands: the level does not separate them.\n"
+        }
+        (true, false) => {
+            "The paper's model reaches the recorded level at one of these demands, and MOBIL does not.\n"
+        }
+        (false, true) => {
+            "MOBIL reaches the recorded level at one of these demands, and the paper's model does not: the claim does not hold here.\n"
+        }
+        (false, false) => {
+            "Neither the paper's model nor MOBIL has the recorded level at these demands: the claim does not hold here.\n"
+        }
+    }
+}
