@@ -61,9 +61,9 @@ pub struct Manner {
     pub patience: f64,
     /// Time after a change without a new discretionary one [s].
     pub calm: f64,
-    /// Hardest braking to adapt the speed to the target lane, at full urgency [m/s²].
+    /// Hardest braking to adapt the speed to the target lane, for a change that the route needs [m/s²].
     pub adjust_deceleration: f64,
-    /// The same without urgency [m/s²].
+    /// The same for any other change [m/s²].
     pub free_adjust_deceleration: f64,
     /// Hardest braking to let another vehicle in [m/s²]; 0: does not.
     pub yield_deceleration: f64,
@@ -129,12 +129,6 @@ impl Manner {
     #[inline]
     pub fn duration(&self, urgency: f64) -> f64 {
         self.change_duration + urgency * (self.pressed_duration - self.change_duration).min(0.0)
-    }
-
-    /// Hardest braking [m/s²] to adapt the speed to the target lane, of a driver with `urgency` 0…1.
-    #[inline]
-    pub fn adjusting(&self, urgency: f64) -> f64 {
-        self.free_adjust_deceleration + urgency * (self.adjust_deceleration - self.free_adjust_deceleration)
     }
 
     /// Share of the usual time gap that a driver with `desire` 0…1 accepts: d·T_min + (1 − d)·T_max.

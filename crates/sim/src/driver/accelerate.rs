@@ -13,7 +13,7 @@ use crate::record::events::BrakingCause;
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::Junction;
 use crate::state::clock::Clock;
-use crate::state::lane::{DriverState, Kinematics, Phase};
+use crate::state::lane::{DriverState, Kind, Kinematics, Phase};
 use crate::state::standstill::{ROOM_AT_A_STOP, STANDS};
 use crate::view::scene::{Scene, Spot};
 
@@ -311,7 +311,11 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
         let falls_in = f64::from(lane_change.urgency) >= style.change.synchronizes_from();
         if falls_in && !drives_on {
             let falling_in = style.follow.acceleration(pace, beside);
-            let hardest = style.manner.adjusting(f64::from(lane_change.urgency));
+            let manner = &style.manner;
+            let hardest = match lane_change.kind {
+                Kind::Route => manner.adjust_deceleration,
+                Kind::Discretionary | Kind::Keeping => manner.free_adjust_deceleration,
+            };
             wish = wish.or(falling_in.max(-hardest), BrakingCause::CutIn);
         }
     }

@@ -4,13 +4,14 @@ use std::borrow::Cow;
 
 use laneweave_models::Style;
 use laneweave_models::change::{Appraisal, LaneChangeModel};
+use laneweave_models::follow::CarFollowing;
 use laneweave_network::{LaneUse, Position, Side};
 
 use crate::driver::beliefs::Beliefs;
 use crate::driver::choice::{Choice, desire};
 use crate::driver::leave::departure;
 use crate::driver::me::{Attending, Me};
-use crate::driver::perceive::Perception;
+use crate::driver::perceive::{Perception, driver_of};
 use crate::driver::plan::{Ask, Concern, Note, Outbox, Plan, Request};
 use crate::driver::stuck::is_stuck;
 use crate::driver::turn::next_turn;
@@ -157,12 +158,27 @@ fn follow_route(
     Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
 }
 
-/// Whether a driver may have to stay behind its leader in the overtaking lane: it wants to be faster.
+/// Whether a driver would pass its leader in the overtaking lane before its next turn, although it has to stay behind.
 fn minds_offside(scene: &Scene, me: &Me) -> bool {
     let (network, change) = (scene.network, &me.style.change);
-    change.minds_offside(network.lane_use == LaneUse::SlowSide)
-        && window::leader_beside(scene, me.spot, network.driving_side.overtaking())
-            .is_some_and(|it| change.stays_behind(f64::from(me.driver.desired), it))
+    change.minds_offside(network.lane_use == LaneUse::SlowSide) && would_pass(scene, me)
+}
+
+/// Whether its leader in the overtaking lane, which it may not pass, will hold a driver up more than its own leader.
+#[inline(never)]
+fn would_pass(scene: &Scene, me: &Me) -> bool {
+    /// How far a driver looks ahead: until after its next turn [s].
+    const SOON: f64 = 2.0;
+    let overtaking = scene.network.driving_side.overtaking();
+    let desired = f64::from(me.driver.desired);
+    let offside = window::leader_beside(scene, me.spot, overtaking);
+    offside.filter(|it| me.style.change.stays_behind(desired, *it)).is_some_and(|it| {
+        let soon = it.nearer(SOON * (me.motion.speed - it.speed).max(0.0));
+        let pace = driver_of(scene, me.spot).pace;
+        let behind = |ahead| me.style.follow.acceleration(pace, ahead);
+        let wish = behind(Some(soon));
+        wish < 0.0 && wish < behind(scene.ahead(scene.viewpoint(me.spot)))
+    })
 }
 
 /// Whether a driver may change to a side, or is recommended a route. Without that it has nothing to decide or to wait
