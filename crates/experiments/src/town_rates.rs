@@ -10,7 +10,7 @@ use laneweave::style::Model;
 
 use crate::drive::{each, over, steps};
 use crate::effort::Effort;
-use crate::finding::{Finding, Row, csv_of, markdown, table_of, text_of};
+use crate::finding::{Finding, Row, cells_of, csv_of, markdown, quoted, table_of, text_of};
 use crate::traffic::{Arriving, Road, Traffic};
 
 /// Streets of the town in each direction.
@@ -195,10 +195,7 @@ fn csv_by_density(models: &[OfModel]) -> String {
         for (at, discretionary, all) in &model.by_density {
             for (kind, it) in [("discretionary", discretionary), ("all", all)] {
                 let Some(it) = it else { continue };
-                csv += &format!(
-                    "{},{at},{kind},{},{},{}\n",
-                    model.name, it.mean, it.half_width, it.replications
-                );
+                csv += &format!("{},{at},{kind},{}\n", quoted(model.name), cells_of(it));
             }
         }
     }
@@ -211,8 +208,8 @@ fn csv_by_demand(models: &[OfModel]) -> String {
     for model in models {
         for (demand, density, it) in &model.by_demand {
             let (Some(density), Some(it)) = (density, it) else { continue };
-            let (name, density) = (model.name, density.mean);
-            csv += &format!("{name},{demand},{density},{},{},{}\n", it.mean, it.half_width, it.replications);
+            let (name, density) = (quoted(model.name), density.mean);
+            csv += &format!("{name},{demand},{density},{}\n", cells_of(it));
         }
     }
     csv
