@@ -94,14 +94,24 @@ pub(crate) fn table_of(rows: &[Row]) -> String {
     text + &format!("\n{inside} of {} values are inside their ranges.\n", rows.len())
 }
 
+/// A value as three cells of CSV: mean, half of its 95 % interval if there is one, number of replications.
+pub(crate) fn cells_of(value: &Estimate) -> String {
+    let Estimate { mean, half_width, replications, .. } = value;
+    let half_width = if half_width.is_finite() { half_width.to_string() } else { String::new() };
+    format!("{mean},{half_width},{replications}")
+}
+
+/// A text as a cell of CSV.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
 /// The `rows` as CSV.
 pub(crate) fn csv_of(rows: &[Row]) -> String {
     let mut text = String::from("what,unit,mean,half_width,replications,least,most,inside,source\n");
     for row in rows {
-        let value =
-            row.value.map_or(",,".into(), |it| format!("{},{},{}", it.mean, it.half_width, it.replications));
+        let value = row.value.as_ref().map_or(",,".into(), cells_of);
         let [least, most] = row.range;
-        let quoted = |it: &str| format!("\"{}\"", it.replace('"', "\"\""));
         text += &format!(
             "{},{},{value},{least},{most},{},{}\n",
             quoted(&row.what),

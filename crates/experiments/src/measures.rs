@@ -3,7 +3,7 @@
 use laneweave::study::Estimate;
 
 use crate::drive::over;
-use crate::finding::{markdown, text_of};
+use crate::finding::{cells_of, markdown, quoted, text_of};
 use crate::seen::Seen;
 
 /// A measure of a run.
@@ -110,8 +110,8 @@ pub(crate) fn csv_of_measures(
         for (name, values) in names.iter().zip(values) {
             for (measure, it) in MEASURES.iter().zip(values) {
                 let Some(it) = it else { continue };
-                let value = format!("{},{},{}", it.mean, it.half_width, it.replications);
-                csv += &format!("{place},{name},{},{value}\n", measure.column);
+                let value = cells_of(it);
+                csv += &format!("{},{},{},{value}\n", quoted(place), quoted(name), measure.column);
             }
         }
     }

@@ -6,7 +6,7 @@ use laneweave::style::Model;
 
 use crate::drive::{between, drive, over};
 use crate::effort::Effort;
-use crate::finding::{Finding, Row, csv_of, table_of};
+use crate::finding::{Finding, Row, cells_of, csv_of, quoted, table_of};
 use crate::seen::Seen;
 use crate::traffic::Traffic;
 
@@ -60,7 +60,7 @@ pub(crate) fn motorway_rates(effort: &Effort) -> Result<Finding, Fault> {
         let mut points = Vec::new();
         for (flow, runs) in FLOWS.iter().zip(*runs) {
             let Some(it) = over(runs, rate) else { continue };
-            csv += &format!("{name},{flow},{},{},{}\n", it.mean, it.half_width, it.replications);
+            csv += &format!("{},{flow},{}\n", quoted(name), cells_of(&it));
             points.push(Estimated { at: *flow, value: it.mean, interval: it.interval() });
         }
         series.push(((*name).to_owned(), points));

@@ -5,7 +5,7 @@ use laneweave::study::{Estimate, Estimated, Sheet, estimates, mean};
 
 use crate::drive::{between, drive, over};
 use crate::effort::Effort;
-use crate::finding::{Finding, Row, csv_of, markdown, text_of};
+use crate::finding::{Finding, Row, cells_of, csv_of, markdown, text_of};
 use crate::seen::Seen;
 use crate::traffic::{Arriving, Change, Road, Traffic};
 
@@ -212,7 +212,7 @@ fn csv(cases: &[Case]) -> String {
         for (factor, runs) in FACTORS.iter().zip(*runs) {
             for measure in &MEASURES {
                 let Some(it) = over(runs, |it| measure.per_km(it)) else { continue };
-                let value = format!("{},{},{}", it.mean, it.half_width, it.replications);
+                let value = cells_of(&it);
                 csv += &format!("{reading},{name},{demand},{factor},{},{value}\n", measure.name);
             }
         }
@@ -225,7 +225,7 @@ fn csv_of_slopes(cases: &[Case]) -> String {
     for case in cases {
         for measure in &MEASURES {
             let Some(it) = case.slope(measure) else { continue };
-            let value = format!("{},{},{}", it.mean, it.half_width, it.replications);
+            let value = cells_of(&it);
             csv += &format!("{},{},{},{value}\n", case.reading, case.name, measure.name);
         }
     }

@@ -10,7 +10,7 @@ use laneweave::style::Model;
 
 use crate::drive::{each, over, steps};
 use crate::effort::Effort;
-use crate::finding::{Finding, Row, csv_of, markdown, table_of, text_of};
+use crate::finding::{Finding, Row, cells_of, csv_of, markdown, quoted, table_of, text_of};
 use crate::traffic::{Arriving, Road, Traffic};
 
 /// Streets of the town in each direction.
@@ -36,6 +36,8 @@ const SOURCE: &str = "recorded on mona_east: .64 [.53, .76]";
 struct Town {
     discretionary: Vec<EdieRow>,
     all: Vec<EdieRow>,
+    /// All changes per vehicle-kilometre of the whole town.
+    whole: Option<f64>,
 }
 
 impl Town {
@@ -45,7 +47,10 @@ impl Town {
         let mut boxes = Boxes::new(&prepared.world, begin, duration);
         steps(prepared, |world| boxes.observe(world));
         let end = prepared.world.clock().time();
+        let (counts, distance) = (prepared.world.counts(), prepared.world.counters().distance);
+        let changes = counts.discretionary_changes + counts.route_changes + counts.keeping_changes;
         Town {
+            whole: (distance > 0.0).then(|| 1000.0 * changes as f64 / distance),
             discretionary: boxes.with_changes(end, |it| it == Kind::Discretionary),
             all: boxes.with_changes(end, |_| true),
         }
@@ -88,11 +93,20 @@ fn slope(boxes: &[EdieRow]) -> Option<f64> {
     (square > 0.0).then(|| product / square)
 }
 
+/// What was found of a model at one demand [veh/h].
+struct AtDemand {
+    demand: f64,
+    /// Mean density of the boxes [veh/km per lane].
+    density: Option<Estimate>,
+    /// All changes per vehicle-kilometre: in the boxes, and in the whole town.
+    rates: [Option<Estimate>; 2],
+}
+
 /// What was found of one model.
 struct OfModel {
     name: &'static str,
-    /// All changes by demand, and the mean density there.
-    by_demand: Vec<(f64, Option<Estimate>, Option<Estimate>)>,
+    /// By demand.
+    by_demand: Vec<AtDemand>,
     /// By class of density: discretionary and all changes.
     by_density: Vec<(f64, Option<Estimate>, Option<Estimate>)>,
     slope: Option<Estimate>,
@@ -107,15 +121,18 @@ impl OfModel {
             (size > 0.0).then(|| it.all.iter().map(vehicles).sum::<f64>() / size)
         };
         let by_demand = DEMANDS.iter().zip(runs);
-        let by_demand = by_demand
-            .map(|(demand, runs)| (*demand, over(runs, mean_density), over(runs, |it| rate(&it.all, ALL))));
+        let by_demand = by_demand.map(|(demand, runs)| AtDemand {
+            demand: *demand,
+            density: over(runs, mean_density),
+            rates: [over(runs, |it| rate(&it.all, ALL)), over(runs, |it| it.whole)],
+        });
         // The traffic of a seed at all demands.
         let seeds: Vec<Town> = (0..runs.first().map_or(0, Vec::len))
             .map(|seed| {
                 let pooled = |boxes: fn(&Town) -> &[EdieRow]| {
                     runs.iter().flat_map(|it| boxes(&it[seed])).copied().collect()
                 };
-                Town { discretionary: pooled(|it| &it.discretionary), all: pooled(|it| &it.all) }
+                Town { discretionary: pooled(|it| &it.discretionary), all: pooled(|it| &it.all), whole: None }
             })
             .collect();
         let classes = [0.0].into_iter().chain(CLASSES).zip(CLASSES);
@@ -176,17 +193,20 @@ pub(crate) fn town_rates(effort: &Effort) -> Result<Finding, Fault> {
     })
 }
 
+/// Where rates are measured, in words.
+const WHERE: [&str; 2] = ["in the boxes", "in the whole town"];
+
 /// The level of a model beside the recorded one, in the lightest and in the heaviest traffic.
 fn rows_of(model: &OfModel) -> Vec<Row> {
-    let ends = [model.by_demand.first(), model.by_demand.last()];
-    let row = |(demand, _, value): &(f64, Option<Estimate>, Option<Estimate>)| Row {
-        what: format!("all lane changes per veh-km in a town at {demand:.0} veh/h, {}", model.name),
+    let ends = [model.by_demand.first(), model.by_demand.last()].into_iter().flatten();
+    let row = |it: &AtDemand, place: usize| Row {
+        what: format!("all lane changes at {:.0} veh/h {}, {}", it.demand, WHERE[place], model.name),
         unit: "1/veh-km",
-        value: *value,
+        value: it.rates[place],
         range: RECORDED,
         source: SOURCE,
     };
-    ends.into_iter().flatten().map(row).collect()
+    ends.flat_map(|it| [row(it, 0), row(it, 1)]).collect()
 }
 
 fn csv_by_density(models: &[OfModel]) -> String {
@@ -195,10 +215,7 @@ fn csv_by_density(models: &[OfModel]) -> String {
         for (at, discretionary, all) in &model.by_density {
             for (kind, it) in [("discretionary", discretionary), ("all", all)] {
                 let Some(it) = it else { continue };
-                csv += &format!(
-                    "{},{at},{kind},{},{},{}\n",
-                    model.name, it.mean, it.half_width, it.replications
-                );
+                csv += &format!("{},{at},{kind},{}\n", quoted(model.name), cells_of(it));
             }
         }
     }
@@ -206,28 +223,35 @@ fn csv_by_density(models: &[OfModel]) -> String {
 }
 
 fn csv_by_demand(models: &[OfModel]) -> String {
-    let mut csv =
-        String::from("model,demand_veh_h,density_veh_km_lane,rate_per_veh_km,half_width,replications\n");
+    let mut csv = String::from(
+        "model,demand_veh_h,density_veh_km_lane,where,rate_per_veh_km,half_width,replications\n",
+    );
     for model in models {
-        for (demand, density, it) in &model.by_demand {
-            let (Some(density), Some(it)) = (density, it) else { continue };
-            let (name, density) = (model.name, density.mean);
-            csv += &format!("{name},{demand},{density},{},{},{}\n", it.mean, it.half_width, it.replications);
+        for AtDemand { demand, density, rates } in &model.by_demand {
+            for (place, it) in WHERE.iter().zip(rates) {
+                let (Some(density), Some(it)) = (density, it) else { continue };
+                let (name, density) = (quoted(model.name), density.mean);
+                csv += &format!("{name},{demand},{density},{place},{}\n", cells_of(it));
+            }
         }
     }
     csv
 }
 
-fn words(models: &[OfModel], rows: &[Row], effort: &Effort) -> String {
-    let demands: Vec<Vec<String>> = (0..DEMANDS.len())
-        .map(|at| {
-            let density = models[0].by_demand[at].1.as_ref();
-            let rates = models.iter().map(|it| text_of(it.by_demand[at].2.as_ref()));
-            [format!("{:.0}", DEMANDS[at]), text_of(density)].into_iter().chain(rates).collect()
-        })
-        .collect();
+/// The rates by demand and model, in the boxes or in the whole town.
+fn table_by_demand(models: &[OfModel], place: usize) -> String {
+    let row = |at: usize| {
+        let density = text_of(models[0].by_demand[at].density.as_ref());
+        let rates = models.iter().map(|it| text_of(it.by_demand[at].rates[place].as_ref()));
+        [format!("{:.0}", DEMANDS[at]), density].into_iter().chain(rates).collect()
+    };
+    let rows: Vec<Vec<String>> = (0..DEMANDS.len()).map(row).collect();
     let names: Vec<&str> = models.iter().map(|it| it.name).collect();
     let header = [&["demand [veh/h]", "density of the first model [veh/km per lane]"], &names[..]].concat();
+    markdown(&header, &rows)
+}
+
+fn words(models: &[OfModel], rows: &[Row], effort: &Effort) -> String {
     let sentence = |it: &OfModel| {
         let direction = match &it.slope {
             Some(slope) if slope.interval().lower > 0.0 => "rises with density",
@@ -244,35 +268,55 @@ fn words(models: &[OfModel], rows: &[Row], effort: &Effort) -> String {
         )
     };
     let slopes: String = models.iter().map(sentence).collect();
+    let tables: Vec<String> = (0..2)
+        .map(|it| {
+            format!(
+                "All lane changes per vehicle-kilometre {}:\n\n{}\n",
+                WHERE[it],
+                table_by_demand(models, it)
+            )
+        })
+        .collect();
     format!(
         "# C2: in a town the rate of lane changes follows the recorded one\n\n\
-         A town of {SIZE} streets in each direction (`laneweave generate town --size {SIZE}`), 10 % trucks, {} seeds. Densities and flows are \
-         measured in boxes of about 500 m of all lanes side by side and a minute, by Edie's definitions. Rates are all completed lane changes per \
-         vehicle-kilometre.\n\n{}\nAgainst the density of the boxes at all demands:\n\n{slopes}\n\
+         A town of {SIZE} streets in each direction (`laneweave generate town --size {SIZE}`), 10 % trucks, {} seeds, no law to keep to the slow \
+         side. Densities and flows are measured in boxes of all lanes side by side and a minute, by Edie's definitions. A box has at least 200 m of \
+         lanes, so most boxes are on streets of two lanes; the whole town has many streets of one lane, on which nobody changes lanes.\n\n\
+         {}Against the density of the boxes at all demands:\n\n{slopes}\n\
          Beside the recorded rate, which has no density of its own: mona_east is one road at one time, so only the level can be compared, and the \
          claim that the curve follows the recorded one cannot be decided with it.\n\n{}\n{}",
         effort.seeds,
-        markdown(&header, &demands),
+        tables.concat(),
         table_of(rows),
         verdict(rows)
     )
 }
 
 /// What the levels say, in words.
-fn verdict(rows: &[Row]) -> &'static str {
-    let inside = |name: &str| rows.iter().any(|it| it.what.ends_with(name) && it.is_inside());
-    match (inside(MODELS[0].1), inside(MODELS[1].1)) {
-        (true, true) => {
-            "Both the paper's model and MOBIL reach the recorded level at one of these demands: the level does not separate them.\n"
-        }
-        (true, false) => {
-            "The paper's model reaches the recorded level at one of these demands, and MOBIL does not.\n"
-        }
-        (false, true) => {
-            "MOBIL reaches the recorded level at one of these demands, and the paper's model does not: the claim does not hold here.\n"
-        }
-        (false, false) => {
-            "Neither the paper's model nor MOBIL has the recorded level at these demands: the claim does not hold here.\n"
-        }
-    }
+fn verdict(rows: &[Row]) -> String {
+    let sentence = |place: &&str| {
+        let inside = |name: &str| {
+            rows.iter().any(|it| it.what.ends_with(&format!("{place}, {name}")) && it.is_inside())
+        };
+        let found = match (inside(MODELS[0].1), inside(MODELS[1].1)) {
+            (true, true) => {
+                "both the paper's model and MOBIL reach the recorded level at one of these demands: the level does not separate them"
+            }
+            (true, false) => {
+                "the paper's model reaches the recorded level at one of these demands, and MOBIL does not"
+            }
+            (false, true) => {
+                "MOBIL reaches the recorded level at one of these demands, and the paper's model does not"
+            }
+            (false, false) => "neither the paper's model nor MOBIL has the recorded level at these demands",
+        };
+        format!("Measured {place}, {found}.\n")
+    };
+    let [boxes, town] = [0, 1].map(|it| sentence(&WHERE[it]));
+    let warning = if rows.iter().any(|it| it.what.ends_with(MODELS[3].1) && it.is_inside()) {
+        "A constant hazard reaches that level, too, so the level alone is no evidence for reasons.\n"
+    } else {
+        ""
+    };
+    format!("{boxes}{town}{warning}")
 }

@@ -8,6 +8,7 @@ use clap::builder::PossibleValuesParser;
 use laneweave::Fault;
 use laneweave::folder::Claim;
 use laneweave::output::write_whole;
+use laneweave::record::SCENARIO;
 use laneweave_experiments::{EXPERIMENTS, Effort, Experiment};
 
 use super::say;
@@ -42,6 +43,10 @@ impl Arguments {
         let usual = if quick { Effort::quick(threads) } else { Effort::usual(threads) };
         let effort = Effort { seeds: seeds.unwrap_or(usual.seeds), ..usual };
         let is_asked = |it: &&Experiment| experiments.iter().any(|name| name == it.name || name == ALL);
+        if out.join(SCENARIO).exists() {
+            let what = "this folder contains a scenario; the results of a run of it would be mixed with the experiments";
+            return Err(Fault::new(out.display(), what, "choose another folder with --out"));
+        }
         let claim = Claim::on(&out)?;
         for experiment in EXPERIMENTS.iter().filter(is_asked) {
             let finding = experiment.run(&effort)?;

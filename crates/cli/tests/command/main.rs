@@ -28,6 +28,7 @@ mod program;
 mod remarks;
 #[cfg(test)]
 mod report;
+mod reproduce;
 #[cfg(test)]
 mod results;
 #[cfg(test)]
