@@ -138,8 +138,8 @@ fn inner_places(approach: &Approach) -> Vec<Place> {
 }
 
 /// Over seeds: lane changes, route changes, and the share that drove to the left.
-fn replicate(what: &str, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> [Estimate; 3] {
-    let found: Vec<Found> = (1..=SEEDS).map(|seed| drive(seed, &table, crawlers)).collect();
+fn replicate(what: &str, seeds: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> [Estimate; 3] {
+    let found: Vec<Found> = (1..=seeds).map(|seed| drive(seed, &table, crawlers)).collect();
     let over = |of: fn(&Found) -> f64| mean(&found.iter().map(of).collect::<Vec<_>>()).expect("replications");
     let all = [over(|it| it.lane_changes), over(|it| it.route_changes), over(|it| it.left)];
     let show = |it: &Estimate| format!("{:.3} ± {:.3}", it.mean, it.half_width);
@@ -150,7 +150,8 @@ fn replicate(what: &str, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> [Estima
 
 #[test]
 fn with_a_jam_on_the_own_route_more_leave_it_the_more_the_route_weighs() {
-    let found = WEIGHTS.map(|it| replicate(&format!("route weight {it}"), with_route_weight(it), CRAWLERS));
+    let found =
+        WEIGHTS.map(|it| replicate(&format!("route weight {it}"), SEEDS, with_route_weight(it), CRAWLERS));
     assert_eq!(found[0][1].mean, 0.0, "nobody leaves a route that it does not weigh");
     for pair in found.windows(2) {
         for (less, more) in pair[0].iter().zip(&pair[1]).skip(1) {
@@ -161,18 +162,19 @@ fn with_a_jam_on_the_own_route_more_leave_it_the_more_the_route_weighs() {
 
 #[test]
 fn where_all_leave_the_jam_lane_changes_grow_with_the_weight_of_the_route() {
-    let [[less, ..], [more, ..]] =
-        ALL_LEAVE.map(|it| replicate(&format!("route weight {it}"), with_route_weight(it), CRAWLERS));
+    const SEEDS: u64 = 30;
+    let of = |it| replicate(&format!("route weight {it}"), SEEDS, with_route_weight(it), CRAWLERS);
+    let [[less, ..], [more, ..]] = ALL_LEAVE.map(of);
     assert!(less.interval().upper < more.interval().lower, "{less:?} {more:?}");
 }
 
 #[test]
 fn without_weights_nobody_leaves_its_lane_or_its_route() {
-    assert_eq!(replicate("no weights", without_weights, CRAWLERS).map(|it| it.mean), [0.0; 3]);
+    assert_eq!(replicate("no weights", SEEDS, without_weights, CRAWLERS).map(|it| it.mean), [0.0; 3]);
 }
 
 #[test]
 fn without_a_jam_nobody_leaves_its_route() {
-    let [_, routes, left] = replicate("no jam", with_route_weight(0.8), 0.0);
+    let [_, routes, left] = replicate("no jam", SEEDS, with_route_weight(0.8), 0.0);
     assert_eq!((routes.mean, left.mean), (0.0, 0.0));
 }
