@@ -6,6 +6,16 @@ use crate::drive::over;
 use crate::finding::{cells_of, markdown, quoted, text_of};
 use crate::seen::Seen;
 
+/// What was measured at one place.
+pub(crate) struct Place {
+    /// Its name.
+    pub(crate) name: String,
+    /// The kinds of traffic there.
+    pub(crate) kinds: Vec<String>,
+    /// By kind, all measures.
+    pub(crate) values: Vec<Vec<Option<Estimate>>>,
+}
+
 /// A measure of a run.
 pub(crate) struct Measure {
     /// Its column in CSV.
@@ -101,12 +111,9 @@ pub(crate) fn side_by_side(names: &[String], values: &[Vec<Option<Estimate>>]) -
 }
 
 /// The same as CSV: a row for each kind of traffic and measure; the column of the names is called `kind`.
-pub(crate) fn csv_of_measures(
-    kind: &str,
-    places: &[(String, Vec<String>, Vec<Vec<Option<Estimate>>>)],
-) -> String {
+pub(crate) fn csv_of_measures(kind: &str, places: &[Place]) -> String {
     let mut csv = format!("place,{kind},measure,mean,half_width,replications\n");
-    for (place, names, values) in places {
+    for Place { name: place, kinds: names, values } in places {
         for (name, values) in names.iter().zip(values) {
             for (measure, it) in MEASURES.iter().zip(values) {
                 let Some(it) = it else { continue };

@@ -6,7 +6,7 @@ use laneweave::study::Estimate;
 use crate::drive::{between, drive};
 use crate::effort::Effort;
 use crate::finding::{Finding, text_of};
-use crate::measures::{MEASURES, csv_of_measures, measured, side_by_side};
+use crate::measures::{MEASURES, Place, csv_of_measures, measured, side_by_side};
 use crate::seen::Seen;
 use crate::traffic::{Arriving, Change, Road, Traffic};
 
@@ -58,7 +58,7 @@ pub(crate) fn readings(effort: &Effort) -> Result<Finding, Fault> {
         let values: Vec<Vec<Option<Estimate>>> = runs.iter().map(|it| measured(it)).collect();
         let table = side_by_side(&names, &values);
         text += &format!("\n## {place}\n\n{}\n{table}", differences(&names, &runs));
-        found.push((place.to_owned(), names.clone(), values));
+        found.push(Place { name: place.to_owned(), kinds: names.clone(), values });
     }
     let text = format!(
         "# The paper's formulas as printed, beside the repaired ones\n\n\

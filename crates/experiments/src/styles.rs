@@ -7,11 +7,14 @@ use laneweave::style::BUILT_IN;
 use crate::drive::drive;
 use crate::effort::Effort;
 use crate::finding::Finding;
-use crate::measures::{MEASURES, csv_of_measures, measured, side_by_side};
+use crate::measures::{MEASURES, Place, csv_of_measures, measured, side_by_side};
 use crate::traffic::{Arriving, Road, Traffic};
 
+/// A place with its name.
+type At = (&'static str, fn() -> Traffic);
+
 /// Where the styles drive, each with its name and the demand [veh/h].
-const PLACES: [(&str, fn() -> Traffic); 3] = [
+const PLACES: [At; 3] = [
     ("Motorway of three lanes at 1,100 veh/h/lane", || Traffic::on_motorway(3, 1100.0)),
     ("Motorway with ramps at 4,000 veh/h", || Traffic {
         road: Road::Own("ramps.osm"),
@@ -33,11 +36,11 @@ pub(crate) fn styles(effort: &Effort) -> Result<Finding, Fault> {
         let of = |style: &laneweave::style::BuiltIn| Traffic { styles: vec![(style.name, 1.0)], ..traffic() };
         let runs = drive(effort, &BUILT_IN.iter().map(of).collect::<Vec<_>>())?;
         let values: Vec<Vec<Option<Estimate>>> = runs.iter().map(|it| measured(it)).collect();
-        places.push((place.to_owned(), names.clone(), values));
+        places.push(Place { name: place.to_owned(), kinds: names.clone(), values });
     }
     let tables: String = places
         .iter()
-        .map(|(place, names, values)| format!("\n## {place}\n\n{}", side_by_side(names, values)))
+        .map(|it| format!("\n## {}\n\n{}", it.name, side_by_side(&it.kinds, &it.values)))
         .collect();
     let text = format!(
         "# What the drivers of each style do\n\n\
@@ -45,9 +48,9 @@ pub(crate) fn styles(effort: &Effort) -> Result<Finding, Fault> {
          with 95 % intervals; no law to keep to the slow side. An accepted gap counts up to 200 m. How often drivers are let in is not counted.\n\n\
          {}{tables}",
         effort.seeds,
-        words(&places[0].1, &places[0].2)
+        words(&places[0].kinds, &places[0].values)
     );
-    let figures = vec![("styles".into(), figure(&places[0].1, &places[0].2))];
+    let figures = vec![("styles".into(), figure(&places[0].kinds, &places[0].values))];
     Ok(Finding {
         text,
         tables: vec![("styles".into(), csv_of_measures("style", &places))],
