@@ -1,8 +1,9 @@
 //! The speed that fits the road ahead: drivers slow down for bends and lower speed limits before they reach them.
 //!
 //! To a place with the fitting speed v_c that is d ahead, a driver may come with √(v_c² + 2 b d), where b is gentle
-//! braking. The places are those on its route (all ours).
+//! braking. The places are those on its route, as far as it sees (all ours).
 
+use laneweave_models::change::SIGHT;
 use laneweave_models::{Style, bends};
 use laneweave_network::{Bend, Chain, Limit, Network, Position};
 
@@ -36,7 +37,7 @@ impl Outlook<'_> {
         let Outlook { network, style, class, .. } = *self;
         let here = network.chain(at.chain);
         let desired = class.desired_speed(style, here.limit(at.x));
-        let reach = way + desired * desired / (2.0 * style.manner.anticipating());
+        let reach = (way + desired * desired / (2.0 * style.manner.anticipating())).min(SIGHT);
         let is_clear = !here.has_slow_places && at.x + reach < here.length + here.slow_beyond;
         if is_clear || !style.manner.looks_ahead() { desired } else { self.slowed(at, way, reach, desired) }
     }
