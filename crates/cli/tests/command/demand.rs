@@ -43,7 +43,7 @@ fn a_demand_above_the_estimate_is_warned_of_with_its_bottleneck() {
     let told = folder.laneweave(&format!("{line} 4000")).errors();
     let warning = format!(
         "warning: demand: 4000 veh/h is above the estimated capacity of {capacity:.0} veh/h (bottleneck: the junction at lanelet \
-         26): queues grow as long as this lasts\n"
+         25): queues grow as long as this lasts\n"
     );
     assert!(told.ends_with(&warning), "{told}");
     for quiet in ["900", "4000 --quiet"] {

@@ -28,7 +28,7 @@ fn busy(name: &str, duration_s: f64) -> (Scenario, PathBuf, User, String) {
 
 #[test]
 fn ten_thousand_commands_are_repeated_bit_for_bit_on_any_number_of_threads() {
-    let (mut scenario, recorded, user, hash) = busy("recorded", 920.0);
+    let (mut scenario, recorded, user, hash) = busy("recorded", 1000.0);
     let rows = fs::read_to_string(recorded.join("commands.csv")).expect("it is there").lines().count() - 1;
     assert_eq!(rows as u32, user.obeyed.iter().sum::<u32>());
     assert!(rows >= 10_000 && user.obeyed.iter().all(|it| *it > 300), "{:?}", user.obeyed);

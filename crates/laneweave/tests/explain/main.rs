@@ -151,7 +151,8 @@ fn with_weight(style: &Style, row: usize, weight: f64) -> Style {
         1 => &mut model.route.weight,
         2 => &mut model.comfort.weight,
         3 => &mut model.courtesy.weight,
-        _ => &mut model.urgency.weight,
+        4 => &mut model.urgency.weight,
+        _ => &mut model.keeping.weight,
     };
     *place = weight;
     Style { change: LaneChangeModel::Mcdm(model), ..style.clone() }

@@ -167,10 +167,11 @@ impl<'a> Twin<'a> {
                 let gap = ahead.map_or(f64::INFINITY, |(gap, _)| {
                     (gap / headway_relaxation - fvdm.jam_gap / headway_relaxation).max(0.0)
                 });
-                let rise = (c1 * gap * 14.66 / v0 - c2).tanh() + c2.tanh();
+                let scale = v0 * fvdm.length_scale / 14.66;
+                let rise = (c1 * gap / scale - c2).tanh() + c2.tanh();
                 let optimal = (v0 * rise / (1.0 + c2.tanh())).max(0.0);
                 let relative = match ahead {
-                    Some((gap, leader)) if gap <= fvdm.range * v0 / 14.66 => leader - v,
+                    Some((gap, leader)) if gap <= fvdm.range * scale => leader.min(v0) - v,
                     _ => 0.0,
                 };
                 fvdm.sensitivity * (optimal - v) + fvdm.relative_sensitivity * relative

@@ -106,7 +106,9 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
     let samples: usize = outcomes.values().sum();
     let count = |outcome: &str| outcomes.get(outcome).copied().unwrap_or(0);
     assert!(samples >= 2000, "{outcomes:?}");
-    assert!(count("agree") * 100 >= samples * 99, "{outcomes:?}");
+    // How many instants a change touches depends on how often drivers change lanes; at all others they agree.
+    let during = count("while a lane change begins, crosses or ends");
+    assert!(count("agree") * 100 >= (samples - during) * 99 && during * 50 <= samples, "{outcomes:?}");
     assert!((count("new limit") + count("edge")) * 200 <= samples, "{outcomes:?}");
 }
 
