@@ -111,6 +111,7 @@ parameters! {
         Sensitivity "follow.sensitivity" range(0.01, 10.0, "1/s"), [Fvdm Ovm Gfm] sensitivity;
         RelativeSensitivity "follow.relative_sensitivity" range(0.0, 10.0, "1/s"), [Fvdm Gfm] relative_sensitivity;
         FollowingRange "follow.range" range(1.0, 1000.0, "m"), [Fvdm Gfm] range;
+        LengthScale "follow.length_scale" range(0.1, 10.0, ""), [Fvdm Ovm Gfm] length_scale;
         Coolness "follow.coolness" range(0.0, 1.0, ""), [Acc] coolness;
         AdjustmentTime "follow.adjustment_time" range(0.1, 100.0, "s"), [Gfm] adjustment_time;
         AccelerationRange "follow.acceleration_range" range(0.5, 1000.0, "m"), [Gfm] acceleration_range;
