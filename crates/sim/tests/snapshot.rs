@@ -13,7 +13,7 @@ fn world() -> World {
     let (on_ramp_at, off_ramp_at) = (vec![500.0], vec![1500.0]);
     let road = Motorway { length_m: 2000.0, on_ramp_at, off_ramp_at, ..Motorway::default() };
     let network = motorway(&road).expect("it fits").build().expect("it has lanes").network;
-    let demand = drivers::demand(&network, 4000.0, 0.1, &[1.0, 1.0]);
+    let demand = drivers::demand(&network, 4400.0, 0.1, &[1.0, 1.0]);
     let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
     let setup = Setup { step: 0.1, seed: 3, threads: 1 };
     let mut world = World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense");

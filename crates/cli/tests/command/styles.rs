@@ -111,7 +111,7 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
         .ends_with("unknown value \"norma\"; did you mean \"normal\"?")
     );
     assert!(
-        refusal(|text| text.replace("sigma = 0.0015", "sigma = 0"))
+        refusal(|text| text.replace("sigma = 0.00125", "sigma = 0"))
             .contains("a logit rule without choice noise")
     );
     assert!(refusal(|text| text.replace("model = \"idm\"", "")).contains("the key follow.model is missing"));

@@ -43,8 +43,11 @@ fn drivers_go_on_as_if_their_style_had_always_had_the_new_value() {
     steps(&mut usual, 200);
     let (mut tried, mut effective) = (0, 0);
     for parameter in Parameter::ALL {
-        // A new desired speed, or a new epoch, holds at once, and not from the next turn on.
-        if parameter.key().contains("epoch") || *parameter == Parameter::SpeedFactor {
+        // A new desired speed, also in bends and before lower limits, or a new epoch holds at once, and not from the next
+        // turn on.
+        let desires =
+            [Parameter::SpeedFactor, Parameter::ComfortableDeceleration, Parameter::LateralAcceleration];
+        if parameter.key().contains("epoch") || desires.contains(parameter) {
             continue;
         }
         let Some(value) = other_value(*parameter, &styles()[1]) else { continue };

@@ -86,7 +86,7 @@ fn the_built_in_styles_have_the_papers_weights_in_both_readings() {
         assert_eq!(it.route.reading, reading.into(), "{name}");
         let decision = match reading {
             Reading::Literal => (Rule::Threshold, 0.0, 0.0),
-            Reading::Repaired => (Rule::Logit, 0.012, 0.0015),
+            Reading::Repaired => (Rule::Logit, 0.01, 0.00125),
         };
         assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
     }
