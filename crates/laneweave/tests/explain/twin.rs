@@ -271,8 +271,10 @@ impl<'a> Twin<'a> {
     pub(crate) fn desired(&self, id: u32, otherwise: Otherwise, draw: f64) -> Option<Side> {
         let model = mcdm(&self.world.driver_parameters()[self.me(id).parameters].change);
         let sides = self.weigh(id, otherwise);
-        let size = |it: &Weighed| ((it.gain - model.theta) / model.sigma).exp();
-        let all = 1.0 + sides.iter().map(size).sum::<f64>();
+        let exponent = |it: &Weighed| (it.gain - model.theta) / model.sigma;
+        let largest = sides.iter().map(exponent).fold(0.0, f64::max);
+        let size = |it: &Weighed| (exponent(it) - largest).exp();
+        let all = (-largest).exp() + sides.iter().map(size).sum::<f64>();
         let mut below = 0.0;
         sides
             .iter()
