@@ -43,8 +43,8 @@ fn drivers_go_on_as_if_their_style_had_always_had_the_new_value() {
     steps(&mut usual, 200);
     let (mut tried, mut effective) = (0, 0);
     for parameter in Parameter::ALL {
-        // A new desired speed, also in bends and before lower limits, or a new epoch holds at once, and not from the next
-        // turn on.
+        // A new desired speed, also in bends and before lower limits, holds at once, and so does a new epoch: not from
+        // the next turn on.
         let desires =
             [Parameter::SpeedFactor, Parameter::ComfortableDeceleration, Parameter::LateralAcceleration];
         if parameter.key().contains("epoch") || desires.contains(parameter) {
