@@ -25,6 +25,18 @@ pub(crate) fn drive(effort: &Effort, traffic: &[Traffic]) -> Result<Vec<Vec<Seen
     })
 }
 
+/// The same for a known number of kinds of traffic.
+///
+/// # Errors
+/// None, as long as the built-in maps and styles are valid.
+pub(crate) fn drive_all<const N: usize>(
+    effort: &Effort,
+    traffic: [Traffic; N],
+) -> Result<[Vec<Seen>; N], Fault> {
+    let mut seen = drive(effort, &traffic)?.into_iter();
+    Ok(traffic.map(|_| seen.next().unwrap_or_default()))
+}
+
 /// Does `watch` with each kind of traffic and each seed, from its beginning on. Returns what it returns: by traffic,
 /// and by seed.
 ///

@@ -31,7 +31,7 @@ const fn measure(column: &'static str, name: &'static str, of: fn(&Seen) -> Opti
 }
 
 /// All measures.
-pub(crate) const MEASURES: [Measure; 13] = [
+pub(crate) const MEASURES: [Measure; 14] = [
     measure("discretionary_per_veh_km", "discretionary changes [1/veh-km]", |it| {
         per_km(it, it.counts.discretionary_changes)
     }),
@@ -64,6 +64,7 @@ pub(crate) const MEASURES: [Measure; 13] = [
         let all = &it.durations[0];
         (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
     }),
+    measure("courtesy", "drivers who make room, per driver who waits for a gap [%]", Seen::courtesy),
     measure("hard_brakings", "hard brakings [1/100 veh-km]", |it| {
         per_km(it, it.counters.hard_brakings).map(|it| 100.0 * it)
     }),

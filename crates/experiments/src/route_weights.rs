@@ -19,7 +19,7 @@ const FACTORS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0];
 const USUAL: usize = 2;
 const STRONG: usize = 4;
 /// The readings of the route yield.
-const READINGS: [&str; 2] = ["repaired", "literal"];
+const READINGS: [&str; 3] = ["repaired", "separate", "literal"];
 /// A rise is sharp if ×4 brings at least so many times the changes of ×1. Ours.
 const SHARP: f64 = 1.5;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use laneweave::models::follow::Ahead;
 use laneweave::network::Side;
-use laneweave::sim::{Counters, Counts, Event, Kind, LaneChange, VehicleId, World};
+use laneweave::sim::{Counters, Counts, Event, Kind, LaneChange, Phase, VehicleId, World};
 use laneweave::study::Moments;
 
 /// Length of a section in which speeds are averaged [m], and time over which they are [s].
@@ -38,6 +38,9 @@ pub(crate) struct Seen {
     pub(crate) gaps: [Vec<f64>; 2],
     /// By style: completed discretionary changes, and vehicle-kilometres.
     pub(crate) of_style: BTreeMap<String, (u32, f64)>,
+    /// Samples of drivers who wait for a gap, and of drivers who make room for one.
+    pub(crate) waiting: u32,
+    pub(crate) making_room: u32,
     /// By lane from the slow side, on motorways: vehicle-seconds times speed, the metres driven.
     pub(crate) metres_by_lane: Vec<f64>,
     /// Time gaps of followers at about 100 km/h by style [s].
@@ -101,6 +104,8 @@ impl Seen {
             if let Some((_, km)) = self.of_style.get_mut(style) {
                 *km += speed * EVERY / 1000.0;
             }
+            self.waiting += u32::from(vehicle.driver.phase == Phase::Wants);
+            self.making_room += u32::from(vehicle.lane_change.lets_in.0.is_finite());
             let lane = vehicle.spot.chain.at();
             if self.metres_by_lane.len() <= lane {
                 self.metres_by_lane.resize(lane + 1, 0.0);
@@ -122,6 +127,11 @@ impl Seen {
                 self.time_gaps.entry(style.clone()).or_default().add(gap);
             }
         }
+    }
+
+    /// Courtesy received: how many drivers make room for a driver who waits for a gap, in the mean over time [%].
+    pub(crate) fn courtesy(&self) -> Option<f64> {
+        (self.waiting > 0).then(|| 100.0 * f64::from(self.making_room) / f64::from(self.waiting))
     }
 
     /// Vehicle-kilometres.

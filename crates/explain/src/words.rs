@@ -227,6 +227,13 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
         speed * KMH_PER_MPS
     ));
     say(format!("  {}", act(account)));
+    if let Some(ahead) = account.stays_behind {
+        say(format!(
+            "  stays behind the vehicle in the overtaking lane ({:.1} m ahead, {:.1} km/h): by law nobody passes it on this side",
+            ahead.gap,
+            ahead.speed * KMH_PER_MPS
+        ));
+    }
     for side in account.sides.iter().flatten() {
         table(account, side).into_iter().for_each(&mut say);
     }

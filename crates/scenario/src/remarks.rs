@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use laneweave_maps::Map;
+use laneweave_models::Style;
 use laneweave_network::{Beside, Chain, ChainIndex, Lanelet, Network, Polyline, Position, Side};
 use laneweave_sim::{Place, Places};
 use laneweave_study::units::KMH_PER_MPS;
@@ -36,7 +37,7 @@ const JUMP: f64 = 0.5;
 const BRAKING: f64 = 2.0;
 /// An entrance is short if it is less than this share of the braking distance from its limit. Ours.
 const MUCH_SHORTER: f64 = 0.5;
-/// A stretch with a shorter travel time is too short for discretionary lane changes: the change itself takes 3 to 5 s
+/// A stretch with a shorter travel time is too short for discretionary lane changes: the change itself takes 3 to 6 s
 /// [s].
 const TIME_TO_CHANGE: f64 = 5.0;
 /// Number of chains over which a stretch is followed. Ours.
@@ -50,9 +51,9 @@ const SPAN: f64 = 10.0;
 /// The shortest distance for that [m]. Ours.
 const SHORTEST_SPAN: f64 = 4.0;
 
-/// All remarks on `map`; on its network with its junctions, trips start and end at `places`. The most important
-/// remark comes first.
-pub fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Remark> {
+/// All remarks on `map` for `drivers`, if they are known; on its network with its junctions, trips start and end at
+/// `places`. The most important remark comes first.
+pub fn remarks(map: &Map, network: &Network, places: &Places, drivers: &[Style]) -> Vec<Remark> {
     let all = [
         closed(places),
         room_to_change(network),
@@ -62,7 +63,7 @@ pub fn remarks(map: &Map, network: &Network, places: &Places) -> Vec<Remark> {
         extreme_limits(&network.lanelets),
         jumps(&network.lanelets),
         short_entrances(network, places),
-        bends(network),
+        bends(network, drivers),
     ];
     all.into_iter().flatten().take(MOST_REMARKS).collect()
 }
@@ -277,8 +278,10 @@ fn room(network: &Network, chain: ChainIndex) -> Option<f64> {
     stops.chain(zones).reduce(f64::min).map(|it| it.max(0.0))
 }
 
-/// Bends where the limit is faster than any driver would drive.
-fn bends(network: &Network) -> Option<Remark> {
+/// Bends where the limit is faster than any driver would drive, if some drivers do not slow down for bends.
+fn bends(network: &Network, drivers: &[Style]) -> Option<Remark> {
+    let slows = |it: &Style| it.manner.lateral_acceleration > 0.0;
+    let style = &drivers.iter().find(|it| !slows(it))?.name;
     let mut found: Vec<(&Lanelet, f64)> = Vec::new();
     for chain in &network.chains {
         for (index, start) in chain.lanelets.iter().zip(&chain.starts) {
@@ -293,13 +296,13 @@ fn bends(network: &Network) -> Option<Remark> {
     let (sharpest, lateral) = found.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let what = format!(
         "{} of {} lanelets have bends in which the speed limit gives a lateral acceleration above {LATERAL} m/s² (lanelet {}: \
-         {lateral:.0} m/s² at {}): drivers whose style has no lateral_acceleration do not slow down for bends",
+         {lateral:.0} m/s² at {}): {style} drivers do not slow down for bends",
         found.len(),
         network.lanelets.len(),
         sharpest.id,
         kmh(sharpest.speed_limit)
     );
-    remark(what, "reduce speed_limit there if this matters")
+    remark(what, "if this matters, give the style a lateral_acceleration, or reduce speed_limit there")
 }
 
 /// The greatest curvature of `line` between two stations [1/m], as far as the line extends half a span before and

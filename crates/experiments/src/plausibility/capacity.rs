@@ -3,7 +3,7 @@
 use laneweave::Fault;
 use laneweave::maps::generate::Motorway;
 
-use crate::drive::{drive, over};
+use crate::drive::{drive_all, over};
 use crate::effort::Effort;
 use crate::finding::Row;
 use crate::seen::{INTERVAL, SECTION, Seen};
@@ -62,34 +62,38 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
         demand: Arriving::At(vec![("1", 5200.0), ("247", 400.0)]),
         ..road(Motorway { on_ramp_at: vec![5000.0], ..long })
     };
-    let runs = drive(effort, &[lane_drop, on_ramp])?;
-    let [dropped, merged] = &runs[..] else { return Ok(Vec::new()) };
-    let row = |what: &str, unit, value, range, source| Row { what: what.into(), unit, value, range, source };
-    Ok(vec![
-        row(
-            "largest flow per lane behind a lane drop from 3 to 2",
-            "veh/h",
-            over(dropped, |it| largest_flow(it, 2)),
-            [1800.0, 2300.0],
-            BOTTLENECKS,
-        ),
-        row("capacity drop there", "%", over(dropped, |it| drop(it, 2)), [5.0, 15.0], DROPS),
-        row(
-            "largest flow per lane behind an on-ramp on three lanes",
-            "veh/h",
-            over(merged, |it| largest_flow(it, 3)),
-            [1800.0, 2300.0],
-            RAMPS,
-        ),
-        row("capacity drop there", "%", over(merged, |it| drop(it, 3)), [5.0, 15.0], DROPS),
-        row(
-            "speed of waves in the jam before the lane drop",
-            "km/h",
-            over(dropped, wave),
-            [-20.0, -13.0],
-            WAVES,
-        ),
-    ])
+    let [dropped, merged] = &drive_all(effort, [lane_drop, on_ramp])?;
+    let waves = Row {
+        what: "speed of waves in the jam before the lane drop".into(),
+        unit: "km/h",
+        value: over(dropped, wave),
+        range: [-20.0, -13.0],
+        source: WAVES,
+    };
+    let rows = [
+        bottleneck("a lane drop from 3 to 2", 2, dropped, BOTTLENECKS),
+        bottleneck("an on-ramp on three lanes", 3, merged, RAMPS),
+    ];
+    Ok(rows.into_iter().flatten().chain([waves]).collect())
+}
+
+/// The largest flow behind a bottleneck with so many lanes, and how much less it is once there is a jam.
+fn bottleneck(name: &str, lanes: usize, runs: &[Seen], source: &'static str) -> [Row; 2] {
+    let largest = Row {
+        what: format!("largest flow per lane behind {name}"),
+        unit: "veh/h",
+        value: over(runs, |it| largest_flow(it, lanes)),
+        range: [1800.0, 2300.0],
+        source,
+    };
+    let dropped = Row {
+        what: "capacity drop there".into(),
+        unit: "%",
+        value: over(runs, |it| drop(it, lanes)),
+        range: [5.0, 15.0],
+        source: DROPS,
+    };
+    [largest, dropped]
 }
 
 /// Speed of waves [km/h] between 2 and 4 km: where speeds at a place are most like those 500 m further, some time

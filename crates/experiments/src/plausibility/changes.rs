@@ -4,7 +4,7 @@ use laneweave::Fault;
 use laneweave::study::{Moments, mean};
 use laneweave::style::Model;
 
-use crate::drive::{between, drive, over};
+use crate::drive::{between, drive, drive_all, over};
 use crate::effort::Effort;
 use crate::finding::Row;
 use crate::motorway_rates::{rate, ratio, ratio_row};
@@ -88,8 +88,7 @@ fn held_up(seen: &Seen) -> Option<f64> {
 fn signs(effort: &Effort) -> Result<Vec<Row>, Fault> {
     let with = |model| Traffic { model, ..Traffic::on_motorway(3, 1100.0) };
     let models = [None, Some(Model::ConstantHazard), Some(Model::Null)];
-    let runs = drive(effort, &models.map(with))?;
-    let [ours, coin, null] = &runs[..] else { return Ok(Vec::new()) };
+    let [ours, coin, null] = &drive_all(effort, models.map(with))?;
     let of_style = |seen: &Seen, style: &str| {
         seen.of_style.get(style).and_then(|(changes, km)| (*km > 0.0).then(|| f64::from(*changes) / km))
     };
@@ -130,7 +129,7 @@ fn durations(effort: &Effort) -> Result<Vec<Row>, Fault> {
         demand: Arriving::Total(4000.0),
         ..Traffic::on_motorway(3, 1100.0)
     };
-    let runs = drive(effort, &[Traffic::on_motorway(3, 1100.0), ramps])?;
+    let [free, ramps] = &drive_all(effort, [Traffic::on_motorway(3, 1100.0), ramps])?;
     let of = |seen: &Seen, kind: usize| {
         let mut moments = Moments::default();
         seen.durations[kind].iter().for_each(|it| moments.add(*it));
@@ -142,7 +141,6 @@ fn durations(effort: &Effort) -> Result<Vec<Row>, Fault> {
         let cube = |log: &f64| ((log - it.mean) / it.standard_deviation).powi(3);
         Some(logs.iter().map(cube).sum::<f64>() / logs.len() as f64)
     };
-    let free = &runs[0];
     let row = |what: &str, unit, value, range, source| Row { what: what.into(), unit, value, range, source };
     Ok(vec![
         row(
@@ -163,7 +161,7 @@ fn durations(effort: &Effort) -> Result<Vec<Row>, Fault> {
         row(
             "duration of a route-driven change before ramps, as a share of that of a discretionary one there",
             "",
-            over(&runs[1], |it| Some(of(it, 1)?.mean / of(it, 0)?.mean)),
+            over(ramps, |it| Some(of(it, 1)?.mean / of(it, 0)?.mean)),
             [0.5, 1.0],
             "shorter when pressed; ours",
         ),

@@ -6,7 +6,7 @@ use laneweave::Fault;
 use laneweave::models::follow::Pace;
 use laneweave::style::{StyleTemplate, find};
 
-use crate::drive::{between, drive, over};
+use crate::drive::{between, drive_all, over};
 use crate::effort::Effort;
 use crate::finding::Row;
 use crate::plausibility::capacity::largest_flow;
@@ -23,11 +23,10 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
         |style| Traffic { styles: vec![(style, 1.0)], trucks: 0.0, ..Traffic::on_motorway(1, 3500.0) };
     let in_traffic = |style| Traffic { styles: vec![(style, 1.0)], ..Traffic::on_motorway(3, 1300.0) };
     let [aggressive, conservative] = ["aggressive", "conservative"];
-    let runs = drive(
+    let [fast, calm, fast_traffic, calm_traffic] = &drive_all(
         effort,
-        &[alone(aggressive), alone(conservative), in_traffic(aggressive), in_traffic(conservative)],
+        [alone(aggressive), alone(conservative), in_traffic(aggressive), in_traffic(conservative)],
     )?;
-    let [fast, calm, fast_traffic, calm_traffic] = &runs[..] else { return Ok(Vec::new()) };
     let row = |what: String, unit, value, range, source| Row { what, unit, value, range, source };
     let gap_row = |style: &str, range| -> Result<Row, Fault> {
         let gap = equilibrium(style)?;

@@ -3,7 +3,7 @@
 use laneweave::Fault;
 use laneweave::maps::Law;
 
-use crate::drive::{drive, over};
+use crate::drive::{drive_all, over};
 use crate::effort::Effort;
 use crate::finding::Row;
 use crate::seen::Seen;
@@ -13,7 +13,7 @@ const SOURCE: &str = "direction: Duret, Ahn, Buisson 2012; Wagner, Nagel, Wolf 1
 
 pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
     let at = |flow| Traffic { law: Law::Germany, ..Traffic::on_motorway(3, flow) };
-    let runs = drive(effort, &[at(300.0), at(1900.0)])?;
+    let [few, many] = &drive_all(effort, [at(300.0), at(1900.0)])?;
     // Lanes of a motorway without ramps are chains, numbered from the slow side.
     let share = |seen: &Seen, lane: usize| {
         let all: f64 = seen.metres_by_lane.iter().sum();
@@ -27,9 +27,9 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
         source: SOURCE,
     };
     Ok(vec![
-        row("share of the right of three lanes at 300 veh/h/lane, law of Germany", &runs[0], 0, [35.0, 80.0]),
-        row("share of the left lane there", &runs[0], 2, [0.0, 15.0]),
-        row("share of the right lane at 1,900 veh/h/lane", &runs[1], 0, [26.0, 40.0]),
-        row("share of the left lane there", &runs[1], 2, [26.0, 42.0]),
+        row("share of the right of three lanes at 300 veh/h/lane, law of Germany", few, 0, [35.0, 80.0]),
+        row("share of the left lane there", few, 2, [0.0, 15.0]),
+        row("share of the right lane at 1,900 veh/h/lane", many, 0, [26.0, 40.0]),
+        row("share of the left lane there", many, 2, [26.0, 42.0]),
     ])
 }

@@ -1,7 +1,9 @@
 //! Are these drivers plausible? What they do, beside published values.
 
+mod bends;
 mod capacity;
 mod changes;
+mod courtesy;
 mod following;
 mod lanes;
 mod lights;
@@ -20,6 +22,8 @@ pub(crate) fn plausibility(effort: &Effort) -> Result<Finding, Fault> {
         following::rows(effort)?,
         capacity::rows(effort)?,
         lights::rows(effort)?,
+        bends::rows(effort)?,
+        courtesy::rows(effort)?,
         safety::rows(effort)?,
     ]
     .concat();

@@ -3,7 +3,7 @@
 use laneweave::Fault;
 use laneweave::style::Model;
 
-use crate::drive::{between, drive, over};
+use crate::drive::{between, drive, drive_all, over};
 use crate::effort::Effort;
 use crate::finding::Row;
 use crate::seen::Seen;
@@ -48,7 +48,7 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
     for flow in [2000.0, 4000.0, 5500.0] {
         let times = [300.0, 900.0];
         let with = |model| Traffic { model, times, ..on("ramps.osm", flow) };
-        let runs = drive(effort, &[with(Some(Model::Mobil)), with(None)])?;
+        let [mobil, ours] = &drive_all(effort, [with(Some(Model::Mobil)), with(None)])?;
         let missed =
             |seen: &Seen| 1000.0 * seen.counters.missed_turns as f64 / seen.counts.entered.max(1) as f64;
         rows.push(Row {
@@ -56,7 +56,7 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
                 "missed turns of MOBIL by urgency, less the paper's model's, ramps at {flow:.0} veh/h"
             ),
             unit: "1/1,000 vehicles",
-            value: between(&runs[0], &runs[1], |mobil, ours| Some(missed(mobil) - missed(ours))),
+            value: between(mobil, ours, |mobil, ours| Some(missed(mobil) - missed(ours))),
             range: [f64::NEG_INFINITY, 0.0],
             source: "fair comparison; ours",
         });

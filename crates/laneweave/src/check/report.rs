@@ -82,7 +82,7 @@ impl Report {
         let Map { network, graph, rules, contents, problems, origin } = map;
         let Network { lanelets, chains, lane_drops, driving_side, .. } = network;
         let (driven, places) = driven(map);
-        let remarks = remarks(map, &driven, &places);
+        let remarks = remarks(map, &driven, &places, &[]);
         let Places { origins, destinations } = places;
         let gates = |places: &[Place]| places.iter().filter_map(opening).collect::<Vec<_>>();
         let (entrances, exits) = (gates(&origins), gates(&destinations));

@@ -1,6 +1,7 @@
 //! Explanations agree with the actions of drivers, with an independent computation, and with the run of the changed
 //! situation.
 
+mod law;
 mod twin;
 
 use std::path::Path;

@@ -50,19 +50,24 @@ impl Acc {
         Idm { acceleration, deceleration, time_gap, jam_gap, exponent }
     }
 
-    /// a_CAH: the largest acceleration [m/s²] with which the driver does not hit `ahead`, if nobody changes its
-    /// acceleration.
+    /// a_CAH [m/s²] of this driver.
     pub fn heuristic(&self, pace: Pace, ahead: Ahead) -> f64 {
-        let gap = ahead.gap.max(Idm::SHORTEST);
-        let leader = ahead.acceleration.min(self.acceleration);
-        let closing = pace.speed - ahead.speed;
-        let reach = ahead.speed * ahead.speed - 2.0 * gap * leader;
-        // The reach is 0 behind a leader that stands and stays: there the second line is the limit of the first.
-        if ahead.speed * closing <= -2.0 * gap * leader && reach > 0.0 {
-            pace.speed * pace.speed * leader / reach
-        } else {
-            leader - closing.max(0.0) * closing.max(0.0) / (2.0 * gap)
-        }
+        let acceleration = ahead.acceleration.min(self.acceleration);
+        constant_acceleration(pace.speed, Ahead { acceleration, ..ahead })
+    }
+}
+
+/// a_CAH: the largest acceleration [m/s²] with which a driver at `speed` [m/s] does not hit `ahead`, if nobody changes
+/// its acceleration.
+pub(crate) fn constant_acceleration(speed: f64, ahead: Ahead) -> f64 {
+    let (gap, leader) = (ahead.gap.max(Idm::SHORTEST), ahead.acceleration);
+    let closing = speed - ahead.speed;
+    let reach = ahead.speed * ahead.speed - 2.0 * gap * leader;
+    // The reach is 0 behind a leader that stands and stays: there the second line is the limit of the first.
+    if ahead.speed * closing <= -2.0 * gap * leader && reach > 0.0 {
+        speed * speed * leader / reach
+    } else {
+        leader - closing.max(0.0) * closing.max(0.0) / (2.0 * gap)
     }
 }
 

@@ -11,6 +11,7 @@ mod optimal_velocity;
 mod ovm;
 
 pub use acc::Acc;
+pub(crate) use acc::constant_acceleration;
 pub use fvdm::Fvdm;
 pub use gfm::{Gfm, GfmForm};
 pub use gipps::Gipps;

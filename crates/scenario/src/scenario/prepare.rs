@@ -107,7 +107,8 @@ fn prepare_with(
     let map = map()?;
     let (network, places) = driven(&map);
     // A user cannot correct the built-in map.
-    let remarks = if origin.map.is_some() { Vec::new() } else { remarks(&map, &network, &places) };
+    let is_own = origin.map.is_none();
+    let remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
     check_places(scenario, &places)?;

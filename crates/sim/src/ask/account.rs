@@ -4,9 +4,11 @@
 use std::borrow::Cow;
 
 use laneweave_models::change::{Appraisal, LaneChangeModel, Situation, at_least_once_in};
+use laneweave_models::follow::Ahead;
 use laneweave_models::{Concentration, Style};
 use laneweave_network::Side;
 
+use crate::driver::accelerate::stays_behind;
 use crate::driver::choice::is_out_of_question;
 use crate::driver::consider::{has_last_chance, look, waypoint};
 use crate::driver::decide::decide_one;
@@ -46,6 +48,8 @@ pub struct Account<'a> {
     pub draw: f64,
     /// What it does in the next step.
     pub act: Act,
+    /// The leader in the overtaking lane that it would pass, but may not by the law of the map.
+    pub stays_behind: Option<Ahead>,
     /// The pairings in the gap that it waits for, if it waits: with its new leader, and with its new follower.
     pub pairings: [Option<Pairing<'a>>; 2],
     /// The highest own speed at which the road is long enough for that change [m/s].
@@ -144,6 +148,7 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         epochs: attending.epochs,
         draw: moment.random.uniform(motion.id, Purpose::Desire, clock.step),
         act: act(&scene, moment, spot),
+        stays_behind: stays_behind(&scene, spot),
         pairings: found.map_or([None; 2], |it| it.pairings(&scene, spot)),
         fastest: found.map_or(f64::INFINITY, |it| it.fastest(&scene, spot)),
     }

@@ -1,17 +1,18 @@
 //! Drivers choose accelerations: behind leaders, at lane ends, and in lane changes. Emergency braking overrides them.
 
 use laneweave_models::braking::{HARD_BRAKING, HARDEST_BRAKING, secure_speed, stays_secure};
-use laneweave_models::comfortable::comfortably;
+use laneweave_models::comfortable::{comfortably, is_calm};
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 use laneweave_network::ChainIndex;
 
 use crate::driver::lane_end::{self, LaneEnd, is_leaving};
 use crate::driver::last_place::{HARDLY_MOVES, before_the_last_place, kept_room, within_window};
+use crate::driver::merge;
 use crate::driver::stopping::{stopping_way, to_stop_at};
 use crate::driver::window::leader_beside;
 use crate::record::events::BrakingCause;
 use crate::right_of_way::approach as junction;
-use crate::right_of_way::approach::Junction;
+use crate::right_of_way::approach::{FirstIntoMerge, Junction};
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kind, Kinematics, Phase};
 use crate::state::standstill::{ROOM_AT_A_STOP, STANDS};
@@ -72,18 +73,41 @@ pub(crate) fn behind(
     leader: &Kinematics,
     dt: f64,
 ) -> Option<f64> {
-    let ahead = leader.ahead(leader.rear() - motion.x);
-    let wish = behind_one(scene, motion, driver, ahead);
-    let acceleration = within(wish, -HARDEST_BRAKING, driver.class.strength());
+    let gap = leader.rear() - motion.x;
+    let wish = scene.style_of(driver).follow.acceleration(pace(motion, driver), Some(leader.ahead(gap)));
+    if !is_calm(motion.speed, gap, leader.speed, wish) {
+        return closing_in(scene, motion, driver, leader.ahead(gap), wish, dt);
+    }
+    let strength = driver.class.strength();
+    let acceleration = if wish < strength { wish } else { strength };
     let next = motion.speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
+    let clear = Ahead::steady(gap - FollowingModel::LARGEST_CLEARANCE, leader.speed);
+    (gap >= 0.0 && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
+}
+
+/// The same for a driver whose model wants `wish` [m/s²], and to whom the bound of comfortable braking may apply.
+#[cold]
+fn closing_in(
+    scene: &Scene,
+    motion: &Kinematics,
+    driver: &DriverState,
+    ahead: Ahead,
+    wish: f64,
+    dt: f64,
+) -> Option<f64> {
+    let style = scene.style_of(driver);
+    let wish =
+        comfortably(&style.follow, style.manner.comfortable_deceleration, pace(motion, driver), ahead, wish);
+    let acceleration = within(wish, -HARDEST_BRAKING, driver.class.strength());
+    let next = (motion.speed + acceleration * dt).max(0.0);
     let clear = ahead.nearer(FollowingModel::LARGEST_CLEARANCE);
     let is_usual = ahead.gap >= 0.0 && acceleration >= -HARD_BRAKING;
     (is_usual && stays_secure(motion.speed, next, clear, dt)).then_some(acceleration)
 }
 
 /// The acceleration behind one leader [m/s²]: by the driver's model, within its comfortable braking.
-#[inline(always)]
+#[inline]
 fn behind_one(scene: &Scene, motion: &Kinematics, driver: &DriverState, leader: Ahead) -> f64 {
     let (style, pace) = (scene.style_of(driver), pace(motion, driver));
     let wish = style.follow.acceleration(pace, Some(leader));
@@ -125,23 +149,7 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
 #[inline(never)]
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
-    let needs_full_update = driver.phase == Phase::Wants || driver.needs_full_update;
-    let next =
-        scene.motions(spot.chain).get(spot.index + 1).filter(|it| !needs_full_update && it.id != motion.id);
-    let road = OpenRoad::on(scene, spot.chain, lane_end);
-    let is_usual = |it: &&Kinematics| road.reaches(motion, it.x) && junction::is_nothing_near(scene, spot);
     let slows = driver.desired > driver.limit_desired && scene.style_of(driver).manner.looks_ahead();
-    let usual = next.filter(|it| !slows && is_usual(it));
-    if let Some(acceleration) = usual.and_then(|it| behind(scene, motion, driver, it, clock.dt)) {
-        let junction = Junction::default();
-        return Chosen {
-            acceleration,
-            cause: BrakingCause::Leader,
-            by_kinematics: false,
-            touches: false,
-            junction,
-        };
-    }
     let leader = scene.ahead(scene.viewpoint(spot));
     let acceleration = match leader {
         Some(leader) => behind_one(scene, motion, driver, leader),
@@ -158,8 +166,14 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let clear = |it: Ahead| it.nearer(clearance);
     let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
-    let behind_others = bound(motion.speed, before_the_end, junction.leader.map(clear), clock.dt);
-    let acceleration = bound(motion.speed, behind_others, stop, clock.dt);
+    let before_the_stop = bound(motion.speed, before_the_end, stop, clock.dt);
+    let acceleration = match junction.leader {
+        Some(it) => {
+            let first = FirstIntoMerge { ahead: clear(it.ahead), ..it };
+            merge::bound(motion.speed, before_the_stop, &first, clock.dt)
+        }
+        None => before_the_stop,
+    };
     // A lower positive acceleration is no braking.
     let by_kinematics = acceleration < wish && acceleration < 0.0;
     Chosen {
@@ -230,7 +244,10 @@ fn at_junction(
     dt: f64,
 ) -> (Wish, Option<Ahead>) {
     let wish = match junction.leader {
-        Some(leader) => wish.or(behind_one(scene, motion, driver, leader), BrakingCause::Leader),
+        Some(first) => {
+            let following = behind_one(scene, motion, driver, first.ahead);
+            wish.or(merge::follow(motion.speed, following, &first, dt), BrakingCause::Leader)
+        }
         None => wish,
     };
     let Some(stop) = junction.stop else { return (wish, None) };
@@ -251,6 +268,16 @@ fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
 fn within(value: f64, low: f64, high: f64) -> f64 {
     let value = if value < high { value } else { high };
     if value > low { value } else { low }
+}
+
+/// The leader in the overtaking lane, if the driver at `spot` would pass it and may not: there the law forbids to pass
+/// on the slow side.
+pub(crate) fn stays_behind(scene: &Scene, spot: Spot) -> Option<Ahead> {
+    if !scene.lane_change(spot).minds_offside {
+        return None;
+    }
+    let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
+    offside.filter(|it| scene.style(spot).change.stays_behind(scene.motion(spot).speed, *it))
 }
 
 /// The acceleration of a driver who reacts to more than its leader, and the end of its lane.
@@ -319,12 +346,9 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
             wish = wish.or(falling_in.max(-hardest), BrakingCause::CutIn);
         }
     }
-    if lane_change.minds_offside {
-        let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
-        if offside.is_some_and(|it| style.change.stays_behind(motion.speed, it)) {
-            let staying_behind = style.follow.acceleration(pace, offside);
-            wish = wish.or(staying_behind.max(-style.manner.adjust_deceleration), BrakingCause::Leader);
-        }
+    if let Some(offside) = stays_behind(scene, spot) {
+        let staying_behind = style.follow.acceleration(pace, Some(offside));
+        wish = wish.or(staying_behind.max(-style.manner.adjust_deceleration), BrakingCause::Leader);
     }
     let (gap, speed) = lane_change.lets_in;
     if gap < f32::INFINITY {
@@ -342,7 +366,7 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
 
 /// The acceleration, limited by kinematics behind `obstacle`.
 #[inline]
-fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64 {
+pub(super) fn bound(speed: f64, acceleration: f64, obstacle: Option<Ahead>, dt: f64) -> f64 {
     let next = speed + acceleration * dt;
     let next = if next > 0.0 { next } else { 0.0 };
     match obstacle {

@@ -4,6 +4,7 @@ use laneweave_models::braking::HARD_BRAKING;
 use laneweave_network::ChainIndex;
 
 use crate::driver::accelerate::{Chosen, OpenRoad, behind, cause, with_care};
+use crate::driver::across::behind_both;
 use crate::driver::lane_end::{LaneEnd, lane_end};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
 use crate::junction::reservations::NO_RESERVATION;
@@ -33,7 +34,11 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
         let leader = motions.get(index + 1).filter(|_| driver.only_follows());
         let (acceleration, stretch) = match usual(scene, clock, &road, motion, driver, leader) {
             Some(acceleration) => (acceleration, 1.0),
-            None => drive_with_care(scene, clock, Spot { chain, index }, end, plan, outbox),
+            None => {
+                let spot = Spot { chain, index };
+                drive_across(scene, clock, spot, &road, plan)
+                    .unwrap_or_else(|| drive_with_care(scene, clock, spot, end, plan, outbox))
+            }
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
         if next.headway_relaxation < 1.0 {
@@ -77,6 +82,24 @@ pub(crate) fn acceleration(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
 fn upcoming<'a>(scene: &Scene<'a>, chain: ChainIndex) -> Option<&'a Lane> {
     const FEW: usize = 100;
     scene.lanes.get(chain.at() + 2).filter(|_| scene.lanes.len() > FEW)
+}
+
+/// Drives a vehicle in a lane change whose driver reacts only to the leaders in both lanes. Returns its acceleration
+/// [m/s²], and the metres along the chain for a metre driven.
+#[inline]
+fn drive_across(
+    scene: &Scene,
+    clock: Clock,
+    spot: Spot,
+    road: &OpenRoad,
+    plan: &mut Plan,
+) -> Option<(f64, f64)> {
+    let acceleration = behind_both(scene, clock, spot, road)?;
+    let (_, distance) = moved(scene.motion(spot), acceleration, 1.0, clock.dt);
+    let upkeep =
+        Upkeep { index: spot.index as u32, distance, in_emergency: false, reservation_is_over: false };
+    push_tight(&mut plan.upkeep, upkeep);
+    Some((acceleration, f64::from(scene.lane_change(spot).stretch)))
 }
 
 /// Drives a vehicle whose driver reacts to more than its leader, or whose braking kinematics decides. Returns its

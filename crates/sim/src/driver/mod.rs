@@ -1,6 +1,7 @@
 //! Drivers: they perceive, decide and accelerate, and write the results into a plan.
 
 pub(crate) mod accelerate;
+pub(crate) mod across;
 pub(crate) mod attention;
 pub(crate) mod beliefs;
 pub(crate) mod choice;
@@ -13,6 +14,7 @@ pub(crate) mod lane_end;
 pub(crate) mod last_place;
 pub(crate) mod leave;
 pub(crate) mod me;
+pub(crate) mod merge;
 pub(crate) mod obey;
 pub(crate) mod perceive;
 pub(crate) mod plan;

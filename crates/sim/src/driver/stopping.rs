@@ -3,7 +3,7 @@
 use crate::state::standstill::ROOM_AT_A_STOP;
 
 /// Drivers brake for the end of a lane, or the last place for a change, when they need this to stop there [m/s²].
-const COMFORTABLE_BRAKING: f64 = 2.0;
+pub(super) const COMFORTABLE_BRAKING: f64 = 2.0;
 
 /// Acceleration that keeps to the speed from which comfortable braking stops `room` metres ahead.
 pub(super) fn to_stop_at(speed: f64, room: f64, dt: f64) -> f64 {

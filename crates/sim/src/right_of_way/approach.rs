@@ -29,7 +29,7 @@ pub(crate) struct Junction {
     /// Distance from the front to the place where it has to stop [m].
     pub(crate) stop: Option<f64>,
     /// The vehicle that it follows into a merge.
-    pub(crate) leader: Option<Ahead>,
+    pub(crate) leader: Option<FirstIntoMerge>,
     /// It waits for a reservation.
     pub(crate) asks: bool,
     /// It waits at the next light until that changes.
@@ -38,6 +38,16 @@ pub(crate) struct Junction {
     /// [m]. Either a light on its route is no longer green and it can stop there, or the vehicle stands and a vehicle
     /// without a reservation is in front of it.
     pub(crate) revokes_from: Option<f64>,
+}
+
+/// A vehicle that goes into a merge before the driver. It may still be on another road.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FirstIntoMerge {
+    /// Itself, as a leader: as far ahead as it will be on the common lane.
+    pub(crate) ahead: Ahead,
+    /// Distance from the own front to the place where the driver can wait for it before the merge [m]; 0 if it is past
+    /// that.
+    pub(crate) stop: f64,
 }
 
 /// How far ahead a driver at `speed` [m/s] reacts to junctions [m].
@@ -123,11 +133,13 @@ fn yield_to_earlier(scene: &Scene, reservation: &Reservation, slot: u32, junctio
         let mut others = earlier(scene, reservation, slot, hold);
         match kind {
             ZoneKind::Merging(_) => {
-                if let Some(other) = others.last() {
-                    let ahead = leader_into(hold.leave - reservation.travelled, hold, other);
-                    let is_nearer =
-                        junction.leader.is_none_or(|it| ahead.is_some_and(|new| new.gap < it.gap));
-                    junction.leader = if is_nearer { ahead.or(junction.leader) } else { junction.leader };
+                let first =
+                    others.last().and_then(|it| leader_into(hold.leave - reservation.travelled, hold, it));
+                if let Some(ahead) = first
+                    && junction.leader.is_none_or(|it| ahead.gap < it.ahead.gap)
+                {
+                    let stop = (hold.enter - reservation.travelled - BEFORE_A_ZONE).max(0.0);
+                    junction.leader = Some(FirstIntoMerge { ahead, stop });
                 }
             }
             ZoneKind::Crossing => {

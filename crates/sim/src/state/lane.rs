@@ -103,10 +103,18 @@ impl DriverState {
     /// Whether its driver only follows: it changes no lane, reacts to nothing else, and has nothing else to store.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
-        self.phase == Phase::Cruises
-            && !self.needs_full_update
-            && !self.in_emergency
-            && self.desired == self.limit_desired
+        self.phase == Phase::Cruises && self.reacts_only_to_leaders()
+    }
+
+    /// Whether its vehicle changes lanes, and its driver only follows in both.
+    #[inline]
+    pub(crate) fn only_follows_both(&self) -> bool {
+        self.phase.is_between_lanes() && self.reacts_only_to_leaders()
+    }
+
+    #[inline]
+    fn reacts_only_to_leaders(&self) -> bool {
+        !self.needs_full_update && !self.in_emergency && self.desired == self.limit_desired
     }
 }
 
@@ -318,7 +326,7 @@ impl Lane {
     }
 
     /// Whether the entry at `index` only stands for a vehicle that touches this lane.
-    fn is_obstacle(&self, index: usize) -> bool {
+    pub(crate) fn is_obstacle(&self, index: usize) -> bool {
         self.drivers[index].is_shadow && self.lane_change_states[index].counterpart.is_none()
     }
 

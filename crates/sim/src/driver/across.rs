@@ -1,0 +1,43 @@
+//! A vehicle in a lane change follows the leaders in both its lanes. Usually it reacts to nothing else.
+
+use crate::driver::accelerate::{OpenRoad, behind};
+use crate::driver::lane_end::lane_end;
+use crate::state::clock::Clock;
+use crate::state::lane::{DriverState, Kinematics};
+use crate::view::scene::{Scene, Spot};
+
+/// The acceleration of a vehicle in a lane change whose driver reacts only to the leaders in both lanes: the lower one
+/// [m/s²]. `road` is the lane of the entry at `spot`. `None` if the driver reacts to more.
+#[inline(never)]
+pub(crate) fn behind_both(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRoad) -> Option<f64> {
+    let lane = &scene.lanes[spot.chain.at()];
+    let driver = &lane.drivers()[spot.index];
+    if !driver.only_follows_both() {
+        return None;
+    }
+    let counterpart = lane.lane_change_states()[spot.index].counterpart?;
+    let other_lane = &scene.lanes[counterpart.chain.at()];
+    let other = other_lane.ahead_of(counterpart.x).checked_sub(1)?;
+    let [here, there] = [&lane.motions()[spot.index..], &other_lane.motions()[other..]];
+    if there[0].id != here[0].id || other_lane.is_obstacle(other) {
+        return None;
+    }
+    let other_road = OpenRoad::on(scene, counterpart.chain, lane_end(scene, counterpart.chain));
+    let here = follow(scene, clock, driver, here, road)?;
+    let there = follow(scene, clock, driver, there, &other_road)?;
+    Some(if there < here { there } else { here })
+}
+
+/// The acceleration [m/s²] of a driver in one lane, where its vehicle is the first one of `motions`, and its leader the
+/// next one.
+fn follow(
+    scene: &Scene,
+    clock: Clock,
+    driver: &DriverState,
+    motions: &[Kinematics],
+    road: &OpenRoad,
+) -> Option<f64> {
+    let [motion, leader, ..] = motions else { return None };
+    let is_leader = leader.id != motion.id && road.reaches(motion, leader.x);
+    if is_leader { behind(scene, motion, driver, leader, clock.dt) } else { None }
+}
