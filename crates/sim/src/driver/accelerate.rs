@@ -270,6 +270,13 @@ fn within(value: f64, low: f64, high: f64) -> f64 {
     if value > low { value } else { low }
 }
 
+/// The acceleration behind the leader in the overtaking lane [m/s²], if the driver at `spot` may not pass that.
+pub(super) fn staying_behind(scene: &Scene, spot: Spot) -> Option<f64> {
+    let (offside, style) = (stays_behind(scene, spot)?, scene.style(spot));
+    let acceleration = style.follow.acceleration(pace(scene.motion(spot), scene.driver(spot)), Some(offside));
+    Some(acceleration.max(-style.manner.adjust_deceleration))
+}
+
 /// The leader in the overtaking lane, if the driver at `spot` would pass it and may not: there the law forbids to pass
 /// on the slow side.
 pub(crate) fn stays_behind(scene: &Scene, spot: Spot) -> Option<Ahead> {
@@ -346,9 +353,8 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
             wish = wish.or(falling_in.max(-hardest), BrakingCause::CutIn);
         }
     }
-    if let Some(offside) = stays_behind(scene, spot) {
-        let staying_behind = style.follow.acceleration(pace, Some(offside));
-        wish = wish.or(staying_behind.max(-style.manner.adjust_deceleration), BrakingCause::Leader);
+    if let Some(acceleration) = staying_behind(scene, spot) {
+        wish = wish.or(acceleration, BrakingCause::Leader);
     }
     let (gap, speed) = lane_change.lets_in;
     if gap < f32::INFINITY {

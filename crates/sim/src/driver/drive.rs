@@ -4,9 +4,9 @@ use laneweave_models::braking::HARD_BRAKING;
 use laneweave_network::ChainIndex;
 
 use crate::driver::accelerate::{Chosen, OpenRoad, behind, cause, with_care};
-use crate::driver::across::behind_both;
 use crate::driver::lane_end::{LaneEnd, lane_end};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
+use crate::driver::two_lanes::{behind_both, behind_offside};
 use crate::junction::reservations::NO_RESERVATION;
 use crate::record::events::DrivingEventKind;
 use crate::record::overlap::touch;
@@ -36,7 +36,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             Some(acceleration) => (acceleration, 1.0),
             None => {
                 let spot = Spot { chain, index };
-                drive_across(scene, clock, spot, &road, plan)
+                drive_in_two_lanes(scene, clock, spot, &road, plan)
                     .unwrap_or_else(|| drive_with_care(scene, clock, spot, end, plan, outbox))
             }
         };
@@ -84,22 +84,23 @@ fn upcoming<'a>(scene: &Scene<'a>, chain: ChainIndex) -> Option<&'a Lane> {
     scene.lanes.get(chain.at() + 2).filter(|_| scene.lanes.len() > FEW)
 }
 
-/// Drives a vehicle in a lane change whose driver reacts only to the leaders in both lanes. Returns its acceleration
-/// [m/s²], and the metres along the chain for a metre driven.
+/// Drives a vehicle whose driver reacts only to leaders in two lanes. Returns its acceleration [m/s²], and the metres
+/// along the chain for a metre driven.
 #[inline]
-fn drive_across(
+fn drive_in_two_lanes(
     scene: &Scene,
     clock: Clock,
     spot: Spot,
     road: &OpenRoad,
     plan: &mut Plan,
 ) -> Option<(f64, f64)> {
-    let acceleration = behind_both(scene, clock, spot, road)?;
+    let both = behind_both(scene, clock, spot, road);
+    let acceleration = both.or_else(|| behind_offside(scene, clock, spot, road))?;
     let (_, distance) = moved(scene.motion(spot), acceleration, 1.0, clock.dt);
     let upkeep =
         Upkeep { index: spot.index as u32, distance, in_emergency: false, reservation_is_over: false };
     push_tight(&mut plan.upkeep, upkeep);
-    Some((acceleration, f64::from(scene.lane_change(spot).stretch)))
+    Some((acceleration, stretch(scene, spot)))
 }
 
 /// Drives a vehicle whose driver reacts to more than its leader, or whose braking kinematics decides. Returns its

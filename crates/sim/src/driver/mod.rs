@@ -1,7 +1,6 @@
 //! Drivers: they perceive, decide and accelerate, and write the results into a plan.
 
 pub(crate) mod accelerate;
-pub(crate) mod across;
 pub(crate) mod attention;
 pub(crate) mod beliefs;
 pub(crate) mod choice;
@@ -22,5 +21,6 @@ pub(crate) mod request_reservation;
 pub(crate) mod stopping;
 pub(crate) mod stuck;
 pub(crate) mod turn;
+pub(crate) mod two_lanes;
 pub(crate) mod window;
 pub(crate) mod wish;

@@ -7,14 +7,13 @@
 
 use laneweave_models::Manner;
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
 use crate::state::clock::Clock;
 use crate::state::goal::Goal;
+pub use crate::state::lane_change::{Counterpart, LaneChangeState};
 pub use crate::state::phase::{Kind, Phase};
 use crate::state::prefetch::prefetch;
-use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
 
 /// The id of a vehicle. It never changes, and is never used again.
@@ -103,76 +102,24 @@ impl DriverState {
     /// Whether its driver only follows: it changes no lane, reacts to nothing else, and has nothing else to store.
     #[inline]
     pub(crate) fn only_follows(&self) -> bool {
-        self.phase == Phase::Cruises && self.reacts_only_to_leaders()
+        self.phase == Phase::Cruises && !self.needs_full_update && self.is_calm()
     }
 
     /// Whether its vehicle changes lanes, and its driver only follows in both.
     #[inline]
     pub(crate) fn only_follows_both(&self) -> bool {
-        self.phase.is_between_lanes() && self.reacts_only_to_leaders()
+        self.phase.is_between_lanes() && !self.needs_full_update && self.is_calm()
+    }
+
+    /// Whether its driver keeps its lane and has something to react to, but neither an emergency nor a slower road ahead.
+    #[inline]
+    pub(crate) fn keeps_lane_calmly(&self) -> bool {
+        self.phase == Phase::Cruises && self.needs_full_update && self.is_calm()
     }
 
     #[inline]
-    fn reacts_only_to_leaders(&self) -> bool {
-        !self.needs_full_update && !self.in_emergency && self.desired == self.limit_desired
-    }
-}
-
-/// The warm part of a vehicle: its lane-change state.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LaneChangeState {
-    /// Side of the desired or current change.
-    pub side: Side,
-    /// Kind of the desired or current change.
-    pub kind: Kind,
-    /// The driver may have to stay behind its leader in the overtaking lane.
-    pub minds_offside: bool,
-    /// Step in which the vehicle entered the map.
-    pub entered: u32,
-    /// Step in which the desire came, or the change began.
-    pub since: u32,
-    /// Distance along this chain per metre driven: 1 except for shadows in curves.
-    pub stretch: f32,
-    /// Share of the duration of the change that has passed.
-    pub progress: f32,
-    /// Urgency of the desired change, 0…1.
-    pub urgency: f32,
-    /// The slot of the record of the desired or current change.
-    pub record: u32,
-    /// The chains that it came from.
-    pub previous_lanes: PreviousLanes,
-    /// Its other entry.
-    pub counterpart: Option<Counterpart>,
-    /// Last place for a driver in a wrong lane to leave it, along the chain [m]; infinite in a right lane.
-    pub last_place: f64,
-    /// The vehicle that the driver lets in: gap [m], infinite if there is none, and speed [m/s].
-    pub lets_in: (f32, f32),
-    /// The slot of its reservation, if it has one.
-    pub(crate) reservation: u32,
-}
-
-impl LaneChangeState {
-    /// No vehicle to let in.
-    pub(crate) const NOBODY: (f32, f32) = (f32::INFINITY, 0.0);
-}
-
-const _: () = assert!(size_of::<LaneChangeState>() <= 80, "memory of a vehicle");
-
-/// The other entry of a vehicle that changes lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Counterpart {
-    /// Its chain.
-    pub chain: ChainIndex,
-    /// Its front bumper there [m].
-    pub x: f64,
-    /// Distance along its chain per metre driven.
-    pub stretch: f32,
-}
-
-impl Counterpart {
-    /// Its position.
-    pub(crate) fn at(&self) -> Position {
-        Position::new(self.chain, self.x)
+    fn is_calm(&self) -> bool {
+        !self.in_emergency && self.desired == self.limit_desired
     }
 }
 

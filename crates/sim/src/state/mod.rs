@@ -10,6 +10,7 @@ pub(crate) mod externals;
 pub(crate) mod gamma;
 pub(crate) mod goal;
 pub(crate) mod lane;
+pub(crate) mod lane_change;
 pub(crate) mod milestone;
 pub(crate) mod moment;
 pub(crate) mod normal;

@@ -1,6 +1,7 @@
-//! A vehicle in a lane change follows the leaders in both its lanes. Usually it reacts to nothing else.
+//! Drivers who follow leaders in two lanes: their vehicle changes lanes, or they may not pass a vehicle in the overtaking
+//! lane. Usually they react to nothing else, and need no closer look.
 
-use crate::driver::accelerate::{OpenRoad, behind};
+use crate::driver::accelerate::{OpenRoad, behind, staying_behind};
 use crate::driver::lane_end::lane_end;
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics};
@@ -26,6 +27,19 @@ pub(crate) fn behind_both(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRo
     let here = follow(scene, clock, driver, here, road)?;
     let there = follow(scene, clock, driver, there, &other_road)?;
     Some(if there < here { there } else { here })
+}
+
+/// The acceleration of a driver who reacts only to its leader in the lane `road`, and to the one in the overtaking lane
+/// that it may not pass: the lower one [m/s²]. `None` if the driver reacts to more.
+#[inline(never)]
+pub(crate) fn behind_offside(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRoad) -> Option<f64> {
+    let lane = &scene.lanes[spot.chain.at()];
+    let (driver, lane_change) = (&lane.drivers()[spot.index], &lane.lane_change_states()[spot.index]);
+    if !driver.keeps_lane_calmly() || !lane_change.minds_only_offside() {
+        return None;
+    }
+    let here = follow(scene, clock, driver, &lane.motions()[spot.index..], road)?;
+    Some(staying_behind(scene, spot).map_or(here, |it| if it < here { it } else { here }))
 }
 
 /// The acceleration [m/s²] of a driver in one lane, where its vehicle is the first one of `motions`, and its leader the
