@@ -20,7 +20,9 @@ pub(crate) fn behind_both(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRo
     let other_lane = &scene.lanes[counterpart.chain.at()];
     let other = other_lane.ahead_of(counterpart.x).checked_sub(1)?;
     let [here, there] = [&lane.motions()[spot.index..], &other_lane.motions()[other..]];
-    if there[0].id != here[0].id || other_lane.is_obstacle(other) {
+    let is_it = there[0].id == here[0].id && !other_lane.is_obstacle(other);
+    // Both entries have to choose the same, so neither may react to more.
+    if !is_it || !other_lane.drivers()[other].only_follows_both() {
         return None;
     }
     let other_road = OpenRoad::on(scene, counterpart.chain, lane_end(scene, counterpart.chain));
