@@ -111,7 +111,7 @@ impl DriverState {
         self.phase.is_between_lanes() && !self.needs_full_update && self.is_calm()
     }
 
-    /// Whether its driver keeps its lane and has something to react to, but neither an emergency nor a slower road ahead.
+    /// Whether its driver keeps its lane and has something to react to, but no emergency and no slower road ahead.
     #[inline]
     pub(crate) fn keeps_lane_calmly(&self) -> bool {
         self.phase == Phase::Cruises && self.needs_full_update && self.is_calm()
