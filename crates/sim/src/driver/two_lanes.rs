@@ -1,5 +1,5 @@
-//! Drivers who follow leaders in two lanes: their vehicle changes lanes, or they may not pass a vehicle in the overtaking
-//! lane. Usually they react to nothing else, and need no closer look.
+//! Drivers who follow leaders in two lanes: their vehicle changes lanes, or they may not pass a vehicle in the
+//! overtaking lane. Usually they react to nothing else, and need no closer look.
 
 use crate::driver::accelerate::{OpenRoad, behind, staying_behind};
 use crate::driver::lane_end::lane_end;
