@@ -3,8 +3,9 @@
 
 use crate::driver::accelerate::{OpenRoad, behind, staying_behind};
 use crate::driver::lane_end::lane_end;
+use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
-use crate::state::lane::{DriverState, Kinematics};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
 use crate::view::scene::{Scene, Spot};
 
 /// The acceleration of a vehicle in a lane change whose driver reacts only to the leaders in both lanes: the lower one
@@ -37,11 +38,20 @@ pub(crate) fn behind_both(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRo
 pub(crate) fn behind_offside(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRoad) -> Option<f64> {
     let lane = &scene.lanes[spot.chain.at()];
     let (driver, lane_change) = (&lane.drivers()[spot.index], &lane.lane_change_states()[spot.index]);
-    if !driver.keeps_lane_calmly() || !lane_change.minds_only_offside() {
+    if !driver.keeps_lane_calmly() || !minds_only_offside(lane_change) {
         return None;
     }
     let here = follow(scene, clock, driver, &lane.motions()[spot.index..], road)?;
     Some(staying_behind(scene, spot).map_or(here, |it| if it < here { it } else { here }))
+}
+
+/// Whether all that a driver may have to react to, beside its leader, is the leader in the overtaking lane.
+#[inline]
+fn minds_only_offside(lane_change: &LaneChangeState) -> bool {
+    lane_change.minds_offside
+        && lane_change.lets_in.0 == f32::INFINITY
+        && lane_change.last_place == f64::INFINITY
+        && lane_change.reservation == NO_RESERVATION
 }
 
 /// The acceleration [m/s²] of a driver in one lane, where its vehicle is the first one of `motions`, and its leader the

@@ -3,7 +3,6 @@
 use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
-use crate::junction::reservations::NO_RESERVATION;
 use crate::state::phase::Kind;
 use crate::state::previous_lanes::PreviousLanes;
 
@@ -43,15 +42,6 @@ pub struct LaneChangeState {
 impl LaneChangeState {
     /// No vehicle to let in.
     pub(crate) const NOBODY: (f32, f32) = (f32::INFINITY, 0.0);
-
-    /// Whether all that its driver may have to react to, beside its leader, is the leader in the overtaking lane.
-    #[inline]
-    pub(crate) fn minds_only_offside(&self) -> bool {
-        self.minds_offside
-            && self.lets_in.0 == f32::INFINITY
-            && self.last_place == f64::INFINITY
-            && self.reservation == NO_RESERVATION
-    }
 }
 
 const _: () = assert!(size_of::<LaneChangeState>() <= 80, "memory of a vehicle");
