@@ -30,8 +30,8 @@ pub fn comfortably(model: &FollowingModel, comfortable: f64, pace: Pace, ahead: 
     }
 }
 
-/// Whether no bound applies to what a driver at `speed` [m/s] wants behind a leader with `leader_speed` [m/s]: less
-/// than half of [`UNFELT`] braking is needed, and it wants hardly more.
+/// Whether no bound applies to what a driver at `speed` [m/s] wants behind a leader with `leader_speed` [m/s]: no more
+/// than 0.5 m/s² of braking is needed, and it wants less than 0.5 m/s² of it.
 #[inline]
 pub fn is_calm(speed: f64, gap: f64, leader_speed: f64, wish: f64) -> bool {
     let closing = speed - leader_speed;
