@@ -18,7 +18,7 @@ use crate::recording::{Recording, RoadUser, Track};
 use obstacle::Obstacle;
 
 /// Largest file that is read [B].
-const MAXIMUM_SIZE: u64 = 512 << 20;
+pub(crate) const MAXIMUM_SIZE: u64 = 512 << 20;
 
 /// Reads the road users of a CommonRoad file. Those that cannot be used as they stand are left out and listed
 /// as problems, as are states.

@@ -1,6 +1,7 @@
 //! Errors by which a file gives no recording.
 
 use std::fmt::Display;
+use std::io;
 
 use laneweave_maps::Problem;
 use laneweave_maps::xml::XmlError;
@@ -21,7 +22,7 @@ pub enum RecordingError {
     #[error("line 1: the column {column} is missing; add it to the header, which has: {found}")]
     MissingColumn {
         /// Its name.
-        column: &'static str,
+        column: String,
         /// The header, cut if it is long.
         found: String,
     },
@@ -62,8 +63,7 @@ pub enum RecordingError {
     },
     /// The time between frames is out of range.
     #[error(
-        "line {line}: frames are {step_ms} ms apart from here on; correct timestamp_ms or frame_id, \
-         so that it is {from} to {to} ms"
+        "line {line}: frames are {step_ms} ms apart from here on; correct {columns}, so that it is {from} to {to} ms"
     )]
     Step {
         /// The row of the first frame.
@@ -74,11 +74,13 @@ pub enum RecordingError {
         from: f64,
         /// The greatest time that is read [ms].
         to: f64,
+        /// The columns that give it.
+        columns: String,
     },
     /// A time does not agree with the number of its frame.
     #[error(
         "line {line}: frame {frame} is at {found_ms} ms, but should be at {expected_ms} ms with {step_ms} ms \
-         between frames; correct timestamp_ms or frame_id"
+         between frames; correct {columns}"
     )]
     Timestamp {
         /// The row.
@@ -86,12 +88,60 @@ pub enum RecordingError {
         /// Its frame.
         frame: i64,
         /// Its time [ms].
-        found_ms: i64,
+        found_ms: f64,
         /// The time by the first and the last frame [ms].
         expected_ms: f64,
         /// The time between frames by the first and the last frame [ms].
         step_ms: f64,
+        /// The columns that give it.
+        columns: String,
     },
+    /// A table has numbers of frames, but nothing says how many frames a second has.
+    #[error(
+        "nothing says how many frames a second has; put the dataset's recordingMeta file beside it, or give the layout \
+         frames_per_second"
+    )]
+    NoFrameRate,
+    /// A layout names neither a column of frames nor one of times.
+    #[error("its layout names neither a column `frame` nor a column `time`; add one of them")]
+    NoTime,
+    /// The file has no content.
+    #[error("the file is empty; download the recording again, or choose another file")]
+    EmptyFile,
+    /// It is no text.
+    #[error(
+        "this is not a text file, so it cannot be a recording; choose another file, or decompress it first"
+    )]
+    NoText,
+    /// A table whose columns are those of no dataset that we know.
+    #[error(
+        "line 1: its columns are of no dataset that is known ({known}): {found}; say what its columns hold, in a TOML file for \
+         --columns"
+    )]
+    UnknownTable {
+        /// The header, cut if it is long.
+        found: String,
+        /// The datasets that are known.
+        known: String,
+    },
+    /// A layout is no TOML that says what columns hold.
+    #[error("{what}; the keys are columns, units, point, axes, frames_per_second, reused_after_s, classes")]
+    Layout {
+        /// What is wrong with it, and where.
+        what: String,
+    },
+    /// The file cannot be read to its end.
+    #[error("it cannot be read to its end: {what}; check the file or the drive")]
+    Unreadable {
+        /// What the system says.
+        what: String,
+    },
+}
+
+impl From<io::Error> for RecordingError {
+    fn from(error: io::Error) -> RecordingError {
+        RecordingError::Unreadable { what: error.to_string() }
+    }
 }
 
 fn first(problem: Option<&impl Display>) -> String {

@@ -1,31 +1,39 @@
 //! Recorded traffic: read, cleaned and matched to the map, with its lane changes.
 //!
-//! A file becomes a [`Recording`] ([`interaction::read`], [`commonroad::read`]). [`clean()`] corrects impossible
+//! A file becomes a [`Recording`] ([`open`], [`table::read`], [`commonroad::read`]). [`clean()`] corrects impossible
 //! data. [`Matched`] gives the lanelet of each vehicle, and the vehicles in a frame. [`lane_changes`] finds the lane
 //! changes, [`extents`] their begin and end. A [`Replay`] shows each frame as its drivers see it.
 
 mod changes;
 mod clean;
 pub mod commonroad;
+pub mod datasets;
 mod drivers;
 mod error;
+mod file;
 pub mod interaction;
+mod join;
 mod joints;
 mod lanes;
 mod matching;
 mod moves;
+mod observe;
 mod problems;
 mod purpose;
 mod recording;
 mod replay;
 mod sideways;
 mod smooth;
+pub mod table;
 
 pub use changes::{Kind, LaneChange, lane_changes};
 pub use clean::{CleaningReport, Example, Finding, clean};
 pub use drivers::Assumed;
 pub use error::RecordingError;
+pub use file::open;
+pub use join::{JoinError, Joined, join};
 pub use matching::{Matched, Place, Present};
+pub use observe::{Drone, Interruptions, Watch};
 pub use recording::{Recording, RoadUser, State, Track};
 pub use replay::{Frame, Replay, ReplayError};
 pub use sideways::{Extent, extents};

@@ -1,5 +1,7 @@
 //! Recorded traffic as plain data.
 
+use serde::Deserialize;
+
 /// Recorded traffic in the metric frame of its map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
@@ -40,7 +42,8 @@ pub struct State {
 }
 
 /// The class of a road user.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RoadUser {
     /// A passenger car or van.
     Car,

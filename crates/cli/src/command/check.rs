@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recording, picture, tracks};
+use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recordings, picture, tracks};
 use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
@@ -15,13 +15,17 @@ use super::say;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz), or with --map a recording (INTERACTION: .csv,
-    /// CommonRoad: .xml).
-    #[arg(value_name = "MAP|RECORDING", value_hint = ValueHint::FilePath)]
-    file: PathBuf,
+    /// A map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz), or with --map a recording (.csv of INTERACTION,
+    /// highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad: .xml).
+    /// Several recordings that continue one another are joined.
+    #[arg(value_name = "MAP|RECORDING", value_hint = ValueHint::FilePath, required = true)]
+    files: Vec<PathBuf>,
     /// The map of the recording.
     #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath, conflicts_with_all = ["graph", "svg"])]
     map: Option<PathBuf>,
+    /// A TOML file that says what the columns of the recording hold.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "map")]
+    columns: Option<PathBuf>,
     #[command(flatten)]
     options: Reading,
     /// Print the report as one JSON object.
@@ -95,24 +99,25 @@ impl Arguments {
     }
 
     fn map(&self) -> Result<(), Fault> {
-        if extension(&self.file) == "csv" {
+        let file = &self.files[0];
+        if extension(file) == "csv" || self.files.len() > 1 {
             return Err(Fault::new(
-                self.file.display(),
+                file.display(),
                 "a recording needs the map of its location",
                 "add --map MAP",
             ));
         }
-        self.check_outputs()?;
-        let map = open_map(&self.file, &self.options.options())?;
+        self.check_outputs(file)?;
+        let map = open_map(file, &self.options.options())?;
         // A CommonRoad file may contain both.
-        let recording = if extension(&self.file) == "xml" { tracks(&self.file)? } else { None };
+        let recording = if extension(file) == "xml" { tracks(file)? } else { None };
         let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
         let report = Report::of(&map);
         if let Some(path) = &self.graph {
             write_whole(path, &json(&GraphJson(&map))?)?;
         }
         if let Some(path) = &self.svg {
-            let name = self.file.file_name().unwrap_or_default().to_string_lossy();
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
             write_whole(path, &picture(&name, &map, &report.problems))?;
         }
         if self.json {
@@ -123,7 +128,7 @@ impl Arguments {
     }
 
     /// Checks before anything is written: no file replaces another one that is needed, and all have a folder.
-    fn check_outputs(&self) -> Result<(), Fault> {
+    fn check_outputs(&self, file: &Path) -> Result<(), Fault> {
         let outputs = [("--graph", &self.graph), ("--svg", &self.svg)];
         let outputs: Vec<(&str, &PathBuf)> =
             outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_ref()?))).collect();
@@ -134,8 +139,7 @@ impl Arguments {
                 let what = format!("the folder {} does not exist", folder.display());
                 return Err(Fault::new(option, what, "create it first, or choose another folder"));
             }
-            let is_input =
-                path.canonicalize().is_ok_and(|it| self.file.canonicalize().is_ok_and(|own| it == own));
+            let is_input = path.canonicalize().is_ok_and(|it| file.canonicalize().is_ok_and(|own| it == own));
             if is_input || outputs[..number].iter().any(|(_, other)| place(other) == place(path)) {
                 let what = format!("{} is already used for another file of this command", path.display());
                 return Err(Fault::new(option, what, "choose another name"));
@@ -145,7 +149,7 @@ impl Arguments {
     }
 
     fn recording(&self, map: &Path) -> Result<(), Fault> {
-        let (recording, problems) = open_recording(&self.file)?;
+        let (recording, problems) = open_recordings(&self.files, self.columns.as_deref())?;
         let map = open_map(map, &self.options.options())?;
         let report = RecordingReport::of(recording, &problems, &map.network);
         say(&if self.json { json(&report)? } else { report.to_text() })

@@ -33,6 +33,32 @@ Examples:
   # All inputs of one decision
   laneweave explain out --vehicle 4 --time 60";
 
+pub(super) const OBSERVE: &str =
+    "The run is repeated. Speeds and headings are those of a tracker: a straight line through the noisy
+positions half a second before and after. Coordinates are those of the map.
+
+Examples:
+  laneweave run maps/ramps.osm --duration 120
+  # 25 frames a second, errors of 10 cm
+  laneweave observe out
+  # 300 m of the road, and what it shows of lane changes
+  laneweave observe out --above 900,0 --view 300 --to drone.csv
+  laneweave check drone.csv --map maps/ramps.osm";
+
+pub(super) const RECORDING: &str = "Examples:
+  laneweave recording join --help";
+
+pub(super) const RECORDING_JOIN: &str =
+    "Vehicles with the same id go on from one recording to the next, if they are where they would be.
+Frames are counted on from the first recording; a window whose frames begin at 0 again is moved to
+its place. The command check joins what it is given, too.
+
+Examples:
+  laneweave run maps/ramps.osm --duration 60
+  laneweave observe out --until 40 --to a.csv
+  laneweave observe out --from 40 --to b.csv
+  laneweave recording join a.csv b.csv --to whole.csv";
+
 pub(super) const BRANCH: &str =
     "Both runs use common random numbers, so every difference between them is caused by the setting.
 

@@ -7,7 +7,9 @@ mod examples;
 mod explain;
 mod generate;
 mod numbers;
+mod observe;
 mod progress;
+mod recording;
 mod reproduce;
 mod resume;
 mod routes;
@@ -59,6 +61,12 @@ enum Command {
     /// Report what a map or a recording contains, and the problems in it.
     #[command(after_help = examples::CHECK)]
     Check(check::Arguments),
+    /// Record the traffic of a run as a drone would: its view, its frame rate, its errors.
+    #[command(after_help = examples::OBSERVE)]
+    Observe(observe::Arguments),
+    /// Join recordings.
+    #[command(subcommand, after_help = examples::RECORDING)]
+    Recording(recording::Deed),
     /// List the sensible routes from one lanelet of a map to another.
     #[command(after_help = examples::ROUTES)]
     Routes(routes::Arguments),
@@ -96,6 +104,8 @@ impl Cli {
             Some(Command::Compare(arguments)) => arguments.execute(),
             Some(Command::Reproduce(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
+            Some(Command::Observe(arguments)) => arguments.execute(),
+            Some(Command::Recording(deed)) => deed.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Scenario(deed)) => deed.execute(),
             Some(Command::Generate(kind)) => kind.execute(),

@@ -41,7 +41,11 @@ fn every_example_works() {
                 // Experiments take minutes: the arguments are read, and nothing runs.
                 Some("reproduce") => format!("{line} --help"),
                 // For other commands the results are used.
-                Some("run") if ["explain", "branch"].contains(&command.as_str()) => line,
+                Some("run")
+                    if ["explain", "branch", "observe", "recording join"].contains(&command.as_str()) =>
+                {
+                    line
+                }
                 // One second is enough for the test.
                 Some("run") => format!("{line} --duration 1 --warmup 0").replace("--warmup 240", ""),
                 None => "run scenarios/demo.toml --duration 1".into(),

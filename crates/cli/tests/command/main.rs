@@ -25,6 +25,8 @@ mod mistakes;
 #[cfg(test)]
 mod program;
 #[cfg(test)]
+mod recordings;
+#[cfg(test)]
 mod remarks;
 #[cfg(test)]
 mod report;

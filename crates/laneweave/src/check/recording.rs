@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs::File;
+use std::fs::{File, read_to_string};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use laneweave_maps::Problem;
 use laneweave_network::{Network, Side};
+use laneweave_recordings::table::Layout;
 use laneweave_recordings::{
-    CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, interaction,
-    lane_changes,
+    CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, join,
+    lane_changes, open,
 };
 use laneweave_scenario::Fault;
 use laneweave_study::units::METRES_PER_KM;
@@ -80,20 +81,50 @@ pub fn extension(path: &Path) -> String {
     path.extension().map_or(String::new(), |it| it.to_string_lossy().to_ascii_lowercase())
 }
 
-/// Reads a recording: CommonRoad (.xml) or the layout of the INTERACTION dataset (.csv).
+/// Reads a recording: CommonRoad (XML), a table of a dataset that is known, or one whose columns the TOML file
+/// `columns` names.
 ///
 /// # Errors
-/// If it cannot be read, or is of neither format.
-pub fn open_recording(path: &Path) -> Result<(Recording, Vec<Problem>), Fault> {
-    let read: fn(&[u8]) -> _ = match extension(path).as_str() {
-        "csv" => interaction::read,
-        "xml" => commonroad::read,
-        other => {
-            let what = format!("no recording format has the extension {other:?}");
-            return Err(Fault::new(path.display(), what, "known are INTERACTION (.csv), CommonRoad (.xml)"));
-        }
-    };
-    read(&content(path)?).map_err(|error| fault(path, &error))
+/// If it cannot be read, or is of none of these formats.
+pub fn open_recording(path: &Path, columns: Option<&Path>) -> Result<(Recording, Vec<Problem>), Fault> {
+    let layout = columns.map(layout).transpose()?;
+    // The system's reason for a file that cannot be opened says more than its message.
+    File::open(path).map_err(|error| Fault::refused(path, "read", &error))?;
+    open(path, layout.as_ref()).map_err(|error| fault(path, &error))
+}
+
+/// Reads recordings, and joins them if there are several.
+///
+/// # Errors
+/// If one cannot be read, or does not continue those before it.
+pub fn open_recordings(
+    paths: &[PathBuf],
+    columns: Option<&Path>,
+) -> Result<(Recording, Vec<Problem>), Fault> {
+    let (mut parts, mut problems) = (Vec::new(), Vec::new());
+    for path in paths {
+        let (recording, found) = open_recording(path, columns)?;
+        parts.push(recording);
+        problems.extend(found);
+    }
+    if parts.len() == 1 {
+        return Ok((parts.remove(0), problems));
+    }
+    let joined = join(parts).map_err(|error| {
+        let message = error.to_string();
+        let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "give other recordings"));
+        Fault::new(
+            paths.iter().map(|it| it.display().to_string()).collect::<Vec<_>>().join(", "),
+            what,
+            remedy,
+        )
+    })?;
+    Ok((joined.recording, problems))
+}
+
+fn layout(path: &Path) -> Result<Layout, Fault> {
+    let text = read_to_string(path).map_err(|error| Fault::refused(path, "read", &error))?;
+    Layout::parse(&text).map_err(|error| fault(path, &error))
 }
 
 /// Reads the tracks of a CommonRoad file, if it has any.

@@ -1,16 +1,13 @@
 //! Simulated traffic as a camera would record it, and the knowledge of its drivers.
 
-use std::collections::{BTreeMap, HashMap};
-use std::f64::consts::TAU;
+use std::collections::HashMap;
 
 use laneweave::style::Population;
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
-use laneweave_recordings::{Recording, RoadUser, State, Track};
-use laneweave_sim::{
-    Body, Class, Demand, Event, Place, Purpose, Random, Rate, Setup, Vehicle, VehicleId, World, perceive,
-};
+use laneweave_recordings::{Drone, Recording, Watch};
+use laneweave_sim::{Demand, Event, Place, Rate, Setup, Vehicle, World, perceive};
 
 use crate::view::View;
 
@@ -84,12 +81,13 @@ pub(crate) fn drive(seed: u64) -> (Truth, Recording) {
     let steps = |seconds: f64| (seconds / STEP).round() as i64;
     (0..steps(WARM_UP)).for_each(|_| world.step());
     let began = world.clock().time();
-    let noise = Random::new(seed + 1);
-    let mut camera = Camera { noise, tracks: BTreeMap::new(), character_of: HashMap::new() };
+    let (mut watch, mut character_of) = (Watch::from_now(&world), HashMap::new());
     let (mut changes, mut instants) = (Vec::new(), Vec::new());
     for frame in 0..=steps(RECORDED + AFTERWARDS) {
         if frame <= steps(RECORDED) {
-            camera.see(&world, frame);
+            watch.see(&world);
+            let parameters = |it: Vehicle| (i64::from(it.id()), it.driver.parameters);
+            character_of.extend(world.vehicles().map(parameters));
         }
         if (steps(FIRST_KEPT)..=steps(LAST_KEPT)).contains(&frame) && frame % steps(EVERY) == 0 {
             instants.push(instant(&world, frame));
@@ -104,8 +102,8 @@ pub(crate) fn drive(seed: u64) -> (Truth, Recording) {
             }
         }
     }
-    let Camera { tracks, character_of, .. } = camera;
-    let recording = Recording { step: STEP, tracks: tracks.into_values().collect() };
+    let drone = Drone { noise: NOISE, seed: seed + 1, ..Drone::exact(1.0 / STEP) };
+    let recording = drone.observe(&watch.into_recording());
     let driver_parameters = Population::usual(seed).expect("built-in styles").driver_parameters;
     let network = world.network().clone();
     (Truth { network, driver_parameters, character_of, changes, instants }, recording)
@@ -125,46 +123,6 @@ fn world(seed: u64) -> World {
     }
     World::new(network, driver_parameters, demand, Setup { step: STEP, seed, threads: 1 })
         .expect("it makes sense")
-}
-
-/// A camera above the road, with noise.
-struct Camera {
-    noise: Random,
-    /// By vehicle.
-    tracks: BTreeMap<VehicleId, Track>,
-    character_of: HashMap<i64, u32>,
-}
-
-impl Camera {
-    /// Records the positions of all vehicles.
-    fn see(&mut self, world: &World, frame: i64) {
-        let mut vehicles: Vec<Vehicle> = world.vehicles().collect();
-        vehicles.sort_by_key(Vehicle::id);
-        for vehicle in vehicles {
-            let (id, pose) = (vehicle.id(), vehicle.pose());
-            self.character_of.insert(i64::from(id), vehicle.driver.parameters);
-            let track = self.tracks.entry(id).or_insert_with(|| track(&vehicle));
-            let [dx, dy] = error(&self.noise, id, frame as u32);
-            let (x, y) = (pose.at.x + dx, pose.at.y + dy);
-            let state = State { frame, x, y, speed: vehicle.speed(), heading: pose.heading };
-            track.states.push(state);
-        }
-    }
-}
-
-/// Independent normal numbers for both axes [m], by the method of Box and Muller.
-fn error(noise: &Random, vehicle: VehicleId, frame: u32) -> [f64; 2] {
-    let draw = |purpose| noise.uniform(vehicle, purpose, frame);
-    let radius = NOISE * (-2.0 * draw(Purpose::Arrival).ln()).sqrt();
-    let angle = TAU * draw(Purpose::Class);
-    [radius * angle.cos(), radius * angle.sin()]
-}
-
-fn track(vehicle: &Vehicle) -> Track {
-    let class = vehicle.driver.class;
-    let road_user = if class == Class::Truck { RoadUser::Truck } else { RoadUser::Car };
-    let Body { length, width, .. } = *class.body();
-    Track { id: i64::from(vehicle.id()), class: road_user, length, width, states: Vec::new() }
 }
 
 /// The positions of all vehicles, and the knowledge of all drivers.

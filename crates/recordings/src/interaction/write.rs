@@ -2,15 +2,17 @@
 
 use std::io::{self, Write};
 
-use super::header::COLUMNS;
 use crate::recording::{Recording, RoadUser, Track};
+
+/// The columns that are written.
+const HEADER: &str = "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width";
 
 /// Writes a recording as a track file, numbers to the millimetre, as the dataset gives them.
 ///
 /// # Errors
 /// If `out` cannot be written to.
 pub fn write(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "{}", COLUMNS.join(","))?;
+    writeln!(out, "{HEADER}")?;
     for track in &recording.tracks {
         write_track(track, recording.step, out)?;
     }

@@ -30,6 +30,10 @@ pub enum Purpose {
     Compliance,
     /// Whether a driver leaves its route.
     Route,
+    /// Errors of an observer.
+    Observation,
+    /// When an observer loses a vehicle.
+    Interruption,
 }
 
 /// The source of all random numbers of a run.

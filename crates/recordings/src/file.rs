@@ -1,0 +1,60 @@
+//! Recordings in files, in whatever format they are.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+use laneweave_maps::Problem;
+
+use crate::commonroad;
+use crate::datasets::Dataset;
+use crate::error::RecordingError;
+use crate::recording::Recording;
+use crate::table::{Known, Layout, read};
+
+/// Size of the parts in which a table is read [B].
+const PART: usize = 1 << 20;
+
+/// Reads the recording in the file `path`: CommonRoad (`.xml`), or a table. A table has the columns of a dataset that
+/// we know, or is of `layout`.
+///
+/// # Errors
+/// If it cannot be read, or is of no format that we know.
+pub fn open(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Problem>), RecordingError> {
+    let mut file = BufReader::with_capacity(PART, File::open(path)?);
+    let start = file.fill_buf()?;
+    if start.is_empty() {
+        return Err(RecordingError::EmptyFile);
+    }
+    // Bytes that are no text would be shown unchanged in the message about them.
+    if start.contains(&0) {
+        return Err(RecordingError::NoText);
+    }
+    if is_xml(start) {
+        let mut bytes = Vec::new();
+        file.take(commonroad::MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
+        return commonroad::read(&bytes);
+    }
+    if let Some(layout) = layout {
+        return read(file, layout, &Known::default());
+    }
+    let header = start.split(|it| *it == b'\n').next().unwrap_or_default();
+    let header = header.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(header).trim_ascii_end();
+    let Some(dataset) = Dataset::of_header(header) else {
+        let found = String::from_utf8_lossy(&header[..header.len().min(200)]).into_owned();
+        return Err(RecordingError::UnknownTable {
+            found,
+            known: Dataset::ALL.map(Dataset::name).join("; "),
+        });
+    };
+    let (known, mut problems) =
+        if dataset.has_other_files() { Known::beside(path)? } else { (Known::default(), Vec::new()) };
+    let (recording, more) = read(file, &dataset.layout(), &known)?;
+    problems.extend(more);
+    Ok((recording, problems))
+}
+
+fn is_xml(start: &[u8]) -> bool {
+    let start = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(start);
+    start.trim_ascii_start().first() == Some(&b'<')
+}
