@@ -57,7 +57,7 @@ impl Dataset {
         let has = |name: &str| names.contains(&name.as_bytes());
         // What sets a dataset apart from the others.
         let marks = |it: &Dataset| match it {
-            Dataset::Interaction => has("track_id") && has("frame_id"),
+            Dataset::Interaction => has("track_id"),
             Dataset::HighD => has("xVelocity") && has("height") && has("id"),
             Dataset::InD => has("xCenter") && has("trackId"),
             Dataset::Ngsim => has("Vehicle_ID") && has("Local_X"),

@@ -1,17 +1,16 @@
 //! Several recordings that continue one another, joined by ids, frames and places.
 //!
 //! Some datasets cut their recordings into windows. In some of them frames are counted on, in others each window begins
-//! at frame 0. So the offset of a window is found by its vehicles: those with an id that the recording before it has,
-//! too, are where that recording ends, moved on for some time. The offset in time is the one that fits them best (least
-//! squares over the vehicles that agree with the median). Without an offset that fits, the window does not continue the
-//! others.
+//! at frame 0. So the offset of a window is found by its vehicles: those with an id that another window has, too, are
+//! where that recording ends, moved on for some time. The offset in time is the mean over the vehicles that agree with
+//! the median. Without an offset that fits, the window continues none of the others.
 
 use std::collections::HashMap;
 
 use thiserror::Error;
 
 use crate::recording::{Recording, State, Track};
-use crate::smooth::{Motion, motion};
+use crate::smooth::motion;
 
 /// Positions this long before and after the cut give the motion there [s].
 const REACH: f64 = 0.4;
@@ -22,7 +21,7 @@ const ACCELERATION: f64 = 3.0;
 /// Slower vehicles do not show how much time has passed [m/s].
 const SLOWEST: f64 = 2.0;
 /// No more time is missing between two windows [s].
-const LONGEST: f64 = 10.0;
+const LONGEST: f64 = 3.0;
 /// At least this share of the vehicles with known ids are where they should be.
 const SHARE: f64 = 0.8;
 
@@ -31,7 +30,7 @@ const SHARE: f64 = 0.8;
 pub struct Joined {
     /// All of them, in the frames of the first.
     pub recording: Recording,
-    /// For each of them the number of its frame 0 in the whole.
+    /// For each of them, in their order, the number of its frame 0 in the whole.
     pub offsets: Vec<i64>,
     /// Vehicles that go on from one recording to the next.
     pub continued: usize,
@@ -57,36 +56,41 @@ pub enum JoinError {
         /// That of the first [s].
         expected: f64,
     },
-    /// One does not continue those before it.
+    /// One continues none of the others.
     #[error(
-        "recording {number} does not continue those before it: of {common} vehicles with the same ids {agreeing} are where they \
-         would be; give recordings of one place in the order of their times"
+        "recording {number} continues none of the others: of {common} vehicles with the same ids {agreeing} are where they would \
+         be; give recordings of one place that continue one another"
     )]
     Elsewhere {
         /// Its number, from 1 on.
         number: usize,
-        /// Ids that it has in common with those before it.
+        /// Ids that it has in common with those that were joined.
         common: usize,
         /// Of them, those at the right place at the best offset.
         agreeing: usize,
     },
 }
 
-/// Joins recordings that continue one another, in their order.
+/// Joins recordings that continue one another, in any order.
 ///
 /// # Errors
-/// If one has another frame rate, or does not continue those before it.
+/// If one has another frame rate, or continues none of the others.
 pub fn join(parts: Vec<Recording>) -> Result<Joined, JoinError> {
-    let mut parts = parts.into_iter();
-    let first = parts.next().ok_or(JoinError::Nothing)?;
-    let mut whole = Whole::of(first);
-    for (part, number) in parts.zip(2..) {
-        let (found, expected) = (part.step, whole.step);
-        if (found - expected).abs() > 1e-6 {
-            return Err(JoinError::Step { number, found, expected });
-        }
-        let offset = whole.offset_of(&part, number)?;
-        whole.add(part, offset);
+    let step = parts.first().ok_or(JoinError::Nothing)?.step;
+    let mut left: Vec<(usize, Recording)> = (1..).zip(parts).collect();
+    if let Some((number, part)) = left.iter().find(|(_, it)| (it.step - step).abs() > 1e-6) {
+        return Err(JoinError::Step { number: *number, found: part.step, expected: step });
+    }
+    let mut whole = Whole::of(left.remove(0).1);
+    while !left.is_empty() {
+        let fits: Vec<_> = left.iter().map(|(number, it)| whole.fit_of(it, *number)).collect();
+        let nearest = fits.iter().enumerate().filter_map(|(at, it)| Some((at, it.as_ref().ok()?)));
+        let nearest = nearest.min_by(|a, b| a.1.missing.total_cmp(&b.1.missing));
+        let Some((at, Fit { offset, .. })) = nearest.map(|(at, it)| (at, *it)) else {
+            return fits.into_iter().next().unwrap_or(Err(JoinError::Nothing)).map(|_| whole.finish());
+        };
+        let (number, part) = left.remove(at);
+        whole.add(part, number, offset);
     }
     Ok(whole.finish())
 }
@@ -97,9 +101,19 @@ struct Whole {
     tracks: Vec<Track>,
     /// The latest track of each id.
     by_id: HashMap<i64, usize>,
-    offsets: Vec<i64>,
+    /// The number of each recording, from 1 on, and that of its frame 0 in the whole.
+    offsets: Vec<(usize, i64)>,
     continued: usize,
     renamed: usize,
+}
+
+/// Where a recording belongs.
+#[derive(Clone, Copy)]
+struct Fit {
+    /// The number of its frame 0 in the whole.
+    offset: i64,
+    /// The least time for which a vehicle of both was not seen [s]; 0 where they overlap.
+    missing: f64,
 }
 
 /// A vehicle on both sides of a cut.
@@ -112,7 +126,7 @@ impl Whole {
     fn of(first: Recording) -> Whole {
         let by_id = first.tracks.iter().enumerate().map(|(index, it)| (it.id, index)).collect();
         let Recording { step, tracks } = first;
-        Whole { step, tracks, by_id, offsets: vec![0], continued: 0, renamed: 0 }
+        Whole { step, tracks, by_id, offsets: vec![(1, 0)], continued: 0, renamed: 0 }
     }
 
     /// The vehicles of `part` whose ids are known.
@@ -124,17 +138,19 @@ impl Whole {
         part.tracks.iter().filter_map(pair).collect()
     }
 
-    /// The number of frame 0 of `part` in the whole.
-    fn offset_of(&self, part: &Recording, number: usize) -> Result<i64, JoinError> {
+    /// Where `part` belongs.
+    fn fit_of(&self, part: &Recording, number: usize) -> Result<Fit, JoinError> {
         let pairs = self.pairs(part);
         let agreeing = |offset: i64| pairs.iter().filter(|it| it.fits(offset, self.step)).count();
-        let candidates = [Some(0), self.by_places(&pairs)];
-        let best = candidates.into_iter().flatten().max_by_key(|it| agreeing(*it)).unwrap_or(0);
-        let (common, agreeing) = (pairs.len(), agreeing(best));
+        // Frames that are counted on are those that the dataset means, if vehicles agree.
+        let by_places = self.by_places(&pairs).filter(|it| agreeing(*it) > agreeing(0));
+        let offset = by_places.unwrap_or(0);
+        let (common, agreeing) = (pairs.len(), agreeing(offset));
         if agreeing == 0 || (agreeing as f64) < SHARE * common as f64 {
             return Err(JoinError::Elsewhere { number, common, agreeing });
         }
-        Ok(best)
+        let missing = pairs.iter().filter(|it| it.fits(offset, self.step)).map(|it| it.missing(offset));
+        Ok(Fit { offset, missing: missing.min().unwrap_or(0) as f64 * self.step })
     }
 
     /// The offset that fits the places of vehicles best.
@@ -150,7 +166,7 @@ impl Whole {
     }
 
     /// Adds `part` with its frame 0 at `offset`.
-    fn add(&mut self, part: Recording, offset: i64) {
+    fn add(&mut self, part: Recording, number: usize, offset: i64) {
         let mut free = self.tracks.iter().chain(&part.tracks).map(|it| it.id).max().unwrap_or(0) + 1;
         let known = self.by_id.clone();
         for mut track in part.tracks {
@@ -164,8 +180,10 @@ impl Whole {
             match before.filter(|_| is_same) {
                 Some(index) => {
                     let states = &mut self.tracks[index].states;
-                    let last = states.last().map_or(i64::MIN, |it| it.frame);
-                    states.extend(track.states.into_iter().filter(|it| it.frame > last));
+                    states.append(&mut track.states);
+                    // Of a frame that both have the first counts: the order of equal ones stays.
+                    states.sort_by_key(|it| it.frame);
+                    states.dedup_by_key(|it| it.frame);
                     self.continued += 1;
                 }
                 None => {
@@ -179,49 +197,64 @@ impl Whole {
                 }
             }
         }
-        self.offsets.push(offset);
+        self.offsets.push((number, offset));
     }
 
     fn finish(self) -> Joined {
-        let Whole { step, tracks, offsets, continued, renamed, .. } = self;
+        let Whole { step, tracks, mut offsets, continued, renamed, .. } = self;
+        offsets.sort_unstable();
+        let offsets = offsets.into_iter().map(|it| it.1).collect();
         Joined { recording: Recording { step, tracks }, offsets, continued, renamed }
     }
 }
 
 impl Pair<'_> {
-    /// The motions on both sides of the cut.
-    fn motions(&self, step: f64) -> [Motion; 2] {
-        [motion(self.before, self.before.len() - 1, REACH, step), motion(self.after, 0, REACH, step)]
-    }
-
-    /// The time of frame 0 of the second recording in the first [s], by the place of this vehicle; `None` if it is too
+    /// The time of frame 0 of the second recording in the first [s], by the places of this vehicle; `None` if it is too
     /// slow to show it.
     fn lag(&self, step: f64) -> Option<f64> {
-        let [before, after] = self.motions(step);
-        let velocity = [0.5 * (before.vx + after.vx), 0.5 * (before.vy + after.vy)];
+        let (here, there) = self.nearest();
+        let [a, b] = [motion(self.before, here, REACH, step), motion(self.after, there, REACH, step)];
+        let velocity = [0.5 * (a.vx + b.vx), 0.5 * (a.vy + b.vy)];
         let squared = velocity[0] * velocity[0] + velocity[1] * velocity[1];
         if squared < SLOWEST * SLOWEST {
             return None;
         }
-        let way = [after.x - before.x, after.y - before.y];
-        let time = (way[0] * velocity[0] + way[1] * velocity[1]) / squared;
-        let [last, first] = [self.before[self.before.len() - 1].frame, self.after[0].frame];
-        Some((last - first) as f64 * step + time)
+        let time = ((b.x - a.x) * velocity[0] + (b.y - a.y) * velocity[1]) / squared;
+        Some((self.before[here].frame - self.after[there].frame) as f64 * step + time)
+    }
+
+    /// The two states that are nearest to each other, one of them the first or last of its recording.
+    fn nearest(&self) -> (usize, usize) {
+        let distance = |(here, there): (usize, usize)| {
+            let (a, b) = (&self.before[here], &self.after[there]);
+            (a.x - b.x).hypot(a.y - b.y)
+        };
+        let (ends, others) = ([0, self.before.len() - 1], [0, self.after.len() - 1]);
+        let from_here = ends.into_iter().flat_map(|it| (0..self.after.len()).map(move |there| (it, there)));
+        let from_there = others.into_iter().flat_map(|it| (0..self.before.len()).map(move |here| (here, it)));
+        let nearest = from_here.chain(from_there).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        nearest.unwrap_or((ends[1], 0))
     }
 
     /// Whether the vehicle is where it would be if frame 0 of the second recording were the frame `offset` of the
     /// first.
     fn fits(&self, offset: i64, step: f64) -> bool {
-        let [before, after] = self.motions(step);
-        let [last, first] = [self.before[self.before.len() - 1].frame, self.after[0].frame + offset];
-        if first <= last {
-            return self.agrees(offset);
+        let (first, last) = (self.before[0].frame, self.before[self.before.len() - 1].frame);
+        let [from, to] = [0, self.after.len() - 1].map(|it| self.after[it].frame + offset);
+        if from > last {
+            return goes_on(self.before, self.after, (from - last) as f64 * step, step);
         }
-        let time = (first - last) as f64 * step;
-        let [x, y] =
-            [before.x + 0.5 * (before.vx + after.vx) * time, before.y + 0.5 * (before.vy + after.vy) * time];
-        let off = (after.x - x).hypot(after.y - y);
-        time <= LONGEST && off <= TOLERANCE + 0.5 * ACCELERATION * time * time / 4.0
+        if to < first {
+            return goes_on(self.after, self.before, (first - to) as f64 * step, step);
+        }
+        self.agrees(offset)
+    }
+
+    /// Frames between the two recordings in which it was not seen.
+    fn missing(&self, offset: i64) -> i64 {
+        let (first, last) = (self.before[0].frame, self.before[self.before.len() - 1].frame);
+        let [from, to] = [0, self.after.len() - 1].map(|it| self.after[it].frame + offset);
+        (from - last).max(first - to).max(0)
     }
 
     /// Whether both recordings show it at the same places where they overlap.
@@ -232,4 +265,11 @@ impl Pair<'_> {
         });
         shared.next().is_some_and(|it| it <= TOLERANCE) && shared.all(|it| it <= TOLERANCE)
     }
+}
+
+/// Whether a vehicle that was last seen in `earlier` is, `time` [s] later, where `later` begins.
+fn goes_on(earlier: &[State], later: &[State], time: f64, step: f64) -> bool {
+    let [a, b] = [motion(earlier, earlier.len() - 1, REACH, step), motion(later, 0, REACH, step)];
+    let [x, y] = [a.x + 0.5 * (a.vx + b.vx) * time, a.y + 0.5 * (a.vy + b.vy) * time];
+    time <= LONGEST && (b.x - x).hypot(b.y - y) <= TOLERANCE + 0.125 * ACCELERATION * time * time
 }

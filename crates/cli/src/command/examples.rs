@@ -51,7 +51,7 @@ pub(super) const RECORDING: &str = "Examples:
 pub(super) const RECORDING_JOIN: &str =
     "Vehicles with the same id go on from one recording to the next, if they are where they would be.
 Frames are counted on from the first recording; a window whose frames begin at 0 again is moved to
-its place. The command check joins what it is given, too.
+its place in time. The command check joins what it is given, too.
 
 Examples:
   laneweave run maps/ramps.osm --duration 60

@@ -20,7 +20,7 @@ pub(crate) enum Deed {
 
 #[derive(Debug, Args)]
 pub(crate) struct Join {
-    /// The recordings, in the order of their times.
+    /// The recordings, in any order. Frames are counted from the first one.
     #[arg(value_name = "RECORDING", value_hint = ValueHint::FilePath, num_args = 2.., required = true)]
     recordings: Vec<PathBuf>,
     /// The recording to write, in the layout of INTERACTION.

@@ -79,7 +79,7 @@ fn what_cannot_be_observed_or_joined_is_refused_with_a_remedy() {
     told(&folder, "observe out --until 20 --to a.csv");
     told(&folder, "observe out --from 40 --to b.csv");
     let refused = refusal(&folder, "recording join b.csv a.csv");
-    assert!(refused.contains("recording 2 does not continue those before it"), "{refused}");
+    assert!(refused.contains("recording 2 continues none of the others"), "{refused}");
     fs::write(folder.path().join("odd.csv"), "p,q\n1,2\n").expect("it can be written");
     let refused = refusal(&folder, "check odd.csv --map MAPS/ramps.osm");
     assert!(
