@@ -1,11 +1,13 @@
 //! Checks of a map or a recording without a simulation.
 
+mod evidence;
 mod graph;
 #[cfg(feature = "reports")]
 mod picture;
 mod recording;
 mod report;
 
+pub use evidence::{EvidenceReport, Forbidden, SeenAt, SeenOn};
 pub use graph::GraphJson;
 pub use laneweave_scenario::Remark;
 #[cfg(feature = "reports")]

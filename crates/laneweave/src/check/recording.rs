@@ -17,6 +17,8 @@ use laneweave_scenario::Fault;
 use laneweave_study::units::METRES_PER_KM;
 use serde::Serialize;
 
+use super::evidence::EvidenceReport;
+
 /// Maximum of lane changes in the text.
 const LISTED: usize = 20;
 
@@ -43,6 +45,9 @@ pub struct RecordingReport {
     pub lane_changes_along_graph: usize,
     /// Lane changes after which the vehicle came back within 30 s.
     pub lane_changes_undone: usize,
+    /// What it tells of its drivers.
+    #[serde(flatten)]
+    pub evidence: EvidenceReport,
     /// Lane changes in the order of their times.
     pub lane_changes: Vec<ChangeRow>,
     /// Problems in reading it.
@@ -171,6 +176,7 @@ impl RecordingReport {
         let matched = Matched::new(network, &recording);
         let mut changes = lane_changes(&matched);
         changes.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.vehicle.cmp(&b.vehicle)));
+        let evidence = EvidenceReport::of(&matched);
         let mut tracks: BTreeMap<&'static str, usize> = BTreeMap::new();
         let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
         recording.tracks.iter().for_each(|it| *tracks.entry(it.class.name()).or_default() += 1);
@@ -192,6 +198,7 @@ impl RecordingReport {
             lane_changes_by_kind: kinds,
             lane_changes_along_graph: changes.iter().filter(|it| it.along_graph).count(),
             lane_changes_undone: changes.iter().filter(|it| it.returned_after.is_some()).count(),
+            evidence,
             lane_changes: changes.iter().map(|it| row(it, network)).collect(),
             problems: elsewhere.into_iter().chain(problems.iter().cloned()).collect(),
         }
@@ -233,6 +240,7 @@ impl RecordingReport {
             "{} of them permitted by the map, {} reversed within 30 s",
             self.lane_changes_along_graph, self.lane_changes_undone
         )?;
+        self.evidence.write_to(out)?;
         writeln!(out, "\n   time [s]    vehicle       from         to  side   kind           speed [m/s]")?;
         for it in self.lane_changes.iter().take(LISTED) {
             writeln!(

@@ -9,7 +9,8 @@ use std::sync::LazyLock;
 
 use drive::{Made, STEP, Stand, Truth, drive};
 use laneweave_recordings::{
-    Assumed, Frame, LaneChange, Matched, Recording, Replay, clean, extents, interaction, lane_changes,
+    Assumed, Evidence, Frame, LaneChange, Matched, Recording, Replay, clean, extents, interaction,
+    lane_changes,
 };
 use laneweave_sim::Navigator;
 use view::View;
@@ -69,6 +70,34 @@ fn changes_begin_and_end_when_they_did_to_a_tenth_of_a_second() {
     errors.sort_by(f64::total_cmp);
     let quantile = |percent: usize| errors[errors.len() * percent / 100];
     assert!(quantile(50) < 0.04 && quantile(90) < 0.1, "{} {}", quantile(50), quantile(90));
+}
+
+#[test]
+fn durations_are_recovered_in_the_median_and_changes_that_were_cut_off_are_not_among_them() {
+    let (truth, recording) = &*DRIVEN;
+    let matched = Matched::new(&truth.network, recording);
+    let changes = lane_changes(&matched);
+    let navigator = Navigator::new(&truth.network);
+    let assume = |track| Assumed::by_its_speeds(&matched, track, 0);
+    let replay =
+        Replay::new(&matched, &changes, &navigator, &truth.driver_parameters, assume).expect("drivers");
+    let evidence = Evidence::of(&matched, &changes, &extents(&matched, &changes), &replay);
+    let mut durations: Vec<f64> = truth.changes.iter().map(|it| it.ended - it.began).collect();
+    durations.sort_by(f64::total_cmp);
+    let (true_median, found) = (durations[durations.len() / 2], evidence.median_duration().expect("changes"));
+    assert!((found - true_median).abs() < 0.2, "{found} instead of {true_median}");
+    // Some begin as soon as their vehicle has entered the road, where it is first seen.
+    let first_seen = |vehicle: i64| {
+        let track = recording.tracks.iter().find(|it| it.id == vehicle)?;
+        track.states.first().map(|it| it.frame as f64 * STEP)
+    };
+    let begins_with = |it: &&Made| first_seen(it.vehicle).is_some_and(|first| it.began < first + 0.2);
+    let cut_off = truth.changes.iter().filter(begins_with).count();
+    assert!(evidence.begun_before.abs_diff(cut_off) <= 3, "{} of {cut_off}", evidence.begun_before);
+    assert_eq!(evidence.durations.len() + evidence.begun_before + evidence.not_ended, changes.len());
+    assert!(evidence.forbidden.is_empty() && evidence.free_veh_h < evidence.veh_h);
+    let sums = evidence.densities.iter().fold((0.0, 0), |(h, n), (_, it)| (h + it.veh_h, n + it.changes));
+    assert!((sums.0 - evidence.veh_h).abs() < 1e-6 && sums.1 == changes.len(), "{sums:?}");
 }
 
 #[test]
