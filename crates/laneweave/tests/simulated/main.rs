@@ -2,7 +2,10 @@
 //! the knowledge of its drivers.
 
 mod drive;
+mod layouts;
 mod view;
+#[path = "../../../recordings/tests/datasets/written.rs"]
+mod written;
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::LazyLock;
