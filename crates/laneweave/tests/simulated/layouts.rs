@@ -14,6 +14,9 @@ use crate::drive::Made;
 use crate::written::{highd, ind, ngsim};
 use crate::{DRIVEN, FOUND_WITHIN, STAY, found};
 
+/// Writes a recording into a folder, in a layout.
+type Writer = fn(&Recording, &Path) -> PathBuf;
+
 /// How many changes were made in sight, how many of them were found, and how many more were.
 struct Score {
     made: usize,
@@ -21,8 +24,8 @@ struct Score {
     invented: usize,
 }
 
-/// Compares the changes of `recording` with those of the truth that it can show. Times near the first and last sight of a
-/// vehicle are left out on both sides: there a change is seen in part.
+/// Compares the changes of `recording` with those of the truth that it can show. Times near the first and last sight of
+/// a vehicle are left out on both sides: there a change is seen in part.
 fn score((network, all): (&Network, &[Made]), recording: &Recording) -> Score {
     let changes = lane_changes(&Matched::new(network, recording));
     let in_sight = |vehicle: i64, time: f64| {
@@ -52,7 +55,7 @@ fn assert_found(what: &str, Score { made, hits, invented }: Score, least: usize)
 fn in_each_layout_the_lane_changes_are_those_that_were_made() {
     let (truth, recording) = &*DRIVEN;
     let at_ten = Drone::exact(10.0).observe(recording);
-    let write: [(&str, fn(&Recording, &Path) -> PathBuf, &Recording); 3] =
+    let write: [(&str, Writer, &Recording); 3] =
         [("highd", highd, recording), ("ind", ind, recording), ("ngsim", ngsim, &at_ten)];
     for (name, write, recording) in write {
         let folder = std::env::temp_dir().join(format!("laneweave_layouts_{}_{name}", std::process::id()));
