@@ -158,6 +158,7 @@ fn ngsim() -> Layout {
         point: Point::Front,
         frames_per_second: Some(10.0),
         reused_after_s: Some(PAUSE),
+        same: some("Location"),
         classes: classes(&NGSIM_CLASSES),
         ..Layout::of_columns(Columns {
             track: "Vehicle_ID".into(),

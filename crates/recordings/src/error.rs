@@ -105,6 +105,20 @@ pub enum RecordingError {
     /// A layout names neither a column of frames nor one of times.
     #[error("its layout names neither a column `frame` nor a column `time`; add one of them")]
     NoTime,
+    /// A table holds several recordings.
+    #[error(
+        "line {line}: {column} is {other:?}, and {first:?} above: the table holds several recordings; keep the rows of one"
+    )]
+    Several {
+        /// The first row of another recording.
+        line: usize,
+        /// The column that tells recordings apart.
+        column: String,
+        /// The value of the first recording.
+        first: String,
+        /// That of the other one.
+        other: String,
+    },
     /// The file has no content.
     #[error("the file is empty; download the recording again, or choose another file")]
     EmptyFile,
@@ -125,7 +139,9 @@ pub enum RecordingError {
         known: String,
     },
     /// A layout is no TOML that says what columns hold.
-    #[error("{what}; the keys are columns, units, point, axes, frames_per_second, reused_after_s, classes")]
+    #[error(
+        "{what}; the keys are columns, units, point, axes, frames_per_second, reused_after_s, same, classes"
+    )]
     Layout {
         /// What is wrong with it, and where.
         what: String,

@@ -43,14 +43,26 @@ pub fn read(
     let first = first.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&first);
     let header = Header::of(first, layout)?;
     let mut draft = Draft::of(layout, known);
+    let mut same: Option<Vec<u8>> = None;
     while let Some(Line { text, number, more }) = lines.next()? {
         if text.is_empty() {
             continue;
+        }
+        if let Some(value) = header.same(text)
+            && same.get_or_insert_with(|| value.to_vec()) != value
+        {
+            return Err(several(layout, same.as_deref().unwrap_or_default(), value, number));
         }
         let row = if more > 0 { Err(too_long(more)) } else { header.row(text) };
         draft.add(row, number);
     }
     draft.finish()
+}
+
+fn several(layout: &Layout, first: &[u8], other: &[u8], line: usize) -> RecordingError {
+    let text = |it: &[u8]| String::from_utf8_lossy(&it[..it.len().min(40)]).into_owned();
+    let column = layout.same.clone().unwrap_or_default();
+    RecordingError::Several { line, column, first: text(first), other: text(other) }
 }
 
 fn too_long(more: u64) -> Flaw {

@@ -17,6 +17,8 @@ pub(super) struct Header<'a> {
     meanings: Vec<Option<Field>>,
     /// Columns that every row has to have.
     required: usize,
+    /// The place of the column that has the same value in all rows, if there is one.
+    same: Option<usize>,
 }
 
 impl<'a> Header<'a> {
@@ -42,7 +44,14 @@ impl<'a> Header<'a> {
         }
         let is_required = |it: &Option<Field>| it.is_some_and(|it| !it.may_be_missing());
         let required = meanings.iter().rposition(is_required).map_or(0, |it| it + 1);
-        Ok(Header { layout, meanings, required })
+        let mut names = line.split(|it| *it == b',').take(MAXIMUM_COLUMNS);
+        let same = layout.same.as_ref().and_then(|same| names.position(|it| bare(it) == same.as_bytes()));
+        Ok(Header { layout, meanings, required, same })
+    }
+
+    /// The value of the column that has the same one in all rows; `None` if there is no such column.
+    pub(super) fn same<'l>(&self, line: &'l [u8]) -> Option<&'l [u8]> {
+        line.split(|it| *it == b',').nth(self.same?).map(bare)
     }
 
     /// The row in `line`.

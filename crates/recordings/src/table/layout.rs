@@ -29,6 +29,9 @@ pub struct Layout {
     /// given.
     #[serde(default)]
     pub reused_after_s: Option<f64>,
+    /// A column that has the same value in all rows, such as the place: a table of several is refused.
+    #[serde(default)]
+    pub same: Option<String>,
     /// The names of classes in the table.
     #[serde(default)]
     pub classes: BTreeMap<String, RoadUser>,
@@ -167,6 +170,7 @@ impl Layout {
             axes: Axes::default(),
             frames_per_second: None,
             reused_after_s: None,
+            same: None,
             classes: BTreeMap::new(),
         }
     }

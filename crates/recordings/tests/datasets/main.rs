@@ -106,6 +106,20 @@ fn ngsim_has_feet_fronts_times_and_ids_that_are_used_again() {
 }
 
 #[test]
+fn a_table_of_several_places_is_refused() {
+    let folder = folder("places");
+    let path = ngsim(&motorway(0.1), &folder);
+    let table = fs::read_to_string(&path).expect("it is there");
+    let mixed = format!("{table}9,9,9,1118846980200,0,0,9,6,2,40,0,2,i-80\n");
+    fs::write(&path, mixed).expect("it can be written");
+    let said = open(&path, None).expect_err("it holds two recordings").to_string();
+    assert!(
+        said.contains("Location is \"i-80\", and \"us-101\" above") && said.ends_with("keep the rows of one"),
+        "{said}"
+    );
+}
+
+#[test]
 fn any_table_is_read_by_a_layout_in_toml() {
     let layout = Layout::parse(
         "frames_per_second = 10\npoint = \"front\"\n[columns]\ntrack = \"who\"\nframe = \"n\"\nx = \"east\"\ny = \"north\"\n\
