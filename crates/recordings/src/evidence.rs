@@ -110,10 +110,15 @@ impl Evidence {
         for change in changes {
             cells.entry((change.from, interval(change.time))).or_default().changes += 1;
         }
+        let Some((first, last)) = matched.recording.frames() else { return };
+        let [begins, ends] = [first, last + 1].map(|it| it as f64 * step);
         let mut densities = vec![Exposure::default(); DENSITIES.len() + 1];
-        for ((lanelet, _), cell) in &cells {
+        for ((lanelet, number), cell) in &cells {
             let length = matched.network.lanelets[lanelet.at()].length() / METRES_PER_KM;
-            let density = cell.veh_h * SECONDS_PER_HOUR / INTERVAL / length;
+            let [from, to] = [*number, number + 1].map(|it| it as f64 * INTERVAL);
+            // The first and the last minute are seen in part.
+            let seen = to.min(ends) - from.max(begins);
+            let density = cell.veh_h * SECONDS_PER_HOUR / seen / length;
             densities[DENSITIES.partition_point(|it| *it <= density)].add(cell);
             self.lanes.entry(*lanelet).or_default().add(cell);
             self.veh_h += cell.veh_h;

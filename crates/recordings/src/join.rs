@@ -87,7 +87,8 @@ pub fn join(parts: Vec<Recording>) -> Result<Joined, JoinError> {
         let nearest = fits.iter().enumerate().filter_map(|(at, it)| Some((at, it.as_ref().ok()?)));
         let nearest = nearest.min_by(|a, b| a.1.missing.total_cmp(&b.1.missing));
         let Some((at, Fit { offset, .. })) = nearest.map(|(at, it)| (at, *it)) else {
-            return fits.into_iter().next().unwrap_or(Err(JoinError::Nothing)).map(|_| whole.finish());
+            let refused = fits.into_iter().find_map(Result::err);
+            return Err(refused.unwrap_or(JoinError::Nothing));
         };
         let (number, part) = left.remove(at);
         whole.add(part, number, offset);

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::check::{GraphJson, RecordingReport, Report, extension, open_recordings, picture, tracks};
+use laneweave::check::{
+    GraphJson, Named, RecordingReport, Report, SetReport, extension, open_recordings, picture, tracks,
+};
 use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
@@ -16,8 +18,8 @@ use super::say;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// A map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz), or with --map a recording (.csv of INTERACTION,
-    /// highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad: .xml).
-    /// Several recordings that continue one another are joined.
+    /// highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad: .xml). Several recordings that continue
+    /// one another are joined; several CommonRoad files without --map are a set, each with its own map.
     #[arg(value_name = "MAP|RECORDING", value_hint = ValueHint::FilePath, required = true)]
     files: Vec<PathBuf>,
     /// The map of the recording.
@@ -100,6 +102,9 @@ impl Arguments {
 
     fn map(&self) -> Result<(), Fault> {
         let file = &self.files[0];
+        if self.files.len() > 1 && self.files.iter().all(|it| extension(it) == "xml") {
+            return self.set();
+        }
         if extension(file) == "csv" || self.files.len() > 1 {
             return Err(Fault::new(
                 file.display(),
@@ -125,6 +130,19 @@ impl Arguments {
         }
         let tracks = recording.map(|it| format!("\nTracks in the same file:\n{}", it.to_text()));
         say(&(report.to_text() + &tracks.unwrap_or_default()))
+    }
+
+    /// Several recordings with their own maps.
+    fn set(&self) -> Result<(), Fault> {
+        let mut recordings = Vec::new();
+        for file in &self.files {
+            let map = open_map(file, &self.options.options())?;
+            let Some((recording, problems)) = tracks(file)? else { continue };
+            let report = RecordingReport::of(recording, &problems, &map.network);
+            recordings.push(Named { file: file.display().to_string(), report });
+        }
+        let report = SetReport::of(recordings);
+        say(&if self.json { json(&report)? } else { report.to_text() })
     }
 
     /// Checks before anything is written: no file replaces another one that is needed, and all have a folder.

@@ -91,3 +91,29 @@ fn what_cannot_be_observed_or_joined_is_refused_with_a_remedy() {
     let refused = refusal(&folder, "check odd.csv --map MAPS/ramps.osm --columns odd.toml");
     assert!(refused.contains("odd.toml: line 3: unknown field `xx`"), "{refused}");
 }
+
+#[test]
+fn commonroad_files_without_a_map_are_a_set_each_with_its_own() {
+    let folder = Folder::new();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad/");
+    let names = ["USA_US101-3_1_T-1.xml", "USA_US101-6_1_T-1.xml"];
+    for name in names {
+        if fs::copy(format!("{data}{name}"), folder.path().join(name)).is_err() {
+            eprintln!("skipped: the recordings are not there");
+            return;
+        }
+    }
+    let line = format!("check {} {}", names[0], names[1]);
+    let set: Value = serde_json::from_str(&told(&folder, &format!("{line} --json"))).expect("it is JSON");
+    let parts = names.map(|it| {
+        let one: Value =
+            serde_json::from_str(&told(&folder, &format!("check {it} --json"))).expect("it is JSON");
+        one["recording"].clone()
+    });
+    let total = |key: &str| parts.iter().filter_map(|it| it[key].as_f64()).sum::<f64>();
+    for key in ["duration_s", "veh_km", "lane_changes_begun_before", "lane_changes_seen_shortly"] {
+        assert!((set[key].as_f64().expect("a number") - total(key)).abs() < 0.01, "{key}: {set}");
+    }
+    assert_eq!(set["recordings"][1]["file"], names[1]);
+    assert!(told(&folder, &line).starts_with("2 recordings, 16.0 s, "));
+}

@@ -16,7 +16,10 @@ pub struct EvidenceReport {
     pub lane_changes_begun_before: usize,
     /// Lane changes that had not ended when their vehicle was last seen.
     pub lane_changes_not_ended: usize,
-    /// Quartiles of the durations of the other lane changes, by the path that fits the lateral motion best [s].
+    /// Durations of the other lane changes, by the path that fits the lateral motion best, in order [s].
+    #[serde(skip)]
+    durations: Vec<f64>,
+    /// Their quartiles [s].
     pub lane_change_duration_s: Option<[f64; 3]>,
     /// Lane changes after which the vehicle was seen for less than 30 s.
     pub lane_changes_seen_shortly: usize,
@@ -77,6 +80,7 @@ impl EvidenceReport {
             lane_changes_begun_before: evidence.begun_before,
             lane_changes_not_ended: evidence.not_ended,
             lane_change_duration_s: quartiles(&evidence.durations),
+            durations: evidence.durations,
             lane_changes_seen_shortly: evidence.seen_shortly,
             forbidden: evidence.forbidden.iter().map(|it| forbidden(it, network)).collect(),
             veh_h: rounded(evidence.veh_h),
@@ -87,6 +91,36 @@ impl EvidenceReport {
                 .iter()
                 .map(|(at, it)| seen_on(network.lanelets[at.at()].id, it))
                 .collect(),
+        }
+    }
+
+    /// What several recordings tell together. Their lanelets are of different maps, so they are left out.
+    pub(super) fn pooled<'a>(reports: impl Iterator<Item = &'a EvidenceReport> + Clone) -> EvidenceReport {
+        let sum = |of: fn(&EvidenceReport) -> usize| reports.clone().map(of).sum();
+        let mut durations: Vec<f64> = reports.clone().flat_map(|it| &it.durations).copied().collect();
+        durations.sort_by(f64::total_cmp);
+        let mut by_density: Vec<SeenAt> = Vec::new();
+        for seen in reports.clone().flat_map(|it| &it.by_density) {
+            match by_density.iter_mut().find(|it| it.density_from_veh_km == seen.density_from_veh_km) {
+                None => by_density.push(seen.clone()),
+                Some(it) => {
+                    it.veh_km = rounded(it.veh_km + seen.veh_km);
+                    it.veh_h = rounded(it.veh_h + seen.veh_h);
+                    it.lane_changes += seen.lane_changes;
+                }
+            }
+        }
+        EvidenceReport {
+            lane_changes_begun_before: sum(|it| it.lane_changes_begun_before),
+            lane_changes_not_ended: sum(|it| it.lane_changes_not_ended),
+            lane_change_duration_s: quartiles(&durations),
+            durations,
+            lane_changes_seen_shortly: sum(|it| it.lane_changes_seen_shortly),
+            forbidden: Vec::new(),
+            veh_h: rounded(reports.clone().map(|it| it.veh_h).sum()),
+            free_veh_h: rounded(reports.clone().map(|it| it.free_veh_h).sum()),
+            by_density,
+            by_lanelet: Vec::new(),
         }
     }
 

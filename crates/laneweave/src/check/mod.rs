@@ -6,6 +6,7 @@ mod graph;
 mod picture;
 mod recording;
 mod report;
+mod set;
 
 pub use evidence::{EvidenceReport, Forbidden, SeenAt, SeenOn};
 pub use graph::GraphJson;
@@ -14,3 +15,4 @@ pub use laneweave_scenario::Remark;
 pub use picture::picture;
 pub use recording::{ChangeRow, RecordingReport, extension, open_recording, open_recordings, tracks};
 pub use report::{Lit, Opening, Report};
+pub use set::{Named, SetReport};

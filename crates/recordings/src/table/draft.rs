@@ -128,11 +128,12 @@ impl<'a> Draft<'a> {
         let step = self.step()?;
         let mut tracks = Vec::with_capacity(self.tracks.len());
         for reading in std::mem::take(&mut self.tracks) {
-            tracks.push(reading.sorted(&mut self.problems));
+            let line = reading.line;
+            tracks.push((reading.sorted(&mut self.problems), line));
         }
         let mut tracks = match self.layout.reused_after_s {
             Some(pause) => self.told_apart(tracks, (pause / step) as i64),
-            None => tracks,
+            None => tracks.into_iter().map(|it| it.0).collect(),
         };
         tracks.iter_mut().for_each(|it| self.complete(it, step));
         Ok((Recording { step, tracks }, self.problems.into_list()))
@@ -173,17 +174,18 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// The tracks, those with an id that was used again after more than `pause` frames with an id of their own.
-    fn told_apart(&mut self, tracks: Vec<Track>, pause: i64) -> Vec<Track> {
-        let mut free = tracks.iter().map(|it| it.id).max().unwrap_or(0).saturating_add(1);
+    /// The tracks, each with the line where it begins, those with an id that was used again after more than `pause`
+    /// frames with an id of their own.
+    fn told_apart(&mut self, tracks: Vec<(Track, usize)>, pause: i64) -> Vec<Track> {
+        let mut free = tracks.iter().map(|it| it.0.id).max().unwrap_or(0).saturating_add(1);
         let mut all = Vec::with_capacity(tracks.len());
-        for track in tracks {
+        for (track, line) in tracks {
             let (id, mut first) = (track.id, true);
             for states in track.states.chunk_by(|a, b| b.frame - a.frame <= pause) {
                 let part = Track { id: if first { id } else { free }, states: states.to_vec(), ..track };
                 if !first {
                     let remedy = "give every road user an id of its own";
-                    self.problems.add("id that is used again", remedy, 1, || {
+                    self.problems.add("id that is used again", remedy, line, || {
                         let from = states[0].frame;
                         (
                             format!("track {id}"),
