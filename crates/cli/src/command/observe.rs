@@ -95,7 +95,7 @@ fn watched(out: &Path, [from, until]: [f64; 2]) -> Result<Recording, Fault> {
     let Prepared { mut world, mut script, .. } = prepare(&scenario, &origin)?;
     (0..warmup).for_each(|_| script.step(&mut world));
     if !(0.0..until.min(duration_s)).contains(&from) {
-        let what = format!("from {from} to {until} s");
+        let what = format!("from {from} to {} s", until.min(duration_s));
         return Err(Fault::new(
             "--from, --until",
             what,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_recordings::{Assumed, Evidence, Exposure, Matched, Replay, extents, lane_changes};
+use laneweave_recordings::{Assumed, Evidence, Exposure, LaneChange, Matched, Replay, extents};
 use laneweave_scenario::style::Population;
 use laneweave_sim::Navigator;
 use serde::Serialize;
@@ -73,9 +73,9 @@ pub struct SeenOn {
 }
 
 impl EvidenceReport {
-    /// The report on the recording of `matched`.
-    pub(super) fn of(matched: &Matched) -> EvidenceReport {
-        let (evidence, network) = (evidence(matched), matched.network);
+    /// The report on the recording of `matched` with all its lane `changes`, in the order in which they were found.
+    pub(super) fn of(matched: &Matched, changes: &[LaneChange]) -> EvidenceReport {
+        let (evidence, network) = (evidence(matched, changes), matched.network);
         EvidenceReport {
             lane_changes_begun_before: evidence.begun_before,
             lane_changes_not_ended: evidence.not_ended,
@@ -164,14 +164,13 @@ impl EvidenceReport {
 }
 
 /// What the recording tells of its drivers. Who they are does not matter for that.
-fn evidence(matched: &Matched) -> Evidence {
-    let changes = lane_changes(matched);
-    let extents = extents(matched, &changes);
+fn evidence(matched: &Matched, changes: &[LaneChange]) -> Evidence {
+    let extents = extents(matched, changes);
     let navigator = Navigator::new(matched.network);
     let drivers: Vec<Style> = Population::usual(1).map(|it| it.driver_parameters).unwrap_or_default();
     let assume = |track| Assumed::by_its_speeds(matched, track, 0);
-    match Replay::new(matched, &changes, &navigator, &drivers, assume) {
-        Ok(replay) => Evidence::of(matched, &changes, &extents, &replay),
+    match Replay::new(matched, changes, &navigator, &drivers, assume) {
+        Ok(replay) => Evidence::of(matched, changes, &extents, &replay),
         Err(_) => Evidence::default(),
     }
 }

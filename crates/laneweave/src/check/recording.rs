@@ -101,7 +101,7 @@ pub fn open_recording(path: &Path, columns: Option<&Path>) -> Result<(Recording,
 /// Reads recordings, and joins them if there are several.
 ///
 /// # Errors
-/// If one cannot be read, or does not continue those before it.
+/// If one cannot be read, or continues none of the others.
 pub fn open_recordings(
     paths: &[PathBuf],
     columns: Option<&Path>,
@@ -175,8 +175,8 @@ impl RecordingReport {
         let (recording, cleaning) = clean(recording);
         let matched = Matched::new(network, &recording);
         let mut changes = lane_changes(&matched);
+        let evidence = EvidenceReport::of(&matched, &changes);
         changes.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.vehicle.cmp(&b.vehicle)));
-        let evidence = EvidenceReport::of(&matched);
         let mut tracks: BTreeMap<&'static str, usize> = BTreeMap::new();
         let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
         recording.tracks.iter().for_each(|it| *tracks.entry(it.class.name()).or_default() += 1);
