@@ -26,6 +26,7 @@ pub mod branch;
 pub mod check;
 pub mod compare;
 mod parallel;
+pub mod replay;
 pub mod run;
 mod simulation;
 
@@ -35,7 +36,8 @@ pub use laneweave_network::{LightState, Side};
 pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};
 pub use laneweave_scenario::{
-    Bottleneck, Capacity, Cause, Fault, Script, Source, did_you_mean, scenario, style,
+    Bottleneck, Capacity, Cause, Fault, Played, Player, Script, Source, did_you_mean, open_recording,
+    open_recordings, scenario, style,
 };
 pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle,

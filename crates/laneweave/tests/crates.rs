@@ -6,10 +6,11 @@ use std::path::Path;
 use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
-const LEVELS: [&[&str]; 8] = [
+const LEVELS: [&[&str]; 9] = [
     &["network", "models", "study"],
     &["maps", "sim"],
-    &["recordings", "scenario", "explain"],
+    &["recordings"],
+    &["scenario", "explain"],
     &["results"],
     &["laneweave"],
     &["experiments"],

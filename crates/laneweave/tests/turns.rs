@@ -168,8 +168,8 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
 
 #[test]
 fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where_it_leads() {
-    // There is no route from -101122 to the left: the scenario is refused unless there is another destination, or no
-    // demand.
+    // From -101121 beside it there is no route to the left: the scenario is refused unless there is another
+    // destination, or no demand.
     let map = "../../shared/data/lanelet2/tianjin.osm";
     let turns = Turns { from: -101_122, left: 1.0, straight: 0.0, right: 0.0 };
     let mut scenario = scenario(map, &[turns]);
@@ -178,14 +178,15 @@ fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where
         return;
     }
     let fault = prepare(&scenario, &Origin::default()).err().expect("refused");
-    let what = "no lane leads from the entrance -101122 to the destinations of these shares";
+    let what = "no lane leads from the entrance -101121 to the destinations of these shares";
     assert_eq!((fault.place.as_str(), fault.what.as_str()), ("turns", what));
     scenario.turns[0] = Turns { straight: 2.0, right: 1.0, ..turns };
     let weights = prepared(&scenario).world.demand().origins[0].weights.clone();
-    let [first, second] = weights.into_iter().filter(|it| *it > 0.0).collect::<Vec<_>>()[..] else {
-        panic!("straight on and to the right")
+    let [one, other, right] = weights.iter().copied().filter(|it| *it > 0.0).collect::<Vec<_>>()[..] else {
+        panic!("two lanes straight on and one to the right: {weights:?}")
     };
-    assert!((first - 0.25).abs() < 1e-9 && (second - 0.5).abs() < 1e-9, "{first} {second}");
+    let is = |share: f64, value: f64| (share - value).abs() < 1e-9;
+    assert!(is(one, 0.25) && is(other, 0.25) && is(right, 0.5), "{weights:?}");
     scenario.turns[0] = turns;
     scenario.demand.vehicles_per_hour = Some(0.0);
     assert_eq!(prepared(&scenario).demand_veh_h, 0.0);

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::bend::note_slow_places;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
-use crate::gate::{Gate, gates, lane_drops};
+use crate::gate::{Gate, MINIMUM_GATE_LENGTH, gates, is_end_of_a_road, lane_drops};
 use crate::junction::{Crossing, Junctions, LightConflict, Reach, Regulations, SignalPlan};
 use crate::lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
 use crate::width::note_open;
@@ -87,8 +87,10 @@ impl Network {
         let place = places(&chains, lanelets.len());
         link(&mut chains, &lanelets, &place);
         let chain_of: Vec<ChainIndex> = place.iter().map(|(chain, _)| *chain).collect();
-        let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty());
-        let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty());
+        let is_long = |it: LaneletIndex| lanelets[it.at()].length() >= MINIMUM_GATE_LENGTH;
+        let is_end = |it| is_end_of_a_road(&lanelets, &previous, it);
+        let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty(), is_long);
+        let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty(), is_end);
         let lane_drops = lane_drops(&chains, &exits);
         for index in &lane_drops {
             chains[index.at()].is_lane_drop = true;

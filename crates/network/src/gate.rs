@@ -3,7 +3,7 @@
 use crate::chain::{Chain, ChainIndex};
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
 
-/// Lanelets shorter than this are neither entrance nor exit [m].
+/// A lanelet shorter than this is no entrance, and a road shorter than this has no exit [m].
 pub const MINIMUM_GATE_LENGTH: f64 = 10.0;
 
 /// Lanes side by side at which vehicles enter, or leave, the map.
@@ -15,13 +15,37 @@ pub struct Gate {
     pub chains: Vec<ChainIndex>,
 }
 
-/// The groups of open lanelets, joined by permitted changes, that are all at least [`MINIMUM_GATE_LENGTH`] long. If a
-/// lanelet's group has one that is not open, it is a lane that begins, or ends, beside a continuing one. A single
-/// lanelet without a link to any other is no gate where there are others.
+/// Whether the road that ends with this lanelet is at least [`MINIMUM_GATE_LENGTH`] long: it may end with a short one.
+pub(crate) fn is_end_of_a_road(
+    lanelets: &[Lanelet],
+    previous: &[Vec<LaneletIndex>],
+    end: LaneletIndex,
+) -> bool {
+    let mut open = vec![(end, 0.0)];
+    let mut seen = vec![end];
+    while let Some((lanelet, beyond)) = open.pop() {
+        let length = beyond + lanelets[lanelet.at()].length();
+        if length >= MINIMUM_GATE_LENGTH {
+            return true;
+        }
+        for before in &previous[lanelet.at()] {
+            if !seen.contains(before) {
+                seen.push(*before);
+                open.push((*before, length));
+            }
+        }
+    }
+    false
+}
+
+/// The groups of open lanelets, joined by permitted changes, that are all long enough. If a lanelet's group has one
+/// that is not open, it is a lane that begins, or ends, beside a continuing one. A single lanelet without a link to any
+/// other is no gate where there are others.
 pub(crate) fn gates(
     lanelets: &[Lanelet],
     chain_of: &[ChainIndex],
     is_open: impl Fn(LaneletIndex) -> bool,
+    is_long_enough: impl Fn(LaneletIndex) -> bool,
 ) -> Vec<Gate> {
     let mut seen = vec![false; lanelets.len()];
     let beside = neighbours(lanelets);
@@ -45,7 +69,7 @@ pub(crate) fn gates(
         }
         let is_alone =
             group.len() == 1 && lanelets[first.at()].following.is_empty() && !has_previous[first.at()];
-        let is_gate = |it: &LaneletIndex| is_open(*it) && lanelets[it.at()].length() >= MINIMUM_GATE_LENGTH;
+        let is_gate = |it: &LaneletIndex| is_open(*it) && is_long_enough(*it);
         if group.iter().all(is_gate) {
             group.sort_by_key(|it| lanelets[it.at()].id);
             let gate = Gate {

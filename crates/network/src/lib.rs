@@ -10,6 +10,7 @@ mod chain;
 mod gate;
 mod geometry;
 mod ground;
+mod joints;
 mod junction;
 mod lanelet;
 mod polygon;
@@ -25,6 +26,7 @@ pub use chain::{Beside, Chain, ChainIndex, Limit, Position};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use ground::{Footprint, Ground};
+pub use joints::onward;
 pub use junction::{
     Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, Nearby, OnChain, Phase,
     Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind,

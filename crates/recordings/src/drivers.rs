@@ -7,7 +7,6 @@ use laneweave_sim::{Class, Destination, Navigator};
 
 use crate::changes::LaneChange;
 use crate::matching::Matched;
-use crate::recording::RoadUser;
 use crate::sideways::{Extent, extents, last_before};
 
 /// Assumptions about a recorded driver that no recording shows.
@@ -29,7 +28,7 @@ impl Assumed {
     /// estimate is too low.
     pub fn by_its_speeds(matched: &Matched<'_>, track: usize, parameters: u32) -> Assumed {
         let (track, places) = (&matched.recording.tracks[track], &matched.places[track]);
-        let class = class_of(track.class);
+        let class = track.class.class();
         let mut factors: Vec<f64> = track
             .states
             .iter()
@@ -98,7 +97,7 @@ pub(crate) fn drivers(
         }
         drivers.push(Driver {
             assumed: assume(index),
-            class: class_of(track.class),
+            class: track.class.class(),
             destination: goals.get(&track.id).copied().flatten(),
             chains,
             changes: Vec::new(),
@@ -111,9 +110,8 @@ pub(crate) fn drivers(
     drivers
 }
 
-/// The destination of each vehicle: the exit that is easiest to reach from where it was last observed. A vehicle that
-/// left the map was at this exit.
-fn goals(matched: &Matched<'_>, navigator: &Navigator) -> HashMap<i64, Destination> {
+/// The place where each vehicle was last seen, with the frame.
+fn last_seen(matched: &Matched<'_>) -> HashMap<i64, (i64, Position)> {
     let mut last_seen: HashMap<i64, (i64, Position)> = HashMap::new();
     for (track, places) in matched.recording.tracks.iter().zip(&matched.places) {
         let last =
@@ -126,7 +124,13 @@ fn goals(matched: &Matched<'_>, navigator: &Navigator) -> HashMap<i64, Destinati
             *seen = (frame, at);
         }
     }
-    last_seen.into_iter().map(|(id, (_, at))| (id, easiest(navigator, at.chain, at.x))).collect()
+    last_seen
+}
+
+/// The destination of each vehicle: the exit that is easiest to reach from where it was last observed. A vehicle that
+/// left the map was at this exit.
+fn goals(matched: &Matched<'_>, navigator: &Navigator) -> HashMap<i64, Destination> {
+    last_seen(matched).into_iter().map(|(id, (_, at))| (id, easiest(navigator, at.chain, at.x))).collect()
 }
 
 /// The exit that needs the fewest lane changes from `x` on `chain`, and of several the least time.
@@ -142,13 +146,4 @@ pub(crate) fn easiest(navigator: &Navigator, chain: ChainIndex, x: f64) -> Desti
 /// The speed [m/s] that a class may drive under `limit` [m/s].
 fn allowed(class: Class, limit: f64) -> f64 {
     limit.min(class.body().top_speed)
-}
-
-fn class_of(road_user: RoadUser) -> Class {
-    match road_user {
-        RoadUser::Truck => Class::Truck,
-        RoadUser::Bus => Class::Bus,
-        RoadUser::Motorcycle => Class::Motorcycle,
-        _ => Class::Car,
-    }
 }

@@ -127,6 +127,12 @@ pub enum RecordingError {
         "this is not a text file, so it cannot be a recording; choose another file, or decompress it first"
     )]
     NoText,
+    /// It is Parquet that cannot be read.
+    #[error("it cannot be read as Parquet: {what}; write it without compression or with Snappy, or as CSV")]
+    Parquet {
+        /// Why not.
+        what: String,
+    },
     /// A table whose columns are those of no dataset that we know.
     #[error(
         "line 1: its columns are of no dataset that is known ({known}): {found}; say what its columns hold, in a TOML file for \

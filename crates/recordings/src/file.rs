@@ -9,20 +9,25 @@ use laneweave_maps::Problem;
 use crate::commonroad;
 use crate::datasets::Dataset;
 use crate::error::RecordingError;
+#[cfg(feature = "parquet")]
+use crate::parquet::ParquetLines;
 use crate::recording::Recording;
 use crate::table::{Known, Layout, read};
 
 /// Size of the parts in which a table is read [B].
 const PART: usize = 1 << 20;
 
-/// Reads the recording in the file `path`: CommonRoad (`.xml`), or a table. A table has the columns of a dataset that
-/// we know, or is of `layout`.
+/// Reads the recording in the file `path`: CommonRoad (`.xml`), or a table (CSV, Parquet). A table has the columns of a
+/// dataset that we know, or is of `layout`.
 ///
 /// # Errors
 /// If it cannot be read, or is of no format that we know.
 pub fn open(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Problem>), RecordingError> {
     let mut file = BufReader::with_capacity(PART, File::open(path)?);
     let start = file.fill_buf()?;
+    if start.starts_with(PARQUET) {
+        return parquet(path, layout);
+    }
     if start.is_empty() {
         return Err(RecordingError::EmptyFile);
     }
@@ -35,9 +40,36 @@ pub fn open(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Prob
         file.take(commonroad::MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
         return commonroad::read(&bytes);
     }
+    table(file, path, layout)
+}
+
+/// The magic bytes of Parquet.
+const PARQUET: &[u8] = b"PAR1";
+
+#[cfg(feature = "parquet")]
+fn parquet(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Problem>), RecordingError> {
+    // Whatever cannot be read of it is said of the format.
+    table(ParquetLines::of(File::open(path)?)?, path, layout).map_err(|error| match error {
+        RecordingError::Unreadable { what } => RecordingError::Parquet { what },
+        other => other,
+    })
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet(_: &Path, _: Option<&Layout>) -> Result<(Recording, Vec<Problem>), RecordingError> {
+    Err(RecordingError::Parquet { what: "this program was built without it".into() })
+}
+
+/// Reads a table from `file`, which is at `path`.
+fn table(
+    mut file: impl BufRead,
+    path: &Path,
+    layout: Option<&Layout>,
+) -> Result<(Recording, Vec<Problem>), RecordingError> {
     if let Some(layout) = layout {
         return read(file, layout, &Known::default());
     }
+    let start = file.fill_buf()?;
     let header = start.split(|it| *it == b'\n').next().unwrap_or_default();
     let header = header.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(header).trim_ascii_end();
     let Some(dataset) = Dataset::of_header(header) else {

@@ -2,8 +2,6 @@
 
 use laneweave_network::{Lanelet, LaneletIndex, Network, Side};
 
-use crate::joints;
-
 /// Maximum speed of a vehicle [m/s].
 const MAXIMUM_SPEED: f64 = 70.0;
 /// Maximum of lanelets that one lanelet reaches within a frame, or forks into; further ones are ignored.
@@ -57,7 +55,7 @@ impl Moves {
     pub(crate) fn new(network: &Network, step: f64) -> Moves {
         let lanelets = &network.lanelets;
         let beside = beside(network);
-        let onward = joints::onward(lanelets);
+        let onward = laneweave_network::onward(lanelets);
         let ahead: Vec<Vec<LaneletIndex>> =
             (0..lanelets.len()).map(|it| ahead(lanelets, &onward, it, MAXIMUM_SPEED * step)).collect();
         let from = (0..lanelets.len()).map(|it| moves(it, &ahead, &beside)).collect();

@@ -5,14 +5,13 @@
 //! own frame rate, with errors of position, and it loses vehicles at times. Speeds and headings are those of a tracker:
 //! a straight line is fitted by least squares to the noisy positions half a second before and after.
 
-mod resample;
 mod watch;
 
 use laneweave_sim::{Purpose, Random};
 
 use crate::recording::{Recording, State, Track};
+use crate::resample::resampled;
 use crate::smooth::motion;
-use resample::resampled;
 pub use watch::Watch;
 
 /// Positions this long before and after a moment give its speed and heading [s].

@@ -1,5 +1,6 @@
 //! Recorded traffic as plain data.
 
+use laneweave_sim::Class;
 use serde::Deserialize;
 
 /// Recorded traffic in the metric frame of its map.
@@ -67,6 +68,22 @@ impl RoadUser {
         matches!(self, RoadUser::Car | RoadUser::Truck | RoadUser::Bus | RoadUser::Motorcycle)
     }
 
+    /// All of them.
+    pub const ALL: [RoadUser; 7] = [
+        RoadUser::Car,
+        RoadUser::Truck,
+        RoadUser::Bus,
+        RoadUser::Motorcycle,
+        RoadUser::Bicycle,
+        RoadUser::Pedestrian,
+        RoadUser::Other,
+    ];
+
+    /// The one with this name.
+    pub fn of_name(name: &str) -> Option<RoadUser> {
+        RoadUser::ALL.into_iter().find(|it| it.name() == name)
+    }
+
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
@@ -77,6 +94,16 @@ impl RoadUser {
             RoadUser::Bicycle => "bicycle",
             RoadUser::Pedestrian => "pedestrian",
             RoadUser::Other => "other",
+        }
+    }
+
+    /// The class of vehicles whose drivers drive like this road user. Those that are no vehicles count as cars.
+    pub fn class(self) -> Class {
+        match self {
+            RoadUser::Truck => Class::Truck,
+            RoadUser::Bus => Class::Bus,
+            RoadUser::Motorcycle => Class::Motorcycle,
+            _ => Class::Car,
         }
     }
 

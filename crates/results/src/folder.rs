@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use laneweave_scenario::Fault;
 
 /// Every file name of the results of a run, in the order of removal: a run without a summary has not ended.
-pub const RESULTS: [&str; 23] = [
+pub const RESULTS: [&str; 25] = [
     "summary.json",
     CHECKPOINT,
     PAGES,
@@ -31,6 +31,8 @@ pub const RESULTS: [&str; 23] = [
     REPORT,
     "lane_change_rate.svg",
     "time_space.svg",
+    REPLAY,
+    REPLAY_REPORT,
 ];
 /// The folder in it for the differences between twins.
 pub const BRANCH: &str = "branch";
@@ -44,6 +46,11 @@ pub(crate) const PAGES: &str = "checkpoint.pages";
 pub(crate) const COMMANDS: &str = "commands";
 /// The name of a report.
 pub const REPORT: &str = "report.html";
+
+/// The names of what a replay adds: how well its drivers match the recording.
+pub const REPLAY: &str = "replay.json";
+/// As a page.
+pub const REPLAY_REPORT: &str = "replay.html";
 
 /// A folder that no other laneweave process can claim while this value lives; on systems that do not lock folders
 /// they can.

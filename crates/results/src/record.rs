@@ -6,7 +6,7 @@ use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use laneweave_scenario::scenario::{Origin, Output, Scenario};
+use laneweave_scenario::scenario::{Origin, Output, Replay, Scenario};
 use laneweave_scenario::style::{built_in, find};
 use laneweave_scenario::{Fault, Source};
 use laneweave_study::Format;
@@ -106,11 +106,21 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> 
         None => relative(&scenario.map, dir)?,
     };
     let commands = scenario.commands.as_ref().map(|it| relative(it, dir)).transpose()?;
-    let kept = Scenario { map, styles, commands, ..scenario.clone() };
+    let mut kept = Scenario { map, styles, commands, ..scenario.clone() };
+    for file in replayed_mut(&mut kept) {
+        *file = relative(file, dir)?;
+    }
     let toml = toml::to_string(&kept).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
     let text = format!("# {command}\n{MARK}\n\n{toml}");
     write_whole(&dir.join(SCENARIO), &text)?;
     Ok(text)
+}
+
+/// The files of the recording that `scenario` replays, if it does.
+fn replayed_mut(scenario: &mut Scenario) -> impl Iterator<Item = &mut PathBuf> {
+    let is_asked = scenario.replay.is_asked();
+    let Replay { recording, columns, .. } = &mut scenario.replay;
+    recording.iter_mut().chain(columns).filter(move |_| is_asked)
 }
 
 /// The styles of `scenario` with copies of their files.
@@ -192,7 +202,7 @@ pub fn ended(dir: &Path) -> Result<Option<String>, Fault> {
 }
 
 /// Hash of everything on which a run depends: the program's version, the scenario without its output, its threads and
-/// its size limit of the map, the commands, the styles, the map.
+/// its size limit of the map, the commands, the recording that it replays, the styles, the map.
 ///
 /// # Errors
 /// If the map, the commands or a style file cannot be read.
@@ -201,6 +211,7 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     hash.update(env!("CARGO_PKG_VERSION").as_bytes());
     let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
     bare.commands = None;
+    replayed_mut(&mut bare).for_each(|it| *it = PathBuf::new());
     bare.output = Output::default();
     bare.run.threads = None;
     bare.map_options.max_size_mb = None;
@@ -211,6 +222,9 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
         hash.update(&weight.to_le_bytes());
     }
     let read = |path: &PathBuf| fs::read(path).map_err(|error| Fault::refused(path, "read", &error));
+    for file in replayed_mut(&mut scenario.clone()) {
+        hash.update(&read(file)?);
+    }
     if let Some(commands) = &scenario.commands {
         hash.update(&read(commands)?);
     }

@@ -3,7 +3,9 @@
 
 mod capacity;
 mod fault;
+mod recording;
 mod remarks;
+mod replay;
 pub mod scenario;
 mod script;
 mod source;
@@ -11,6 +13,8 @@ pub mod style;
 
 pub use capacity::{Bottleneck, Capacity};
 pub use fault::{Cause, Fault, did_you_mean};
+pub use recording::{elsewhere, open_recording, open_recordings, unreadable};
 pub use remarks::{Remark, remarks};
+pub use replay::{Played, Player};
 pub use script::{COMMAND_COLUMNS, Script, Written, refused};
 pub use source::Source;

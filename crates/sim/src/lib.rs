@@ -62,6 +62,7 @@ pub use state::vehicle::{Body, Class, Fleet};
 pub use step::checkpoint::CheckpointError;
 pub use step::columns::Columns;
 pub use step::command::CommandError;
+pub use step::recorded::{RecordedPose, RecordedVehicle};
 pub use step::seal::{sealed, unsealed};
 pub use step::vehicle::Vehicle;
 pub use step::world::World;

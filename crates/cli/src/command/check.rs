@@ -4,13 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use laneweave::Fault;
-use laneweave::check::{
-    GraphJson, Named, RecordingReport, Report, SetReport, extension, open_recordings, picture, tracks,
-};
+use laneweave::check::{GraphJson, Named, RecordingReport, Report, SetReport, extension, picture, tracks};
 use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
+use laneweave::{Fault, open_recordings};
 use serde::Serialize;
 
 use super::say;

@@ -45,6 +45,19 @@ Examples:
   laneweave observe out --above 900,0 --view 300 --to drone.csv
   laneweave check drone.csv --map maps/ramps.osm";
 
+pub(super) const REPLAY: &str =
+    "Coordinates of the recording are those of the map. The results folder contains the tables of a run,
+and replay.html: how far the drivers part from what was recorded of them, their collisions by fault,
+and how likely the recording is under many rollouts, beside other lane-change models.
+
+Examples:
+  laneweave run maps/ramps.osm --duration 120
+  laneweave observe out
+  # As it was recorded
+  laneweave replay observed.csv --map maps/ramps.osm
+  # Three in ten react
+  laneweave replay observed.csv --map maps/ramps.osm --reactive 0.3 --rollouts 2";
+
 pub(super) const RECORDING: &str = "Examples:
   laneweave recording join --help";
 

@@ -10,6 +10,7 @@ mod numbers;
 mod observe;
 mod progress;
 mod recording;
+mod replay;
 mod reproduce;
 mod resume;
 mod routes;
@@ -64,6 +65,9 @@ enum Command {
     /// Record the traffic of a run as a drone would: its view, its frame rate, its errors.
     #[command(after_help = examples::OBSERVE)]
     Observe(observe::Arguments),
+    /// Replay a recording: its vehicles drive as they were recorded, and some of them react.
+    #[command(after_help = examples::REPLAY)]
+    Replay(replay::Arguments),
     /// Join recordings.
     #[command(subcommand, after_help = examples::RECORDING)]
     Recording(recording::Deed),
@@ -105,6 +109,7 @@ impl Cli {
             Some(Command::Reproduce(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Observe(arguments)) => arguments.execute(),
+            Some(Command::Replay(arguments)) => return arguments.execute(),
             Some(Command::Recording(deed)) => deed.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Scenario(deed)) => deed.execute(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueHint};
 use laneweave::Fault;
-use laneweave::check::open_recordings;
+use laneweave::open_recordings;
 use laneweave::recordings::{Recording, interaction};
 use laneweave::study::PartialFile;
 

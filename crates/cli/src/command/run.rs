@@ -105,7 +105,7 @@ pub(crate) struct Screen {
     json: bool,
 }
 
-fn weighted(text: &str) -> Result<(String, f64), String> {
+pub(super) fn weighted(text: &str) -> Result<(String, f64), String> {
     let (name, weight) = text.rsplit_once('=').ok_or("write NAME=WEIGHT, such as aggressive=1")?;
     let weight = weight.parse().map_err(|_| format!("the weight {weight:?} is not a number"))?;
     Ok((name.into(), weight))

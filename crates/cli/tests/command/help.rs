@@ -42,7 +42,8 @@ fn every_example_works() {
                 Some("reproduce") => format!("{line} --help"),
                 // For other commands the results are used.
                 Some("run")
-                    if ["explain", "branch", "observe", "recording join"].contains(&command.as_str()) =>
+                    if ["explain", "branch", "observe", "recording join", "replay"]
+                        .contains(&command.as_str()) =>
                 {
                     line
                 }

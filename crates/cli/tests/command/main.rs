@@ -29,6 +29,8 @@ mod recordings;
 #[cfg(test)]
 mod remarks;
 #[cfg(test)]
+mod replay;
+#[cfg(test)]
 mod report;
 mod reproduce;
 #[cfg(test)]

@@ -117,3 +117,42 @@ fn commonroad_files_without_a_map_are_a_set_each_with_its_own() {
     assert_eq!(set["recordings"][1]["file"], names[1]);
     assert!(told(&folder, &line).starts_with("2 recordings, 16.0 s, "));
 }
+
+/// What the columns of the table `trajectories` hold.
+const TRAJECTORIES: &str = r#"
+[columns]
+track = "vehicle"
+time = "time_s"
+x = "x_m"
+y = "y_m"
+speed = "speed_mps"
+heading = "heading_rad"
+class = "class"
+length = "length_m"
+width = "width_m"
+
+[units]
+time = "s"
+"#;
+
+#[test]
+fn the_trajectories_of_a_run_are_a_recording_in_parquet_as_in_csv() {
+    let folder = Folder::new().with("columns.toml", TRAJECTORIES);
+    for format in ["parquet", "csv"] {
+        let run =
+            format!("run MAPS/ramps.osm --duration 40 --demand 3000 --record 0.1 --quiet --format {format}");
+        assert_eq!(folder.laneweave(&format!("{run} --out {format}")).code(), 0);
+    }
+    let [parquet, csv] = ["parquet", "csv"]
+        .map(|it| report(&folder, &format!("check {it}/trajectories.{it} --columns columns.toml")));
+    assert_eq!(parquet, csv);
+    assert_eq!((&parquet["step_s"], &parquet["unmatched"]), (&0.1.into(), &0.into()));
+    assert!(
+        parquet["states"].as_u64() > Some(5000) && parquet["tracks"]["car"].as_u64() > Some(20),
+        "{parquet}"
+    );
+    let bytes = fs::read(folder.path().join("parquet/trajectories.parquet")).expect("it is there");
+    fs::write(folder.path().join("cut.parquet"), &bytes[..bytes.len() / 2]).expect("it can be written");
+    let said = refusal(&folder, "check cut.parquet --columns columns.toml --map MAPS/ramps.osm");
+    assert!(said.contains("cut.parquet: it cannot be read as Parquet"), "{said}");
+}

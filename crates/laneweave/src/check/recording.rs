@@ -2,18 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs::{File, read_to_string};
+use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use laneweave_maps::Problem;
 use laneweave_network::{Network, Side};
-use laneweave_recordings::table::Layout;
 use laneweave_recordings::{
-    CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, join,
-    lane_changes, open,
+    CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, lane_changes,
 };
-use laneweave_scenario::Fault;
+use laneweave_scenario::{Fault, elsewhere, unreadable};
 use laneweave_study::units::METRES_PER_KM;
 use serde::Serialize;
 
@@ -86,52 +84,6 @@ pub fn extension(path: &Path) -> String {
     path.extension().map_or(String::new(), |it| it.to_string_lossy().to_ascii_lowercase())
 }
 
-/// Reads a recording: CommonRoad (XML), a table of a dataset that is known, or one whose columns the TOML file
-/// `columns` names.
-///
-/// # Errors
-/// If it cannot be read, or is of none of these formats.
-pub fn open_recording(path: &Path, columns: Option<&Path>) -> Result<(Recording, Vec<Problem>), Fault> {
-    let layout = columns.map(layout).transpose()?;
-    // The system's reason for a file that cannot be opened says more than its message.
-    File::open(path).map_err(|error| Fault::refused(path, "read", &error))?;
-    open(path, layout.as_ref()).map_err(|error| fault(path, &error))
-}
-
-/// Reads recordings, and joins them if there are several.
-///
-/// # Errors
-/// If one cannot be read, or continues none of the others.
-pub fn open_recordings(
-    paths: &[PathBuf],
-    columns: Option<&Path>,
-) -> Result<(Recording, Vec<Problem>), Fault> {
-    let (mut parts, mut problems) = (Vec::new(), Vec::new());
-    for path in paths {
-        let (recording, found) = open_recording(path, columns)?;
-        parts.push(recording);
-        problems.extend(found);
-    }
-    if parts.len() == 1 {
-        return Ok((parts.remove(0), problems));
-    }
-    let joined = join(parts).map_err(|error| {
-        let message = error.to_string();
-        let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "give other recordings"));
-        Fault::new(
-            paths.iter().map(|it| it.display().to_string()).collect::<Vec<_>>().join(", "),
-            what,
-            remedy,
-        )
-    })?;
-    Ok((joined.recording, problems))
-}
-
-fn layout(path: &Path) -> Result<Layout, Fault> {
-    let text = read_to_string(path).map_err(|error| Fault::refused(path, "read", &error))?;
-    Layout::parse(&text).map_err(|error| fault(path, &error))
-}
-
 /// Reads the tracks of a CommonRoad file, if it has any.
 ///
 /// # Errors
@@ -140,7 +92,7 @@ pub fn tracks(path: &Path) -> Result<Option<(Recording, Vec<Problem>)>, Fault> {
     match commonroad::read(&content(path)?) {
         Ok(recording) => Ok(Some(recording)),
         Err(RecordingError::Empty { .. }) => Ok(None),
-        Err(error) => Err(fault(path, &error)),
+        Err(error) => Err(unreadable(path, &error)),
     }
 }
 
@@ -161,12 +113,6 @@ fn content(path: &Path) -> Result<Vec<u8>, Fault> {
         return Err(Fault::new(path.display(), what, "choose another file, or decompress it first"));
     }
     Ok(bytes)
-}
-
-fn fault(path: &Path, error: &RecordingError) -> Fault {
-    let message = error.to_string();
-    let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "correct the file"));
-    Fault::new(path.display(), what, remedy)
 }
 
 impl RecordingReport {
@@ -281,32 +227,6 @@ fn distance(matched: &Matched) -> f64 {
     let moves = tracks.flat_map(|(track, places)| track.states.windows(2).zip(places.windows(2)));
     let on_the_map = moves.filter(|(_, places)| places.iter().all(Option::is_some));
     on_the_map.map(|(it, _)| (it[1].x - it[0].x).hypot(it[1].y - it[0].y)).sum()
-}
-
-/// A recording of another place, or in another frame, has no vehicles on lanelets.
-fn elsewhere(recording: &Recording, network: &Network) -> Problem {
-    let span = |points: &mut dyn Iterator<Item = (f64, f64)>| {
-        points.fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |it, (x, y)| {
-            [it[0].min(x), it[1].max(x), it[2].min(y), it[3].max(y)]
-        })
-    };
-    let states = recording.tracks.iter().flat_map(|it| &it.states);
-    let theirs = span(&mut states.map(|it| (it.x, it.y)));
-    let points = network.lanelets.iter().flat_map(|it| it.centre.points());
-    let own = span(&mut points.map(|it| (it.x, it.y)));
-    let text = |[west, east, south, north]: [f64; 4]| {
-        format!("x {west:.0} to {east:.0} m and y {south:.0} to {north:.0} m")
-    };
-    Problem {
-        element: "the recording".into(),
-        line: None,
-        what: format!(
-            "most of it lies outside all lanelets: the recording covers {}, the map {}",
-            text(theirs),
-            text(own)
-        ),
-        remedy: "choose the map of its location, or give the origin of its coordinates with --origin".into(),
-    }
 }
 
 fn row(change: &LaneChange, network: &Network) -> ChangeRow {

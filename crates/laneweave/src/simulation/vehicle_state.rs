@@ -51,7 +51,7 @@ impl VehicleState {
     pub(super) fn of(world: &World, vehicle: &Vehicle) -> VehicleState {
         let (motion, driver) = (vehicle.motion, vehicle.driver);
         let (lanelet, position_m) = world.network().lanelet_at(Position::new(vehicle.spot.chain, motion.x));
-        let (pose, body) = (vehicle.pose(), driver.class.body());
+        let (pose, [length_m, width_m]) = (vehicle.pose(), vehicle.size());
         let is_in_one_lane = !(driver.phase.is_between_lanes() || vehicle.is_on_its_own_path());
         let number = world.scene().navigator.number(driver.goal.destination());
         VehicleState {
@@ -67,8 +67,8 @@ impl VehicleState {
             heading_rad: pose.heading,
             speed_mps: vehicle.speed(),
             acceleration_mps2: f64::from(motion.acceleration),
-            length_m: body.length,
-            width_m: body.width,
+            length_m,
+            width_m,
             state: driver.phase,
             destination: number.and_then(|it| world.demand().destinations.get(it)).map(|it| it.id()),
             is_external: driver.is_external,

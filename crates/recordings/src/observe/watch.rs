@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_sim::{Body, Class, VehicleId, World};
+use laneweave_sim::{Class, VehicleId, World};
 
 use crate::recording::{Recording, RoadUser, State, Track};
 
@@ -28,7 +28,7 @@ impl Watch {
         for vehicle in world.vehicles() {
             let track = self.tracks.entry(vehicle.id()).or_insert_with(|| {
                 let class = vehicle.driver.class;
-                let Body { length, width, .. } = *class.body();
+                let [length, width] = vehicle.size();
                 Track {
                     id: i64::from(vehicle.id()),
                     class: road_user(class),

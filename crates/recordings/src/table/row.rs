@@ -112,8 +112,10 @@ impl Fields<'_> {
             return Class::NotGiven;
         }
         let name = self.of(Field::Class);
-        let known = str::from_utf8(name).ok().and_then(|it| self.layout.classes.get(it));
-        known.map_or_else(|| Class::Unknown(excerpt(name)), |it| Class::Known(*it))
+        let text = str::from_utf8(name).ok();
+        let known =
+            text.and_then(|it| self.layout.classes.get(it).copied().or_else(|| RoadUser::of_name(it)));
+        known.map_or_else(|| Class::Unknown(excerpt(name)), Class::Known)
     }
 
     /// A number within the range of frames and times, where its column exists.

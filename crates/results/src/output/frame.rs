@@ -44,6 +44,8 @@ struct Across {
     place: usize,
     bumpers: [Point; 2],
     offset: f64,
+    /// Length and width of the vehicle [m].
+    size: [f64; 2],
 }
 
 /// The position of a vehicle.
@@ -58,6 +60,8 @@ pub(super) struct Body {
     pub(super) front: Point,
     /// Its centre.
     pub(super) pose: Pose,
+    /// Length and width of the vehicle [m].
+    pub(super) size: [f64; 2],
 }
 
 impl Frame {
@@ -68,10 +72,10 @@ impl Frame {
         }
         let Frame { instants, seen, across, .. } = self;
         world.vehicles().for_each(|vehicle| {
-            let (motion, car) = (*vehicle.motion, vehicle.driver);
+            let (motion, car) = (Kinematics { speed: vehicle.speed(), ..*vehicle.motion }, vehicle.driver);
             if car.phase.is_between_lanes() || vehicle.is_on_its_own_path() {
                 let (bumpers, offset) = (vehicle.bumpers(), vehicle.lateral_offset());
-                across.push(Across { place: seen.len(), bumpers, offset });
+                across.push(Across { place: seen.len(), bumpers, offset, size: vehicle.size() });
             }
             // A vehicle with its rear on its own chain needs no previous chains.
             let previous_lanes =
@@ -92,11 +96,14 @@ impl Frame {
         let mut across = across.iter().peekable();
         bodies.extend(seen.iter().enumerate().map(|(place, it)| {
             let (lanelet, along) = names.network.chain(it.chain).lanelet(it.motion.x);
-            let (bumpers, offset) = match across.next_if(|it| it.place == place) {
-                Some(it) => (it.bumpers, it.offset),
-                None => (bumpers_in_lane(&names.network, it.chain, it.previous_lanes, &it.motion), 0.0),
+            let (bumpers, offset, size) = match across.next_if(|it| it.place == place) {
+                Some(it) => (it.bumpers, it.offset, it.size),
+                None => {
+                    let bumpers = bumpers_in_lane(&names.network, it.chain, it.previous_lanes, &it.motion);
+                    (bumpers, 0.0, [f64::from(it.motion.length), it.class.body().width])
+                }
             };
-            Body { lanelet, along, offset, front: bumpers[0], pose: pose_between(bumpers) }
+            Body { lanelet, along, offset, front: bumpers[0], pose: pose_between(bumpers), size }
         }));
     }
 

@@ -73,8 +73,8 @@ impl Writer for Trajectories {
         heading.extend(bodies.iter().map(|it| it.pose.heading));
         speed.extend(seen.iter().map(|it| it.motion.speed));
         acceleration.extend(seen.iter().map(|it| f64::from(it.motion.acceleration)));
-        length.extend(seen.iter().map(|it| it.class.body().length));
-        width.extend(seen.iter().map(|it| it.class.body().width));
+        length.extend(bodies.iter().map(|it| it.size[0]));
+        width.extend(bodies.iter().map(|it| it.size[1]));
         integers.iter_mut().for_each(|it| empty(it, seen.len()));
         let [vehicle, lanelet] = integers;
         vehicle.extend(seen.iter().map(|it| i64::from(it.motion.id)));

@@ -7,6 +7,7 @@ mod headways;
 mod mixture;
 mod origin;
 mod prepare;
+mod replay;
 mod saved;
 mod signals;
 mod turns;
@@ -29,6 +30,7 @@ pub use mixture::mixture;
 pub use origin::Origin;
 pub(crate) use prepare::LONGEST;
 pub use prepare::{Prepared, driven, open_map, prepare, prepare_on};
+pub use replay::Replay;
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
 pub use written::write;
@@ -61,6 +63,9 @@ pub struct Scenario {
     /// External vehicles: the scenario puts them on the road, and a program may drive them.
     #[serde(default)]
     pub external: Vec<External>,
+    /// A recording whose vehicles drive as they were recorded, or react.
+    #[serde(default)]
+    pub replay: Replay,
     /// Guidance: the information on travel times that drivers get.
     #[serde(default)]
     pub guidance: Guidance,
@@ -89,6 +94,9 @@ pub struct MapOptions {
     pub law: Law,
     /// The side of the road on which traffic drives; default: the side that the map gives, otherwise right.
     pub driving_side: Option<DrivingSide>,
+    /// Whether lanelets that meet at their ends, but share no points, continue one another: for maps that were drawn
+    /// carelessly.
+    pub joins_ends: bool,
     /// Largest size of the map, unpacked if it is compressed [MB]; default 1 GiB, at most 2 GiB.
     pub max_size_mb: Option<f64>,
 }
@@ -312,6 +320,7 @@ impl Scenario {
             made_signals: MadeSignals::default(),
             commands: None,
             external: Vec::new(),
+            replay: Replay::default(),
             guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::Scenario;
+use super::{Replay, Scenario};
 use crate::fault::Fault;
 use crate::source::Source;
 
@@ -39,6 +39,8 @@ impl Origin {
         let mut scenario: Scenario = source.parse()?;
         scenario.map = source.folder().join(&scenario.map);
         scenario.commands = scenario.commands.map(|it| source.folder().join(it));
+        let Replay { recording, columns, .. } = &mut scenario.replay;
+        recording.iter_mut().chain(columns).for_each(|it| *it = source.folder().join(&*it));
         Ok((scenario, Origin { source: Some(source), ..Origin::default() }))
     }
 

@@ -105,7 +105,7 @@ fn prepare_with(
     let mixture = mixture(scenario, origin)?;
     let Population { driver_parameters, shares } = Population::draw(&mixture, scenario.run.seed)?;
     let map = map()?;
-    let (network, places) = driven(&map);
+    let (network, places) = if scenario.map_options.joins_ends { joined(&map) } else { driven(&map) };
     // A user cannot correct the built-in map.
     let is_own = origin.map.is_none();
     let remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
@@ -124,13 +124,7 @@ fn prepare_with(
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
     let capacity =
         |world: &World| Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
-    let (world, basis) = if Basis::is_open(&scenario.demand) {
-        // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
-        let total = usual(&capacity(&build(Some(1.0))?));
-        (build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual })
-    } else {
-        (build(None)?, Basis::Given)
-    };
+    let (world, basis) = with_demand(scenario, build, capacity)?;
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
         world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
@@ -161,6 +155,24 @@ fn prepare_with(
     })
 }
 
+/// The world that `build` makes with the demand of `scenario`, and the basis of that demand: a total, if the scenario
+/// leaves it open [veh/h]. It is that of the `capacity`, and none beside a recording.
+fn with_demand(
+    scenario: &Scenario,
+    build: impl Fn(Option<f64>) -> Result<World, Fault>,
+    capacity: impl Fn(&World) -> Capacity,
+) -> Result<(World, Basis), Fault> {
+    if !Basis::is_open(&scenario.demand) {
+        return Ok((build(None)?, Basis::Given));
+    }
+    if scenario.replay.is_asked() {
+        return Ok((build(Some(0.0))?, Basis::Given));
+    }
+    // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
+    let total = usual(&capacity(&build(Some(1.0))?));
+    Ok((build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual }))
+}
+
 /// Checks that trips can start somewhere.
 fn check_places(scenario: &Scenario, places: &Places) -> Result<(), Fault> {
     if places.origins.is_empty() {
@@ -184,7 +196,17 @@ fn guided(world: World, scenario: &Scenario, origin: &Origin) -> Result<World, F
 
 /// The roads of `map` with their junctions, and where trips on them start and end.
 pub fn driven(map: &Map) -> (Network, Places) {
-    let network = map.network.clone().regulated(&regulations(map));
+    with_places(map, map.network.clone())
+}
+
+/// The same of a map on which lanelets that meet at their ends continue one another.
+fn joined(map: &Map) -> (Network, Places) {
+    // A network that was sound is so with more joints.
+    with_places(map, map.network.clone().joined().unwrap_or_else(|_| map.network.clone()))
+}
+
+fn with_places(map: &Map, network: Network) -> (Network, Places) {
+    let network = network.regulated(&regulations(map));
     let places = places(&network, &map.graph);
     (network, places)
 }

@@ -6,11 +6,13 @@ mod state;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use laneweave_sim::{Command, Control, NewVehicle, VehicleId, World};
 use laneweave_study::seconds;
 
 use crate::fault::Fault;
+use crate::replay::{Played, Player};
 use crate::scenario::{External, LONGEST, Origin, Scenario};
 use row::Row;
 pub(crate) use state::State;
@@ -28,6 +30,8 @@ pub struct Script {
     /// The ids of the new vehicles in the file.
     inserts: BTreeSet<VehicleId>,
     externals: Vec<Planned>,
+    /// The recording that is played, if one is.
+    player: Option<Arc<Player>>,
     pub(crate) state: State,
 }
 
@@ -56,7 +60,8 @@ impl Script {
                 Fault::new(origin.place(&["external", &number.to_string(), key]), what, remedy)
             })?);
         }
-        script.state = State::of(script.externals.len());
+        script.player = Player::of(scenario, origin, world)?.map(Arc::new);
+        script.state = State::of(script.externals.len(), script.player.as_ref().map_or(0, |it| it.len()));
         script.with_commands(scenario.commands.as_deref(), world)
     }
 
@@ -68,10 +73,11 @@ impl Script {
         Script::default().with_commands(path, empty)
     }
 
-    /// The same script, which knows the vehicles that the script `before` has inserted.
+    /// The same script, which goes on with the recording of the script `before`, and knows the vehicles that it has
+    /// inserted.
     #[must_use]
     pub fn after(self, before: &Script) -> Script {
-        Script { state: self.state.after(&before.state), ..self }
+        Script { state: self.state.after(&before.state), player: before.player.clone(), ..self }
     }
 
     fn with_commands(self, path: Option<&Path>, empty: &World) -> Result<Script, Fault> {
@@ -109,6 +115,13 @@ impl Script {
     /// Gives the commands that are due, and simulates a step of `world`.
     pub fn step(&mut self, world: &mut World) {
         let step = world.clock().step;
+        let State { recorded, .. } = &mut self.state;
+        if let Some(player) = &self.player {
+            if step == 0 {
+                player.come_and_go(recorded, world);
+            }
+            player.move_on(recorded, world);
+        }
         let begin = self.rows.partition_point(|it| it.step < step);
         for row in self.rows[begin..].iter().take_while(|it| it.step == step) {
             if let Err(why) = self.state.give(row, &self.inserts, world) {
@@ -123,6 +136,26 @@ impl Script {
             }
         }
         world.step();
+        if let Some(player) = &self.player {
+            player.come_and_go(&mut self.state.recorded, world);
+        }
+    }
+
+    /// The recording that is played, if one is.
+    pub fn player(&self) -> Option<&Player> {
+        self.player.as_deref()
+    }
+
+    /// The same script, which plays this recording from the start.
+    #[must_use]
+    pub fn playing(mut self, player: Player) -> Script {
+        self.state.recorded = vec![None; player.len()];
+        Script { player: Some(Arc::new(player)), ..self }
+    }
+
+    /// The recorded vehicles that have come so far.
+    pub fn played(&self) -> impl Iterator<Item = Played> + '_ {
+        self.player.iter().flat_map(|it| it.played(&self.state.recorded))
     }
 
     /// The id of the external vehicle called `name`, as soon as it is on the road.

@@ -17,25 +17,28 @@ pub(crate) struct State {
     inserted: BTreeMap<VehicleId, VehicleId>,
     /// The id of each external vehicle that was put on the road.
     pub(super) externals: Vec<Option<VehicleId>>,
+    /// The id of each part of the recording that has come.
+    pub(super) recorded: Vec<Option<VehicleId>>,
     /// Number of refused commands, and the first of them in words.
     pub(super) refused: u64,
     pub(super) first_refused: Vec<String>,
 }
 
 impl State {
-    /// That of a script with so many external vehicles, none of which is on the road.
-    pub(super) fn of(externals: usize) -> State {
-        State { externals: vec![None; externals], ..State::default() }
+    /// That of a script with so many external vehicles, and so many parts of a recording, none of which is on the road.
+    pub(super) fn of(externals: usize, recorded: usize) -> State {
+        State { externals: vec![None; externals], recorded: vec![None; recorded], ..State::default() }
     }
 
-    /// Whether it is that of a script with as many external vehicles.
+    /// Whether it is that of a script with as many external vehicles, and as many parts of a recording.
     pub(crate) fn fits(&self, other: &State) -> bool {
-        self.externals.len() == other.externals.len()
+        let [own, others] = [self, other].map(|it| [it.externals.len(), it.recorded.len()]);
+        own == others
     }
 
     /// The same state, which knows the vehicles that were inserted `before`.
     pub(super) fn after(self, before: &State) -> State {
-        State { inserted: before.inserted.clone(), ..self }
+        State { inserted: before.inserted.clone(), recorded: before.recorded.clone(), ..self }
     }
 
     /// Gives the command of `row`, in a file with these new vehicles.

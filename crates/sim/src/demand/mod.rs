@@ -16,6 +16,8 @@ use crate::demand::headways::Headways;
 use crate::demand::places::Places;
 use crate::demand::rate::Rate;
 use crate::route::place::Place;
+use crate::state::lane::VehicleId;
+use crate::state::random::{Purpose, Random};
 use crate::state::vehicle::Fleet;
 
 /// Which vehicles drive, from where and to where, and how many.
@@ -83,6 +85,20 @@ impl Demand {
 }
 
 impl Demand {
+    /// The index of a set of driver parameters for the vehicle `id`, drawn at random from the population.
+    pub(crate) fn draw_driver(&self, random: &Random, id: VehicleId) -> u32 {
+        let uniform = |purpose| random.uniform(id, purpose, 0);
+        let total: f64 = self.population.iter().map(|it| it.weight).sum();
+        let mut at = uniform(Purpose::Style) * total;
+        let drawn = self.population.iter().find(|it| {
+            at -= it.weight;
+            at < 0.0
+        });
+        drawn.or(self.population.last()).map_or(0, |it| {
+            it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
+        })
+    }
+
     /// Checks that all its numbers are sensible.
     ///
     /// # Errors

@@ -216,19 +216,7 @@ impl Source {
     ) -> Arrival {
         let uniform = |purpose| random.uniform(id, purpose, 0);
         let class = demand.fleet.class(uniform(Purpose::Class));
-        let total: f64 = demand.population.iter().map(|it| it.weight).sum();
-        let mut at = uniform(Purpose::Style) * total;
-        let share = demand
-            .population
-            .iter()
-            .find(|it| {
-                at -= it.weight;
-                at < 0.0
-            })
-            .or(demand.population.last());
-        let parameters = share.map_or(0, |it| {
-            it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
-        });
+        let parameters = demand.draw_driver(random, id);
         let last = self.destinations.last().map_or(0.0, |it| it.1);
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);

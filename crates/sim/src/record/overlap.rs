@@ -165,20 +165,26 @@ struct Party {
 impl Party {
     /// The vehicle whose entry is at `spot`.
     fn of(scene: &Scene, spot: Spot) -> Option<Party> {
-        let (Kinematics { x, id, speed, .. }, driver) = (*scene.motion(spot), scene.driver(spot));
+        let (Kinematics { x, id, speed, length, .. }, driver) = (*scene.motion(spot), scene.driver(spot));
         let external = if driver.is_external { scene.externals.of(id) } else { None };
-        let size = driver.class.body();
-        let (place, pose, speed) = match external.and_then(|it| Some((it.at, it.body.as_ref()?))) {
-            Some((at, body)) => (at, body.pose, body.speed),
-            None if !driver.is_shadow => (Position::new(spot.chain, x), pose(scene, spot), speed),
+        let on_its_path = |pose, length: f32| Rectangle {
+            pose,
+            length: f64::from(length),
+            width: driver.class.body().width,
+        };
+        let (place, rectangle, speed) = match external.and_then(|it| Some((it.at, it.body.as_ref()?))) {
+            Some((at, body)) => (at, body.rectangle(), body.speed),
+            None if !driver.is_shadow => {
+                (Position::new(spot.chain, x), on_its_path(pose(scene, spot), length), speed)
+            }
             None => {
                 let counterpart = scene.lane_change(spot).counterpart.map(|it| it.at());
                 let main = main_entry(scene, id, counterpart.or(external.map(|it| it.at))?)?;
                 let motion = scene.motion(main);
-                (Position::new(main.chain, motion.x), pose(scene, main), motion.speed)
+                let rectangle = on_its_path(pose(scene, main), motion.length);
+                (Position::new(main.chain, motion.x), rectangle, motion.speed)
             }
         };
-        let rectangle = Rectangle { pose, length: size.length, width: size.width };
         Some(Party { id, parameters: driver.parameters, class: driver.class, place, rectangle, speed })
     }
 

@@ -1,6 +1,6 @@
 //! The external vehicles: those that a user drives.
 
-use laneweave_network::{Pose, Position};
+use laneweave_network::{Pose, Position, Rectangle};
 use serde::{Deserialize, Serialize};
 
 use crate::state::control::Control;
@@ -31,6 +31,8 @@ pub(crate) struct External {
     pub(crate) phase: Phase,
     /// Its entries in other lanes that it touches.
     pub(crate) obstacles: Vec<Position>,
+    /// It is a recorded vehicle: its speed is known better than its place.
+    pub(crate) is_recorded: bool,
     /// Its body, if the user drives it by poses.
     pub(crate) body: Option<Body>,
     /// Steps in which it stood although its driver would have gone.
@@ -42,16 +44,36 @@ pub(crate) struct External {
 pub(crate) struct Body {
     /// The pose of its centre.
     pub(crate) pose: Pose,
+    /// Length [m].
+    pub(crate) length: f64,
+    /// Width [m].
+    pub(crate) width: f64,
     /// Speed that others see [m/s].
     pub(crate) speed: f64,
     /// Its main entry, if it is off the road, where it is in no lane.
     pub(crate) off_road: Option<Entry>,
 }
 
+impl Body {
+    /// The ground that it covers.
+    pub(crate) fn rectangle(&self) -> Rectangle {
+        Rectangle { pose: self.pose, length: self.length, width: self.width }
+    }
+}
+
 impl External {
     /// The vehicle `id`, which a user begins to drive, with its main entry at this position.
     pub(crate) fn new(id: VehicleId, control: Control, at: Position) -> External {
-        External { id, control, at, phase: Phase::Cruises, obstacles: Vec::new(), body: None, idle: 0 }
+        External {
+            id,
+            control,
+            at,
+            phase: Phase::Cruises,
+            obstacles: Vec::new(),
+            is_recorded: false,
+            body: None,
+            idle: 0,
+        }
     }
 
     /// Its main entry, if it is off the road.
@@ -135,7 +157,7 @@ impl Externals {
         let is_number = |it: &Entry| it.motion.x.is_finite() && it.motion.speed.is_finite();
         let body_fits = |it: &Body| {
             let Pose { at, heading } = it.pose;
-            [at.x, at.y, at.z, heading, it.speed].iter().all(|it| it.is_finite())
+            [at.x, at.y, at.z, heading, it.speed, it.length, it.width].iter().all(|it| it.is_finite())
         };
         let is_sound = |it: &External| {
             it.control.is_sound()

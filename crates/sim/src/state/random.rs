@@ -34,6 +34,8 @@ pub enum Purpose {
     Observation,
     /// When an observer loses a vehicle.
     Interruption,
+    /// Whether a recorded vehicle becomes a driver who reacts.
+    Reaction,
 }
 
 /// The source of all random numbers of a run.

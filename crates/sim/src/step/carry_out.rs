@@ -12,6 +12,7 @@ use crate::state::externals::{Body, External};
 use crate::state::goal::Destination;
 use crate::state::lane::{Counterpart, DriverState, Entry, Kinematics, LaneChangeState, VehicleId};
 use crate::state::traffic::Traffic;
+use crate::state::vehicle::LONGEST;
 use crate::step::change_roads::desire_speed;
 use crate::step::end_change::end_change;
 use crate::step::index::Index;
@@ -73,7 +74,7 @@ impl CarryingOut<'_> {
         self.index.spot(self.traffic.lanes(), id)
     }
 
-    fn remove(&mut self, id: VehicleId) {
+    pub(super) fn remove(&mut self, id: VehicleId) {
         let external = self.traffic.externals_mut().take(id);
         let off_road = external.as_ref().and_then(|it| Some((it.at.chain, *it.off_road()?)));
         if let Some(mut external) = external {
@@ -89,7 +90,7 @@ impl CarryingOut<'_> {
     }
 
     /// Lets a user drive a vehicle in this way, or leaves it to its driver.
-    fn control(&mut self, id: VehicleId, control: Control) {
+    pub(super) fn control(&mut self, id: VehicleId, control: Control) {
         let before = self.traffic.externals_mut().take(id);
         let mut external = match before {
             Some(external) => external,
@@ -105,8 +106,8 @@ impl CarryingOut<'_> {
             Control::Pose { .. } if external.body.is_some() => {}
             Control::Pose { .. } => external.body = self.body(id),
             Control::Drive { .. } => {
-                if external.body.take().is_some() {
-                    self.back_in_lane(id);
+                if let Some(body) = external.body.take() {
+                    self.back_in_lane(id, body.length);
                 }
             }
         }
@@ -126,17 +127,18 @@ impl CarryingOut<'_> {
     fn body(&mut self, id: VehicleId) -> Option<Body> {
         let spot = self.spot(id)?;
         let scene = Scene::of(self.roads, self.traffic, self.junctions);
-        let (pose, speed) = (pose(&scene, spot), scene.motion(spot).speed);
+        let (pose, motion, driver) = (pose(&scene, spot), scene.motion(spot), scene.driver(spot));
+        let (speed, length, width) = (motion.speed, f64::from(motion.length), driver.class.body().width);
         end_change(self.roads.network(), self.traffic, self.log, spot);
-        Some(Body { pose, speed, off_road: None })
+        Some(Body { pose, length, width, speed, off_road: None })
     }
 
-    /// A vehicle drives in lanes again. It is as long as it is, and considers lanes at once.
-    fn back_in_lane(&mut self, id: VehicleId) {
+    /// A vehicle of this length [m] drives in lanes again. It is as long as it is, and considers lanes at once.
+    fn back_in_lane(&mut self, id: VehicleId, length: f64) {
         let Some(spot) = self.spot(id) else { return };
         let step = self.traffic.clock().step;
         let (motion, driver, _) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
-        motion.length = driver.class.body().length as f32;
+        motion.length = length.min(LONGEST) as f32;
         driver.due = step;
         driver.needs_full_update = true;
     }
@@ -156,7 +158,7 @@ impl CarryingOut<'_> {
     }
 
     /// Gives a driver another destination. It considers lanes at once.
-    fn set_destination(&mut self, id: VehicleId, number: Destination) {
+    pub(super) fn set_destination(&mut self, id: VehicleId, number: Destination) {
         let (navigator, step) = (self.roads.navigator(), self.traffic.clock().step);
         self.change(id, |_, driver, lane_change, _| {
             driver.goal = navigator.seen_by(driver.class, number).into();

@@ -260,7 +260,7 @@ impl World {
 }
 
 /// Checks the numbers of a control.
-fn check_control(control: Control) -> Result<(), CommandError> {
+pub(super) fn check_control(control: Control) -> Result<(), CommandError> {
     let longitudinal = match control {
         Control::Drive { longitudinal, lateral: Lateral::Driver | Lateral::Keep | Lateral::Change(_) } => {
             longitudinal

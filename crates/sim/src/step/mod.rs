@@ -23,6 +23,7 @@ pub(crate) mod obstacle;
 pub(crate) mod pool;
 pub(crate) mod put_vehicle;
 pub(crate) mod queries;
+pub(crate) mod recorded;
 pub(crate) mod relocate;
 pub(crate) mod reserve_on_entering;
 pub(crate) mod resolve;

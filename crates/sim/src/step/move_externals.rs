@@ -70,34 +70,48 @@ fn take_pose(relocating: &mut Relocating, external: &mut External, [x, y, headin
     let Some(body) = external.body else { return };
     let Some(mut entry) = lift(relocating.traffic, external.id, external.at, &body) else { return };
     let (roads, dt) = (relocating.roads, relocating.traffic.clock().dt);
-    let size = entry.driver.class.body();
     let pose = Pose { at: Point::new(x, y, body.pose.at.z), heading };
-    let mut rectangle = Rectangle { pose, length: size.length, width: size.width };
+    let mut rectangle = Rectangle { pose, ..body.rectangle() };
     let footprints = on_one_level(roads, &mut rectangle);
     let way = body.pose.at.distance(&rectangle.pose.at);
     // What jumps does not drive.
-    let before = (way <= Control::FASTEST * dt).then_some(Rectangle { pose: body.pose, ..rectangle });
-    let moved = Moved { rectangle, before, speed: speed.min(way / dt), way };
-    let from = body.off_road.is_none().then_some(external.at);
-    let best = main_lane(roads, &rectangle, &footprints, from);
+    let before = (way <= Control::FASTEST * dt).then_some(body.rectangle());
+    let has_known_speed = external.is_recorded;
+    let speed = if has_known_speed { speed } else { speed.min(way / dt) };
+    let moved = Moved { rectangle, before, speed, has_known_speed, way };
+    settle(relocating, external, &mut entry, &moved, &footprints);
+}
+
+/// Shows a vehicle that has `moved`, with the main entry `entry`, in the lanes of its `footprints`.
+pub(super) fn settle(
+    relocating: &mut Relocating,
+    external: &mut External,
+    entry: &mut Entry,
+    moved: &Moved,
+    footprints: &[Footprint],
+) {
+    let roads = relocating.roads;
+    let Moved { rectangle, speed, .. } = *moved;
+    let from = external.off_road().is_none().then_some(external.at);
+    let best = main_lane(roads, &rectangle, footprints, from);
     let onto = best.map(|it| &footprints[it]);
-    relocating.relocate(&mut entry, &moved, from, onto);
+    relocating.relocate(entry, moved, from, onto);
     if let Some(footprint) = onto {
         external.at = Position::new(footprint.chain, entry.motion.x);
-        relocating.traffic.enter(footprint.chain, entry);
+        relocating.traffic.enter(footprint.chain, *entry);
     }
-    external.body =
-        Some(Body { pose: rectangle.pose, speed: moved.speed, off_road: onto.is_none().then_some(entry) });
+    let Rectangle { pose, length, width } = rectangle;
+    external.body = Some(Body { pose, length, width, speed, off_road: onto.is_none().then_some(*entry) });
     for (number, footprint) in footprints.iter().enumerate() {
         if best != Some(number) {
-            external.obstacles.push(put_obstacle(roads, relocating.traffic, &entry, &moved, footprint));
+            external.obstacles.push(put_obstacle(roads, relocating.traffic, entry, moved, footprint));
         }
     }
 }
 
 /// Lets a vehicle that touches lanes, or is driven by poses, be seen no faster than if it had to stop behind what is
 /// ahead of it. It may leave the lane to a side, or drive through others: whoever follows it has to stop for them.
-fn limit_speeds(traffic: &mut Traffic, external: &External) {
+pub(super) fn limit_speeds(traffic: &mut Traffic, external: &External) {
     let main = external.body.as_ref().filter(|it| it.off_road.is_none()).and_then(|_| {
         let index = traffic.lane(external.at.chain).find(external.id, external.at.x)?;
         Some((external.at.chain, index))
@@ -127,7 +141,7 @@ fn lift(traffic: &mut Traffic, id: VehicleId, at: Position, body: &Body) -> Opti
 }
 
 /// The stretches of lanes that `rectangle` touches, on the level nearest to its height. Its height becomes theirs.
-fn on_one_level(roads: &Roads, rectangle: &mut Rectangle) -> Vec<Footprint> {
+pub(super) fn on_one_level(roads: &Roads, rectangle: &mut Rectangle) -> Vec<Footprint> {
     let mut footprints = roads.ground().footprints(rectangle);
     let above = |it: &Footprint| (it.height - rectangle.pose.at.z).abs();
     let nearest = footprints.iter().min_by(|a, b| above(a).total_cmp(&above(b))).map(|it| it.height);
@@ -140,7 +154,7 @@ fn on_one_level(roads: &Roads, rectangle: &mut Rectangle) -> Vec<Footprint> {
 
 /// The footprint in the lane along which a vehicle drives: the middle of its front is in it. The vehicle was at `from`
 /// before, if it was in a lane.
-fn main_lane(
+pub(super) fn main_lane(
     roads: &Roads,
     rectangle: &Rectangle,
     footprints: &[Footprint],
@@ -189,12 +203,13 @@ fn show_in_junction(
         return;
     }
     let entry = traffic.lane(spot.chain).entry(spot.index);
-    let size = entry.driver.class.body();
-    let mut rectangle = Rectangle { pose: pose(&scene, spot), length: size.length, width: size.width };
+    let (length, width) = (f64::from(entry.motion.length), entry.driver.class.body().width);
+    let mut rectangle = Rectangle { pose: pose(&scene, spot), length, width };
     let counterpart = entry.lane_change.counterpart.map(|it: Counterpart| it.chain);
     let mut behind = entry.lane_change.previous_lanes.known();
-    let own = [Some(spot.chain), counterpart, behind.next(), behind.next()];
-    let moved = Moved { rectangle, before: None, speed: entry.motion.speed, way: 0.0 };
+    let own = [Some(spot.chain), counterpart, behind.next(), behind.next(), behind.next()];
+    let speed = entry.motion.speed;
+    let moved = Moved { rectangle, before: None, speed, has_known_speed: false, way: 0.0 };
     for footprint in on_one_level(roads, &mut rectangle) {
         if !own.contains(&Some(footprint.chain)) {
             external.obstacles.push(put_obstacle(roads, traffic, &entry, &moved, &footprint));

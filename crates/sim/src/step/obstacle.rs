@@ -21,6 +21,8 @@ pub(super) struct Moved {
     pub(super) before: Option<Rectangle>,
     /// Speed that others see [m/s].
     pub(super) speed: f64,
+    /// The speed is known better than the place: others see it, even if the vehicle has moved less.
+    pub(super) has_known_speed: bool,
     /// Its way in the last step [m].
     pub(super) way: f64,
 }
@@ -38,7 +40,9 @@ impl Moved {
         let heading = network.chain(footprint.chain).centre.heading(footprint.from);
         let along = self.speed * (self.rectangle.pose.heading - heading).cos();
         let rear = |it: &Rectangle| rear_of(it, network, footprint);
-        self.before.map_or(along, |before| along.min((rear(&self.rectangle) - rear(&before)) / dt))
+        self.before
+            .filter(|_| !self.has_known_speed)
+            .map_or(along, |before| along.min((rear(&self.rectangle) - rear(&before)) / dt))
     }
 }
 

@@ -9,6 +9,7 @@ use crate::record::trip_log::TripRecord;
 use crate::record::trips::free_time;
 use crate::route::fitting_speed::Outlook;
 use crate::route::roads::Roads;
+use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Entry, Kind, Kinematics, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::setup::Placement;
@@ -79,6 +80,16 @@ pub(crate) fn put(
         mark: Mark { x, time: clock.time() },
         ..TripRecord::of(id, class, parameters)
     });
+    traffic.enter(chain, entry(roads, clock, &vehicle, id));
+}
+
+/// The entry of a new vehicle.
+pub(super) fn entry(roads: &Roads, clock: Clock, vehicle: &Placement, id: VehicleId) -> Entry {
+    let Placement { chain, x, speed, class, parameters, destination } = *vehicle;
+    let style = roads.style(parameters);
+    let (network, navigator) = (roads.network(), roads.navigator());
+    let outlook = Outlook { network, navigator, style, class, destination };
+    let at = Position::new(chain, x);
     let length = class.body().length as f32;
     let motion = Kinematics { x, speed, acceleration: 0.0, headway_relaxation: 1.0, length, id };
     let due = next_turn(id, clock.step, clock.steps(style.attention.epoch));
@@ -114,5 +125,5 @@ pub(crate) fn put(
         minds_offside: false,
         reservation: NO_RESERVATION,
     };
-    traffic.enter(chain, Entry { motion, driver, lane_change });
+    Entry { motion, driver, lane_change }
 }

@@ -38,7 +38,7 @@ impl Relocating<'_> {
         let driven = if moved.before.is_some() { moved.way } else { 0.0 };
         let old = entry.motion;
         let extent = onto.map(|it| (it.to, moved.rear(network, it)));
-        entry.motion = kinematics(entry, self.speed_of(moved, onto), extent, clock.dt);
+        entry.motion = kinematics(&old, self.speed_of(moved, onto), moved.rectangle.length, extent, clock.dt);
         let at = onto.map(|it| Position::new(it.chain, entry.motion.x));
         self.go_on_in_reservation(entry, from, at);
         self.log.relocate(network, clock, &entry.motion, [from, at], driven - (entry.motion.x - old.x));
@@ -105,12 +105,10 @@ impl Relocating<'_> {
 }
 
 /// The kinematics in a lane, from its front to its rear there, or in no lane. A vehicle at an angle may be longer
-/// along the lane than it is.
-fn kinematics(entry: &Entry, speed: f64, extent: Option<(f64, f64)>, dt: f64) -> Kinematics {
-    let old = entry.motion;
+/// along the lane than its `length`.
+fn kinematics(old: &Kinematics, speed: f64, length: f64, extent: Option<(f64, f64)>, dt: f64) -> Kinematics {
     let acceleration = ((speed - old.speed) / dt).clamp(-Control::HARDEST, Control::HARDEST) as f32;
-    let length = entry.driver.class.body().length;
     let (x, length) =
         extent.map_or((old.x, length), |(front, rear)| (front, length.max((front - rear).min(LONGEST))));
-    Kinematics { x, speed, acceleration, length: length as f32, ..old }
+    Kinematics { x, speed, acceleration, length: length as f32, ..*old }
 }

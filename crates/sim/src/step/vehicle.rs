@@ -1,7 +1,7 @@
 //! A vehicle of a world.
 
 use laneweave_models::Style;
-use laneweave_network::{Point, Pose, Rectangle};
+use laneweave_network::{Point, Pose};
 
 use crate::state::externals::Body;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeState, VehicleId};
@@ -57,6 +57,14 @@ impl Vehicle<'_> {
         self.body().map_or(self.motion.speed, |it| it.speed)
     }
 
+    /// Its length and its width [m]. At an angle to its lane, `motion` has the length along the lane.
+    pub fn size(&self) -> [f64; 2] {
+        match self.body() {
+            Some(body) => [body.length, body.width],
+            None => [f64::from(self.motion.length), self.driver.class.body().width],
+        }
+    }
+
     /// The pose of its body.
     pub fn pose(&self) -> Pose {
         self.body().map_or_else(|| pose(&self.world.scene(), self.spot), |it| it.pose)
@@ -65,10 +73,7 @@ impl Vehicle<'_> {
     /// The midpoints of its front and rear bumpers.
     pub fn bumpers(&self) -> [Point; 2] {
         match self.body() {
-            Some(body) => {
-                let size = self.driver.class.body();
-                Rectangle { pose: body.pose, length: size.length, width: size.width }.ends()
-            }
+            Some(body) => body.rectangle().ends(),
             None => bumpers(&self.world.scene(), self.spot),
         }
     }

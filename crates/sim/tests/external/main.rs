@@ -10,6 +10,7 @@ mod identity;
 mod lanes;
 mod parameters;
 mod poses;
+mod recorded;
 mod struck;
 mod worlds;
 mod yielding;

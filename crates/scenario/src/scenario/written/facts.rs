@@ -58,6 +58,7 @@ impl Facts {
                 json!([[0.0, 1.0], [900.0, 1.5]]),
                 Some("For example, 50 % more after a quarter of an hour:".into()),
             ),
+            ("replay.columns", json!("columns.toml"), Some("For example:".into())),
             ("commands", json!("out/commands.parquet"), Some("For example:".into())),
             ("model", json!("mcdm"), Some("For example:".into())),
             ("run.threads", json!(prepared.threads), Some("On this machine:".into())),

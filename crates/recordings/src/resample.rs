@@ -6,7 +6,7 @@ use crate::recording::State;
 
 /// The states at the frames of `to` [s] between those of `from` [s], by the cubic through positions and velocities
 /// (Hermite). Nothing is known within an interruption.
-pub(super) fn resampled(states: &[State], from: f64, to: f64) -> Vec<State> {
+pub fn resampled(states: &[State], from: f64, to: f64) -> Vec<State> {
     /// Frames at the same time have numbers that agree but for rounding.
     const ROUNDING: f64 = 1e-6;
     let (Some(first), Some(last)) = (states.first(), states.last()) else { return Vec::new() };
@@ -21,7 +21,9 @@ pub(super) fn resampled(states: &[State], from: f64, to: f64) -> Vec<State> {
         }
         let [before, after] = [at, (at + 1).min(states.len() - 1)].map(|it| &states[it]);
         let share = (moment - before.frame as f64).max(0.0);
-        if share <= ROUNDING || after.frame - before.frame == 1 {
+        if share <= ROUNDING {
+            found.push(State { frame, ..*before });
+        } else if after.frame - before.frame == 1 {
             found.push(between(before, after, share, from, frame));
         }
     }

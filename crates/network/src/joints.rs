@@ -3,7 +3,9 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::{Lanelet, LaneletIndex, Point};
+use crate::build::{Network, NetworkError};
+use crate::geometry::Point;
+use crate::lanelet::{Lanelet, LaneletIndex};
 
 /// Maximum distance between corners that were drawn twice [m]. Ours.
 const MAXIMUM_GAP: f64 = 0.75;
@@ -13,7 +15,7 @@ const MAXIMUM_BEND: f64 = 0.3;
 const MAXIMUM_HEIGHT: f64 = 2.0;
 
 /// For each lanelet those that continue it, first those of the graph.
-pub(crate) fn onward(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
+pub fn onward(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     let mut starts: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
     for (index, lanelet) in lanelets.iter().enumerate() {
         starts.entry(cell(&lanelet.left_border.points()[0])).or_default().push(index);
@@ -34,6 +36,22 @@ pub(crate) fn onward(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
             lanelet.following.iter().copied().chain(begins_there).collect()
         })
         .collect()
+}
+
+impl Network {
+    /// The same network, not yet regulated, in which lanelets that meet at their ends, but share no points, continue
+    /// one another.
+    ///
+    /// # Errors
+    /// None, as long as the network is sound.
+    pub fn joined(self) -> Result<Network, NetworkError> {
+        let Network { mut lanelets, driving_side, lane_use, .. } = self;
+        let onward = onward(&lanelets);
+        lanelets.iter_mut().zip(onward).for_each(|(lanelet, onward)| lanelet.following = onward);
+        let mut network = Network::new(lanelets, driving_side)?;
+        network.lane_use = lane_use;
+        Ok(network)
+    }
 }
 
 fn cell(point: &Point) -> (i64, i64) {

@@ -1,0 +1,7 @@
+//! Recordings are replayed: vehicles drive as they were recorded, and drivers beside them react.
+
+mod as_recorded;
+mod collisions;
+mod future;
+mod scores;
+mod set_up;

@@ -1,0 +1,70 @@
+//! Recordings and their replays for these tests.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use laneweave::replay;
+use laneweave::scenario::{Origin, Prepared, Replay, Scenario, prepare};
+use laneweave_recordings::{Drone, Recording, Watch, interaction};
+
+/// A file of our own maps.
+pub(crate) fn map(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
+}
+
+/// A run on one of our own maps as a drone sees it, with errors of so much [m].
+pub(crate) fn observed(scenario: &Scenario, noise: f64) -> Recording {
+    let mut prepared = prepare(scenario, &Origin::default()).expect("the scenario is sound");
+    (0..prepared.warmup_steps).for_each(|_| prepared.step());
+    let mut watch = Watch::from_now(&prepared.world);
+    for _ in 0..prepared.steps {
+        prepared.step();
+        watch.see(&prepared.world);
+    }
+    Drone { noise, ..Drone::exact(10.0) }.observe(&watch.into_recording())
+}
+
+/// The scenario of a map with one style of drivers, for so long after a minute of warm-up [s].
+pub(crate) fn of_style(name: &str, style: &str, demand: f64, duration_s: f64) -> Scenario {
+    let mut scenario = Scenario::of_map(map(name));
+    scenario.demand.vehicles_per_hour = Some(demand);
+    scenario.run.warmup_s = 60.0;
+    scenario.run.duration_s = duration_s;
+    scenario.styles = [(style.to_owned(), 1.0)].into();
+    scenario
+}
+
+/// A recording as a file.
+pub(crate) fn written(recording: &Recording) -> PathBuf {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let folder = env::temp_dir().join(format!("laneweave-replayed-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("it can be made");
+    let path = folder.join(format!("{number}.csv"));
+    let mut file = fs::File::create(&path).expect("it can be made");
+    interaction::write(recording, &mut file).expect("it can be written");
+    path
+}
+
+/// The replay of a recording, with this share of drivers.
+pub(crate) fn replayed(recording: PathBuf, map: PathBuf, reactive_share: f64) -> Scenario {
+    let replay = Replay { recording: vec![recording], reactive_share, ..Replay::default() };
+    replay::scenario(map, replay).expect("it can be read")
+}
+
+pub(crate) fn ready(scenario: &Scenario) -> Prepared {
+    prepare(scenario, &Origin::default()).expect("it can be replayed")
+}
+
+/// The recording and the map of a place, if they are there.
+pub(crate) fn mona() -> Option<[PathBuf; 2]> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/recordings/mona_east");
+    let files = [folder.join("vehicle_tracks_000.csv"), folder.join("map.osm_xy")];
+    if files.iter().all(|it| it.exists()) {
+        return Some(files);
+    }
+    eprintln!("skipped: {} is not there", folder.display());
+    None
+}

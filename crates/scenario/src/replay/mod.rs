@@ -1,0 +1,218 @@
+//! A recording is played in a world: its vehicles come, move and go as they were recorded, and some of them become
+//! drivers who react.
+//!
+//! What a driver does up to a time t depends only on what was recorded up to t: its destination is drawn from the
+//! destinations of the vehicles that were last seen before it became a driver, its style and its desired speed from the
+//! scenario.
+
+mod desire;
+mod part;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use laneweave_network::Position;
+use laneweave_recordings::{Matched, Recording, TurningShares, clean};
+use laneweave_sim::{Purpose, Random, VehicleId, World};
+
+use crate::fault::Fault;
+use crate::recording::{elsewhere, open_recordings};
+use crate::scenario::{LONGEST, Origin, Replay, Scenario};
+use part::Part;
+
+/// The seed of the random numbers that choose who reacts. It is always the same: so the same vehicles react whatever
+/// the seed of the run.
+const CHOICE: u64 = 1;
+
+/// A recording that is played. It has no state: what is due follows from the world, and from the ids of its vehicles.
+#[derive(Clone)]
+pub struct Player {
+    /// In the order in which they come.
+    parts: Arc<[Part]>,
+    /// The step from which on some are drivers; none: nobody ever is.
+    from_step: Option<u32>,
+    shares: Arc<TurningShares>,
+    random: Random,
+    /// Time from the first frame to the last [s].
+    duration_s: f64,
+}
+
+/// A recorded vehicle of a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Played {
+    /// Its id in the recording.
+    pub recorded: i64,
+    /// Its id in the world.
+    pub vehicle: VehicleId,
+    /// Whether it is to become a driver.
+    pub is_reactive: bool,
+}
+
+impl Player {
+    /// The recording that `scenario` replays, if it does, for a `world` at its start.
+    ///
+    /// # Errors
+    /// If a file cannot be read, if the recording is one of another place, or if a vehicle or a number does not fit.
+    pub(crate) fn of(scenario: &Scenario, origin: &Origin, world: &World) -> Result<Option<Player>, Fault> {
+        let replay = &scenario.replay;
+        check_numbers(replay, origin)?;
+        if !replay.is_asked() {
+            return Ok(None);
+        }
+        let (mut recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
+        let Some((first, last)) = recording.frames() else { return Ok(None) };
+        let states = recording.tracks.iter_mut().flat_map(|it| &mut it.states);
+        states.for_each(|it| it.frame -= first);
+        let reactive = chosen(&recording, replay, origin)?;
+        let (cleaned, _) = clean(recording.clone());
+        let matched = Matched::new(world.network(), &cleaned);
+        check_place(&matched, scenario)?;
+        let navigator = world.scene().navigator;
+        let from_step = (replay.reactive_from_s / world.clock().dt).ceil() as u32;
+        Ok(Some(Player {
+            parts: part::parts(&recording, &reactive, from_step, world.clock().dt).into(),
+            from_step: (!reactive.is_empty()).then_some(from_step),
+            shares: Arc::new(TurningShares::of(&matched, navigator)),
+            random: Random::new(scenario.run.seed),
+            duration_s: (last - first) as f64 * recording.step,
+        }))
+    }
+
+    /// The same recording with other destinations of the drivers.
+    pub fn with_seed(&self, seed: u64) -> Player {
+        Player { random: Random::new(seed), ..self.clone() }
+    }
+
+    /// The same recording, in which nobody reacts.
+    pub fn as_recorded(&self) -> Player {
+        Player { from_step: None, ..self.clone() }
+    }
+
+    /// Time from the first frame of the recording to the last [s].
+    pub fn duration_s(&self) -> f64 {
+        self.duration_s
+    }
+
+    /// Number of its parts: a vehicle that was lost and seen again has several.
+    pub(crate) fn len(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// The vehicles that have come so far, of which `vehicles` has the ids by part.
+    pub(crate) fn played<'a>(
+        &'a self,
+        vehicles: &'a [Option<VehicleId>],
+    ) -> impl Iterator<Item = Played> + 'a {
+        self.parts.iter().zip(vehicles).filter_map(|(part, vehicle)| {
+            let (recorded, is_reactive) = (part.recorded, part.is_reactive && self.from_step.is_some());
+            vehicle.map(|vehicle| Played { recorded, vehicle, is_reactive })
+        })
+    }
+
+    /// Before a step: the vehicles go where they are at its end.
+    pub(crate) fn move_on(&self, vehicles: &[Option<VehicleId>], world: &mut World) {
+        let next = world.clock().step + 1;
+        for (part, id) in self.parts.iter().zip(vehicles) {
+            if let (Some(id), Some(pose)) = (*id, part.pose(next)) {
+                world.move_recorded(id, pose);
+            }
+        }
+    }
+
+    /// At the start, and after a step: the vehicles that are no longer seen go, those that are seen for the first time
+    /// come, and those whose time has come become drivers.
+    pub(crate) fn come_and_go(&self, vehicles: &mut [Option<VehicleId>], world: &mut World) {
+        let now = world.clock().step;
+        for (part, id) in self.parts.iter().zip(vehicles.iter_mut()) {
+            if part.first_step == now && !(part.is_driven && self.from_step.is_some()) {
+                // Its numbers are in their ranges.
+                *id = world.put_recorded(&part.vehicle()).ok();
+            }
+            let Some(id) = *id else { continue };
+            if part.last_step() < now {
+                world.remove_recorded(id);
+            } else if part.is_reactive && self.from_step.is_some_and(|it| it <= now) {
+                self.release(part, id, world);
+            }
+        }
+    }
+
+    /// Lets a vehicle become a driver, if it is not one and is in a lane.
+    fn release(&self, part: &Part, id: VehicleId, world: &mut World) {
+        let Some(vehicle) = world.vehicle(id).filter(|it| it.is_on_its_own_path() && it.is_in_lane()) else {
+            return;
+        };
+        let at = Position::new(vehicle.spot.chain, vehicle.x());
+        let (lanelet, _) = world.network().chain(at.chain).lanelet(at.x);
+        let navigator = world.scene().navigator;
+        let draw = self.random.uniform(part.subject(), Purpose::Destination, 0);
+        let drawn = self.shares.draw(navigator, (lanelet, at), world.clock().time(), draw);
+        let number = navigator.number(drawn);
+        let destination = number.and_then(|it| world.demand().destinations.get(it)).map(|it| it.id());
+        let draw = self.random.uniform(part.subject(), Purpose::Character, 0);
+        let parameters = desire::parameters(&vehicle, world, draw);
+        world.release_recorded(id, destination, parameters);
+    }
+}
+
+/// The ids of the vehicles that are to become drivers.
+fn chosen(recording: &Recording, replay: &Replay, origin: &Origin) -> Result<BTreeSet<i64>, Fault> {
+    let vehicles: BTreeSet<i64> =
+        recording.tracks.iter().filter(|it| it.class.is_vehicle()).map(|it| it.id).collect();
+    if let Some(unknown) = replay.reactive_ids.iter().find(|it| !vehicles.contains(it)) {
+        let known: Vec<String> = vehicles.iter().take(10).map(i64::to_string).collect();
+        let place = origin.place(&["replay", "reactive_ids"]);
+        let what = format!("the recording has no motor vehicle {unknown}");
+        return Err(Fault::new(
+            place,
+            what,
+            format!("choose among its vehicles, such as {}", known.join(", ")),
+        ));
+    }
+    if !replay.reactive_ids.is_empty() {
+        return Ok(replay.reactive_ids.iter().copied().collect());
+    }
+    let random = Random::new(CHOICE);
+    let draw = |it: &i64| random.uniform(part::subject(*it), Purpose::Reaction, 0);
+    Ok(vehicles.into_iter().filter(|it| draw(it) < replay.reactive_share).collect())
+}
+
+fn check_numbers(replay: &Replay, origin: &Origin) -> Result<(), Fault> {
+    let check = |key, what: &str, value: f64, to: f64, unit: &str| {
+        if (0.0..=to).contains(&value) {
+            return Ok(());
+        }
+        let place = origin.place(&["replay", key]);
+        Err(Fault::new(place, format!("{what} of {value}{unit}"), format!("choose 0 to {to}{unit}")))
+    };
+    check("reactive_share", "a share", replay.reactive_share, 1.0, "")?;
+    check("reactive_from_s", "a time", replay.reactive_from_s, LONGEST, " s")?;
+    if replay.reactive_share > 0.0 && !replay.reactive_ids.is_empty() {
+        let place = origin.place(&["replay", "reactive_ids"]);
+        return Err(Fault::new(place, "ids and a share of the vehicles that react", "give only one of them"));
+    }
+    let is_reactive = replay.reactive_share > 0.0 || !replay.reactive_ids.is_empty();
+    if is_reactive && !replay.is_asked() {
+        let place = origin.place(&["replay"]);
+        return Err(Fault::new(
+            place,
+            "vehicles that react, of no recording",
+            "name it: recording = [\"FILE\"]",
+        ));
+    }
+    Ok(())
+}
+
+/// Checks that the recording is one of the place of the map.
+fn check_place(matched: &Matched, scenario: &Scenario) -> Result<(), Fault> {
+    let vehicles =
+        matched.places.iter().zip(&matched.recording.tracks).filter(|(_, it)| it.class.is_vehicle());
+    let (states, unmatched) = vehicles.fold((0, 0), |(states, unmatched), (places, _)| {
+        (states + places.len(), unmatched + places.iter().filter(|it| it.is_none()).count())
+    });
+    if 2 * unmatched <= states {
+        return Ok(());
+    }
+    let problem = elsewhere(matched.recording, matched.network);
+    Err(Fault::new(scenario.map.display(), format!("{} {}", problem.element, problem.what), problem.remedy))
+}
