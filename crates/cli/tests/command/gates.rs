@@ -56,6 +56,41 @@ fn a_lanelet_alone_is_neither_entrance_nor_exit() {
 }
 
 #[test]
+fn a_road_may_end_with_a_short_lanelet() {
+    let lines = [(1, [0.0, 300.0], 4.0), (2, [0.0, 300.0], 0.0)];
+    let onward = "<node id='30' x='301' y='4'/><node id='40' x='301' y='0'/><way id='3'><nd ref='11'/><nd ref='30'/></way>\
+                  <way id='4'><nd ref='21'/><nd ref='40'/></way><relation id='102'><member type='way' ref='3' role='left'/>\
+                  <member type='way' ref='4' role='right'/><tag k='type' v='lanelet'/><tag k='subtype' v='highway'/>\
+                  <tag k='speed_limit' v='100'/></relation></osm>";
+    let folder = Folder::new().with("m.osm", &map(&lines, &[(101, 1, 2)]).replace("</osm>", onward));
+    let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
+    assert_eq!(report["exits"], json!([{ "id": 102, "lanes": 1 }]));
+    let summary = folder.summary("m.osm --duration 100 --record 0");
+    assert!(summary["left"].as_u64().unwrap() > 5, "{summary}");
+}
+
+#[test]
+fn lanelets_that_meet_but_share_no_points_continue_one_another_on_request() {
+    let [first, second] = [[0.0, 300.0], [300.2, 600.0]];
+    let lines = [(1, first, 4.0), (2, first, 0.0), (3, second, 4.0), (4, second, 0.0)];
+    let scenario = "map = 'm.osm'\nmap_options.joins_ends = true\n[run]\nduration_s = 200.0";
+    let folder =
+        Folder::new().with("m.osm", &map(&lines, &[(101, 1, 2), (102, 3, 4)])).with("s.toml", scenario);
+    let summary = folder.summary("s.toml --demand 600 --format csv");
+    assert!(summary["completed"].as_u64().unwrap() > 10, "{summary}");
+    let trips = folder.read("out/trips.csv");
+    let header: Vec<&str> = trips.lines().next().unwrap().split(',').collect();
+    let [from, to] =
+        ["from_lanelet", "to_lanelet"].map(|name| header.iter().position(|it| *it == name).unwrap());
+    for trip in trips.lines().skip(1) {
+        let cells: Vec<&str> = trip.split(',').collect();
+        // A vehicle on the road has not arrived.
+        let is_known = cells[from] == "101" && ["102", ""].contains(&cells[to]);
+        assert!(is_known, "{trip}");
+    }
+}
+
+#[test]
 fn trips_of_one_lanelet_are_counted_and_left_out_of_means() {
     let road = [0.0, 500.0];
     let lines = [(1, road, 8.0), (2, road, 4.0), (3, road, 0.0)];

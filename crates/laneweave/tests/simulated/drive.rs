@@ -22,15 +22,23 @@ const ON_RAMP: f64 = 220.0;
 const STAYING: f64 = 9.0;
 /// Share of trucks.
 const TRUCKS: f64 = 0.1;
-/// Simulated time before the recording, of the recording, and after it until its last changes are completed [s].
-const WARM_UP: f64 = 120.0;
-const RECORDED: f64 = 660.0;
-const AFTERWARDS: f64 = 30.0;
-/// Between these times the knowledge of drivers is sampled [s]. Before, there are changes that began before the
-/// recording; after, the recording ends before all vehicles have left the map.
-const FIRST_KEPT: f64 = 10.0;
-const LAST_KEPT: f64 = 480.0;
-const EVERY: f64 = 5.0;
+/// Between these times the knowledge of drivers is sampled so often [s]. Before the first, there are changes that began
+/// before the recording; after the last, the recording ends before all vehicles have left the map.
+pub(crate) struct Spans {
+    /// Simulated time before the recording [s].
+    pub(crate) warm_up: f64,
+    /// Time of the recording [s].
+    pub(crate) recorded: f64,
+    /// Time after it, in which its last changes are completed [s].
+    pub(crate) afterwards: f64,
+    /// The times in between [s].
+    pub(crate) kept: [f64; 2],
+    /// Time between two samples [s].
+    pub(crate) every: f64,
+}
+
+const ON_THE_MOTORWAY: Spans =
+    Spans { warm_up: 120.0, recorded: 660.0, afterwards: 30.0, kept: [10.0, 480.0], every: 5.0 };
 
 /// The true values in the simulator.
 pub(crate) struct Truth {
@@ -77,26 +85,37 @@ pub(crate) struct Sample {
 
 /// The usual drivers on three lanes with trucks, an on-ramp and an off-ramp, and the recording of them.
 pub(crate) fn drive(seed: u64) -> (Truth, Recording) {
-    let mut world = world(seed);
+    let driver_parameters = Population::usual(seed).expect("built-in styles").driver_parameters;
+    drive_in(world(seed), driver_parameters, &ON_THE_MOTORWAY, seed)
+}
+
+/// Drives in a world with these driver parameters, and records that.
+pub(crate) fn drive_in(
+    mut world: World,
+    driver_parameters: Vec<Style>,
+    spans: &Spans,
+    seed: u64,
+) -> (Truth, Recording) {
+    let Spans { warm_up, recorded, afterwards, kept: [first_kept, last_kept], every } = *spans;
     let steps = |seconds: f64| (seconds / STEP).round() as i64;
-    (0..steps(WARM_UP)).for_each(|_| world.step());
+    (0..steps(warm_up)).for_each(|_| world.step());
     let began = world.clock().time();
     let (mut watch, mut character_of) = (Watch::from_now(&world), HashMap::new());
     let (mut changes, mut instants) = (Vec::new(), Vec::new());
-    for frame in 0..=steps(RECORDED + AFTERWARDS) {
-        if frame <= steps(RECORDED) {
+    for frame in 0..=steps(recorded + afterwards) {
+        if frame <= steps(recorded) {
             watch.see(&world);
             let parameters = |it: Vehicle| (i64::from(it.id()), it.driver.parameters);
             character_of.extend(world.vehicles().map(parameters));
         }
-        if (steps(FIRST_KEPT)..=steps(LAST_KEPT)).contains(&frame) && frame % steps(EVERY) == 0 {
+        if (steps(first_kept)..=steps(last_kept)).contains(&frame) && frame % steps(every) == 0 {
             instants.push(instant(&world, frame));
         }
         world.step();
         for event in world.events() {
             let Event::LaneChange(it) = event else { continue };
             let (vehicle, time) = (i64::from(it.vehicle), it.time - began);
-            if it.is_completed && (0.0..=RECORDED).contains(&time) {
+            if it.is_completed && (0.0..=recorded).contains(&time) {
                 let start = it.started - began;
                 changes.push(Made { vehicle, began: start, time, ended: start + it.duration });
             }
@@ -104,7 +123,6 @@ pub(crate) fn drive(seed: u64) -> (Truth, Recording) {
     }
     let drone = Drone { noise: NOISE, seed: seed + 1, ..Drone::exact(1.0 / STEP) };
     let recording = drone.observe(&watch.into_recording());
-    let driver_parameters = Population::usual(seed).expect("built-in styles").driver_parameters;
     let network = world.network().clone();
     (Truth { network, driver_parameters, character_of, changes, instants }, recording)
 }

@@ -3,6 +3,7 @@
 
 mod drive;
 mod layouts;
+mod town;
 mod view;
 #[path = "../../../recordings/tests/datasets/written.rs"]
 mod written;
@@ -103,9 +104,8 @@ fn durations_are_recovered_in_the_median_and_changes_that_were_cut_off_are_not_a
     assert!((sums.0 - evidence.veh_h).abs() < 1e-6 && sums.1 == changes.len(), "{sums:?}");
 }
 
-#[test]
-fn a_recorded_driver_knows_what_the_simulated_one_knew() {
-    let (truth, recording) = &*DRIVEN;
+/// How often what a recorded driver knows is what the simulated one knew, and where it is not.
+fn outcomes(truth: &Truth, recording: &Recording) -> BTreeMap<&'static str, usize> {
     let matched = Matched::new(&truth.network, recording);
     let navigator = Navigator::new(&truth.network);
     let assume = |track: usize| {
@@ -115,7 +115,7 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
     let changes = lane_changes(&matched);
     let replay =
         Replay::new(&matched, &changes, &navigator, &truth.driver_parameters, assume).expect("drivers");
-    let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut outcomes = BTreeMap::new();
     for instant in &truth.instants {
         let frame = replay.frame(instant.frame);
         // The observed begin, crossing or end of a change is a frame or two too early or late; a change whose vehicle
@@ -129,12 +129,20 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
                 _ if differs => "while a lane change begins, crosses or ends",
                 // Simulated drivers obey a new limit when they next consider lanes.
                 (Some(seen), Some(known)) if seen.desired != known.desired => "new limit",
+                (Some(seen), Some(known)) if seen.agrees_here(known) => "beyond junctions",
                 // A vehicle is at the edge of the range, or exactly alongside.
                 _ => "edge",
             };
             *outcomes.entry(outcome).or_default() += 1;
         }
     }
+    outcomes
+}
+
+#[test]
+fn a_recorded_driver_knows_what_the_simulated_one_knew() {
+    let (truth, recording) = &*DRIVEN;
+    let outcomes = outcomes(truth, recording);
     let samples: usize = outcomes.values().sum();
     let count = |outcome: &str| outcomes.get(outcome).copied().unwrap_or(0);
     assert!(samples >= 2000, "{outcomes:?}");
@@ -142,6 +150,7 @@ fn a_recorded_driver_knows_what_the_simulated_one_knew() {
     let during = count("while a lane change begins, crosses or ends");
     assert!(count("agree") * 100 >= (samples - during) * 99 && during * 50 <= samples, "{outcomes:?}");
     assert!(count("new limit") * 250 <= samples && count("edge") * 400 <= samples, "{outcomes:?}");
+    assert_eq!(count("beyond junctions"), 0, "{outcomes:?}");
 }
 
 /// The positions of vehicles, and those between lanes, in a recorded frame.

@@ -51,6 +51,13 @@ impl View {
 
     /// Whether observed and true values are the same except for noise.
     pub(crate) fn agrees(&self, known: &View) -> bool {
+        let foresees = |(seen, known): (&Lane, &Lane)| seen.foresees(known);
+        self.agrees_here(known) && self.lanes.iter().zip(&known.lanes).all(foresees)
+    }
+
+    /// Whether they are, but for what the driver expects of junctions. Lights and rights of way are in no recording, and
+    /// where a vehicle was going is so only up to where it was last seen.
+    pub(crate) fn agrees_here(&self, known: &View) -> bool {
         near(self.speed, known.speed, SPEED)
             && self.desired == known.desired
             && near(self.section, known.section, REMAINING)
@@ -75,12 +82,14 @@ impl Lane {
     fn agrees(&self, known: &Lane) -> bool {
         Neighbour::agree(self.ahead, known.ahead)
             && Neighbour::agree(self.behind, known.behind)
-            && near(self.anticipated_speed, known.anticipated_speed, SPEED)
             && near(self.mean_spacing, known.mean_spacing, SPACING * known.mean_spacing)
             && near(self.mean_speed, known.mean_speed, SPEED)
             && self.changes == known.changes
             && near(self.remaining, known.remaining, REMAINING)
-            && near(self.onward, known.onward, TIME)
+    }
+
+    fn foresees(&self, known: &Lane) -> bool {
+        near(self.anticipated_speed, known.anticipated_speed, SPEED) && near(self.onward, known.onward, TIME)
     }
 }
 

@@ -75,7 +75,8 @@ pub(super) fn in_range(step_ms: f64, line: usize, columns: &str) -> Result<(), R
 }
 
 /// The time between frames [ms] of a table without numbers of frames, by the times of its tracks: about the shortest
-/// that two successive rows of a track are apart, `None` if no two are. The whole time of the table is a multiple of it.
+/// that two successive rows of a track are apart, `None` if no two are. The whole time of the table is a multiple of
+/// it.
 pub(super) fn shortest<'a>(tracks: impl Iterator<Item = &'a [f64]> + Clone) -> Option<f64> {
     let apart = tracks.clone().flat_map(|times| times.windows(2).map(|it| (it[1] - it[0]).abs()));
     let shortest = apart.filter(|it| *it > ROUNDING).reduce(f64::min)?;
