@@ -9,7 +9,7 @@ mod setting;
 use laneweave_models::Style;
 use laneweave_results::output::Traces;
 use laneweave_results::record::{End, Record};
-use laneweave_scenario::scenario::{Prepared, mixture, prepare};
+use laneweave_scenario::scenario::{Prepared, driving, mixture, prepare};
 use laneweave_scenario::style::Population;
 use laneweave_scenario::{Fault, Script};
 use laneweave_sim::World;
@@ -95,5 +95,5 @@ fn changed(record: &Record, settings: &[Setting]) -> Result<Vec<Style>, Fault> {
     for setting in settings {
         setting.apply(&mut mixture)?;
     }
-    population.redrawn(&mixture, scenario.run.seed)
+    Ok(driving(scenario, population.redrawn(&mixture, scenario.run.seed)?))
 }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use laneweave_scenario::scenario::{Origin, Prepared, Replay, Scenario, prepare};
+use laneweave_scenario::scenario::{Origin, Prepared, Replay, Scenario, prepare_playing};
 use laneweave_scenario::style::Model;
 use laneweave_scenario::{Fault, Played, Player, open_recordings};
 
@@ -172,10 +172,9 @@ impl<Stopped: Fn() -> bool + Sync> Rollouts<'_, Stopped> {
         followed: &Followed,
     ) -> Result<Watched, Fault> {
         let model = model.or(self.scenario.model);
-        let mut scenario = Scenario { replay: Replay::default(), model, ..self.scenario.clone() };
+        let mut scenario = Scenario { model, ..self.scenario.clone() };
         (scenario.run.threads, scenario.run.seed) = (NonZero::new(1), seed);
-        let mut prepared = prepare(&scenario, self.origin)?;
-        prepared.script = prepared.script.playing(player);
+        let mut prepared = prepare_playing(&scenario, self.origin, player)?;
         let mut watched = Watched::default();
         for _ in 0..prepared.warmup_steps + prepared.steps {
             if (self.is_stopped)() {

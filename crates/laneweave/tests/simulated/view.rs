@@ -55,8 +55,8 @@ impl View {
         self.agrees_here(known) && self.lanes.iter().zip(&known.lanes).all(foresees)
     }
 
-    /// Whether they are, but for what the driver expects of junctions. Lights and rights of way are in no recording, and
-    /// where a vehicle was going is so only up to where it was last seen.
+    /// Whether they are, but for what the driver expects of junctions. Lights and rights of way are in no recording,
+    /// and where a vehicle was going is so only up to where it was last seen.
     pub(crate) fn agrees_here(&self, known: &View) -> bool {
         near(self.speed, known.speed, SPEED)
             && self.desired == known.desired

@@ -4,10 +4,14 @@ use laneweave_models::Style;
 use laneweave_network::Position;
 use laneweave_sim::{Vehicle, World};
 
+use crate::style::Population;
+
 /// A driver with a longer time gap, or with nobody ahead, drives freely [s].
 const FREE: f64 = 4.0;
 /// A free driver that is slower than this share of the limit may still be speeding up.
 const SPEEDING_UP: f64 = 0.5;
+/// Standard deviation of the logarithm of a driver's desired speed around those of its style (ours).
+const OTHERWISE: f64 = 0.15;
 /// Standard deviation of a free driver's speed around its desired speed [m/s] (ours).
 const SPREAD: f64 = 1.5;
 
@@ -18,15 +22,25 @@ pub(super) fn parameters(vehicle: &Vehicle, world: &World, uniform: f64) -> u32 
     let drawn = vehicle.driver.parameters;
     let style = &vehicle.style().name;
     let own = world.driver_parameters().iter().zip(0..).filter(|(it, _)| it.name == *style);
-    let sets: Vec<(f64, u32)> = own.map(|(it, index)| (log_likelihood(vehicle, it, world), index)).collect();
+    let of_population: u32 = world.demand().population.iter().map(|it| it.count).sum();
+    let log = |it: &Style, index: u32| log_prior(index / of_population) + log_likelihood(vehicle, it, world);
+    let sets: Vec<(f64, u32)> = own.map(|(it, index)| (log(it, index), index)).collect();
     let most = sets.iter().map(|it| it.0).fold(f64::NEG_INFINITY, f64::max);
-    let weights = || sets.iter().map(|(log, index)| ((log - most).exp(), *index));
+    let weights = || sets.iter().map(|(log, index)| (libm::exp(log - most), *index));
     let mut at = uniform * weights().map(|it| it.0).sum::<f64>();
     let found = weights().find(|(weight, _)| {
         at -= weight;
         at < 0.0
     });
     found.map_or(drawn, |it| it.1)
+}
+
+/// The logarithm of how likely a set is before a speed is seen, but for a constant: 0 for those of the population,
+/// which come first, and less for those that desire other speeds.
+fn log_prior(number: u32) -> f64 {
+    let factor = (number as usize).checked_sub(1).and_then(|it| Population::OTHER_SPEEDS.get(it));
+    let away = factor.map_or(0.0, |it| libm::log(*it) / OTHERWISE);
+    -0.5 * away * away
 }
 
 /// The logarithm of how likely the speed of a vehicle is if its driver has this `style`, but for a constant.

@@ -1,24 +1,25 @@
 //! From a scenario to a world that can run: everything is checked before anything is written.
 
 use std::num::NonZero;
-use std::path::Path;
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Graph, Map, MapError, Problem, ReadOptions, Size, lanelet2, load, regulations};
+use laneweave_maps::{Graph, Map, Problem, Size, regulations};
 use laneweave_models::Style;
-use laneweave_network::{DrivingSide, LaneletIndex, Network};
+use laneweave_network::{LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Rate, Setup, World};
 
 use super::basis::{Basis, usual};
 use super::demand::{check_ways, demand};
+use super::map::read_map;
 use super::mixture::mixture;
 use super::signals::plans;
 use super::turns::check_arrivals;
-use super::{MapOptions, Origin, Scenario, SumoFile};
+use super::{Origin, Scenario, SumoFile};
 use crate::capacity::Capacity;
 use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
+use crate::replay::Player;
 use crate::script::Script;
 use crate::style::Population;
 
@@ -78,7 +79,15 @@ pub struct Prepared {
 /// # Errors
 /// If something is missing, not readable, or invalid.
 pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
-    prepare_with(scenario, origin, || read_map(scenario, origin))
+    prepare_with(scenario, origin, None, || read_map(scenario, origin))
+}
+
+/// The same as [`prepare`], with the recording that `player` plays in place of the one that the scenario names.
+///
+/// # Errors
+/// If something is missing, not readable, or invalid.
+pub fn prepare_playing(scenario: &Scenario, origin: &Origin, player: Player) -> Result<Prepared, Fault> {
+    prepare_with(scenario, origin, Some(player), || read_map(scenario, origin))
 }
 
 /// Makes the world of `scenario` on a `map` that was read or generated before. The path and the options of the map in
@@ -87,12 +96,13 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
 /// # Errors
 /// If something is missing, not readable, or invalid.
 pub fn prepare_on(map: Map, scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
-    prepare_with(scenario, origin, || Ok(map))
+    prepare_with(scenario, origin, None, || Ok(map))
 }
 
 fn prepare_with(
     scenario: &Scenario,
     origin: &Origin,
+    player: Option<Player>,
     map: impl FnOnce() -> Result<Map, Fault>,
 ) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
@@ -104,6 +114,7 @@ fn prepare_with(
     let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
     let Population { driver_parameters, shares } = Population::draw(&mixture, scenario.run.seed)?;
+    let driver_parameters = driving(scenario, driver_parameters);
     let map = map()?;
     let (network, places) = if scenario.map_options.joins_ends { joined(&map) } else { driven(&map) };
     // A user cannot correct the built-in map.
@@ -133,7 +144,8 @@ fn prepare_with(
     let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
-    let script = Script::of(scenario, origin, &world)?;
+    let player = player.map_or_else(|| Player::of(scenario, origin, &world), |it| Ok(Some(it)))?;
+    let script = Script::of(scenario, origin, player, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
         warmup_steps: steps(scenario.run.warmup_s),
@@ -153,6 +165,16 @@ fn prepare_with(
         script,
         world,
     })
+}
+
+/// The sets of driver parameters of a world of `scenario`: those of its population, and further ones beside a
+/// recording.
+pub fn driving(scenario: &Scenario, driver_parameters: Vec<Style>) -> Vec<Style> {
+    if scenario.replay.is_asked() {
+        Population::with_other_speeds(driver_parameters)
+    } else {
+        driver_parameters
+    }
 }
 
 /// The world that `build` makes with the demand of `scenario`, and the basis of that demand: a total, if the scenario
@@ -299,84 +321,4 @@ fn threads(scenario: &Scenario, origin: &Origin, records: bool) -> Result<usize,
         return Err(Fault::new(place, format!("{threads} threads"), format!("choose 1 to {MOST_THREADS}")));
     }
     Ok(threads)
-}
-
-fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
-    let options = ReadOptions::from(&scenario.map_options);
-    let read = match origin.map {
-        Some(text) => lanelet2::read(text.as_bytes(), &options),
-        None => load(&scenario.map, &options),
-    };
-    read.map_err(|error| {
-        let fault = map_fault(&error, &scenario.map, origin);
-        match error {
-            // The file may be a scenario or a map.
-            MapError::UnknownFormat { .. } if origin.in_file(&["map"]).is_none() => {
-                Fault { remedy: fault.remedy + ", scenario (.toml)", ..fault }
-            }
-            _ => fault,
-        }
-    })
-}
-
-/// Reads the map at `path`, with options of the command.
-///
-/// # Errors
-/// If it cannot be read, or has no lanelet for vehicles.
-pub fn open_map(path: &Path, options: &MapOptions) -> Result<Map, Fault> {
-    let mut origin = Origin::default();
-    origin.replaced("map_options.origin", "--origin");
-    load(path, &ReadOptions::from(options)).map_err(|error| match error {
-        MapError::UnknownFormat { found, .. } if found == "toml" => {
-            let what = "by its name this is a scenario or a style, not a map";
-            Fault::new(path.display(), what, "give the map itself; a scenario names it in its key map")
-        }
-        _ => map_fault(&error, path, &origin),
-    })
-}
-
-impl From<&MapOptions> for ReadOptions {
-    fn from(options: &MapOptions) -> ReadOptions {
-        ReadOptions {
-            origin: options.origin.map(|[latitude, longitude]| (latitude, longitude)),
-            law: options.law.into(),
-            driving_side: options.driving_side.map(DrivingSide::from),
-            largest: options.max_size_mb.map_or_else(Size::default, Size::of_mb),
-        }
-    }
-}
-
-/// The fault of the map at `path`: for a wrong path, its place is in the scenario file; for a wrong content, in the
-/// map.
-fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
-    let line = match error {
-        MapError::Xml(error) => Some(error.line()),
-        _ => None,
-    };
-    let message = error.to_string();
-    let message = line.and_then(|it| message.strip_prefix(&format!("line {it}: "))).unwrap_or(&message);
-    let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "correct the map"));
-    let file = path.display();
-    let named_at = origin.in_file(&["map"]);
-    match (error, line, named_at) {
-        (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
-        (MapError::TooLarge { .. }, ..) => {
-            let remedy = "split the map into smaller ones, or increase --max-map-size, at most 2GiB";
-            Fault::new(file, what, remedy)
-        }
-        (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),
-        (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
-            Fault::new(place, format!("map {file}: {what}"), remedy)
-        }
-        _ => Fault::new(file, what, remedy),
-    }
-}
-
-impl From<super::DrivingSide> for DrivingSide {
-    fn from(side: super::DrivingSide) -> DrivingSide {
-        match side {
-            super::DrivingSide::Left => DrivingSide::Left,
-            super::DrivingSide::Right => DrivingSide::Right,
-        }
-    }
 }

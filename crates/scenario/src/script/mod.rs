@@ -45,8 +45,13 @@ struct Planned {
 }
 
 impl Script {
-    /// The script of `scenario`, whose `world` is at its start.
-    pub(crate) fn of(scenario: &Scenario, origin: &Origin, world: &World) -> Result<Script, Fault> {
+    /// The script of `scenario`, whose `world` is at its start, with the recording that `player` plays.
+    pub(crate) fn of(
+        scenario: &Scenario,
+        origin: &Origin,
+        player: Option<Player>,
+        world: &World,
+    ) -> Result<Script, Fault> {
         if scenario.commands.is_some() && !scenario.external.is_empty() {
             let what = "this scenario has commands and external vehicles";
             let remedy = "leave out [[external]]: the table of commands puts those of its run on the road";
@@ -60,7 +65,7 @@ impl Script {
                 Fault::new(origin.place(&["external", &number.to_string(), key]), what, remedy)
             })?);
         }
-        script.player = Player::of(scenario, origin, world)?.map(Arc::new);
+        script.player = player.map(Arc::new);
         script.state = State::of(script.externals.len(), script.player.as_ref().map_or(0, |it| it.len()));
         script.with_commands(scenario.commands.as_deref(), world)
     }
@@ -144,13 +149,6 @@ impl Script {
     /// The recording that is played, if one is.
     pub fn player(&self) -> Option<&Player> {
         self.player.as_deref()
-    }
-
-    /// The same script, which plays this recording from the start.
-    #[must_use]
-    pub fn playing(mut self, player: Player) -> Script {
-        self.state.recorded = vec![None; player.len()];
-        Script { player: Some(Arc::new(player)), ..self }
     }
 
     /// The recorded vehicles that have come so far.

@@ -50,6 +50,20 @@ impl Population {
         Ok(driver_parameters)
     }
 
+    /// The factors of the desired speeds of further drivers for recorded vehicles (ours).
+    pub const OTHER_SPEEDS: [f64; 7] = [0.6, 0.72, 0.85, 1.18, 1.4, 1.65, 2.0];
+
+    /// These drivers, and further ones for recorded vehicles: each again, but for the speed that it desires. Those who
+    /// were recorded may drive faster or slower than any driver of a style does, such as where the map has a wrong
+    /// limit.
+    pub fn with_other_speeds(driver_parameters: Vec<Style>) -> Vec<Style> {
+        let other = |it: &Style, factor| Style { speed_factor: factor * it.speed_factor, ..it.clone() };
+        let factors = Population::OTHER_SPEEDS.iter();
+        let others: Vec<Style> =
+            factors.flat_map(|factor| driver_parameters.iter().map(|it| other(it, *factor))).collect();
+        [driver_parameters, others].concat()
+    }
+
     /// The default drivers.
     ///
     /// # Errors

@@ -47,7 +47,8 @@ impl CarryingOut<'_> {
             Command::Remove(id) => self.remove(*id),
             Command::Control(id, control) => self.control(*id, *control),
             Command::SetStyle(id, style) => {
-                if let Some(parameters) = names::parameters_of(self.roads, style, *id) {
+                if let Some(parameters) = names::parameters_of(self.roads, self.arrivals.demand(), style, *id)
+                {
                     self.set_style(*id, parameters);
                 }
             }

@@ -2,7 +2,7 @@
 
 use laneweave_network::{LaneletIndex, LightIndex, Network};
 
-use crate::demand::Demand;
+use crate::demand::{Demand, Share};
 use crate::route::place::Place;
 use crate::route::roads::Roads;
 use crate::state::goal::Destination;
@@ -14,13 +14,14 @@ use crate::step::world::World;
 /// A list of names in a remedy has at most this many.
 const LISTED: usize = 20;
 
-/// The index of a set of driver parameters of `style` for the vehicle `id`, drawn at random.
-pub(super) fn parameters_of(roads: &Roads, style: &str, id: VehicleId) -> Option<u32> {
-    let all = roads.driver_parameters();
-    let count = all.iter().filter(|it| it.name == style).count();
-    let drawn = (roads.random().uniform(id, Purpose::Character, 0) * count as f64) as usize;
-    let mut own = all.iter().zip(0..).filter(|(it, _)| it.name == style);
-    own.nth(drawn.min(count.saturating_sub(1))).map(|(_, index)| index)
+/// The index of a set of driver parameters of `style` for the vehicle `id`, drawn at random from the sets of the
+/// population.
+pub(super) fn parameters_of(roads: &Roads, demand: &Demand, style: &str, id: VehicleId) -> Option<u32> {
+    let is_named = |it: u32| roads.driver_parameters().get(it as usize).is_some_and(|it| it.name == style);
+    let Share { first, count, .. } =
+        demand.population.iter().find(|it| it.count > 0 && is_named(it.first))?;
+    let drawn = (roads.random().uniform(id, Purpose::Character, 0) * f64::from(*count)) as u32;
+    Some(first + drawn.min(count - 1))
 }
 
 /// The destination with this name.
@@ -45,7 +46,7 @@ impl World {
     /// # Errors
     /// If no driver of the world has this style.
     pub(super) fn parameters_of(&self, style: &str, id: VehicleId) -> Result<u32, CommandError> {
-        parameters_of(&self.roads, style, id).ok_or_else(|| {
+        parameters_of(&self.roads, self.arrivals.demand(), style, id).ok_or_else(|| {
             let mut known: Vec<&str> = self.driver_parameters().iter().map(|it| it.name.as_str()).collect();
             known.dedup();
             unknown("style", style, known.into_iter().map(String::from))

@@ -5,7 +5,7 @@ use laneweave_models::Style;
 use laneweave_models::change::time_to_collision;
 use laneweave_models::follow::Ahead;
 use laneweave_network::ChainIndex;
-use laneweave_sim::{Demand, Spot, World};
+use laneweave_sim::{Spot, World};
 use laneweave_study::Histogram;
 use laneweave_study::units::KMH_PER_MPS;
 use serde::{Deserialize, Serialize};
@@ -56,7 +56,7 @@ impl Driving {
     /// What is kept for the styles of `world`.
     pub fn of(world: &World) -> Driving {
         let styles = names(world).into_iter().map(StyleDriving::new).collect();
-        Driving { style_of: styles_of(world.demand()), styles }
+        Driving { style_of: styles_of(world), styles }
     }
 
     /// Observes the world after a step.
@@ -70,7 +70,8 @@ impl Driving {
         for (chain, lane) in (0..).map(ChainIndex).zip(scene.lanes) {
             let motions = lane.motions();
             for (index, (it, car)) in motions.iter().zip(lane.drivers()).enumerate() {
-                if car.is_shadow {
+                // What a user drives shows nothing of a style.
+                if car.is_shadow || car.is_external {
                     continue;
                 }
                 let style = &mut self.styles[usize::from(self.style_of[car.parameters as usize])];
@@ -128,10 +129,12 @@ pub(super) fn typical(world: &World) -> impl Iterator<Item = &Style> {
     world.demand().population.iter().map(|it| &driver_parameters[it.first as usize])
 }
 
-/// For each set of driver parameters the index of its style in the demand.
-pub(super) fn styles_of(demand: &Demand) -> Vec<u16> {
-    let styles = demand.population.iter().zip(0..);
-    styles.flat_map(|(share, style)| std::iter::repeat_n(style, share.count as usize)).collect()
+/// For each set of driver parameters the index of its style in the demand. Further sets than those of the demand repeat
+/// them in their order.
+pub(super) fn styles_of(world: &World) -> Vec<u16> {
+    let styles = world.demand().population.iter().zip(0..);
+    let sets = styles.flat_map(|(share, style)| std::iter::repeat_n(style, share.count as usize));
+    sets.collect::<Vec<u16>>().into_iter().cycle().take(world.driver_parameters().len()).collect()
 }
 
 #[cfg(test)]

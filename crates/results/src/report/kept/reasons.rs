@@ -48,7 +48,7 @@ impl Reasons {
         let histograms = |(width, bins)| [(); 2].map(|()| Histogram::new(0.0, width, bins));
         Reasons {
             begin,
-            style_of: styles_of(world.demand()),
+            style_of: styles_of(world),
             completed: vec![Default::default(); styles.len()],
             styles,
             incentives,

@@ -34,7 +34,7 @@ impl TripTimes {
     pub fn of(world: &World) -> TripTimes {
         let empty = Histogram::new(0.0, BINS.0, BINS.1);
         TripTimes {
-            style_of: styles_of(world.demand()),
+            style_of: styles_of(world),
             durations: empty.clone(),
             delays: empty,
             duration: Moments::default(),
