@@ -8,7 +8,7 @@ mod report;
 mod score;
 mod trace;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -120,6 +120,8 @@ struct Watched {
     tracer: Tracer,
     collisions: CollisionWatch,
     vehicles: Vec<Named>,
+    /// The ids of those that are to become drivers.
+    chosen: BTreeSet<i64>,
 }
 
 impl Watched {
@@ -129,6 +131,7 @@ impl Watched {
         if script.played().count() > self.vehicles.len() {
             let named = |it: Played| Named { recorded: it.recorded, vehicle: it.vehicle };
             self.vehicles = script.played().map(named).collect();
+            self.chosen = script.played().filter(|it| it.is_reactive).map(|it| it.recorded).collect();
         }
     }
 }

@@ -18,6 +18,7 @@ pub fn page(report: &ReplayReport, recording: &str, command: &str) -> Page {
         ("Time", format!("{:.1} s in steps of {} s", report.duration_s, report.step_s)),
         ("Recorded vehicles", counted(report.recorded as u64)),
         ("Of them drivers who react", counted(report.reactive as u64)),
+        ("Chosen, but in no lane that leads on", counted(report.never_in_a_lane as u64)),
     ];
     let facts = facts.map(|(name, value)| (name.to_owned(), value)).to_vec();
     let page = Page::new("Replay of a recording", lead)

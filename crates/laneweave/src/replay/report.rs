@@ -25,6 +25,8 @@ pub struct ReplayReport {
     pub recorded: usize,
     /// Of them, those that became drivers.
     pub reactive: usize,
+    /// Those that were chosen, but never became drivers: they were in no lane from which a route leads on.
+    pub never_in_a_lane: usize,
     /// The drivers of the scenario, and those with other lane-change models.
     pub models: Vec<Matched>,
     /// The drivers of the first rollout, whose tables are written.
@@ -124,6 +126,7 @@ impl ReplayReport {
         let dt = scenario.run.step_s;
         let record = &recorded.tracer.traces;
         let first = rollouts.first().and_then(|it| it.1.first());
+        let never_in_a_lane = first.map_or(0, |it| it.chosen.len().saturating_sub(it.tracer.traces.len()));
         let vehicles = first.map_or(Vec::new(), |it| it.vehicles.clone());
         let drivers = first.map_or(Vec::new(), |first| {
             first.tracer.traces.iter().map(|(id, trace)| driver(*id, trace, record.get(id), dt)).collect()
@@ -149,6 +152,7 @@ impl ReplayReport {
             step_s: dt,
             recorded: recorded.vehicles.len(),
             reactive: drivers.len(),
+            never_in_a_lane,
             models,
             drivers,
             vehicles,
@@ -161,6 +165,12 @@ impl ReplayReport {
             "{:.1} s of the recording in steps of {} s: {} recorded vehicles, {} of them became drivers\n",
             self.duration_s, self.step_s, self.recorded, self.reactive
         );
+        if self.never_in_a_lane > 0 {
+            text += &format!(
+                "{} more were chosen, but were in no lane from which a route leads on: they drive as they were recorded\n",
+                self.never_in_a_lane
+            );
+        }
         if self.reactive == 0 {
             return text + "Nobody reacts: all vehicles drive as they were recorded.\n";
         }
