@@ -65,6 +65,14 @@ const ASTRAY: f64 = 10.0;
 const ACCELERATION_REACH: f64 = 0.5;
 
 impl<'a> Matched<'a> {
+    /// Number of states of vehicles, and of those far from every lanelet.
+    pub fn count_states(&self) -> (usize, usize) {
+        let vehicles = self.places.iter().zip(&self.recording.tracks).filter(|(_, it)| it.class.is_vehicle());
+        vehicles.fold((0, 0), |(states, unmatched), (places, _)| {
+            (states + places.len(), unmatched + places.iter().filter(|it| it.is_none()).count())
+        })
+    }
+
     /// Matches the vehicles of `recording` to `network`; both have the same frame.
     pub fn new(network: &'a Network, recording: &'a Recording) -> Matched<'a> {
         let lanes = Lanes::new(&network.lanelets);

@@ -9,16 +9,7 @@ fn written(recording: &Recording) -> String {
 }
 
 fn recording() -> Recording {
-    let classes = [
-        RoadUser::Car,
-        RoadUser::Truck,
-        RoadUser::Bus,
-        RoadUser::Motorcycle,
-        RoadUser::Bicycle,
-        RoadUser::Pedestrian,
-        RoadUser::Other,
-    ];
-    let tracks = classes.into_iter().zip(1..).map(|(class, id)| {
+    let tracks = RoadUser::ALL.into_iter().zip(1..).map(|(class, id)| {
         let states = (10 * id..10 * id + 3).map(|frame| {
             let x = 1000.125 + 0.5 * frame as f64;
             State { frame, x, y: -7.25 * id as f64, speed: 12.5, heading: 0.0 }

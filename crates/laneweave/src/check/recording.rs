@@ -127,10 +127,7 @@ impl RecordingReport {
         let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
         recording.tracks.iter().for_each(|it| *tracks.entry(it.class.name()).or_default() += 1);
         changes.iter().for_each(|it| *kinds.entry(kind(it.kind)).or_default() += 1);
-        let places = matched.places.iter().zip(&recording.tracks).filter(|(_, it)| it.class.is_vehicle());
-        let (states, unmatched) = places.fold((0, 0), |(states, unmatched), (places, _)| {
-            (states + places.len(), unmatched + places.iter().filter(|it| it.is_none()).count())
-        });
+        let (states, unmatched) = matched.count_states();
         let elsewhere = (2 * unmatched > states).then(|| elsewhere(&recording, network));
         let span = recording.frames().map_or(0, |(first, last)| last - first);
         RecordingReport {

@@ -2,8 +2,8 @@
 //! drivers who react.
 //!
 //! What a driver does up to a time t depends only on what was recorded up to t: its destination is drawn from the
-//! destinations of the vehicles that were last seen before it became a driver, its style and its desired speed from the
-//! scenario.
+//! destinations of the vehicles that had gone before it became a driver, its style from the scenario, and its desired
+//! speed from its speed at that moment.
 
 mod desire;
 mod part;
@@ -18,6 +18,7 @@ use laneweave_sim::{Purpose, Random, VehicleId, World};
 use crate::fault::Fault;
 use crate::recording::{elsewhere, open_recordings};
 use crate::scenario::{LONGEST, Origin, Replay, Scenario};
+use crate::script::first_step_from;
 use part::Part;
 
 /// The seed of the random numbers that choose who reacts. It is always the same: so the same vehicles react whatever
@@ -68,7 +69,7 @@ impl Player {
         let matched = Matched::new(world.network(), &cleaned);
         check_place(&matched, scenario)?;
         let navigator = world.scene().navigator;
-        let from_step = (replay.reactive_from_s / world.clock().dt).ceil() as u32;
+        let from_step = first_step_from(replay.reactive_from_s, world.clock().dt);
         Ok(Some(Player {
             parts: part::parts(&recording, &reactive, from_step, world.clock().dt).into(),
             from_step: (!reactive.is_empty()).then_some(from_step),
@@ -205,11 +206,7 @@ fn check_numbers(replay: &Replay, origin: &Origin) -> Result<(), Fault> {
 
 /// Checks that the recording is one of the place of the map.
 fn check_place(matched: &Matched, scenario: &Scenario) -> Result<(), Fault> {
-    let vehicles =
-        matched.places.iter().zip(&matched.recording.tracks).filter(|(_, it)| it.class.is_vehicle());
-    let (states, unmatched) = vehicles.fold((0, 0), |(states, unmatched), (places, _)| {
-        (states + places.len(), unmatched + places.iter().filter(|it| it.is_none()).count())
-    });
+    let (states, unmatched) = matched.count_states();
     if 2 * unmatched <= states {
         return Ok(());
     }

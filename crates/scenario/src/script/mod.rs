@@ -15,6 +15,7 @@ use crate::fault::Fault;
 use crate::replay::{Played, Player};
 use crate::scenario::{External, LONGEST, Origin, Scenario};
 use row::Row;
+pub(crate) use row::first_step_from;
 pub(crate) use state::State;
 
 pub use refused::refused;
@@ -194,7 +195,7 @@ fn planned(external: &External, world: &World) -> Result<Planned, Wrong> {
     }
     Ok(Planned {
         name: external.name.clone(),
-        from_step: row::first_step_from(time_s, world.clock().dt),
+        from_step: first_step_from(time_s, world.clock().dt),
         vehicle: external.vehicle(),
         control: external.control(),
     })

@@ -98,7 +98,7 @@ pub(super) fn read(path: &Path, world: &World) -> Result<Vec<Row>, Fault> {
 }
 
 /// The first step that begins at the time `time_s` [s] or later, of steps of `dt` [s].
-pub(super) fn first_step_from(time_s: f64, dt: f64) -> u32 {
+pub(crate) fn first_step_from(time_s: f64, dt: f64) -> u32 {
     (time_s / dt - TOLERANCE).ceil() as u32
 }
 
