@@ -11,6 +11,7 @@ mod measures;
 mod motorway_rates;
 mod plausibility;
 mod readings;
+mod recovery;
 mod route_weights;
 mod seen;
 mod styles;
@@ -59,6 +60,11 @@ pub const EXPERIMENTS: &[Experiment] = &[
         name: "readings",
         about: "the paper's formulas as printed, beside the repaired ones",
         run: readings::readings,
+    },
+    Experiment {
+        name: "recovery",
+        about: "weights of simulated drivers, found again by calibration",
+        run: recovery::recovery,
     },
 ];
 

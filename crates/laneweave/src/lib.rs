@@ -25,6 +25,7 @@
 pub mod branch;
 pub mod check;
 pub mod compare;
+pub mod fit;
 mod parallel;
 pub mod replay;
 pub mod run;
@@ -48,6 +49,7 @@ pub use simulation::{
     Builder, Event, Incident, LaneChange, Light, MapSource, Observer, Occurrence, Simulation, VehicleState,
 };
 
+pub use laneweave_calibration as calibration;
 pub use laneweave_explain as explain;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;

@@ -6,10 +6,11 @@ use std::path::Path;
 use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
-const LEVELS: [&[&str]; 9] = [
+const LEVELS: [&[&str]; 10] = [
     &["network", "models", "study"],
     &["maps", "sim"],
     &["recordings"],
+    &["calibration"],
     &["scenario", "explain"],
     &["results"],
     &["laneweave"],

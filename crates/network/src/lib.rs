@@ -7,6 +7,7 @@ mod alongside;
 mod bend;
 mod build;
 mod chain;
+mod crossed;
 mod gate;
 mod geometry;
 mod ground;

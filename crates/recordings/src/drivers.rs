@@ -144,6 +144,6 @@ pub(crate) fn easiest(navigator: &Navigator, chain: ChainIndex, x: f64) -> Desti
 }
 
 /// The speed [m/s] that a class may drive under `limit` [m/s].
-fn allowed(class: Class, limit: f64) -> f64 {
+pub fn allowed(class: Class, limit: f64) -> f64 {
     limit.min(class.body().top_speed)
 }

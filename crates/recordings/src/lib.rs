@@ -32,7 +32,7 @@ mod turning_shares;
 
 pub use changes::{Kind, LaneChange, lane_changes};
 pub use clean::{CleaningReport, Example, Finding, clean};
-pub use drivers::Assumed;
+pub use drivers::{Assumed, allowed};
 pub use error::RecordingError;
 pub use evidence::{Evidence, Exposure};
 pub use file::open;

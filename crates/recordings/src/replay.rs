@@ -13,7 +13,7 @@ use laneweave_sim::{Across, Navigator, Scene, Seen, Snapshot, Spot, VehicleId, p
 use thiserror::Error;
 
 use crate::changes::LaneChange;
-use crate::drivers::{Assumed, Driver, drivers, easiest};
+use crate::drivers::{Assumed, Driver, allowed, drivers, easiest};
 use crate::lanes::{self, Foot};
 use crate::matching::Matched;
 use crate::smooth;
@@ -32,6 +32,8 @@ pub struct Replay<'a> {
     driver_parameters: &'a [Style],
     /// For each track its driver.
     drivers: Vec<Driver>,
+    /// Whether drivers go where their tracks went.
+    knows_destinations: bool,
 }
 
 /// Invalid assumptions about a driver.
@@ -87,7 +89,13 @@ impl<'a> Replay<'a> {
                 return Err(ReplayError::SpeedFactor { vehicle, factor });
             }
         }
-        Ok(Replay { matched, navigator, driver_parameters, drivers })
+        Ok(Replay { matched, navigator, driver_parameters, drivers, knows_destinations: true })
+    }
+
+    /// The same without destinations: all drivers follow the road. So nothing that a driver knows comes from the lanes
+    /// that it takes later.
+    pub fn without_destinations(self) -> Replay<'a> {
+        Replay { knows_destinations: false, ..self }
     }
 
     /// The instant of `frame`. A vehicle is in it from its first state with a position until its front bumper passes
@@ -132,7 +140,11 @@ impl<'a> Replay<'a> {
             class: driver.class,
             parameters: driver.assumed.parameters,
             desired: driver.desired(self.matched.network.chain(chain).limit(x)),
-            destination: if leads_on { driver.destination } else { easiest(self.navigator, chain, x) },
+            destination: match self.knows_destinations {
+                true if leads_on => driver.destination,
+                true => easiest(self.navigator, chain, x),
+                false => None,
+            },
             change,
         })
     }
@@ -197,6 +209,16 @@ impl Frame<'_> {
     pub fn spot(&self, vehicle: i64) -> Option<Spot> {
         let found = self.ids.binary_search_by_key(&vehicle, |(id, _)| *id).ok()?;
         self.snapshot.spot(self.ids[found].1)
+    }
+
+    /// Supposes another desired speed of the driver of a vehicle, as a share of the speed that the limit and its class
+    /// allow.
+    pub fn suppose(&mut self, vehicle: i64, speed_factor: f64) {
+        let Some(spot) = self.spot(vehicle) else { return };
+        let scene = self.scene();
+        let (class, x) = (scene.driver(spot).class, scene.motion(spot).x);
+        let limit = self.replay.matched.network.chain(spot.chain).limit(x);
+        self.snapshot.set_desired(spot, allowed(class, limit) * speed_factor);
     }
 
     /// What the driver of a vehicle knows when it considers the lane on `side`; `None` where it may not change to one.

@@ -52,6 +52,11 @@ pub const REPLAY: &str = "replay.json";
 /// As a page.
 pub const REPLAY_REPORT: &str = "replay.html";
 
+/// The name of what a fit found.
+pub const FIT: &str = "fit.json";
+/// As a page.
+pub const FIT_REPORT: &str = "fit.html";
+
 /// A folder that no other laneweave process can claim while this value lives; on systems that do not lock folders
 /// they can.
 #[derive(Debug)]

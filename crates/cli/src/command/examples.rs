@@ -58,6 +58,18 @@ Examples:
   # Three in ten react
   laneweave replay observed.csv --map maps/ramps.osm --reactive 0.3 --rollouts 2";
 
+pub(super) const FIT: &str =
+    "Recorded drivers are seen as simulated ones see: what each knew in every second, and when it began a
+change. The results are styles that the command run takes, fit.html and fit.json.
+
+Examples:
+  laneweave run maps/ramps.osm --duration 120
+  laneweave observe out
+  # What can the recording tell?
+  laneweave fit observed.csv --map maps/ramps.osm --plan
+  # The styles are written into fit/
+  laneweave fit observed.csv --map maps/ramps.osm --draws 50";
+
 pub(super) const RECORDING: &str = "Examples:
   laneweave recording join --help";
 

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod examples;
 mod explain;
+mod fit;
 mod generate;
 mod numbers;
 mod observe;
@@ -68,6 +69,9 @@ enum Command {
     /// Replay a recording: its vehicles drive as they were recorded, and some of them react.
     #[command(after_help = examples::REPLAY)]
     Replay(replay::Arguments),
+    /// Fit driving styles to recordings, with their uncertainty.
+    #[command(after_help = examples::FIT)]
+    Fit(fit::Arguments),
     /// Join recordings.
     #[command(subcommand, after_help = examples::RECORDING)]
     Recording(recording::Deed),
@@ -110,6 +114,7 @@ impl Cli {
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Observe(arguments)) => arguments.execute(),
             Some(Command::Replay(arguments)) => return arguments.execute(),
+            Some(Command::Fit(arguments)) => arguments.execute(),
             Some(Command::Recording(deed)) => deed.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Scenario(deed)) => deed.execute(),

@@ -8,6 +8,7 @@ use crate::golden::assert_golden;
 use crate::program::{Folder, at_home, maps, without_first_duration};
 
 /// Real maps and recordings, if they are available.
+const STYLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../styles/conservative.toml");
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
 
 /// Files of the reader, each with a replacement from the project: under `DATA`, or with the maps.
@@ -81,6 +82,8 @@ fn shortened(command: &str, is_asked_about: bool) -> String {
         }
         // Experiments take minutes: the arguments are read, and nothing runs.
         Some("reproduce") => format!("{line} --help"),
+        // Fits take a minute, and have tests of their own: only what a recording can tell is asked.
+        Some("fit") if !line.contains("--plan") => format!("{line} --plan"),
         _ => line,
     }
 }
@@ -94,6 +97,11 @@ fn readers() -> (Folder, Vec<&'static str>) {
             missing.push(name);
         }
     }
+    // What a fit that is not run would leave.
+    let fitted = folder.path().join("fit");
+    fs::create_dir(&fitted)
+        .and_then(|()| fs::copy(Path::new(STYLE), fitted.join("fitted.toml")))
+        .expect("a copy");
     let made = folder.laneweave("scenario new maps/ramps.osm --out my-scenario.toml");
     assert_eq!(made.code(), 0, "{}", made.errors());
     (folder, missing)

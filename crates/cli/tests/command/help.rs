@@ -40,9 +40,11 @@ fn every_example_works() {
             let line = match line.split_whitespace().next() {
                 // Experiments take minutes: the arguments are read, and nothing runs.
                 Some("reproduce") => format!("{line} --help"),
+                // Fits take a minute, and have tests of their own.
+                Some("fit") if !line.contains("--plan") => format!("{line} --plan"),
                 // For other commands the results are used.
                 Some("run")
-                    if ["explain", "branch", "observe", "recording join", "replay"]
+                    if ["explain", "branch", "observe", "recording join", "replay", "fit"]
                         .contains(&command.as_str()) =>
                 {
                     line

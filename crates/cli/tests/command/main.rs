@@ -12,6 +12,7 @@ mod compare;
 mod demand;
 #[cfg(test)]
 mod explain;
+mod fit;
 #[cfg(test)]
 mod gates;
 #[cfg(test)]

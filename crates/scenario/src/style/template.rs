@@ -12,6 +12,8 @@ use super::distribution::Distribution;
 use crate::fault::{Fault, did_you_mean};
 use crate::source::Source;
 
+/// The table of a fitted style that says where its numbers come from. No driver needs it.
+const PROVENANCE: &str = "fit";
 /// Number of different drivers of a style with distributions.
 const CHARACTERS: u32 = 512;
 /// Maximum number of different random numbers for the parameters of one style.
@@ -42,7 +44,8 @@ impl StyleTemplate {
     /// # Errors
     /// If it is no TOML, has an unknown key, lacks a key, or has an invalid value.
     pub fn parse(source: &Source) -> Result<StyleTemplate, Fault> {
-        let table: Table = source.parse()?;
+        let mut table: Table = source.parse()?;
+        table.remove(PROVENANCE);
         let mut reader = Reader { source, path: Vec::new(), parameters: Vec::new() };
         reader.table(&table, &complete(&table, source)?)?;
         let parameters = reader.parameters;
@@ -60,6 +63,11 @@ impl StyleTemplate {
     /// Number of different drivers of the style: one, or 512 if a number is distributed.
     pub fn driver_parameters(&self) -> u32 {
         if self.parameters.is_empty() { 1 } else { CHARACTERS }
+    }
+
+    /// The style as a table, as its file has it.
+    pub fn table(&self) -> &Table {
+        &self.table
     }
 
     /// Its distributed numbers in the order of their paths.

@@ -36,6 +36,8 @@ pub enum Purpose {
     Interruption,
     /// Whether a recorded vehicle becomes a driver who reacts.
     Reaction,
+    /// Which observations are drawn again, or left out.
+    Resampling,
 }
 
 /// The source of all random numbers of a run.

@@ -102,6 +102,12 @@ impl Snapshot {
         Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals }
     }
 
+    /// Gives the driver of the vehicle whose main entry is at `spot` another desired speed [m/s].
+    pub fn set_desired(&mut self, spot: Spot, desired: f64) {
+        let driver = &mut self.lanes[spot.chain.at()].drivers_mut()[spot.index];
+        (driver.desired, driver.limit_desired) = (desired as f32, desired as f32);
+    }
+
     /// The main entry of a vehicle.
     pub fn spot(&self, id: VehicleId) -> Option<Spot> {
         self.spots.binary_search_by_key(&id, |(it, _)| *it).ok().map(|it| self.spots[it].1)

@@ -1,0 +1,115 @@
+//! What a driver sees of one side at one time, as the numbers that models of lane changes use.
+
+use laneweave_models::change::{
+    Comfort, Courtesy, Incentive, Keeping, Lmrs, Mcdm, Mobil, Route, Situation, Speed, Traffic, Urgency,
+};
+
+use super::desired::NODES;
+use super::place::Place;
+use crate::waiting::GAP_TERMS;
+
+/// One side at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideSeen {
+    /// Where.
+    pub place: Place,
+    /// Yield of courtesy.
+    pub courtesy: f32,
+    /// T_h of the lane there [s], for comfort.
+    pub headway: f32,
+    /// Net gap to the leader in the own lane [m], and how fast it closes [m/s].
+    pub own: [f32; 2],
+    /// The same to the leader there.
+    pub lead: [f32; 2],
+    /// The same of the follower there to the driver.
+    pub lag: [f32; 2],
+    /// Speed [m/s].
+    pub speed: f32,
+    /// What depends on the desired speed, for each of the driver's possible ones.
+    pub by_desired: [ByDesired; NODES],
+}
+
+/// What depends on the desired speed of a driver.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ByDesired {
+    /// Yield of speed and, as much as the style has it, of the route: between lanes that lead to the same place the two
+    /// are one.
+    pub speed: f32,
+    /// Yield of the slow side.
+    pub keeping: f32,
+    /// MOBIL: the gain above its threshold [m/s²].
+    pub mobil: f32,
+    /// LMRS: the desire above its threshold.
+    pub lmrs: f32,
+}
+
+/// Without a vehicle ahead or behind a gap counts as this long [m].
+const LONGEST_GAP: f64 = 150.0;
+/// Largest gain of MOBIL that counts [m/s²]: nobody brakes or accelerates more.
+const LARGEST_GAIN: f64 = 8.0;
+
+/// `model` with all weights 1, so that all its yields are computed.
+pub(super) fn unit_weights(model: &Mcdm) -> Mcdm {
+    Mcdm {
+        speed: Speed { weight: 1.0, ..model.speed },
+        route: Route { weight: 1.0, ..model.route },
+        comfort: Comfort { weight: 1.0, ..model.comfort },
+        courtesy: Courtesy { weight: 1.0, ..model.courtesy },
+        urgency: Urgency { weight: 0.0 },
+        keeping: Keeping { weight: 1.0, ..model.keeping },
+        ..model.clone()
+    }
+}
+
+impl SideSeen {
+    pub(super) fn of(situation: &Situation, model: &Mcdm, place: Place) -> SideSeen {
+        let Situation { me, here, there, .. } = situation;
+        let chances = model.returning.chances(situation);
+        let ahead = |ahead: Option<laneweave_models::follow::Ahead>| {
+            ahead.map_or([LONGEST_GAP as f32, 0.0], |it| {
+                [it.gap.min(LONGEST_GAP) as f32, (me.pace.speed - it.speed) as f32]
+            })
+        };
+        let lag = there.behind.map_or([LONGEST_GAP as f32, 0.0], |it| {
+            [it.gap.min(LONGEST_GAP) as f32, (it.driver.pace.speed - me.pace.speed) as f32]
+        });
+        SideSeen {
+            place,
+            courtesy: model.courtesy.earning(situation, chances) as f32,
+            headway: there.flow.headway(model.comfort.reading) as f32,
+            own: ahead(here.ahead),
+            lead: ahead(there.ahead),
+            lag,
+            speed: me.pace.speed as f32,
+            by_desired: [ByDesired::default(); NODES],
+        }
+    }
+}
+
+impl ByDesired {
+    /// By `model`, whose weights are 1; the route counts `route` times as much as speed.
+    pub(super) fn of(situation: &Situation, model: &Mcdm, route: f64) -> ByDesired {
+        let appraisal = model.appraise(situation);
+        let mobil = Mobil { traffic: Traffic::Law, ..Mobil::default() };
+        let by_mobil = mobil.appraise(situation);
+        let [own, _, _, others, ..] = by_mobil.rows;
+        let gain = own.earning + mobil.politeness * others.earning - by_mobil.theta;
+        let lmrs = Lmrs::default().appraise(situation);
+        ByDesired {
+            speed: (appraisal.rows[0].earning + route * appraisal.rows[1].earning) as f32,
+            keeping: appraisal.rows[5].earning as f32,
+            mobil: gain.clamp(-LARGEST_GAIN, LARGEST_GAIN) as f32,
+            lmrs: (lmrs.gain - lmrs.theta) as f32,
+        }
+    }
+}
+
+/// The covariates of gap acceptance (the form of Toledo 2003): logarithms of the gaps to the new leader and to the new
+/// follower, over 10 m, and how fast they close, over 5 m/s.
+pub fn gap_terms(seen: &SideSeen) -> [f64; GAP_TERMS] {
+    /// Shorter gaps count as this long [m].
+    const SHORTEST: f64 = 0.5;
+    let length = |[gap, _]: [f32; 2]| libm::log(f64::from(gap).max(SHORTEST) / 10.0);
+    let closing = |[_, closing]: [f32; 2]| f64::from(closing).max(0.0) / 5.0;
+    [length(seen.lead), length(seen.lag), closing(seen.lead), closing(seen.lag)]
+}

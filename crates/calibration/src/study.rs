@@ -1,0 +1,296 @@
+//! A whole fit: the weights with their errors, what the data leave open, and how well models predict.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use crate::classes::{Mixture, are_two};
+use crate::desire_model::{DesireModel, assumptions};
+use crate::held_out::{Candidate, Difference, Folds, interval};
+use crate::observe::Observations;
+use crate::place_spread::{PlaceSpread, effect};
+use crate::resample::resampled;
+use crate::waiting::{Assumptions, Design, Layout, WaitingFit};
+
+/// What is known of the weights before a recording is seen, in units of the choice noise σ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PriorWeights {
+    /// μ₁ of speed.
+    pub speed: f64,
+    /// μ₂ of the route.
+    pub route: f64,
+    /// μ₃ of comfort.
+    pub comfort: f64,
+    /// μ₄ of courtesy.
+    pub courtesy: f64,
+    /// The weight of the slow side.
+    pub keeping: f64,
+    /// β of comfort.
+    pub beta: f64,
+    /// α of coming back [1/(s·m)].
+    pub alpha: f64,
+}
+
+/// What is asked of a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Asked {
+    /// The prior.
+    pub prior: PriorWeights,
+    /// Draws of the bootstrap over drivers.
+    pub draws: u32,
+    /// How drivers are held out.
+    pub folds: Folds,
+    /// Number of classes.
+    pub classes: Classes,
+}
+
+/// A fitted number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// Its name.
+    pub name: &'static str,
+    /// The estimate.
+    pub estimate: f64,
+    /// Its standard error by the information matrix.
+    pub standard_error: f64,
+    /// Its 95 % interval: by the bootstrap, or by the standard error if there are no draws.
+    pub interval: [f64; 2],
+    /// What was assumed before.
+    pub prior: f64,
+    /// Whether the recording tells it.
+    pub is_identified: bool,
+}
+
+/// β of comfort by its profile likelihood.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BetaProfile {
+    /// The values that were tried, and the log-likelihood at each, less the largest.
+    pub profile: Vec<(f64, f64)>,
+    /// The one that is used.
+    pub beta: f64,
+    /// The values whose likelihood is not significantly less.
+    pub interval: [f64; 2],
+    /// Whether the interval ends on both sides within the values that were tried.
+    pub is_identified: bool,
+}
+
+/// A model beside multi-criteria decision-making.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// The model with its fit.
+    pub candidate: Candidate,
+    /// By how much it predicts better than a constant chance [nats per change].
+    pub over_constant: Difference,
+    /// By how much multi-criteria decision-making predicts better than it [nats per change].
+    pub mcdm_over_it: Difference,
+}
+
+/// A fit of a style to observations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// Speed (with the route in the proportion of the prior), comfort, courtesy, slow side.
+    pub weights: Vec<Fitted>,
+    /// θ, in units of the choice noise.
+    pub theta: Fitted,
+    /// β.
+    pub beta: BetaProfile,
+    /// How much places differ.
+    pub spread: PlaceSpread,
+    /// How much a standard deviation of a yield is expected to change the logarithm of the odds.
+    pub effect: f64,
+    /// The fit of the whole process.
+    pub fit: WaitingFit,
+    /// All parameters of each draw of the bootstrap.
+    pub draws: Vec<Vec<f64>>,
+    /// The models that were compared.
+    pub compared: Vec<Compared>,
+    /// The classes of drivers, if there are several.
+    pub mixture: Option<Mixture>,
+}
+
+/// How many classes of drivers there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Classes {
+    /// Two where the data tell them, else one.
+    Auto,
+    /// So many.
+    Exactly(usize),
+}
+
+/// Values of β that are tried.
+const BETAS: [f64; 8] = [0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0];
+/// Half of the 95 % point of χ² with one degree of freedom.
+const SIGNIFICANT: f64 = 1.920_729;
+
+impl PriorWeights {
+    /// Those of the terms of multi-criteria decision-making.
+    pub fn terms(&self) -> [f64; 4] {
+        [self.speed, self.comfort, self.courtesy, self.keeping]
+    }
+}
+
+impl Study {
+    /// Fits a style to `observations`.
+    pub fn of(observations: &Observations, asked: &Asked) -> Study {
+        let spread = PlaceSpread::of_places(observations);
+        let means = asked.prior.terms();
+        let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
+        let effect = effect(&design, &means, &spread);
+        let beta = BetaProfile::of(observations, &asked.prior, effect, &spread);
+        let model = DesireModel::Mcdm { beta: beta.beta };
+        let design = observations.design(&model);
+        let assumptions = assumptions(&design, &means, effect, &spread);
+        let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
+        let draws = draws(observations, &design, &assumptions, &fit, asked);
+        let layout = fit.layout;
+        let fitted = |name, at: usize, sign: f64, prior: f64| {
+            Fitted::of(
+                name,
+                sign * fit.estimates[at],
+                fit.standard_error(at),
+                column(&draws, at, sign),
+                prior,
+            )
+        };
+        let names = model.terms().iter().zip(asked.prior.terms()).zip(layout.slopes());
+        let weights = names.map(|((name, prior), at)| fitted(name, at, 1.0, prior)).collect();
+        let theta = fitted("theta", layout.intercept(), -1.0, -assumptions.prior.means[layout.intercept()]);
+        let mixture = mixture(&design, &assumptions, &fit, asked);
+        let compared = compared(observations, &model, &spread, asked);
+        Study { weights, theta, beta, spread, effect, fit, draws, compared, mixture }
+    }
+}
+
+/// The classes, as far as they are asked for and the data tell them.
+fn mixture(design: &Design, assumptions: &Assumptions, fit: &WaitingFit, asked: &Asked) -> Option<Mixture> {
+    let weights = vec![1.0; design.drivers.len()];
+    let of = |count| Mixture::fit(design, assumptions, fit, count, &weights);
+    match asked.classes {
+        Classes::Exactly(count) => (count > 1).then(|| of(count)),
+        // Drivers who changed once say nothing of how drivers differ.
+        Classes::Auto if !assumptions.has_spread => None,
+        Classes::Auto => Some(of(2)).filter(|it| are_two(design, assumptions, fit, it, asked.folds.seed)),
+    }
+}
+
+/// One parameter of all draws.
+fn column(draws: &[Vec<f64>], at: usize, sign: f64) -> Vec<f64> {
+    draws.iter().map(|it| sign * it[at]).collect()
+}
+
+impl Fitted {
+    /// A number with its standard error and its `draws`.
+    ///
+    /// The recording does not tell it if its variance is more than four times the square of what matters: the prior
+    /// value, or what its interval leaves between it and 0, if that is more.
+    fn of(name: &'static str, estimate: f64, standard_error: f64, draws: Vec<f64>, prior: f64) -> Fitted {
+        /// Half the width of a 95 % interval in standard errors.
+        const HALF: f64 = 1.959_964;
+        /// Most standard errors that a number may be uncertain by, in units of what matters.
+        const MOST: f64 = 2.0;
+        let half = HALF * standard_error;
+        let interval = match draws.len() {
+            0 => [estimate - half, estimate + half],
+            _ => interval(draws),
+        };
+        let matters = prior.abs().max(estimate.abs() - half);
+        let width = (interval[1] - interval[0]) / (2.0 * HALF);
+        let is_identified = standard_error.max(width) <= MOST * matters;
+        Fitted { name, estimate, standard_error, interval, prior, is_identified }
+    }
+}
+
+/// Fits to drivers who are drawn again.
+fn draws(
+    observations: &Observations,
+    design: &Design,
+    assumptions: &Assumptions,
+    fit: &WaitingFit,
+    asked: &Asked,
+) -> Vec<Vec<f64>> {
+    let draw = |number: u32| {
+        let weights = resampled(observations, asked.folds.seed, number);
+        design.refit(assumptions, &weights, &fit.estimates, &fit.covariance)
+    };
+    (0..asked.draws).into_par_iter().map(draw).collect()
+}
+
+impl BetaProfile {
+    /// Profiles the likelihood of multi-criteria decision-making over β.
+    fn of(
+        observations: &Observations,
+        prior: &PriorWeights,
+        effect: f64,
+        spread: &PlaceSpread,
+    ) -> BetaProfile {
+        let mut start: Option<(Vec<f64>, DMatrix<f64>)> = None;
+        let mut logs = Vec::with_capacity(BETAS.len());
+        for beta in BETAS {
+            let design = observations.design(&DesireModel::Mcdm { beta });
+            let assumptions = assumptions(&design, &prior.terms(), effect, spread);
+            let weights = vec![1.0; design.drivers.len()];
+            let estimates = match &start {
+                Some((estimates, covariance)) => design.refit(&assumptions, &weights, estimates, covariance),
+                None => {
+                    let fit = design.fit_roughly(&assumptions, &weights, None);
+                    start = Some((fit.estimates.clone(), fit.covariance));
+                    fit.estimates
+                }
+            };
+            let all: Vec<f64> = design.log_likelihoods(&estimates, assumptions.has_spread, &weights);
+            logs.push((beta, all.iter().sum::<f64>()));
+        }
+        BetaProfile::from_logs(logs, prior.beta)
+    }
+
+    fn from_logs(logs: Vec<(f64, f64)>, prior: f64) -> BetaProfile {
+        let largest = logs.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+        let profile: Vec<(f64, f64)> = logs.into_iter().map(|(beta, log)| (beta, log - largest)).collect();
+        let inside = |it: &&(f64, f64)| it.1 > -SIGNIFICANT;
+        let lower = profile.iter().find(inside).map_or(f64::NAN, |it| it.0);
+        let upper = profile.iter().rev().find(inside).map_or(f64::NAN, |it| it.0);
+        let is_identified = lower > BETAS[0] && upper < BETAS[BETAS.len() - 1];
+        let best = profile.iter().find(|it| it.1 == 0.0).map_or(prior, |it| it.0);
+        let beta = if is_identified { best } else { prior };
+        BetaProfile { profile, beta, interval: [lower, upper], is_identified }
+    }
+}
+
+/// The models beside multi-criteria decision-making, and the controls.
+fn compared(
+    observations: &Observations,
+    model: &DesireModel,
+    spread: &PlaceSpread,
+    asked: &Asked,
+) -> Vec<Compared> {
+    let folds = &asked.folds;
+    let of = |model: &DesireModel| {
+        let means =
+            if matches!(model, DesireModel::Mcdm { .. }) { asked.prior.terms().to_vec() } else { Vec::new() };
+        let means = if means.is_empty() { vec![0.0; model.terms().len()] } else { means };
+        Candidate::of(observations, model, (&means, spread), folds)
+    };
+    let others = [
+        DesireModel::Constant,
+        DesireModel::Places,
+        *model,
+        DesireModel::Mobil,
+        DesireModel::Lmrs,
+        DesireModel::Raw,
+    ];
+    let mut candidates: Vec<Candidate> = others.iter().map(of).collect();
+    candidates.push(Candidate::shuffled(observations, model, (&asked.prior.terms(), spread), folds));
+    let (constant, mcdm) = (candidates[0].clone(), candidates[2].clone());
+    let compare = |candidate: Candidate| Compared {
+        over_constant: candidate.better_than(&constant, observations, folds),
+        mcdm_over_it: mcdm.better_than(&candidate, observations, folds),
+        candidate,
+    };
+    candidates.into_iter().map(compare).collect()
+}
+
+impl Study {
+    /// Where the parameters of the fit stand.
+    pub fn layout(&self) -> Layout {
+        self.fit.layout
+    }
+}

@@ -1,0 +1,12 @@
+//! Drivers who wait: from recorded begins of changes to the weights of the desire that came before.
+
+mod design;
+mod fit;
+mod likelihood;
+mod parameters;
+mod quadrature;
+mod second;
+
+pub use design::{Design, Driver, GAP_TERMS, MOST_NODES, NO_STRATUM, Spell};
+pub use fit::{Assumptions, WaitingFit};
+pub use parameters::{Layout, logistic, logit};

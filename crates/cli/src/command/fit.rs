@@ -1,0 +1,143 @@
+//! `laneweave fit`.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
+use laneweave::Fault;
+use laneweave::calibration::Classes;
+use laneweave::fit::{FitReport, Request, page};
+use laneweave::folder::{FIT, FIT_REPORT};
+use laneweave::models::Reading as Formulas;
+use laneweave::output::write_whole;
+
+use super::check::{Reading, json};
+use super::numbers::{number, seed};
+use super::say;
+
+/// Most classes of drivers.
+const MOST_CLASSES: usize = 6;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The recordings (.csv of INTERACTION, highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad:
+    /// .xml, with their own maps). Those that continue one another are joined.
+    #[arg(value_name = "RECORDING", value_hint = ValueHint::FilePath, required = true)]
+    recordings: Vec<PathBuf>,
+    /// The map of the recordings [default: each recording, if they are CommonRoad files].
+    #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath)]
+    map: Option<PathBuf>,
+    /// A TOML file that says what the columns of the recordings hold.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    columns: Option<PathBuf>,
+    /// Fit nothing: say what the recordings can tell.
+    #[arg(long)]
+    plan: bool,
+    /// Number of classes of drivers, or auto: two where the recordings tell them, else one.
+    #[arg(long, value_name = "K", value_parser = classes, default_value = "auto")]
+    classes: Classes,
+    /// The formulas of all incentives [default: those of the prior style].
+    #[arg(long, value_parser = formulas())]
+    reading: Option<Formulas>,
+    /// The style whose weights are the prior: a built-in one, or the path of a style file (.toml).
+    #[arg(long, value_name = "STYLE", default_value = "conservative")]
+    prior: String,
+    /// Draws of the bootstrap over drivers; 0: errors by the information matrix alone.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    draws: u32,
+    /// How often a third of the drivers is held out in turn.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=100))]
+    repetitions: u32,
+    /// Seconds before its centre crosses the line at which a vehicle begins a change [default: where its path shows it,
+    /// or 1.5 if many changes had begun before their vehicles were first seen].
+    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    lead: Option<f64>,
+    /// Seed of all random numbers.
+    #[arg(long, value_name = "N", value_parser = seed, default_value = "1")]
+    seed: u64,
+    /// Folder of all results: the fitted styles, and the report.
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, default_value = "fit")]
+    out: PathBuf,
+    #[command(flatten)]
+    options: Reading,
+    /// Print the report as one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+fn classes(text: &str) -> Result<Classes, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(Classes::Auto),
+        Ok(count) if (1..=MOST_CLASSES).contains(&count) => Ok(Classes::Exactly(count)),
+        _ => Err(format!("choose auto, or 1 to {MOST_CLASSES}")),
+    }
+}
+
+fn formulas() -> impl TypedValueParser<Value = Formulas> {
+    PossibleValuesParser::new(["literal", "repaired"])
+        .map(|it| if it == "literal" { Formulas::Literal } else { Formulas::Repaired })
+}
+
+impl Arguments {
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        self.check_lead()?;
+        let observed = self.request().observe()?;
+        if self.plan {
+            let plan = observed.plan();
+            return say(&if self.json { json(&plan)? } else { plan.to_text() });
+        }
+        let report = observed.fit()?;
+        self.write(&report)?;
+        if self.json {
+            return say(&json(&report)?);
+        }
+        let styles: Vec<String> =
+            report.styles.iter().map(|it| self.style_path(&it.name).display().to_string()).collect();
+        let page = self.out.join(FIT_REPORT);
+        say(&format!("{}\nstyles: {}\nreport: {}\n", report.to_text(), styles.join(", "), page.display()))
+    }
+
+    fn request(&self) -> Request {
+        Request {
+            map: self.map.clone(),
+            columns: self.columns.clone(),
+            map_options: self.options.options(),
+            prior: self.prior.clone(),
+            reading: self.reading,
+            classes: self.classes,
+            draws: self.draws,
+            repetitions: self.repetitions,
+            lead: self.lead,
+            seed: self.seed,
+            ..Request::new(self.recordings.clone())
+        }
+    }
+
+    fn check_lead(&self) -> Result<(), Fault> {
+        /// Longest time between begin and crossing [s].
+        const LONGEST: f64 = 10.0;
+        match self.lead {
+            Some(lead) if !(0.0..=LONGEST).contains(&lead) => Err(Fault::new(
+                "--lead",
+                format!("{lead} s is no time before a crossing"),
+                "choose 0 to 10 s",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn style_path(&self, name: &str) -> PathBuf {
+        self.out.join(format!("{name}.toml"))
+    }
+
+    fn write(&self, report: &FitReport) -> Result<(), Fault> {
+        std::fs::create_dir_all(&self.out).map_err(|error| Fault::refused(&self.out, "created", &error))?;
+        for style in &report.styles {
+            write_whole(&self.style_path(&style.name), &style.text)?;
+        }
+        let names: Vec<String> = self.recordings.iter().map(|it| it.display().to_string()).collect();
+        let page = page(report, &names.join(", "), &super::given());
+        write_whole(&self.out.join(FIT_REPORT), &page.to_html())?;
+        write_whole(&self.out.join(FIT), &json(report)?)
+    }
+}

@@ -1,0 +1,170 @@
+//! The report of a fit.
+
+use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
+use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
+
+use super::report::{FitReport, HeldOut, Spread};
+
+/// The report of a fit to the recordings with these names, made by `command`.
+pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
+    let lead = format!(
+        "Driving styles fitted to recorded lane changes by laneweave {}. Weights are in units of the choice noise.",
+        env!("CARGO_PKG_VERSION")
+    );
+    let data = &report.data;
+    let facts = [
+        ("Command", command.to_owned()),
+        ("Recordings", recordings.to_owned()),
+        ("Driven", format!("{:.1} veh-km in {:.2} veh-h", data.veh_km, data.veh_h)),
+        ("Drivers who could change lanes", counted(data.drivers as u64)),
+        ("Seconds in which they could", counted(data.observations as u64)),
+        ("Lane changes", counted(data.events as u64)),
+        ("Of them used", counted(data.events_used as u64)),
+        ("Not identified", data.not_identified.join(", ")),
+    ];
+    let facts = facts.map(|(name, value)| (name.to_owned(), value)).to_vec();
+    Page::new("Fit of driving styles", lead)
+        .section(Section::new("what", "What was fitted").facts(facts).table(events(report)))
+        .section(Section::new("weights", "Weights").table(weights(report)).text(
+            "Intervals are those of a bootstrap over blocks of drivers who were seen at the same time, or of the information matrix if \
+             there are no draws. A weight is not identified if its standard error is more than twice what matters: its prior value, or \
+             what its interval leaves between it and zero. Between lanes that lead to the same place the yield of the route is one with \
+             that of speed, so its weight has the prior's proportion to that of speed.",
+        ))
+        .section(Section::new("beta", "β of comfort").table(beta(report)).text(
+            "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
+             significantly, by 1.92 nats, on both sides.",
+        ))
+        .section(Section::new("held-out", "Predicting drivers who were not seen").figures(vec![figure(report)]).table(
+            held_out(report),
+        ).text(
+            "A third of the drivers is held out in turn, again and again. All models but the first have the same intercepts of places: \
+             lane, side and distance before the next fork, since no recording shows the route of a driver before it takes it. The last \
+             one is a control: it is fitted to changes that are shuffled over all seconds.",
+        ))
+        .section(Section::new("manner", "Durations, gaps, desired speeds").table(spreads(report)).text(
+            "Durations are those of changes that were seen as a whole, so long ones are rarer than they should be. Gaps count up to 150 m.",
+        ))
+}
+
+fn events(report: &FitReport) -> Table {
+    let columns = [("lane changes", Align::Words), ("number", Align::Numbers)];
+    let mut table = Table::new("Lane changes by kind, why some are not used, and what is cut off.", &columns);
+    let data = &report.data;
+    for (of, counts) in
+        [("", &data.events_by_kind), ("not used: ", &data.unused), ("cut off: ", &data.censored)]
+    {
+        for (name, count) in counts {
+            table.row([format!("{of}{}", name.replace('_', " ")), count.to_string()]);
+        }
+    }
+    table
+}
+
+fn weights(report: &FitReport) -> Table {
+    let columns = [
+        ("weight", Align::Words),
+        ("estimate", Align::Numbers),
+        ("standard error", Align::Numbers),
+        ("95 % interval", Align::Numbers),
+        ("prior", Align::Numbers),
+        ("identified", Align::Words),
+    ];
+    let mut table = Table::new("Fitted weights beside those of the prior style.", &columns);
+    for it in report.weights.iter().chain([&report.theta]) {
+        let [lower, upper] = it.interval;
+        table.row([
+            it.name.to_owned(),
+            format!("{:.3}", it.estimate),
+            format!("{:.3}", it.standard_error),
+            format!("{lower:.3} to {upper:.3}"),
+            format!("{:.3}", it.prior),
+            (if it.is_identified { "yes" } else { "no" }).to_owned(),
+        ]);
+    }
+    table
+}
+
+fn beta(report: &FitReport) -> Table {
+    let columns = [("β", Align::Numbers), ("less likely than the best by [nats]", Align::Numbers)];
+    let what = match report.beta.is_identified {
+        true => format!("Profile of β; {} is used.", report.beta.estimate),
+        false => {
+            format!("Profile of β; it is not identified, so the prior's {} is used.", report.beta.estimate)
+        }
+    };
+    let mut table = Table::new(what, &columns);
+    for [beta, log] in &report.beta.profile {
+        table.row([beta.to_string(), format!("{:.2}", -log)]);
+    }
+    table
+}
+
+fn figure(report: &FitReport) -> Figure {
+    let row = |it: &HeldOut| {
+        let [lower, upper] = it.over_constant_interval;
+        let interval = Interval { lower, upper };
+        BarRow {
+            name: it.model.clone(),
+            values: vec![Estimated { at: 0.0, value: it.over_constant, interval }],
+        }
+    };
+    let rows: Vec<BarRow> = report.held_out.iter().filter(|it| it.model != "constant").map(row).collect();
+    let label = "Better than a constant chance [nats per lane change]";
+    Figure {
+        svg: bars(Sheet::Column, [label, "Model"], &["held out"], &rows),
+        title: "Prediction of held-out drivers".into(),
+        caption: format!(
+            "By how much models predict better than a constant chance, with 95 % intervals by a bootstrap over drivers. n = {} lane \
+             changes.",
+            counted(report.data.events_used as u64)
+        ),
+    }
+}
+
+fn held_out(report: &FitReport) -> Table {
+    let columns = [
+        ("model", Align::Words),
+        ("log-likelihood", Align::Numbers),
+        ("over a constant chance", Align::Numbers),
+        ("mcdm over it", Align::Numbers),
+        ("mcdm is", Align::Words),
+    ];
+    let mut table = Table::new("Held-out drivers [nats per lane change], with 95 % intervals.", &columns);
+    let text = |value: f64, [lower, upper]: [f64; 2]| format!("{value:.3} ({lower:.3} to {upper:.3})");
+    for it in &report.held_out {
+        let is_mcdm = it.model == "mcdm";
+        table.row([
+            it.model.clone(),
+            format!("{:.3}", it.log_likelihood_per_event),
+            text(it.over_constant, it.over_constant_interval),
+            if is_mcdm { "–".to_owned() } else { text(it.mcdm_over_it, it.mcdm_over_it_interval) },
+            if is_mcdm { "–".to_owned() } else { it.mcdm_is.to_owned() },
+        ]);
+    }
+    table
+}
+
+fn spreads(report: &FitReport) -> Table {
+    let columns = [
+        ("quantity", Align::Words),
+        ("number", Align::Numbers),
+        ("median", Align::Numbers),
+        ("middle half", Align::Numbers),
+    ];
+    let mut table = Table::new("What else was seen of the drivers.", &columns);
+    let rows: [(&str, Option<Spread>); 4] = [
+        ("duration of a lane change [s]", report.durations_s),
+        ("gap to the new leader when it begins [m]", report.lead_gaps_m),
+        ("gap to the new follower when it begins [m]", report.lag_gaps_m),
+        ("desired speed, share of what limit and class allow", report.desired_speed_factors),
+    ];
+    for (name, spread) in rows {
+        let cells = spread.map_or(["0".into(), "–".into(), "–".into()], |it| {
+            let half = format!("{:.2} to {:.2}", it.lower_quartile, it.upper_quartile);
+            [it.count.to_string(), format!("{:.2}", it.median), half]
+        });
+        table.row([name.to_owned()].into_iter().chain(cells));
+    }
+    table
+}

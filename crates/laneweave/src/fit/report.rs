@@ -1,0 +1,256 @@
+//! What a fit found, as plain data.
+
+use laneweave_calibration::observe::Observations;
+use laneweave_calibration::{Compared, Difference, Fitted, Study};
+use laneweave_scenario::Fault;
+use serde::Serialize;
+
+use super::plan::Plan;
+use super::style::{FittedStyle, styles};
+use super::{Observed, words};
+
+/// What a fit found. Fields are added, never renamed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FitReport {
+    /// What the recordings are.
+    #[serde(flatten)]
+    pub data: Plan,
+    /// When changes begin: time before the crossing of each recording [s]; none where the paths show it.
+    pub leads_s: Vec<Option<f64>>,
+    /// The fitted weights in units of the choice noise.
+    pub weights: Vec<WeightReport>,
+    /// θ in units of the choice noise: of all drivers, at a place of the mean rate.
+    pub theta: WeightReport,
+    /// β of comfort.
+    pub beta: BetaReport,
+    /// The classes of drivers.
+    pub classes: Vec<ClassReport>,
+    /// How well models predict drivers who were not seen.
+    pub held_out: Vec<HeldOut>,
+    /// Durations of changes that were seen as a whole [s].
+    pub durations_s: Option<Spread>,
+    /// Gaps to the new leader and to the new follower when a change begins [m].
+    pub lead_gaps_m: Option<Spread>,
+    /// The same to the new follower.
+    pub lag_gaps_m: Option<Spread>,
+    /// Desired speeds, as factors on what limit and class allow.
+    pub desired_speed_factors: Option<Spread>,
+    /// Other numbers of the process: the chance per second of a change that nothing explains, and of giving up.
+    pub background_per_s: f64,
+    /// Chance per second that who waits for a gap gives up.
+    pub giving_up_per_s: f64,
+    /// Standard deviations of the intercepts: of lanes and sides, and of distances before a fork.
+    pub place_spread: [f64; 2],
+    /// Whether the search ended at a maximum.
+    pub is_converged: bool,
+    /// The styles.
+    #[serde(skip)]
+    pub styles: Vec<FittedStyle>,
+}
+
+/// A fitted weight.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WeightReport {
+    /// Its name.
+    pub name: &'static str,
+    /// The estimate.
+    pub estimate: f64,
+    /// Standard error by the information matrix.
+    pub standard_error: f64,
+    /// The 95 % interval.
+    pub interval: [f64; 2],
+    /// The prior value.
+    pub prior: f64,
+    /// Whether the recordings tell it.
+    pub is_identified: bool,
+}
+
+/// β of comfort by its profile likelihood.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BetaReport {
+    /// The value that is used: the prior's, if the recordings do not tell it.
+    pub estimate: f64,
+    /// The tried values that are not significantly less likely than the best.
+    pub interval: [f64; 2],
+    /// Whether the recordings tell it.
+    pub is_identified: bool,
+    /// The values that were tried, and how much less likely they are [nats].
+    pub profile: Vec<[f64; 2]>,
+}
+
+/// A class of drivers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClassReport {
+    /// The name of its style.
+    pub style: String,
+    /// Its share of the drivers, with its 95 % interval, given the classes.
+    pub share: f64,
+    /// The interval.
+    pub share_interval: [f64; 2],
+    /// Its θ, and its weights by name.
+    pub theta: f64,
+    /// Its weights, in the order of all weights but the route's.
+    pub weights: Vec<f64>,
+}
+
+/// How well a model predicts drivers who were not seen.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HeldOut {
+    /// The model.
+    pub model: String,
+    /// Its log-likelihood of held-out drivers [nats per change].
+    pub log_likelihood_per_event: f64,
+    /// By how much it predicts better than a constant chance [nats per change], with the 95 % interval.
+    pub over_constant: f64,
+    /// The interval.
+    pub over_constant_interval: [f64; 2],
+    /// By how much multi-criteria decision-making predicts better than it [nats per change], with the 95 % interval.
+    pub mcdm_over_it: f64,
+    /// The interval.
+    pub mcdm_over_it_interval: [f64; 2],
+    /// Multi-criteria decision-making is `better` than it, `worse`, or `not distinguishable`.
+    pub mcdm_is: &'static str,
+}
+
+/// How a quantity is spread.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Number of values.
+    pub count: usize,
+    /// A quarter of the values is less.
+    pub lower_quartile: f64,
+    /// The median.
+    pub median: f64,
+    /// A quarter is more.
+    pub upper_quartile: f64,
+    /// Mean of the logarithms.
+    pub log_mean: f64,
+    /// Standard deviation of the logarithms.
+    pub log_deviation: f64,
+}
+
+impl Spread {
+    /// Of `values`, all above 0; `None` without any.
+    pub(super) fn of(mut values: Vec<f64>) -> Option<Spread> {
+        values.retain(|it| *it > 0.0 && it.is_finite());
+        values.sort_by(f64::total_cmp);
+        let count = values.len();
+        let quantile = |share: f64| values.get(((count as f64 - 1.0) * share).round() as usize).copied();
+        let (lower_quartile, median, upper_quartile) = (quantile(0.25)?, quantile(0.5)?, quantile(0.75)?);
+        let logs = || values.iter().map(|it| it.ln());
+        let log_mean = logs().sum::<f64>() / count as f64;
+        let squares: f64 = logs().map(|it| (it - log_mean) * (it - log_mean)).sum();
+        let log_deviation = (squares / count as f64).sqrt();
+        Some(Spread { count, lower_quartile, median, upper_quartile, log_mean, log_deviation })
+    }
+}
+
+impl FitReport {
+    pub(super) fn of(observed: &Observed, study: &Study) -> Result<FitReport, Fault> {
+        let observations = &observed.observations;
+        let layout = study.layout();
+        let logistic = laneweave_calibration::waiting::logistic;
+        let parameter = |at: usize| study.fit.estimates[at];
+        let [lead_gaps_m, lag_gaps_m] = accepted_gaps(observations).map(Spread::of);
+        let durations = observations.changes.iter().filter_map(|it| it.duration).collect();
+        let factors = observations.drivers.iter().filter(|it| it.desired.is_shown);
+        let mut report = FitReport {
+            data: observed.plan(),
+            leads_s: observations.recordings.iter().map(|it| it.lead).collect(),
+            weights: weights(observed, study),
+            theta: weight(&study.theta),
+            beta: BetaReport {
+                estimate: study.beta.beta,
+                interval: study.beta.interval,
+                is_identified: study.beta.is_identified,
+                profile: study.beta.profile.iter().map(|(beta, log)| [*beta, *log]).collect(),
+            },
+            classes: Vec::new(),
+            held_out: study.compared.iter().map(|it| held_out(it, observations)).collect(),
+            durations_s: Spread::of(durations),
+            lead_gaps_m,
+            lag_gaps_m,
+            desired_speed_factors: Spread::of(factors.map(|it| it.desired.mean()).collect()),
+            background_per_s: logistic(parameter(layout.background())),
+            giving_up_per_s: logistic(parameter(layout.giving_up())),
+            place_spread: [study.spread.lanes, study.spread.distances],
+            is_converged: study.fit.is_converged,
+            styles: Vec::new(),
+        };
+        report.data.not_identified = not_identified(study);
+        (report.classes, report.styles) = styles(observed, study, &report)?;
+        Ok(report)
+    }
+
+    /// The report in words.
+    pub fn to_text(&self) -> String {
+        words::text_of(self)
+    }
+}
+
+fn weight(it: &Fitted) -> WeightReport {
+    WeightReport {
+        name: it.name,
+        estimate: it.estimate,
+        standard_error: it.standard_error,
+        interval: it.interval,
+        prior: it.prior,
+        is_identified: it.is_identified,
+    }
+}
+
+/// The weights; that of the route has the prior's proportion to that of speed.
+fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
+    let mut weights: Vec<WeightReport> = study.weights.iter().map(weight).collect();
+    let prior = observed.weights();
+    let ratio = if prior.speed > 0.0 { prior.route / prior.speed } else { 0.0 };
+    let speed = weights[0].clone();
+    weights.insert(
+        1,
+        WeightReport {
+            name: "route",
+            estimate: ratio * speed.estimate,
+            standard_error: ratio * speed.standard_error,
+            interval: speed.interval.map(|it| ratio * it),
+            prior: prior.route,
+            is_identified: false,
+        },
+    );
+    weights
+}
+
+/// The names of what the recordings do not tell.
+fn not_identified(study: &Study) -> Vec<&'static str> {
+    let weights = study.weights.iter().filter(|it| !it.is_identified && it.name != "keeping");
+    let beta = (!study.beta.is_identified).then_some("beta");
+    let classes = study.mixture.is_none().then_some("classes");
+    let always = ["route", "alpha"].into_iter();
+    always.chain(weights.map(|it| it.name)).chain(beta).chain(classes).collect()
+}
+
+fn held_out(it: &Compared, observations: &Observations) -> HeldOut {
+    let used = observations.used().count().max(1) as f64;
+    let Difference { estimate: over_constant, interval: over_constant_interval } = it.over_constant;
+    let Difference { estimate: mcdm_over_it, interval: mcdm_over_it_interval } = it.mcdm_over_it;
+    HeldOut {
+        model: it.candidate.name.clone(),
+        log_likelihood_per_event: it.candidate.held_out.iter().sum::<f64>() / used,
+        over_constant,
+        over_constant_interval,
+        mcdm_over_it,
+        mcdm_over_it_interval,
+        mcdm_is: it.mcdm_over_it.verdict(),
+    }
+}
+
+/// Gaps to the new leader and to the new follower when the changes that are used begin [m].
+fn accepted_gaps(observations: &Observations) -> [Vec<f64>; 2] {
+    let mut gaps = [Vec::new(), Vec::new()];
+    for spell in observations.drivers.iter().flat_map(|it| &it.spells) {
+        let Some((_, side)) = spell.change else { continue };
+        let Some(seen) = spell.sightings.last().and_then(|it| it.sides[side.at()].as_ref()) else { continue };
+        gaps[0].push(f64::from(seen.lead[0]));
+        gaps[1].push(f64::from(seen.lag[0]));
+    }
+    gaps
+}

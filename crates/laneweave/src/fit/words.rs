@@ -1,0 +1,81 @@
+//! What a fit found, in words.
+
+use std::fmt::Write;
+
+use super::report::{FitReport, HeldOut, Spread, WeightReport};
+
+/// The report in words.
+pub(super) fn text_of(report: &FitReport) -> String {
+    let mut out = String::new();
+    // Writing to a string never fails.
+    let _ = write_to(report, &mut out);
+    out
+}
+
+fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
+    report.data.write_counts(out)?;
+    writeln!(out, "\n  weight      estimate   95 % interval          prior")?;
+    for it in report.weights.iter().chain([&report.theta]) {
+        write_weight(it, out)?;
+    }
+    let beta = &report.beta;
+    let open = if beta.is_identified { "" } else { "   not identified: the prior's" };
+    writeln!(
+        out,
+        "  {:9} {:>10.2}   {:>7.2} to {:<7.2}{open}",
+        "beta", beta.estimate, beta.interval[0], beta.interval[1]
+    )?;
+    writeln!(
+        out,
+        "Weights are in units of the choice noise. Not identified: {}.",
+        report.data.not_identified.join(", ")
+    )?;
+    if let [_, _, ..] = &report.classes[..] {
+        writeln!(out, "\n{} classes of drivers:", report.classes.len())?;
+        for it in &report.classes {
+            let [lower, upper] = it.share_interval.map(|it| 100.0 * it);
+            writeln!(out, "  {}: {:.0} % ({lower:.0} to {upper:.0} %)", it.style, 100.0 * it.share)?;
+        }
+    }
+    writeln!(out, "\nPredicting drivers who were not seen [nats per lane change, 95 % interval]")?;
+    writeln!(out, "  model       better than a constant chance       mcdm better than it by")?;
+    report.held_out.iter().try_for_each(|it| write_held_out(it, out))?;
+    writeln!(out)?;
+    write_spread("duration of a change [s]", report.durations_s.as_ref(), out)?;
+    write_spread("gap to the new leader [m]", report.lead_gaps_m.as_ref(), out)?;
+    write_spread("gap to the new follower [m]", report.lag_gaps_m.as_ref(), out)?;
+    write_spread("desired speed, share of what is allowed", report.desired_speed_factors.as_ref(), out)
+}
+
+fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {
+    let [lower, upper] = it.interval;
+    let open = match (it.is_identified, it.name) {
+        (true, _) => "",
+        (false, "route") => "   not identified: in the prior's proportion to speed",
+        (false, _) => "   not identified",
+    };
+    let interval = format!("{lower:.2} to {upper:.2}");
+    writeln!(out, "  {:9} {:>10.2}   {interval:<20} {:>7.2}{open}", it.name, it.estimate, it.prior)
+}
+
+fn write_held_out(it: &HeldOut, out: &mut String) -> std::fmt::Result {
+    let text = |value: f64, [lower, upper]: [f64; 2]| format!("{value:.3} ({lower:.3} to {upper:.3})");
+    let over = text(it.over_constant, it.over_constant_interval);
+    let mcdm = text(it.mcdm_over_it, it.mcdm_over_it_interval);
+    let verdict = match it.model.as_str() {
+        "mcdm" => String::new(),
+        _ => format!("  {mcdm}: {}", it.mcdm_is),
+    };
+    writeln!(out, "  {:10} {over:<34}{verdict}", it.model)
+}
+
+fn write_spread(what: &str, spread: Option<&Spread>, out: &mut String) -> std::fmt::Result {
+    match spread {
+        Some(it) => writeln!(
+            out,
+            "{what}: {:.2} in the median, {:.2} to {:.2} in the middle half ({})",
+            it.median, it.lower_quartile, it.upper_quartile, it.count
+        ),
+        None => writeln!(out, "{what}: not seen"),
+    }
+}
