@@ -65,7 +65,7 @@ impl DesireModel {
         matches!(self, DesireModel::Mcdm { .. } | DesireModel::Mobil | DesireModel::Lmrs)
     }
 
-    fn add_terms(&self, seen: &SideSeen, by_desired: &ByDesired, values: &mut Vec<f64>) {
+    pub(crate) fn add_terms(&self, seen: &SideSeen, by_desired: &ByDesired, values: &mut Vec<f64>) {
         match self {
             DesireModel::Constant | DesireModel::Places => {}
             DesireModel::Mcdm { beta } => values.extend([

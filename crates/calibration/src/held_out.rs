@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::desire_model::{DesireModel, assumptions};
+use crate::measures::Prediction;
 use crate::observe::Observations;
 use crate::place_spread::{PlaceSpread, effect};
 use crate::resample::{folds, resampled_drivers, shuffled};
@@ -30,6 +31,8 @@ pub struct Candidate {
     pub fit: WaitingFit,
     /// For each driver its log-likelihood while it was held out, the mean over repetitions.
     pub held_out: Vec<f64>,
+    /// Predictions of all seconds of drivers who were held out in the first repetition.
+    pub predictions: Vec<Prediction>,
 }
 
 /// A difference with its 95 % interval.
@@ -103,18 +106,22 @@ impl Candidate {
             .flat_map(|repetition| (0..asked.parts).map(move |part| (repetition, part)))
             .collect();
         let scores = |(repetition, part): &(u32, usize)| {
+            // The predictions second by second are kept once.
+            let is_first = *repetition == 0;
             let folds = folds(count, asked.parts, asked.seed, *repetition);
             let weights: Vec<f64> = folds.iter().map(|it| if it == part { 0.0 } else { 1.0 }).collect();
             let estimates = design.refit(assumptions, &weights, &fit.estimates, &fit.covariance);
             let held_out: Vec<f64> = weights.iter().map(|it| 1.0 - it).collect();
-            real.log_likelihoods(&estimates, assumptions.has_spread, &held_out)
+            let predictions = if is_first { real.predictions(&estimates, &held_out) } else { Vec::new() };
+            (real.log_likelihoods(&estimates, assumptions.has_spread, &held_out), predictions)
         };
-        let scores: Vec<Vec<f64>> = jobs.par_iter().map(scores).collect();
-        let mut held_out = vec![0.0; count];
-        for score in scores {
+        let scores: Vec<(Vec<f64>, Vec<Prediction>)> = jobs.par_iter().map(scores).collect();
+        let (mut held_out, mut predictions) = (vec![0.0; count], Vec::new());
+        for (score, predicted) in scores {
+            predictions.extend(predicted);
             held_out.iter_mut().zip(score).for_each(|(it, log)| *it += log / f64::from(asked.repetitions));
         }
-        Candidate { name, fit, held_out }
+        Candidate { name, fit, held_out, predictions }
     }
 
     /// By how much this model predicts better than `other`: nats per change, with the interval of a bootstrap over

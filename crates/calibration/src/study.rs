@@ -9,7 +9,7 @@ use crate::held_out::{Candidate, Difference, Folds, interval};
 use crate::observe::Observations;
 use crate::place_spread::{PlaceSpread, effect};
 use crate::resample::resampled;
-use crate::waiting::{Assumptions, Design, Layout, WaitingFit};
+use crate::waiting::{Assumptions, Design, Layout, NO_STRATUM, WaitingFit};
 
 /// What is known of the weights before a recording is seen, in units of the choice noise σ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +97,9 @@ pub struct Study {
     pub spread: PlaceSpread,
     /// How much a standard deviation of a yield is expected to change the logarithm of the odds.
     pub effect: f64,
+    /// The logarithm of the mean odds of all places, over those of a place of the mean intercept: a driver who knows no
+    /// places has a threshold that is less by this.
+    pub mean_place: f64,
     /// The fit of the whole process.
     pub fit: WaitingFit,
     /// All parameters of each draw of the bootstrap.
@@ -142,22 +145,25 @@ impl Study {
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
         let draws = draws(observations, &design, &assumptions, &fit, asked);
         let layout = fit.layout;
-        let fitted = |name, at: usize, sign: f64, prior: f64| {
-            Fitted::of(
-                name,
-                sign * fit.estimates[at],
-                fit.standard_error(at),
-                column(&draws, at, sign),
-                prior,
-            )
-        };
-        let names = model.terms().iter().zip(asked.prior.terms()).zip(layout.slopes());
-        let weights = names.map(|((name, prior), at)| fitted(name, at, 1.0, prior)).collect();
-        let theta = fitted("theta", layout.intercept(), -1.0, -assumptions.prior.means[layout.intercept()]);
+        let weights = weights(&fit, &draws, &asked.prior);
+        let prior_theta = -assumptions.prior.means[layout.intercept()];
+        let theta = Fitted::of_parameter("theta", (layout.intercept(), -1.0), &fit, &draws, prior_theta);
+        let mean_place = mean_place(&design, &fit);
         let mixture = mixture(&design, &assumptions, &fit, asked);
         let compared = compared(observations, &model, &spread, asked);
-        Study { weights, theta, beta, spread, effect, fit, draws, compared, mixture }
+        Study { weights, theta, beta, spread, effect, mean_place, fit, draws, compared, mixture }
     }
+}
+
+/// The logarithm of the mean odds of places, over all seconds and sides.
+fn mean_place(design: &Design, fit: &WaitingFit) -> f64 {
+    let first = fit.layout.places().start;
+    let of = |places: &[u32; 2]| {
+        let known = places.iter().filter(|it| **it != NO_STRATUM);
+        libm::exp(known.map(|it| fit.estimates[first + *it as usize]).sum())
+    };
+    let sum: f64 = design.places.iter().map(of).sum();
+    libm::log(sum / design.places.len().max(1) as f64)
 }
 
 /// The classes, as far as they are asked for and the data tell them.
@@ -172,12 +178,31 @@ fn mixture(design: &Design, assumptions: &Assumptions, fit: &WaitingFit, asked: 
     }
 }
 
+/// The weights of a fit with the terms of multi-criteria decision-making.
+fn weights(fit: &WaitingFit, draws: &[Vec<f64>], prior: &PriorWeights) -> Vec<Fitted> {
+    let names = DesireModel::Mcdm { beta: prior.beta }.terms();
+    let each = names.iter().zip(prior.terms()).zip(fit.layout.slopes());
+    each.map(|((name, prior), at)| Fitted::of_parameter(name, (at, 1.0), fit, draws, prior)).collect()
+}
+
 /// One parameter of all draws.
 fn column(draws: &[Vec<f64>], at: usize, sign: f64) -> Vec<f64> {
     draws.iter().map(|it| sign * it[at]).collect()
 }
 
 impl Fitted {
+    /// A parameter of a fit, times a sign.
+    fn of_parameter(
+        name: &'static str,
+        (at, sign): (usize, f64),
+        fit: &WaitingFit,
+        draws: &[Vec<f64>],
+        prior: f64,
+    ) -> Fitted {
+        let draws = column(draws, at, sign);
+        Fitted::of(name, sign * fit.estimates[at], fit.standard_error(at), draws, prior)
+    }
+
     /// A number with its standard error and its `draws`.
     ///
     /// The recording does not tell it if its variance is more than four times the square of what matters: the prior
@@ -289,6 +314,17 @@ fn compared(
 }
 
 impl Study {
+    /// The weights alone, with β of the prior and errors by the information matrix.
+    pub fn weights_of(observations: &Observations, asked: &Asked) -> Vec<Fitted> {
+        let spread = PlaceSpread::of_places(observations);
+        let means = asked.prior.terms();
+        let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
+        let effect = effect(&design, &means, &spread);
+        let assumptions = assumptions(&design, &means, effect, &spread);
+        let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
+        weights(&fit, &[], &asked.prior)
+    }
+
     /// Where the parameters of the fit stand.
     pub fn layout(&self) -> Layout {
         self.fit.layout

@@ -18,6 +18,7 @@ mod style;
 pub mod yielding;
 
 pub use attention::{Alertness, Attention, Concentration};
+pub use exponential::exp;
 pub use guidance::Guidance;
 pub use parameter::{Parameter, Range};
 pub use style::{Manner, Style};

@@ -7,6 +7,7 @@ use super::design::{Design, MOST_NODES};
 use super::likelihood::{Look, Memory, Numbers};
 use super::parameters::Layout;
 use crate::maximise::{EXACT, Maximum, ROUGH, maximise};
+use crate::measures::Prediction;
 use crate::prior::Prior;
 
 /// Drivers whose gradients are added up in one place: results do not depend on the number of threads.
@@ -122,6 +123,22 @@ impl Memories {
             1 => look.evaluate(&mut self.one, gradient, weight),
             _ => look.evaluate(&mut self.several, gradient, weight),
         }
+    }
+}
+
+impl Design {
+    /// For each second of each driver that counts the predicted chance that a change begins, and whether one did.
+    pub fn predictions(&self, estimates: &[f64], weights: &[f64]) -> Vec<Prediction> {
+        let numbers = Numbers::new(Layout::of(self), estimates, false);
+        let of = |memory: &mut Memories, (driver, _): (_, &f64)| {
+            let look = Look { design: self, driver, numbers: &numbers };
+            match self.nodes {
+                1 => look.predict(&mut memory.one),
+                _ => look.predict(&mut memory.several),
+            }
+        };
+        let counting = self.drivers.par_iter().zip(weights).filter(|it| *it.1 > 0.0);
+        counting.map_init(Memories::default, of).flatten_iter().collect()
     }
 }
 

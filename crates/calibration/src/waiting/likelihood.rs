@@ -4,10 +4,13 @@
 //! The desired speed, the driver's own intercept and the phase of its decisions are unknown: the likelihood is the mean
 //! over all of them.
 
+use laneweave_models::exp;
+
 use super::design::{Design, Driver, GAP_TERMS, NO_STRATUM, Spell};
 use super::parameters::{Layout, logistic};
 use super::quadrature::NORMAL;
 use super::second::{Lanes, Second, Slopes, States};
+use crate::measures::Prediction;
 
 /// A combination of unknowns that is less likely than this is not worth a gradient.
 const UNLIKELY: f64 = 1e-9;
@@ -130,6 +133,40 @@ impl Look<'_> {
         log_likelihood
     }
 
+    /// For each second of the first phase the chance that a change begins in it, given all that was seen before, and
+    /// whether one did. Drivers have no intercepts of their own here.
+    pub(super) fn predict<const W: usize>(&self, memory: &mut Memory<W>) -> Vec<Prediction> {
+        self.prepare(memory);
+        let mut known: Lanes<W> = [0.0; W];
+        known.iter_mut().zip(&self.driver.chances).for_each(|(it, chance)| *it = *chance);
+        let mut predictions = Vec::new();
+        let Some(spells) = self.driver.phases.first() else { return predictions };
+        let combination = Combination { spells, factor: 1.0, own: 0.0, chance: 1.0 };
+        for spell in spells {
+            let begin = self.begin(spell)[0];
+            let mut now: States<W> = begin.map(|it| known.map(|known| it * known));
+            let last = spell.seconds.len().saturating_sub(1);
+            for (number, sides) in spell.seconds.iter().enumerate() {
+                let second = self.second(memory, *sides, &combination);
+                let before: f64 = now.iter().flatten().sum();
+                let by_side = [0, 1].map(|side| second.changes(&now, side).iter().sum::<f64>());
+                let came = spell.changed_to.filter(|_| number == last);
+                let probability = ((by_side[0] + by_side[1]) / before).clamp(0.0, 1.0);
+                predictions.push(Prediction { probability, came: came.is_some() });
+                match came {
+                    Some(side) => known = second.changes(&now, side),
+                    None => {
+                        now = second.after(&now);
+                        known = std::array::from_fn(|lane| now[0][lane] + now[1][lane] + now[2][lane]);
+                    }
+                }
+            }
+            let sum = known.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+            known = known.map(|it| it / sum);
+        }
+        predictions
+    }
+
     /// All combinations of phases and own intercepts.
     fn combinations(&self) -> impl Iterator<Item = Combination<'_>> {
         let phases = &self.driver.phases;
@@ -159,7 +196,7 @@ impl Look<'_> {
             for (node, odds) in odds.iter_mut().enumerate().take(design.nodes) {
                 let terms = design.row(row, node).iter().zip(slopes);
                 let utility = base + terms.map(|(term, slope)| term * slope).sum::<f64>();
-                *odds = libm::exp(utility.clamp(-CERTAIN, CERTAIN));
+                *odds = exp(utility.clamp(-CERTAIN, CERTAIN));
             }
             memory.odds.push(odds);
             let terms = design.gaps[row].iter().zip(&acceptance[1..]);
@@ -178,10 +215,15 @@ impl Look<'_> {
         sides: [Option<u32>; 2],
         combination: &Combination,
     ) -> Second<W> {
-        let rows = sides.map(|it| it.map(|it| it as usize - self.driver.rows.start));
-        let odds =
-            rows.map(|it| it.map_or([0.0; W], |row| memory.odds[row].map(|it| combination.factor * it)));
-        let accepted = rows.map(|it| it.map_or(0.0, |row| memory.accepted[row]));
+        // Loops, not maps: those of arrays are not inlined, and this runs for every second and combination.
+        let (mut rows, mut odds, mut accepted) = ([None; 2], [[0.0; W]; 2], [0.0; 2]);
+        for side in 0..2 {
+            let Some(row) = sides[side] else { continue };
+            let row = row as usize - self.driver.rows.start;
+            (rows[side], accepted[side]) = (Some(row), memory.accepted[row]);
+            let pairs = odds[side].iter_mut().zip(&memory.odds[row]);
+            pairs.for_each(|(odds, it)| *odds = combination.factor * it);
+        }
         Second::new(rows, odds, accepted, (self.numbers.background, self.numbers.giving_up))
     }
 
@@ -268,9 +310,12 @@ impl Look<'_> {
             };
             self.add(memory, &second, combination, &slopes, shares, shared);
             for lane in 0..W {
-                let before = slopes.before.map(|it| it[lane]);
-                let largest = before[0].max(before[1]).max(before[2]).max(f64::MIN_POSITIVE);
-                later.iter_mut().zip(before).for_each(|(later, it)| later[lane] = it / largest);
+                let [free, first, second] = &slopes.before;
+                let largest = free[lane].max(first[lane]).max(second[lane]).max(f64::MIN_POSITIVE);
+                let scale = 1.0 / largest;
+                later[0][lane] = free[lane] * scale;
+                later[1][lane] = first[lane] * scale;
+                later[2][lane] = second[lane] * scale;
             }
         }
         if spell.seconds.is_empty() {

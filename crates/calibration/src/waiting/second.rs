@@ -55,7 +55,7 @@ impl<const W: usize> Second<W> {
         (background, giving_up): (f64, f64),
     ) -> Second<W> {
         let (mut logit, mut desire) = ([[0.0; W]; 2], [[0.0; W]; 2]);
-        let least = rows.map(|it| if it.is_some() { background } else { 0.0 });
+        let least = [0, 1].map(|side: usize| if rows[side].is_some() { background } else { 0.0 });
         for lane in 0..W {
             let share = 1.0 / (1.0 + odds[0][lane] + odds[1][lane]);
             for side in 0..2 {

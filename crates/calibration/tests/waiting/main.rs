@@ -3,6 +3,7 @@
 mod classes;
 mod made;
 
+use laneweave_calibration::measures::Prediction;
 use laneweave_calibration::waiting::{GAP_TERMS, Layout, NO_STRATUM};
 use made::{Random, TRUTH, Truth, assumptions, simulated};
 
@@ -107,4 +108,23 @@ fn threads_change_nothing() {
         pool.install(|| design.fit(&assumptions, &vec![1.0; 200]))
     };
     assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn predictions_second_by_second_are_the_likelihood() {
+    let mut design = simulated(&TRUTH, 30, 15, &mut Random(9));
+    // With one side the chance of a change is that of a change to it.
+    for spell in design.drivers.iter_mut().flat_map(|it| it.phases.iter_mut().flatten()) {
+        spell.seconds.iter_mut().for_each(|it| it[1] = None);
+        spell.changed_to = spell.changed_to.map(|_| 0);
+    }
+    let layout = Layout::of(&design);
+    let at = assumptions(layout).prior.means;
+    let weights = vec![1.0; 30];
+    let predictions = design.predictions(&at, &weights);
+    let log = |it: &Prediction| (if it.came { it.probability } else { 1.0 - it.probability }).ln();
+    let by_seconds: f64 = predictions.iter().map(log).sum();
+    let whole: f64 = design.log_likelihoods(&at, false, &weights).iter().sum();
+    assert!((by_seconds - whole).abs() < 1e-9 * whole.abs(), "{by_seconds} {whole}");
+    assert_eq!(predictions.iter().filter(|it| it.came).count(), design.changes());
 }

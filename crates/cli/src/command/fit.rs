@@ -39,6 +39,10 @@ pub(crate) struct Arguments {
     /// The formulas of all incentives [default: those of the prior style].
     #[arg(long, value_parser = formulas())]
     reading: Option<Formulas>,
+    /// Follow the paper's procedure, too, to compare: one observation of each vehicle, no intercept, aggressive
+    /// vehicles picked first.
+    #[arg(long, value_parser = ["paper"])]
+    procedure: Option<String>,
     /// The style whose weights are the prior: a built-in one, or the path of a style file (.toml).
     #[arg(long, value_name = "STYLE", default_value = "conservative")]
     prior: String,
@@ -105,6 +109,7 @@ impl Arguments {
             prior: self.prior.clone(),
             reading: self.reading,
             classes: self.classes,
+            by_paper: self.procedure.is_some(),
             draws: self.draws,
             repetitions: self.repetitions,
             lead: self.lead,

@@ -114,6 +114,19 @@ fn a_plan_fits_nothing_and_says_what_would_be_needed() {
 }
 
 #[test]
+fn the_papers_procedure_stands_beside_ours_when_it_is_asked_for() {
+    let report = json(
+        &FITTED.0,
+        "fit observed.csv --map MAPS/ramps.osm --draws 0 --repetitions 1 --procedure paper --out paper --json",
+    );
+    let groups: Vec<&Value> =
+        report["by_paper"].as_array().expect("a list").iter().map(|it| &it["group"]).collect();
+    assert_eq!(groups, ["aggressive", "conservative"]);
+    assert_eq!(report["events_used"], FITTED.1["events_used"]);
+    assert!(FITTED.1["by_paper"].is_null());
+}
+
+#[test]
 fn mistakes_are_refused_with_their_place_and_their_remedy() {
     let told = [
         ("fit observed.csv", "observed.csv: a recording needs the map of its location; add --map MAP"),

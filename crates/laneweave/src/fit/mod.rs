@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use laneweave_calibration::observe::{Begin, Observations, Options, Origin, observe};
-use laneweave_calibration::{Asked, Classes, Folds, PriorWeights, Study};
+use laneweave_calibration::{Asked, Classes, Folds, PriorWeights, Study, by_paper};
 use laneweave_models::change::{LaneChangeModel, Mcdm};
 use laneweave_models::{Reading, Style};
 use laneweave_network::{LaneletIndex, Network};
@@ -29,8 +29,13 @@ use crate::check::extension;
 #[cfg(feature = "reports")]
 pub use page::page;
 pub use plan::{ExpectedWeight, Plan};
-pub use report::{BetaReport, ClassReport, FitReport, HeldOut, Spread, WeightReport};
+pub use report::{
+    BetaReport, ByPaper, ClassReport, FitReport, HeldOut, Predictive, Spread, WeightReport, WithLead,
+};
 pub use style::FittedStyle;
+
+/// Times before the crossing at which changes may begin, for comparison [s].
+const LEADS: [f64; 3] = [1.5, 2.5, 3.5];
 
 /// What styles are fitted to, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +54,8 @@ pub struct Request {
     pub reading: Option<Reading>,
     /// Number of classes of drivers.
     pub classes: Classes,
+    /// Whether the paper's procedure is followed, too, to compare.
+    pub by_paper: bool,
     /// Draws of the bootstrap.
     pub draws: u32,
     /// Repetitions of holding out a third of the drivers.
@@ -70,6 +77,7 @@ impl Request {
             prior: "conservative".into(),
             reading: None,
             classes: Classes::Auto,
+            by_paper: false,
             draws: 200,
             repetitions: 10,
             lead: None,
@@ -79,11 +87,19 @@ impl Request {
 }
 
 /// What was observed.
-#[derive(Clone, Debug)]
 pub struct Observed {
     request: Request,
+    sources: Sources,
     observations: Observations,
     prior: PriorStyle,
+}
+
+/// The recordings with their maps.
+struct Sources {
+    /// The maps, one for each site.
+    sites: Vec<Network>,
+    navigators: Vec<Navigator>,
+    parts: Vec<Part>,
     /// Problems in reading the recordings.
     problems: Vec<String>,
 }
@@ -115,20 +131,14 @@ impl Request {
         let mut problems = Vec::new();
         let (sites, parts) = self.read(&mut problems)?;
         let sites = permitting(sites, &parts);
-        let navigators: Vec<Navigator> = sites.iter().map(Navigator::new).collect();
-        let mut options = Options::of(prior.typical.clone());
-        options.begin = self.lead.map_or(Begin::Auto, Begin::Lead);
-        let mut observations = Observations::default();
-        for (number, part) in parts.into_iter().enumerate() {
-            let network = &sites[part.site];
-            let matched = Matched::new(network, &part.recording);
-            self.refuse_elsewhere(&matched)?;
-            let origin = Origin { site: part.site as u32, recording: number as u32 };
-            let seen = observe(&matched, &navigators[part.site], &options, origin);
-            observations
-                .extend(seen.map_err(|error| Fault::new(&self.prior, error, "choose another style"))?);
+        let navigators = sites.iter().map(Navigator::new).collect();
+        let sources = Sources { sites, navigators, parts, problems };
+        for part in &sources.parts {
+            self.refuse_elsewhere(&Matched::new(&sources.sites[part.site], &part.recording))?;
         }
-        Ok(Observed { request: self.clone(), observations, prior, problems })
+        let begin = self.lead.map_or(Begin::Auto, Begin::Lead);
+        let observations = sources.observations(&prior.typical, begin)?;
+        Ok(Observed { request: self.clone(), sources, observations, prior })
     }
 
     /// The maps, and the recordings that belong to them: recordings that continue one another are one.
@@ -206,6 +216,23 @@ impl Request {
     }
 }
 
+impl Sources {
+    /// What drivers of the style `typical` could choose, if their changes begin as `begin` says.
+    fn observations(&self, typical: &Style, begin: Begin) -> Result<Observations, Fault> {
+        let mut options = Options::of(typical.clone());
+        options.begin = begin;
+        let mut observations = Observations::default();
+        for (number, part) in self.parts.iter().enumerate() {
+            let matched = Matched::new(&self.sites[part.site], &part.recording);
+            let origin = Origin { site: part.site as u32, recording: number as u32 };
+            let seen = observe(&matched, &self.navigators[part.site], &options, origin);
+            let wrong = |error| Fault::new(&typical.name, error, "choose another style");
+            observations.extend(seen.map_err(wrong)?);
+        }
+        Ok(observations)
+    }
+}
+
 /// The maps, in which drivers may change lanes where those of the recordings do, whatever the map says.
 fn permitting(sites: Vec<Network>, parts: &[Part]) -> Vec<Network> {
     /// So many of them change there (ours): one may be an error of matching.
@@ -256,7 +283,7 @@ impl Observed {
 
     /// Problems in reading the recordings.
     pub fn problems(&self) -> &[String] {
-        &self.problems
+        &self.sources.problems
     }
 
     /// What the recordings can tell.
@@ -279,6 +306,18 @@ impl Observed {
         let folds = Folds { repetitions, parts: 3, draws: 1000, seed };
         let asked = Asked { prior: self.weights(), draws, folds, classes };
         let study = Study::of(&self.observations, &asked);
-        FitReport::of(self, &study)
+        let mut report = FitReport::of(self, &study)?;
+        if self.request.by_paper {
+            report.by_paper = by_paper(&self.observations, seed).iter().map(ByPaper::of).collect();
+        }
+        report.by_lead = LEADS.iter().map(|it| self.with_lead(*it, &asked)).collect::<Result<_, _>>()?;
+        Ok(report)
+    }
+
+    /// The weights if all changes begin `lead` [s] before the crossing.
+    fn with_lead(&self, lead: f64, asked: &Asked) -> Result<WithLead, Fault> {
+        let observations = self.sources.observations(&self.prior.typical, Begin::Lead(lead))?;
+        let weights = Study::weights_of(&observations, asked);
+        Ok(WithLead::of(lead, &observations, &weights))
     }
 }

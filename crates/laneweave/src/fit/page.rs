@@ -23,7 +23,7 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         ("Not identified", data.not_identified.join(", ")),
     ];
     let facts = facts.map(|(name, value)| (name.to_owned(), value)).to_vec();
-    Page::new("Fit of driving styles", lead)
+    let page = Page::new("Fit of driving styles", lead)
         .section(Section::new("what", "What was fitted").facts(facts).table(events(report)))
         .section(Section::new("weights", "Weights").table(weights(report)).text(
             "Intervals are those of a bootstrap over blocks of drivers who were seen at the same time, or of the information matrix if \
@@ -31,18 +31,24 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
              what its interval leaves between it and zero. Between lanes that lead to the same place the yield of the route is one with \
              that of speed, so its weight has the prior's proportion to that of speed.",
         ))
+        .section(Section::new("lead", "When changes begin").table(by_lead(report)).text(
+            "The weights if all changes begin at one time before their vehicles cross the line, with β of the prior. What differs much \
+             depends on that time.",
+        ))
         .section(Section::new("beta", "β of comfort").table(beta(report)).text(
             "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
              significantly, by 1.92 nats, on both sides.",
         ))
         .section(Section::new("held-out", "Predicting drivers who were not seen").figures(vec![figure(report)]).table(
             held_out(report),
-        ).text(
+        ).table(predictive(report)).text(
             "A third of the drivers is held out in turn, again and again. All models but the first have the same intercepts of places: \
              lane, side and distance before the next fork, since no recording shows the route of a driver before it takes it. The last \
              one is a control: it is fitted to changes that are shuffled over all seconds.",
         ))
-        .section(Section::new("manner", "Durations, gaps, desired speeds").table(spreads(report)).text(
+        ;
+    let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
+    page.section(Section::new("manner", "Durations, gaps, desired speeds").table(spreads(report)).text(
             "Durations are those of changes that were seen as a whole, so long ones are rarer than they should be. Gaps count up to 150 m.",
         ))
 }
@@ -85,6 +91,49 @@ fn weights(report: &FitReport) -> Table {
     table
 }
 
+fn by_lead(report: &FitReport) -> Table {
+    let names = report.by_lead.first().map_or(&[][..], |it| &it.weights[..]).iter().map(|it| it.name);
+    let columns: Vec<(&str, Align)> =
+        [("before the crossing [s]", Align::Numbers), ("lane changes used", Align::Numbers)]
+            .into_iter()
+            .chain(names.map(|it| (it, Align::Numbers)))
+            .collect();
+    let mut table = Table::new("Weights and standard errors, by the begin of changes.", &columns);
+    for it in &report.by_lead {
+        let weights = it.weights.iter().map(|it| format!("{:.3} ± {:.3}", it.estimate, it.standard_error));
+        table.row([it.lead_s.to_string(), it.events_used.to_string()].into_iter().chain(weights));
+    }
+    table
+}
+
+fn paper(report: &FitReport) -> Section {
+    let names = ["speed and route", "comfort", "courtesy", "slow side"];
+    let columns: Vec<(&str, Align)> = [
+        ("group", Align::Words),
+        ("vehicles", Align::Numbers),
+        ("changed", Align::Numbers),
+        ("β", Align::Numbers),
+    ]
+    .into_iter()
+    .chain(names.map(|it| (it, Align::Numbers)))
+    .collect();
+    let mut table = Table::new("Weights and standard errors by the paper's procedure.", &columns);
+    for it in &report.by_paper {
+        let beta = it.beta.map_or("–".to_owned(), |it| it.to_string());
+        let cells = [it.group.to_owned(), it.vehicles.to_string(), it.changed.to_string(), beta];
+        let weights = (0..names.len()).map(|at| {
+            it.weights.get(at).map_or("–".to_owned(), |[value, error]| format!("{value:.2} ± {error:.2}"))
+        });
+        table.row(cells.into_iter().chain(weights));
+    }
+    Section::new("paper", "The paper's procedure").table(table).text(
+        "Every vehicle is one observation, without an intercept, and two thirds of them are used. Vehicles that changed lanes most often \
+         count as aggressive, as many as the paper's share: this sorts drivers by what is to be explained. Without an intercept a \
+         driver for whom nothing speaks for or against a change makes it with a chance of one half, so negative weights have to explain \
+         that most do not. Neither gaps nor time count.",
+    )
+}
+
 fn beta(report: &FitReport) -> Table {
     let columns = [("β", Align::Numbers), ("less likely than the best by [nats]", Align::Numbers)];
     let what = match report.beta.is_identified {
@@ -95,7 +144,7 @@ fn beta(report: &FitReport) -> Table {
     };
     let mut table = Table::new(what, &columns);
     for [beta, log] in &report.beta.profile {
-        table.row([beta.to_string(), format!("{:.2}", -log)]);
+        table.row([beta.to_string(), format!("{:.2}", log.abs())]);
     }
     table
 }
@@ -140,6 +189,38 @@ fn held_out(report: &FitReport) -> Table {
             text(it.over_constant, it.over_constant_interval),
             if is_mcdm { "–".to_owned() } else { text(it.mcdm_over_it, it.mcdm_over_it_interval) },
             if is_mcdm { "–".to_owned() } else { it.mcdm_is.to_owned() },
+        ]);
+    }
+    table
+}
+
+fn predictive(report: &FitReport) -> Table {
+    let columns = [
+        ("model", Align::Words),
+        ("McFadden's R²", Align::Numbers),
+        ("area under ROC", Align::Numbers),
+        ("area of precision over recall", Align::Numbers),
+        ("Brier", Align::Numbers),
+        ("calibration: intercept", Align::Numbers),
+        ("slope", Align::Numbers),
+    ];
+    let base = report.predictive.first().map_or(0.0, |it| it.base_rate);
+    let what = format!(
+        "Predictions of single seconds of held-out drivers. By chance the area under ROC is .5, that of precision over recall {base:.4}, the \
+         share of seconds in which a change begins."
+    );
+    let mut table = Table::new(what, &columns);
+    let text =
+        |value: Option<f64>, digits: usize| value.map_or("–".to_owned(), |it| format!("{it:.digits$}"));
+    for it in &report.predictive {
+        table.row([
+            it.model.clone(),
+            format!("{:.4}", it.mcfadden_r2),
+            text(it.roc_area, 3),
+            text(it.precision_recall_area, 4),
+            format!("{:.5}", it.brier),
+            text(it.calibration.map(|it| it[0]), 2),
+            text(it.calibration.map(|it| it[1]), 2),
         ]);
     }
     table

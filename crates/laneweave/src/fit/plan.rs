@@ -131,8 +131,11 @@ impl Plan {
     pub(super) fn write_counts(&self, out: &mut String) -> std::fmt::Result {
         writeln!(
             out,
-            "{} recordings of {} sites: {:.1} veh-km, {:.2} veh-h",
-            self.recordings, self.sites, self.veh_km, self.veh_h
+            "{} of {}: {:.1} veh-km, {:.2} veh-h",
+            counted(self.recordings, "recording"),
+            counted(self.sites, "site"),
+            self.veh_km,
+            self.veh_h
         )?;
         writeln!(
             out,
@@ -178,6 +181,11 @@ impl Plan {
             "Expected errors are those of a plain logit; waiting, unknown desired speeds and routes cost more."
         )
     }
+}
+
+/// A number of things, in words.
+fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 fn thousandths(value: f64) -> f64 {

@@ -1,7 +1,10 @@
 //! What a fit found, as plain data.
 
+use laneweave_calibration::measures::{
+    brier, calibration, log_likelihood_of_share, log_score, precision_recall_area, roc_area,
+};
 use laneweave_calibration::observe::Observations;
-use laneweave_calibration::{Compared, Difference, Fitted, Study};
+use laneweave_calibration::{Candidate, Compared, Difference, Fitted, PaperGroup, Study};
 use laneweave_scenario::Fault;
 use serde::Serialize;
 
@@ -19,7 +22,7 @@ pub struct FitReport {
     pub leads_s: Vec<Option<f64>>,
     /// The fitted weights in units of the choice noise.
     pub weights: Vec<WeightReport>,
-    /// θ in units of the choice noise: of all drivers, at a place of the mean rate.
+    /// θ in units of the choice noise, at a place of the mean intercept.
     pub theta: WeightReport,
     /// β of comfort.
     pub beta: BetaReport,
@@ -27,6 +30,13 @@ pub struct FitReport {
     pub classes: Vec<ClassReport>,
     /// How well models predict drivers who were not seen.
     pub held_out: Vec<HeldOut>,
+    /// How good predictions of single seconds are.
+    pub predictive: Vec<Predictive>,
+    /// What the paper's procedure finds, if it was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_paper: Vec<ByPaper>,
+    /// The weights if changes begin at another time before the crossing.
+    pub by_lead: Vec<WithLead>,
     /// Durations of changes that were seen as a whole [s].
     pub durations_s: Option<Spread>,
     /// Gaps to the new leader and to the new follower when a change begins [m].
@@ -87,7 +97,7 @@ pub struct ClassReport {
     pub share: f64,
     /// The interval.
     pub share_interval: [f64; 2],
-    /// Its θ, and its weights by name.
+    /// Its θ, at a place of the mean rate.
     pub theta: f64,
     /// Its weights, in the order of all weights but the route's.
     pub weights: Vec<f64>,
@@ -110,6 +120,92 @@ pub struct HeldOut {
     pub mcdm_over_it_interval: [f64; 2],
     /// Multi-criteria decision-making is `better` than it, `worse`, or `not distinguishable`.
     pub mcdm_is: &'static str,
+}
+
+/// How good the predictions of single seconds are, of drivers who were not seen.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Predictive {
+    /// The model.
+    pub model: String,
+    /// Seconds, and the share of them in which a change began: what a prediction by chance has as the area of precision
+    /// over recall.
+    pub seconds: usize,
+    /// That share.
+    pub base_rate: f64,
+    /// 1 less the log-likelihood over that of a constant chance (McFadden).
+    pub mcfadden_r2: f64,
+    /// Area under the receiver operating characteristic.
+    pub roc_area: Option<f64>,
+    /// Area under the curve of precision over recall.
+    pub precision_recall_area: Option<f64>,
+    /// Mean squared error (Brier).
+    pub brier: f64,
+    /// Intercept and slope of a logit of the events on the logits of the predictions: 0 and 1 if they are right.
+    pub calibration: Option<[f64; 2]>,
+}
+
+impl Predictive {
+    fn of(candidate: &Candidate) -> Predictive {
+        let all = &candidate.predictions;
+        let events = all.iter().filter(|it| it.came).count();
+        let by_share = log_likelihood_of_share(all.len().max(1), events);
+        Predictive {
+            model: candidate.name.clone(),
+            seconds: all.len(),
+            base_rate: events as f64 / all.len().max(1) as f64,
+            mcfadden_r2: 1.0 - log_score(all) * all.len() as f64 / by_share,
+            roc_area: roc_area(all),
+            precision_recall_area: precision_recall_area(all),
+            brier: brier(all),
+            calibration: calibration(all),
+        }
+    }
+}
+
+/// What the paper's procedure finds of one group of vehicles.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ByPaper {
+    /// `aggressive` or `conservative`.
+    pub group: &'static str,
+    /// Vehicles that are used, each once.
+    pub vehicles: usize,
+    /// Of them, those that changed lanes.
+    pub changed: usize,
+    /// β; none without a maximum.
+    pub beta: Option<f64>,
+    /// Weights of speed with the route, comfort, courtesy and the slow side, with their standard errors; none without a
+    /// maximum.
+    pub weights: Vec<[f64; 2]>,
+}
+
+impl ByPaper {
+    pub(super) fn of(group: &PaperGroup) -> ByPaper {
+        let weights = |fit: &laneweave_calibration::Fit| {
+            let pairs = fit.estimates.iter().zip(fit.standard_errors());
+            pairs.map(|(estimate, error)| [*estimate, error]).collect()
+        };
+        let weights = group.fit.as_ref().map_or(Vec::new(), weights);
+        let PaperGroup { name, vehicles, changed, beta, .. } = group;
+        ByPaper { group: name, vehicles: *vehicles, changed: *changed, beta: *beta, weights }
+    }
+}
+
+/// The weights if all changes begin so long before the crossing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WithLead {
+    /// That time [s].
+    pub lead_s: f64,
+    /// Lane changes that are used then.
+    pub events_used: usize,
+    /// The weights, with errors by the information matrix.
+    pub weights: Vec<WeightReport>,
+}
+
+impl WithLead {
+    pub(super) fn of(lead_s: f64, observations: &Observations, weights: &[Fitted]) -> WithLead {
+        let weights = weights.iter().map(weight).collect();
+        WithLead { lead_s, events_used: observations.used().count(), weights }
+    }
 }
 
 /// How a quantity is spread.
@@ -167,6 +263,9 @@ impl FitReport {
             },
             classes: Vec::new(),
             held_out: study.compared.iter().map(|it| held_out(it, observations)).collect(),
+            predictive: study.compared.iter().map(|it| Predictive::of(&it.candidate)).collect(),
+            by_paper: Vec::new(),
+            by_lead: Vec::new(),
             durations_s: Spread::of(durations),
             lead_gaps_m,
             lag_gaps_m,

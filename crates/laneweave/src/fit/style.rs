@@ -40,7 +40,7 @@ pub(super) fn styles(
             style: name.clone(),
             share,
             share_interval: [(share - half).max(0.0), (share + half).min(1.0)],
-            theta: -parameters[layout.intercept()],
+            theta: -parameters[layout.intercept()] - study.mean_place,
             weights: layout.slopes().map(|it| parameters[it]).collect(),
         };
         let text = text_of(observed, study, report, &class)?;
@@ -176,7 +176,8 @@ fn header(report: &FitReport) -> String {
     let open = report.data.not_identified.join(", ");
     format!(
         "# A style fitted to recorded drivers. Weights and threshold are in units of the choice noise: sigma = 1.\n\
-         # The recordings do not tell: {open}. These have the prior's values, or its proportions.\n\
+         # The recordings do not tell: {open}. See their intervals.\n\
+         # The threshold is that of a place of the mean rate: no driver knows the places of the recordings.\n\
          # The table [fit] holds 95 % intervals, and draws of a bootstrap over drivers. The simulator reads past it.\n"
     )
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::report::{FitReport, HeldOut, Spread, WeightReport};
+use super::report::{ByPaper, FitReport, HeldOut, Spread, WeightReport};
 
 /// The report in words.
 pub(super) fn text_of(report: &FitReport) -> String {
@@ -37,6 +37,7 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
             writeln!(out, "  {}: {:.0} % ({lower:.0} to {upper:.0} %)", it.style, 100.0 * it.share)?;
         }
     }
+    report.by_paper.iter().try_for_each(|it| write_by_paper(it, out))?;
     writeln!(out, "\nPredicting drivers who were not seen [nats per lane change, 95 % interval]")?;
     writeln!(out, "  model       better than a constant chance       mcdm better than it by")?;
     report.held_out.iter().try_for_each(|it| write_held_out(it, out))?;
@@ -56,6 +57,22 @@ fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {
     };
     let interval = format!("{lower:.2} to {upper:.2}");
     writeln!(out, "  {:9} {:>10.2}   {interval:<20} {:>7.2}{open}", it.name, it.estimate, it.prior)
+}
+
+fn write_by_paper(it: &ByPaper, out: &mut String) -> std::fmt::Result {
+    let names = ["speed", "comfort", "courtesy", "keeping"];
+    let each =
+        names.iter().zip(&it.weights).map(|(name, [value, error])| format!("{name} {value:.2} ± {error:.2}"));
+    let weights: Vec<String> = each.collect();
+    let found = match it.beta {
+        None => "the weights have no maximum".to_owned(),
+        Some(beta) => format!("{}, β {beta}", weights.join(", ")),
+    };
+    writeln!(
+        out,
+        "By the paper's procedure, {} ({} vehicles, {} changed): {found}",
+        it.group, it.vehicles, it.changed
+    )
 }
 
 fn write_held_out(it: &HeldOut, out: &mut String) -> std::fmt::Result {

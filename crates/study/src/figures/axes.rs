@@ -37,6 +37,17 @@ impl Axis {
         Axis { to: (tight.to / step - 1e-9).ceil() * step, ..tight }
     }
 
+    /// The same, and from the first tick at or below `low` on, which is at most zero.
+    pub(super) fn around_zero(label: &str, [low, high]: [f64; 2], steps: f64) -> Axis {
+        if low >= 0.0 {
+            return Axis::from_zero(label, high, steps);
+        }
+        let tight = Axis::spanning(label, low, high.max(0.0), steps);
+        let step = tight.step();
+        let from = (tight.from / step + 1e-9).floor() * step;
+        Axis { from, to: (tight.to / step - 1e-9).ceil() * step, ..tight }
+    }
+
     /// From the power of ten at or below `low` to that at or above `high`.
     pub(super) fn decades(label: &str, low: f64, high: f64) -> Axis {
         let is_range = low > 0.0 && high.is_finite() && low <= high;

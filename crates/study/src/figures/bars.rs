@@ -40,8 +40,9 @@ pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -
     let finite = || rows.iter().flat_map(|it| &it.values).filter(|it| it.is_finite());
     let layout = sheet.layout();
     let longest = names.iter().map(|it| it.chars().count()).max().unwrap_or(0) as f64 * layout.text * 0.56;
-    let x =
-        Axis::from_zero(labels[0], finite().map(|it| it.interval.upper).fold(0.0, f64::max), layout.steps[0]);
+    let low = finite().map(|it| it.interval.lower).fold(0.0, f64::min);
+    let high = finite().map(|it| it.interval.upper).fold(0.0, f64::max);
+    let x = Axis::around_zero(labels[0], [low, high], layout.steps[0]);
     let pitch = BETWEEN + PITCH * series.len() as f64;
     let around = Around {
         keys: if series.len() > 1 {
@@ -63,16 +64,16 @@ pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -
         drawing.text(plot.left - 8.0, middle, Anchor::End, name);
         for (index, it) in row.values.iter().enumerate().filter(|(_, it)| it.is_finite()) {
             let y = middle + PITCH * (index as f64 - 0.5 * (series.len() as f64 - 1.0));
-            drawing.add(&bar(it, index, plot.left, y, |value| plot.across(&x, value)));
+            drawing.add(&bar(it, index, y, |value| plot.across(&x, value)));
         }
     }
     drawing.frame();
     drawing.finish()
 }
 
-fn bar(it: &Estimated, index: usize, left: f64, y: f64, across: impl Fn(f64) -> f64) -> String {
-    let end = across(it.value);
-    let (top, width) = (y - 0.5 * HEIGHT, end - left);
+fn bar(it: &Estimated, index: usize, y: f64, across: impl Fn(f64) -> f64) -> String {
+    let (zero, end) = (across(0.0), across(it.value));
+    let (left, top, width) = (zero.min(end), y - 0.5 * HEIGHT, (end - zero).abs());
     let whiskers = level_bar(y, [it.interval.lower, it.interval.upper].map(&across));
     let ((colour, class), dot) = (colour(index), marker(end, y, index));
     format!(
@@ -104,6 +105,17 @@ mod tests {
         let rect = "<rect x=\"78.4\" y=\"47.0\" width=\"290.7\" height=\"9\"";
         assert!(svg.contains(rect), "{svg}");
         assert!(svg.contains("d=\"M272.2 51.5H466.0M272.2 47.5v8M466.0 47.5v8\""), "{svg}");
+    }
+
+    #[test]
+    fn a_bar_below_zero_reaches_to_the_left_within_the_frame() {
+        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a", 2.0), row("c", -1.0)]);
+        let ends: Vec<f64> = svg
+            .match_indices("<rect x=\"")
+            .filter_map(|(at, found)| svg[at + found.len()..].split('"').next()?.parse().ok())
+            .collect();
+        assert!(ends.len() >= 2 && ends.iter().all(|it| *it >= 0.0), "{svg}");
+        assert!(svg.contains(">−2</text>") || svg.contains(">-2</text>"), "{svg}");
     }
 
     #[test]
