@@ -74,7 +74,7 @@ fn mixed_logit(rows: &[Row], terms: usize) -> (Vec<f64>, f64, f64) {
         });
     }
     let layout = Layout::of(&design);
-    let (mut prior, mut is_fixed) = (Prior::none(layout.len()), vec![true; layout.len()]);
+    let (mut prior, mut is_fixed) = (Prior::none(layout.count()), vec![true; layout.count()]);
     for at in [layout.intercept(), layout.spread()].into_iter().chain(layout.slopes()) {
         is_fixed[at] = false;
     }

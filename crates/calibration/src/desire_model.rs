@@ -165,7 +165,7 @@ const REPEATED: usize = 10;
 /// the odds of a change by e to a power whose standard deviation is `effect`. Its places differ by `spread`.
 pub fn assumptions(design: &Design, means: &[f64], effect: f64, spread: &PlaceSpread) -> Assumptions {
     let layout = Layout::of(design);
-    let mut prior = Prior::none(layout.len());
+    let mut prior = Prior::none(layout.count());
     let mut assume = |at: usize, mean: f64, deviation: f64| {
         prior.means[at] = mean;
         prior.precisions[at] = 1.0 / (deviation * deviation);
@@ -186,7 +186,7 @@ pub fn assumptions(design: &Design, means: &[f64], effect: f64, spread: &PlaceSp
     }
     layout.places().zip(spread.of(design)).for_each(|(at, deviation)| assume(at, 0.0, deviation));
     let has_spread = design.drivers.iter().filter(|it| changes_of(it) >= 2).count() >= REPEATED;
-    let mut is_fixed = vec![false; layout.len()];
+    let mut is_fixed = vec![false; layout.count()];
     is_fixed[layout.spread()] = !has_spread;
     Assumptions { prior, is_fixed, has_spread }
 }

@@ -134,14 +134,11 @@ impl PriorWeights {
 impl Study {
     /// Fits a style to `observations`.
     pub fn of(observations: &Observations, asked: &Asked) -> Study {
-        let spread = PlaceSpread::of_places(observations);
-        let means = asked.prior.terms();
-        let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
-        let effect = effect(&design, &means, &spread);
+        let (spread, effect) = spreads(observations, &asked.prior);
         let beta = BetaProfile::of(observations, &asked.prior, effect, &spread);
         let model = DesireModel::Mcdm { beta: beta.beta };
         let design = observations.design(&model);
-        let assumptions = assumptions(&design, &means, effect, &spread);
+        let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread);
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
         let draws = draws(observations, &design, &assumptions, &fit, asked);
         let layout = fit.layout;
@@ -153,6 +150,13 @@ impl Study {
         let compared = compared(observations, &model, &spread, asked);
         Study { weights, theta, beta, spread, effect, mean_place, fit, draws, compared, mixture }
     }
+}
+
+/// How much places differ, and how much the terms of multi-criteria decision-making do.
+fn spreads(observations: &Observations, prior: &PriorWeights) -> (PlaceSpread, f64) {
+    let spread = PlaceSpread::of_places(observations);
+    let design = observations.design(&DesireModel::Mcdm { beta: prior.beta });
+    (spread, effect(&design, &prior.terms(), &spread))
 }
 
 /// The logarithm of the mean odds of places, over all seconds and sides.
@@ -289,9 +293,10 @@ fn compared(
 ) -> Vec<Compared> {
     let folds = &asked.folds;
     let of = |model: &DesireModel| {
-        let means =
-            if matches!(model, DesireModel::Mcdm { .. }) { asked.prior.terms().to_vec() } else { Vec::new() };
-        let means = if means.is_empty() { vec![0.0; model.terms().len()] } else { means };
+        let means = match model {
+            DesireModel::Mcdm { .. } => asked.prior.terms().to_vec(),
+            _ => vec![0.0; model.terms().len()],
+        };
         Candidate::of(observations, model, (&means, spread), folds)
     };
     let others = [
@@ -316,11 +321,9 @@ fn compared(
 impl Study {
     /// The weights alone, with β of the prior and errors by the information matrix.
     pub fn weights_of(observations: &Observations, asked: &Asked) -> Vec<Fitted> {
-        let spread = PlaceSpread::of_places(observations);
-        let means = asked.prior.terms();
+        let (spread, effect) = spreads(observations, &asked.prior);
         let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
-        let effect = effect(&design, &means, &spread);
-        let assumptions = assumptions(&design, &means, effect, &spread);
+        let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread);
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
         weights(&fit, &[], &asked.prior)
     }

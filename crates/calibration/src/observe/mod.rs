@@ -10,7 +10,7 @@ use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Mcdm};
 use laneweave_network::Side;
 use laneweave_recordings::{
-    Assumed, Extent, Frame, LaneChange, Matched, Replay, ReplayError, RoadUser, extents, lane_changes,
+    Assumed, Extent, Frame, LaneChange, Matched, Replay, ReplayError, extents, lane_changes,
 };
 use laneweave_sim::Navigator;
 use rayon::prelude::*;
@@ -346,9 +346,4 @@ impl Watch<'_> {
             driver.spells.push(spell);
         }
     }
-}
-
-/// Whether road users of a class change lanes as drivers of motor vehicles do.
-fn is_driver(class: RoadUser) -> bool {
-    class.is_vehicle()
 }

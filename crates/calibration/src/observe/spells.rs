@@ -3,8 +3,6 @@
 
 use laneweave_recordings::{Extent, LaneChange, Matched};
 
-use super::is_driver;
-
 /// A time in which a driver could begin a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SpellTimes {
@@ -35,7 +33,7 @@ pub(super) fn spell_times(
     });
     let mut spells = Vec::new();
     for track in order {
-        if !is_driver(matched.recording.tracks[track].class) {
+        if !matched.recording.tracks[track].class.is_vehicle() {
             continue;
         }
         for (from, until) in seen(matched, track) {

@@ -61,9 +61,7 @@ impl Design {
         weights: &[f64],
         similar: Option<&WaitingFit>,
     ) -> WaitingFit {
-        let problem = Problem::new(self, assumptions, weights);
-        let found = problem.solve(similar, EXACT);
-        problem.finish(found.at, found.is_converged, Problem::information)
+        Problem::new(self, assumptions, weights).fit(similar, EXACT, Problem::information)
     }
 
     /// The same to a hundredth of a standard error, with errors by the squares of the drivers' scores alone: quicker,
@@ -74,9 +72,7 @@ impl Design {
         weights: &[f64],
         similar: Option<&WaitingFit>,
     ) -> WaitingFit {
-        let problem = Problem::new(self, assumptions, weights);
-        let found = problem.solve(similar, ROUGH);
-        problem.finish(found.at, found.is_converged, Problem::information_by_scores)
+        Problem::new(self, assumptions, weights).fit(similar, ROUGH, Problem::information_by_scores)
     }
 
     /// The same to a hundredth of a standard error, from other estimates on, without errors: for one of many resamples.
@@ -155,7 +151,7 @@ struct Problem<'a> {
 impl<'a> Problem<'a> {
     fn new(design: &'a Design, assumptions: &'a Assumptions, weights: &'a [f64]) -> Problem<'a> {
         let layout = Layout::of(design);
-        let free = (0..layout.len()).filter(|it| !assumptions.is_fixed[*it]).collect();
+        let free = (0..layout.count()).filter(|it| !assumptions.is_fixed[*it]).collect();
         Problem { design, assumptions, weights, layout, free }
     }
 
@@ -188,7 +184,7 @@ impl<'a> Problem<'a> {
     fn likelihood(&self, all: &[f64]) -> (f64, Vec<f64>) {
         let numbers = Numbers::new(self.layout, all, self.assumptions.has_spread);
         let chunk = |memory: &mut Memories, number: usize| {
-            let mut gradient = vec![0.0; self.layout.len()];
+            let mut gradient = vec![0.0; self.layout.count()];
             let mut sum = 0.0;
             let end = ((number + 1) * CHUNK).min(self.design.drivers.len());
             for at in number * CHUNK..end {
@@ -203,7 +199,7 @@ impl<'a> Problem<'a> {
         let chunks = self.design.drivers.len().div_ceil(CHUNK);
         let parts: Vec<(f64, Vec<f64>)> =
             (0..chunks).into_par_iter().map_init(Memories::default, chunk).collect();
-        let mut whole = (0.0, vec![0.0; self.layout.len()]);
+        let mut whole = (0.0, vec![0.0; self.layout.count()]);
         for (sum, gradient) in parts {
             whole.0 += sum;
             whole.1.iter_mut().zip(gradient).for_each(|(it, more)| *it += more);
@@ -225,7 +221,7 @@ impl<'a> Problem<'a> {
         let all = self.full(reduced);
         let numbers = Numbers::new(self.layout, &all, self.assumptions.has_spread);
         let of = |memory: &mut Memories, driver| {
-            let mut gradient = vec![0.0; self.layout.len()];
+            let mut gradient = vec![0.0; self.layout.count()];
             let look = Look { design: self.design, driver, numbers: &numbers };
             memory.evaluate(&look, Some(&mut gradient), 1.0);
             self.reduced(&gradient)
@@ -268,14 +264,16 @@ impl<'a> Problem<'a> {
         if Cholesky::new(information.clone()).is_some() { information } else { by_scores }
     }
 
-    fn finish(
+    /// The maximum, with errors by the `information` there.
+    fn fit(
         &self,
-        at: DVector<f64>,
-        is_converged: bool,
+        similar: Option<&WaitingFit>,
+        least_gain: f64,
         information: fn(&Problem<'a>, &DVector<f64>) -> DMatrix<f64>,
     ) -> WaitingFit {
+        let Maximum { at, is_converged, .. } = self.solve(similar, least_gain);
         let covariance = inverse_of(information(self, &at));
-        let mut whole = DMatrix::zeros(self.layout.len(), self.layout.len());
+        let mut whole = DMatrix::zeros(self.layout.count(), self.layout.count());
         for (row, to) in self.free.iter().enumerate() {
             self.free
                 .iter()

@@ -34,13 +34,8 @@ impl Layout {
     }
 
     /// Number of parameters.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         OTHERS + self.terms + self.strata
-    }
-
-    /// Whether there is none; there always are.
-    pub fn is_empty(&self) -> bool {
-        false
     }
 
     /// The intercept.
@@ -80,7 +75,7 @@ impl Layout {
 
     /// The intercepts of places.
     pub fn places(&self) -> Range<usize> {
-        OTHERS + self.terms..self.len()
+        OTHERS + self.terms..self.count()
     }
 }
 

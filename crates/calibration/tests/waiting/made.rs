@@ -90,7 +90,7 @@ pub(crate) const TRUTH: Truth = Truth {
 };
 
 pub(crate) fn assumptions(layout: Layout) -> Assumptions {
-    let mut prior = Prior::none(layout.len());
+    let mut prior = Prior::none(layout.count());
     let mut assume = |at: usize, mean: f64, deviation: f64| {
         prior.means[at] = mean;
         prior.precisions[at] = 1.0 / (deviation * deviation);
@@ -103,5 +103,5 @@ pub(crate) fn assumptions(layout: Layout) -> Assumptions {
     assume(layout.spread(), 0.3_f64.ln(), 1.0);
     layout.acceptance().for_each(|it| assume(it, 0.0, 2.0));
     layout.places().for_each(|it| assume(it, 0.0, 1.0));
-    Assumptions { prior, is_fixed: vec![false; layout.len()], has_spread: true }
+    Assumptions { prior, is_fixed: vec![false; layout.count()], has_spread: true }
 }

@@ -33,10 +33,10 @@ fn the_gradient_is_that_of_the_likelihood() {
     let layout = Layout::of(&design);
     let (assumptions, weights) = (assumptions(layout), vec![1.0; 20]);
     let at: Vec<f64> =
-        (0..layout.len()).map(|it| [-2.0, 0.5, -0.3, -4.0, -2.0, -3.0, -0.7][it % 7]).collect();
+        (0..layout.count()).map(|it| [-2.0, 0.5, -0.3, -4.0, -2.0, -3.0, -0.7][it % 7]).collect();
     let value = |at: &[f64]| design.log_likelihoods(at, assumptions.has_spread, &weights).iter().sum::<f64>();
     let gradient = design.gradient(&assumptions, &weights, &at);
-    for parameter in 0..layout.len() {
+    for parameter in 0..layout.count() {
         let step = 1e-5;
         let [above, below] = [step, -step].map(|step| {
             let mut at = at.clone();

@@ -298,8 +298,16 @@ impl Observed {
     pub fn fit(&self) -> Result<FitReport, Fault> {
         if self.observations.used().next().is_none() {
             let place = self.request.recordings.first().map_or(String::new(), |it| it.display().to_string());
-            let what = format!("none of its {} lane changes can be used", self.observations.changes.len());
-            let remedy = "see why with --plan, or give more recordings";
+            let (what, remedy) = match self.observations.changes.len() {
+                0 => (
+                    "nobody changes lanes".to_owned(),
+                    "give longer recordings, or of roads with several lanes",
+                ),
+                count => (
+                    format!("none of its {count} lane changes can be used"),
+                    "see why with --plan, or give more recordings",
+                ),
+            };
             return Err(Fault::new(place, what, remedy));
         }
         let Request { draws, repetitions, classes, seed, .. } = self.request;

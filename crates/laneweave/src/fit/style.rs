@@ -6,7 +6,7 @@ use laneweave_scenario::Fault;
 use toml::{Table, Value};
 
 use super::Observed;
-use super::report::{ClassReport, FitReport, Spread};
+use super::report::{ClassReport, FitReport, Spread, WeightReport};
 
 /// A fitted style.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,18 +141,18 @@ fn provenance(observed: &Observed, study: &Study, report: &FitReport) -> Table {
     });
     let pair = |[lower, upper]: [f64; 2]| Value::Array(vec![Value::Float(lower), Value::Float(upper)]);
     let weights = || report.weights.iter().chain([&report.theta]);
-    let intervals = weights().map(|it| (it.name.to_owned(), pair(it.interval))).collect();
+    // As in the style, the threshold is that of a place of the mean rate.
+    let offset = |name: &str| if name == "theta" { study.mean_place } else { 0.0 };
+    let shifted = |it: &WeightReport| pair(it.interval.map(|end| end - offset(it.name)));
+    let intervals = weights().map(|it| (it.name.to_owned(), shifted(it))).collect();
     let layout: Layout = study.layout();
     let parameters: Vec<usize> = layout.slopes().chain([layout.intercept()]).collect();
     let round = |value: f64| Value::Float((value * 1e6).round() / 1e6);
-    let draw = |it: &Vec<f64>| {
-        Value::Array(
-            parameters
-                .iter()
-                .map(|at| round(if *at == layout.intercept() { -it[*at] } else { it[*at] }))
-                .collect(),
-        )
+    let value = |it: &Vec<f64>, at: usize| match at == layout.intercept() {
+        true => -it[at] - study.mean_place,
+        false => it[at],
     };
+    let draw = |it: &Vec<f64>| Value::Array(parameters.iter().map(|at| round(value(it, *at))).collect());
     let of = study.weights.iter().map(|it| it.name).chain(["theta"]);
     let strings = |names: &mut dyn Iterator<Item = &str>| {
         Value::Array(names.map(|it| Value::String(it.to_owned())).collect())
