@@ -38,13 +38,13 @@ impl Mixture {
         weights: &[f64],
     ) -> Mixture {
         let layout = fit.layout;
-        let own = own_of_classes(assumptions, layout, &fit.estimates);
         let middle = 0.5 * (count as f64 - 1.0);
         let start = |class: usize| {
             let mut parameters = fit.estimates.clone();
             parameters[layout.intercept()] += APART * (class as f64 - middle);
             parameters
         };
+        let own = own_of_classes(assumptions, layout, &fit.estimates);
         let mut now = Mixture::of_known(design, assumptions, (0..count).map(start).collect(), weights);
         for _ in 0..STEPS {
             let chances = now.chances(design, assumptions, weights);
@@ -62,6 +62,24 @@ impl Mixture {
             }
         }
         now.sorted()
+    }
+
+    /// The classes in the draws of a bootstrap: `draws` has how often each driver counts in each. A driver keeps the
+    /// chances that it belongs to each class, and the parameters take one step.
+    pub(crate) fn redrawn(
+        &self,
+        design: &Design,
+        assumptions: &Assumptions,
+        fit: &WaitingFit,
+        draws: &[Vec<f64>],
+    ) -> Vec<Vec<Vec<f64>>> {
+        let own = own_of_classes(assumptions, fit.layout, &fit.estimates);
+        let chances = self.chances(design, assumptions, &vec![1.0; design.drivers.len()]);
+        let of_class = |(class, parameters): (usize, &Vec<f64>)| {
+            let weights: Vec<f64> = chances.iter().map(|it| it[class]).collect();
+            design.redrawn(&own, &weights, (parameters, None), draws)
+        };
+        self.parameters.iter().enumerate().map(of_class).collect()
     }
 
     /// The shares of classes with known `parameters`.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use laneweave_models::change::discomfort;
+use laneweave_network::Side;
 
 use crate::observe::{ByDesired, NODES, Observations, Place, SideSeen, Sighting, gap_terms};
 use crate::place_spread::PlaceSpread;
@@ -111,12 +112,17 @@ fn places(observations: &Observations) -> BTreeMap<Place, u32> {
 }
 
 impl Observations {
+    /// Most possible desired speeds of a driver.
+    fn nodes(&self) -> usize {
+        self.drivers.iter().map(|it| it.desired.nodes.len()).max().unwrap_or(NODES)
+    }
+
     /// What drivers could choose, with the terms of `model`.
     pub fn design(&self, model: &DesireModel) -> Design {
         let numbers = if model.has_places() { places(self) } else { BTreeMap::new() };
         let mut design = Design {
             terms: model.terms().len(),
-            nodes: if model.knows_desired() { NODES } else { 1 },
+            nodes: if model.knows_desired() { self.nodes() } else { 1 },
             strata: numbers.len(),
             ..Design::default()
         };
@@ -147,7 +153,7 @@ impl Observations {
                     parts[tick.rem_euclid(phases as i64) as usize].seconds.push(rows);
                 }
                 for (phase, mut part) in driver.phases.iter_mut().zip(parts) {
-                    part.changed_to = spell.change.map(|(_, side)| side.at());
+                    part.changed_to = spell.change.map(Side::at);
                     phase.push(part);
                 }
             }

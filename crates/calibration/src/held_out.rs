@@ -65,6 +65,7 @@ impl Candidate {
     ) -> Candidate {
         let design = observations.design(model);
         let assumptions = assumptions(&design, means, effect(&design, means, spread), spread);
+        let assumptions = assumptions.without_spread(&design);
         Candidate::fitted(model.name().into(), [&design, &design], &assumptions, folds)
     }
 
@@ -78,6 +79,7 @@ impl Candidate {
     ) -> Candidate {
         let design = observations.design(model);
         let assumptions = assumptions(&design, means, effect(&design, means, spread), spread);
+        let assumptions = assumptions.without_spread(&design);
         let order = shuffled(design.gaps.len(), folds.seed, u32::MAX >> 1);
         let width = design.nodes * design.terms;
         let others = Design {
@@ -146,7 +148,7 @@ impl Candidate {
 }
 
 /// The 95 % interval of what was drawn.
-pub(crate) fn interval(mut drawn: Vec<f64>) -> [f64; 2] {
+pub fn interval(mut drawn: Vec<f64>) -> [f64; 2] {
     drawn.sort_by(f64::total_cmp);
     let Some(last) = drawn.len().checked_sub(1) else { return [f64::NEG_INFINITY, f64::INFINITY] };
     let quantile = |share: f64| {

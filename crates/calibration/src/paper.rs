@@ -63,7 +63,7 @@ fn group(name: &'static str, drivers: &[&ObservedDriver], seed: u64) -> PaperGro
 /// The one observation of a vehicle: what it saw when it began its first change, or halfway through if it made none,
 /// and whether it changed. Of two sides the one that it changed to, or the one with the larger yield of speed.
 fn observation(driver: &ObservedDriver) -> Option<(&SideSeen, bool)> {
-    let changed = driver.spells.iter().find_map(|it| Some((it.sightings.last()?, it.change?.1)));
+    let changed = driver.spells.iter().find_map(|it| Some((it.sightings.last()?, it.change?)));
     if let Some((sighting, side)) = changed {
         return Some((sighting.sides[side.at()].as_ref()?, true));
     }
@@ -108,13 +108,14 @@ mod tests {
             lead: [20.0, 0.0],
             lag: [20.0, 0.0],
             speed: 20.0,
+            has_safe_gap: true,
             by_desired: [ByDesired { speed: 0.01 * (vehicle % 5) as f32, ..ByDesired::default() }; NODES],
         };
         let sightings = vec![Sighting { tick: 0, sides: [Some(side), None] }];
         ObservedDriver {
             vehicle,
             desired: DesiredSpeed { nodes: vec![(1.0, 1.0)], is_shown: true },
-            spells: vec![ObservedSpell { sightings, change: change.then_some((0, Side::Left)) }],
+            spells: vec![ObservedSpell { sightings, change: change.then_some(Side::Left) }],
             ..ObservedDriver::default()
         }
     }

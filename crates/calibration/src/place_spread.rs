@@ -33,7 +33,8 @@ impl PlaceSpread {
         let mut spread = USUAL;
         let mut before: Option<WaitingFit> = None;
         for _ in 0..STEPS {
-            let fit = design.fit_roughly(&assumptions(&design, &[], 1.0, &spread), &weights, before.as_ref());
+            let assumptions = assumptions(&design, &[], 1.0, &spread).without_spread(&design);
+            let fit = design.fit_roughly(&assumptions, &weights, before.as_ref());
             let square = |at: usize| fit.estimates[at] * fit.estimates[at] + fit.covariance[(at, at)];
             let of = |lane: bool, usual: f64| {
                 let places = fit.layout.places().zip(&is_lane).filter(|(_, it)| **it == lane);
@@ -73,7 +74,7 @@ pub fn effect(design: &Design, means: &[f64], spread: &PlaceSpread) -> f64 {
     let mut effect = USUAL;
     let mut before: Option<WaitingFit> = None;
     for _ in 0..STEPS {
-        let assumptions = assumptions(design, means, effect, spread);
+        let assumptions = assumptions(design, means, effect, spread).without_spread(design);
         let fit = design.fit_roughly(&assumptions, &weights, before.as_ref());
         let (mut sum, mut count) = (USUAL_WEIGHT * USUAL * USUAL, USUAL_WEIGHT);
         for ((at, mean), scale) in fit.layout.slopes().zip(means).zip(&scales) {

@@ -1,7 +1,6 @@
 //! A whole fit: the weights with their errors, what the data leave open, and how well models predict.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use crate::classes::{Mixture, are_two};
 use crate::desire_model::{DesireModel, assumptions};
@@ -104,10 +103,12 @@ pub struct Study {
     pub fit: WaitingFit,
     /// All parameters of each draw of the bootstrap.
     pub draws: Vec<Vec<f64>>,
-    /// The models that were compared.
+    /// The models that were compared; none if that was not asked.
     pub compared: Vec<Compared>,
     /// The classes of drivers, if there are several.
     pub mixture: Option<Mixture>,
+    /// For each class all parameters of each draw of the bootstrap.
+    pub class_draws: Vec<Vec<Vec<f64>>>,
 }
 
 /// How many classes of drivers there are.
@@ -132,23 +133,37 @@ impl PriorWeights {
 }
 
 impl Study {
-    /// Fits a style to `observations`.
+    /// Fits a style to `observations`, and compares its model with others.
     pub fn of(observations: &Observations, asked: &Asked) -> Study {
+        let study = Study::alone(observations, asked);
+        let model = DesireModel::Mcdm { beta: study.beta.beta };
+        let compared = compared(observations, &model, &study.spread, asked);
+        Study { compared, ..study }
+    }
+
+    /// Fits a style to `observations`, without a comparison of models.
+    pub fn alone(observations: &Observations, asked: &Asked) -> Study {
         let (spread, effect) = spreads(observations, &asked.prior);
         let beta = BetaProfile::of(observations, &asked.prior, effect, &spread);
         let model = DesireModel::Mcdm { beta: beta.beta };
         let design = observations.design(&model);
         let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread);
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
-        let draws = draws(observations, &design, &assumptions, &fit, asked);
+        let resampled: Vec<Vec<f64>> =
+            (0..asked.draws).map(|number| resampled(observations, asked.folds.seed, number)).collect();
+        let all = vec![1.0; design.drivers.len()];
+        let maximum = (&fit.estimates[..], Some(&fit.covariance));
+        let draws = design.redrawn(&assumptions, &all, maximum, &resampled);
         let layout = fit.layout;
         let weights = weights(&fit, &draws, &asked.prior);
         let prior_theta = -assumptions.prior.means[layout.intercept()];
         let theta = Fitted::of_parameter("theta", (layout.intercept(), -1.0), &fit, &draws, prior_theta);
         let mean_place = mean_place(&design, &fit);
         let mixture = mixture(&design, &assumptions, &fit, asked);
-        let compared = compared(observations, &model, &spread, asked);
-        Study { weights, theta, beta, spread, effect, mean_place, fit, draws, compared, mixture }
+        let redrawn = |it: &Mixture| it.redrawn(&design, &assumptions, &fit, &resampled);
+        let class_draws = mixture.as_ref().map_or(Vec::new(), redrawn);
+        let compared = Vec::new();
+        Study { weights, theta, beta, spread, effect, mean_place, fit, draws, compared, mixture, class_draws }
     }
 }
 
@@ -228,21 +243,6 @@ impl Fitted {
     }
 }
 
-/// Fits to drivers who are drawn again.
-fn draws(
-    observations: &Observations,
-    design: &Design,
-    assumptions: &Assumptions,
-    fit: &WaitingFit,
-    asked: &Asked,
-) -> Vec<Vec<f64>> {
-    let draw = |number: u32| {
-        let weights = resampled(observations, asked.folds.seed, number);
-        design.refit(assumptions, &weights, &fit.estimates, &fit.covariance)
-    };
-    (0..asked.draws).into_par_iter().map(draw).collect()
-}
-
 impl BetaProfile {
     /// Profiles the likelihood of multi-criteria decision-making over β.
     fn of(
@@ -255,7 +255,7 @@ impl BetaProfile {
         let mut logs = Vec::with_capacity(BETAS.len());
         for beta in BETAS {
             let design = observations.design(&DesireModel::Mcdm { beta });
-            let assumptions = assumptions(&design, &prior.terms(), effect, spread);
+            let assumptions = assumptions(&design, &prior.terms(), effect, spread).without_spread(&design);
             let weights = vec![1.0; design.drivers.len()];
             let estimates = match &start {
                 Some((estimates, covariance)) => design.refit(&assumptions, &weights, estimates, covariance),
@@ -323,7 +323,7 @@ impl Study {
     pub fn weights_of(observations: &Observations, asked: &Asked) -> Vec<Fitted> {
         let (spread, effect) = spreads(observations, &asked.prior);
         let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
-        let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread);
+        let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread).without_spread(&design);
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
         weights(&fit, &[], &asked.prior)
     }

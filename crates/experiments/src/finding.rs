@@ -44,6 +44,7 @@ impl Row {
 
     fn range_text(&self) -> String {
         match self.range {
+            [f64::NEG_INFINITY, f64::INFINITY] => "anything".into(),
             [f64::NEG_INFINITY, most] => format!("at most {}", number(most)),
             [least, f64::INFINITY] => format!("at least {}", number(least)),
             [least, most] => format!("{} to {}", number(least), number(most)),

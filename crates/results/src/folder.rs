@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use laneweave_scenario::Fault;
 
 /// Every file name of the results of a run, in the order of removal: a run without a summary has not ended.
-pub const RESULTS: [&str; 25] = [
+pub const RESULTS: [&str; 26] = [
     "summary.json",
     CHECKPOINT,
     PAGES,
@@ -33,6 +33,7 @@ pub const RESULTS: [&str; 25] = [
     "time_space.svg",
     REPLAY,
     REPLAY_REPORT,
+    DRAWS,
 ];
 /// The folder in it for the differences between twins.
 pub const BRANCH: &str = "branch";
@@ -46,6 +47,9 @@ pub(crate) const PAGES: &str = "checkpoint.pages";
 pub(crate) const COMMANDS: &str = "commands";
 /// The name of a report.
 pub const REPORT: &str = "report.html";
+
+/// The name of what replications with draws of the parameters show.
+pub const DRAWS: &str = "draws.json";
 
 /// The names of what a replay adds: how well its drivers match the recording.
 pub const REPLAY: &str = "replay.json";

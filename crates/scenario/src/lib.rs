@@ -15,6 +15,6 @@ pub use capacity::{Bottleneck, Capacity};
 pub use fault::{Cause, Fault, did_you_mean};
 pub use recording::{elsewhere, open_recording, open_recordings, unreadable};
 pub use remarks::{Remark, remarks};
-pub use replay::{Played, Player};
+pub use replay::{Played, Player, Recorded};
 pub use script::{COMMAND_COLUMNS, Script, Written, refused};
 pub use source::Source;

@@ -9,6 +9,7 @@ mod histogram;
 mod rate;
 mod returning;
 mod signal;
+mod spread;
 mod statistics;
 mod table;
 mod trace;
@@ -24,6 +25,7 @@ pub use histogram::Histogram;
 pub use rate::{RatePoint, RateSeries, rate_by_density};
 pub use returning::{Attempt, returning_rate};
 pub use signal::{Signal, SignalQueue};
+pub use spread::{chance_of_more, middle_95, quantile, share_between};
 pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
 pub use table::{
     Cell, Cells, Column, Format, Kind, PartialFile, ReadError, TableError, TableWriter, TextTable, seconds,

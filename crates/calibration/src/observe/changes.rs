@@ -3,7 +3,7 @@
 use laneweave_network::{LaneletIndex, Side};
 use laneweave_recordings::{Extent, Kind, LaneChange, Matched};
 
-use super::spells::SpellTimes;
+use super::spells::{End, SpellTimes};
 
 /// A recorded lane change.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,7 +94,7 @@ pub(super) fn mark_unused(changes: &mut [ObservedChange], times: &[SpellTimes]) 
     const DECIDES_WITHIN: f64 = 1.0;
     let mut length = vec![None; changes.len()];
     for spell in times {
-        if let Some(change) = spell.change {
+        if let End::Change(change) = spell.end {
             length[change] = Some((spell.until - spell.from, spell.is_after_change));
         }
     }

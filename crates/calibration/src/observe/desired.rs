@@ -10,6 +10,7 @@ use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_recordings::{Matched, Replay, allowed};
 use laneweave_sim::driver_of;
 
+use super::in_view::InView;
 use crate::waiting::MOST_NODES;
 
 /// Possible desired speeds of each driver.
@@ -43,8 +44,10 @@ const USUAL_ERROR: f64 = 0.03;
 /// The distribution of a recording without any free driver, and with how many drivers' weight it counts (ours).
 const USUAL: (f64, f64) = (0.0, 0.12);
 const USUAL_WEIGHT: f64 = 4.0;
-/// Smallest standard deviation of the logarithms.
+/// Smallest and largest standard deviation of the logarithms (ours: free speeds of drivers on one road differ by 10 to
+/// 15 %). More comes from places, such as bends and limits that the map has wrong.
 const LEAST: f64 = 0.02;
+const MOST: f64 = 0.25;
 /// Points of the grid over ± 4 standard deviations, and steps of the EM algorithm.
 const POINTS: usize = 201;
 const STEPS: usize = 30;
@@ -58,13 +61,15 @@ struct Shown {
     reached: f64,
 }
 
-/// The desired speeds of the drivers of all tracks.
-pub(super) fn desired_speeds(matched: &Matched, replay: &Replay) -> Vec<DesiredSpeed> {
+/// The desired speeds of the drivers of all tracks, and their distribution over all drivers: mean and standard
+/// deviation of the logarithms of the factors. Drivers who were held up count in it, too: those who drive freely are
+/// often the slower ones.
+pub(super) fn desired_speeds(matched: &Matched, replay: &Replay) -> (Vec<DesiredSpeed>, [f64; 2]) {
     let shown = shown(matched, replay);
     let known: Vec<&Shown> = shown.iter().flatten().collect();
     let distribution = distribution(&known);
     let of = |it: &Option<Shown>| posterior(it.as_ref(), distribution);
-    shown.iter().map(of).collect()
+    (shown.iter().map(of).collect(), [distribution.0, distribution.1])
 }
 
 /// Drivers are looked at so often [s].
@@ -74,6 +79,7 @@ fn shown(matched: &Matched, replay: &Replay) -> Vec<Option<Shown>> {
     let tracks = matched.recording.tracks.len();
     let (mut free, mut all) = (vec![Vec::new(); tracks], vec![Vec::new(); tracks]);
     let Some((first, last)) = matched.recording.frames() else { return vec![None; tracks] };
+    let in_view = InView::of(matched);
     let every = (EVERY / matched.recording.step).round().max(1.0) as usize;
     for number in (first..=last).step_by(every) {
         let frame = replay.frame(number);
@@ -88,7 +94,12 @@ fn shown(matched: &Matched, replay: &Replay) -> Vec<Option<Shown>> {
             }
             all[motion.id as usize].push(libm::log(factor));
             let ahead = scene.ahead(scene.viewpoint(spot));
-            let is_free = ahead.is_none_or(|it| it.gap > FREE * motion.speed);
+            let far = FREE * motion.speed;
+            // Who has nobody ahead may follow somebody whom the recording does not show.
+            let is_free = match ahead {
+                Some(it) => it.gap > far,
+                None => in_view.shows(spot.chain, motion.x, far),
+            };
             if is_free && motion.acceleration.abs() < STEADY as f32 {
                 let desired = desired_by(&driver_of(&scene, spot), ahead, allowed);
                 free[motion.id as usize].extend(desired.map(libm::log));
@@ -157,7 +168,7 @@ fn distribution(known: &[&Shown]) -> (f64, f64) {
         }
         let mean = sum / weight;
         squares += USUAL_WEIGHT * (mean * mean + USUAL.1 * USUAL.1);
-        now = (mean, (squares / weight - mean * mean).max(LEAST * LEAST).sqrt());
+        now = (mean, (squares / weight - mean * mean).max(0.0).sqrt().clamp(LEAST, MOST));
     }
     now
 }

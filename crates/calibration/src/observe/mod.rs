@@ -2,6 +2,8 @@
 
 mod changes;
 mod desired;
+mod in_view;
+mod known;
 mod place;
 mod side;
 mod spells;
@@ -17,9 +19,10 @@ use rayon::prelude::*;
 
 pub use changes::{ObservedChange, Unused};
 pub use desired::{DesiredSpeed, NODES};
+pub use known::{FreeTime, Known};
 pub use place::Place;
 pub use side::{ByDesired, SideSeen, gap_terms};
-use spells::SpellTimes;
+use spells::{End, SpellTimes};
 
 /// How a recording is observed.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +33,8 @@ pub struct Options {
     pub phases: u32,
     /// When a change begins.
     pub begin: Begin,
+    /// What is told of the drivers.
+    pub known: Known,
 }
 
 /// When a change begins.
@@ -48,7 +53,7 @@ pub const USUAL_LEAD: f64 = 1.5;
 impl Options {
     /// The usual ones for drivers of `style`.
     pub fn of(style: Style) -> Options {
-        Options { style, phases: 2, begin: Begin::Auto }
+        Options { style, phases: 2, begin: Begin::Auto, known: Known::default() }
     }
 }
 
@@ -78,6 +83,9 @@ pub struct ObservedRecording {
     pub lead: Option<f64>,
     /// Time after a change in which drivers make no other one [s].
     pub cooldown: f64,
+    /// Mean and standard deviation, over all drivers, of the logarithms of their desired speeds as factors on what the
+    /// limit and the class allow.
+    pub desired_logs: [f64; 2],
 }
 
 /// What was observed of one driver.
@@ -102,14 +110,14 @@ pub struct ObservedDriver {
 pub struct ObservedSpell {
     /// What it saw, in the order of time.
     pub sightings: Vec<Sighting>,
-    /// The change at its end, by its number among all changes, and its side.
-    pub change: Option<(usize, Side)>,
+    /// The side of the change that begins at its end, or of the desire, where the begins of desires are known.
+    pub change: Option<Side>,
 }
 
 /// What a driver saw at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sighting {
-    /// The time in units of one second over the number of phases.
+    /// The time in units of one second over the number of phases; since the driver's own turn, if that is known.
     pub tick: i64,
     /// The sides to which it could change, left and right.
     pub sides: [Option<SideSeen>; 2],
@@ -118,18 +126,13 @@ pub struct Sighting {
 impl Observations {
     /// Adds those of another recording.
     pub fn extend(&mut self, other: Observations) {
-        let before = self.changes.len();
         self.sites = self.sites.max(other.sites);
         self.phases = other.phases;
         self.recordings.extend(other.recordings);
         self.changes.extend(other.changes);
         self.veh_km += other.veh_km;
         self.veh_h += other.veh_h;
-        self.drivers.extend(other.drivers.into_iter().map(|mut driver| {
-            let changes = driver.spells.iter_mut().filter_map(|it| it.change.as_mut());
-            changes.for_each(|it| it.0 += before);
-            driver
-        }));
+        self.drivers.extend(other.drivers);
     }
 
     /// Seconds in which a driver could change to at least one side.
@@ -170,13 +173,17 @@ pub fn observe(
     let styles = [options.style.clone()];
     let by_speeds = |track| Assumed::by_its_speeds(matched, track, 0);
     let first = Replay::new(matched, &changes, navigator, &styles, by_speeds)?.without_destinations();
-    let desired = desired::desired_speeds(matched, &first);
+    let (estimated, desired_logs) = desired::desired_speeds(matched, &first);
+    let desired = options.known.desired_speeds(matched, estimated);
     let by_posterior = |track: usize| Assumed { parameters: 0, speed_factor: desired[track].mean() };
     let replay = Replay::new(matched, &changes, navigator, &styles, by_posterior)?.without_destinations();
-    let mut times = spells::spell_times(matched, &changes, &extents, cooldown);
     let all = changes.iter().zip(extents.iter().zip(&shown));
     let mut observed: Vec<ObservedChange> =
         all.map(|(it, (used, shown))| ObservedChange::of(matched, it, [*used, *shown])).collect();
+    let mut times = match &options.known.free {
+        Some(free) => known::known_spells(matched, free),
+        None => spells::spell_times(matched, &changes, &extents, cooldown),
+    };
     changes::mark_unused(&mut observed, &times);
     let watch = Watch { matched, replay: &replay, options, origin, desired: &desired };
     let spells = watch.sightings(&times);
@@ -186,7 +193,7 @@ pub fn observe(
     }
     let (veh_km, veh_h) = exposure(matched);
     let (sites, phases, changes) = (origin.site + 1, options.phases, observed);
-    let recordings = vec![ObservedRecording { lead, cooldown }];
+    let recordings = vec![ObservedRecording { lead, cooldown, desired_logs }];
     Ok(Observations { sites, phases, recordings, drivers, changes, veh_km, veh_h })
 }
 
@@ -237,6 +244,16 @@ fn exposure(matched: &Matched) -> (f64, f64) {
     (metres / 1000.0, count as f64 * step / 3600.0)
 }
 
+/// A look that a driver takes at its lanes, in the order of frames.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Look {
+    frame: i64,
+    /// The number of its spell.
+    spell: usize,
+    /// The tick, since the turn of its driver.
+    tick: i64,
+}
+
 /// A recording being observed.
 struct Watch<'a> {
     matched: &'a Matched<'a>,
@@ -247,24 +264,32 @@ struct Watch<'a> {
 }
 
 impl Watch<'_> {
+    /// When the driver of a track decides: the time since the last whole second [s].
+    fn turn(&self, track: usize) -> f64 {
+        self.options.known.turn(self.matched.recording.tracks[track].id)
+    }
+
     fn tick_of(&self, time: f64) -> i64 {
         (time * f64::from(self.options.phases) - 1e-9).ceil() as i64
     }
 
-    fn frame_of(&self, tick: i64) -> i64 {
-        (tick as f64 / f64::from(self.options.phases) / self.matched.recording.step).round() as i64
+    /// The frame of a tick of a driver with this `turn` [s].
+    fn frame_of(&self, tick: i64, turn: f64) -> i64 {
+        ((tick as f64 / f64::from(self.options.phases) + turn) / self.matched.recording.step).round() as i64
     }
 
     /// What the drivers of all spells saw.
     fn sightings(&self, times: &[SpellTimes]) -> Vec<Vec<Sighting>> {
-        let mut by_tick: Vec<(i64, usize)> = Vec::new();
-        for (number, spell) in times.iter().enumerate() {
-            by_tick.extend((self.tick_of(spell.from)..self.tick_of(spell.until)).map(|it| (it, number)));
+        let mut looks: Vec<Look> = Vec::new();
+        for (spell, number) in times.iter().zip(0..) {
+            let turn = self.turn(spell.track);
+            let ticks = self.tick_of(spell.from - turn)..self.tick_of(spell.until - turn);
+            looks.extend(ticks.map(|tick| Look { frame: self.frame_of(tick, turn), spell: number, tick }));
         }
-        by_tick.sort_unstable();
-        let together: Vec<&[(i64, usize)]> = by_tick.chunk_by(|a, b| a.0 == b.0).collect();
+        looks.sort_unstable();
+        let together: Vec<&[Look]> = looks.chunk_by(|a, b| a.frame == b.frame).collect();
         let seen: Vec<Vec<(usize, Sighting)>> =
-            together.par_iter().map(|it| self.at_tick(it, times)).collect();
+            together.par_iter().map(|it| self.at_frame(it, times)).collect();
         let mut sightings = vec![Vec::new(); times.len()];
         for (number, sighting) in seen.into_iter().flatten() {
             sightings[number].push(sighting);
@@ -272,14 +297,13 @@ impl Watch<'_> {
         sightings
     }
 
-    fn at_tick(&self, spells: &[(i64, usize)], times: &[SpellTimes]) -> Vec<(usize, Sighting)> {
-        let tick = spells[0].0;
-        let mut frame = self.replay.frame(self.frame_of(tick));
-        let of = |(_, number): &(i64, usize)| {
-            let track = times[*number].track;
-            (*number, Sighting { tick, sides: self.sides(&mut frame, track) })
+    /// What drivers saw in one frame.
+    fn at_frame(&self, looks: &[Look], times: &[SpellTimes]) -> Vec<(usize, Sighting)> {
+        let mut frame = self.replay.frame(looks[0].frame);
+        let of = |&Look { spell, tick, .. }: &Look| {
+            (spell, Sighting { tick, sides: self.sides(&mut frame, times[spell].track) })
         };
-        spells.iter().map(of).collect()
+        looks.iter().map(of).collect()
     }
 
     /// What the driver of a track sees on both sides, for each of its possible desired speeds.
@@ -299,11 +323,12 @@ impl Watch<'_> {
         (model, route): (&Mcdm, f64),
     ) -> Option<SideSeen> {
         let place = Place::of(self.matched.network, frame, vehicle, side, self.origin.site)?;
-        let mut seen = SideSeen::of(&frame.perceive(vehicle, side)?, model, place);
+        let mut seen = SideSeen::of(&frame.perceive(vehicle, side)?, (&self.options.style, model), place);
         let desired = &self.desired[track];
         for (node, (factor, _)) in desired.nodes.iter().enumerate() {
             frame.suppose(vehicle, *factor);
-            seen.by_desired[node] = ByDesired::of(&frame.perceive(vehicle, side)?, model, route);
+            let by_desired = ByDesired::of(&frame.perceive(vehicle, side)?, model, route);
+            seen.by_desired[node..].fill(by_desired);
         }
         frame.suppose(vehicle, desired.mean());
         Some(seen)
@@ -319,15 +344,16 @@ impl Watch<'_> {
         observed: &mut [ObservedChange],
     ) {
         let track = &self.matched.recording.tracks[times.track];
-        let mut spell = ObservedSpell { sightings, change: None };
-        if let Some(number) = times.change.filter(|it| observed[*it].unused.is_none()) {
-            let side = changes[number].side;
-            let last = spell.sightings.iter().rev().take(self.options.phases as usize);
-            if last.clone().count() > 0 && last.clone().all(|it| it.sides[side.at()].is_some()) {
-                spell.change = Some((number, side));
-            } else {
-                observed[number].unused = Some(Unused::NotPermitted);
-            }
+        let side = match times.end {
+            End::Sight => None,
+            End::Change(number) => observed[number].unused.is_none().then(|| changes[number].side),
+            End::Desire(side) => Some(side),
+        };
+        let last = || sightings.iter().rev().take(self.options.phases as usize);
+        let is_permitted = |it: &Side| last().count() > 0 && last().all(|seen| seen.sides[it.at()].is_some());
+        let change = side.filter(is_permitted);
+        if let (End::Change(number), Some(_), None) = (times.end, side, change) {
+            observed[number].unused = Some(Unused::NotPermitted);
         }
         let Origin { site, recording } = self.origin;
         let is_it = |it: &ObservedDriver| it.vehicle == track.id;
@@ -343,7 +369,7 @@ impl Watch<'_> {
             });
         }
         if let Some(driver) = drivers.last_mut() {
-            driver.spells.push(spell);
+            driver.spells.push(ObservedSpell { sightings, change });
         }
     }
 }

@@ -1,8 +1,13 @@
 //! What a driver sees of one side at one time, as the numbers that models of lane changes use.
 
 use laneweave_models::change::{
-    Comfort, Courtesy, Incentive, Keeping, Lmrs, Mcdm, Mobil, Route, Situation, Speed, Traffic, Urgency,
+    Comfort, Courtesy, Driver, Incentive, Keeping, Lmrs, Mcdm, Mobil, Route, Situation, Speed, Traffic,
+    Urgency,
 };
+
+use laneweave_models::Style;
+use laneweave_models::follow::{Ahead, Pace};
+use laneweave_sim::Pairing;
 
 use super::desired::NODES;
 use super::place::Place;
@@ -25,6 +30,8 @@ pub struct SideSeen {
     pub lag: [f32; 2],
     /// Speed [m/s].
     pub speed: f32,
+    /// Whether the gap test of the style accepts the gaps to both.
+    pub has_safe_gap: bool,
     /// What depends on the desired speed, for each of the driver's possible ones.
     pub by_desired: [ByDesired; NODES],
 }
@@ -62,10 +69,11 @@ pub(super) fn unit_weights(model: &Mcdm) -> Mcdm {
 }
 
 impl SideSeen {
-    pub(super) fn of(situation: &Situation, model: &Mcdm, place: Place) -> SideSeen {
+    /// By a driver of `style`, and by `model`, whose weights are 1.
+    pub(super) fn of(situation: &Situation, (style, model): (&Style, &Mcdm), place: Place) -> SideSeen {
         let Situation { me, here, there, .. } = situation;
         let chances = model.returning.chances(situation);
-        let ahead = |ahead: Option<laneweave_models::follow::Ahead>| {
+        let ahead = |ahead: Option<Ahead>| {
             ahead.map_or([LONGEST_GAP as f32, 0.0], |it| {
                 [it.gap.min(LONGEST_GAP) as f32, (me.pace.speed - it.speed) as f32]
             })
@@ -81,9 +89,27 @@ impl SideSeen {
             lead: ahead(there.ahead),
             lag,
             speed: me.pace.speed as f32,
+            has_safe_gap: has_safe_gap(situation, style),
             by_desired: [ByDesired::default(); NODES],
         }
     }
+}
+
+/// Whether the gap test of `style` accepts the gaps to the new leader and to the new follower, for a change without
+/// urgency.
+fn has_safe_gap(situation: &Situation, style: &Style) -> bool {
+    /// Step of the simulation [s].
+    const STEP: f64 = 0.1;
+    /// Desire that counts for the accepted time gap, as in the simulation.
+    const DESIRE: f64 = 0.3;
+    let Situation { me, there, .. } = situation;
+    let pace = Pace { headway_relaxation: style.manner.headway_relaxation(DESIRE), ..me.pace };
+    let ahead = there.ahead.map(|leader| Pairing { follower: Driver { pace, ..*me }, leader });
+    let behind = there.behind.map(|it| {
+        let leader = Ahead { gap: it.gap, speed: me.pace.speed, acceleration: me.acceleration };
+        Pairing { follower: it.driver, leader }
+    });
+    [ahead, behind].into_iter().flatten().all(|it| it.accepted(&style.safety, STEP).is_ok())
 }
 
 impl ByDesired {

@@ -1,6 +1,7 @@
 //! The times in which recorded drivers could begin a change: while they are seen on lanelets, not within a change, and
 //! not in the cooldown after one.
 
+use laneweave_network::Side;
 use laneweave_recordings::{Extent, LaneChange, Matched};
 
 /// A time in which a driver could begin a change.
@@ -13,8 +14,19 @@ pub(super) struct SpellTimes {
     pub(super) until: f64,
     /// It comes after the cooldown of another change.
     pub(super) is_after_change: bool,
-    /// The number of the change that begins at its end.
-    pub(super) change: Option<usize>,
+    /// How it ends.
+    pub(super) end: End,
+}
+
+/// How a time ends in which a driver could begin a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// With the last sight of the driver.
+    Sight,
+    /// With the begin of the change of this number.
+    Change(usize),
+    /// With a desire for this side, whose begin is known.
+    Desire(Side),
 }
 
 /// All spells, those of a vehicle one after the other.
@@ -74,11 +86,11 @@ fn split(
             continue;
         }
         if began > from {
-            spells.push(SpellTimes { track, from, until: began, is_after_change, change: Some(*number) });
+            spells.push(SpellTimes { track, from, until: began, is_after_change, end: End::Change(*number) });
         }
         (from, is_after_change) = (from.max(ended + cooldown), true);
     }
     if seen_until > from {
-        spells.push(SpellTimes { track, from, until: seen_until, is_after_change, change: None });
+        spells.push(SpellTimes { track, from, until: seen_until, is_after_change, end: End::Sight });
     }
 }

@@ -128,3 +128,35 @@ fn predictions_second_by_second_are_the_likelihood() {
     assert!((by_seconds - whole).abs() < 1e-9 * whole.abs(), "{by_seconds} {whole}");
     assert_eq!(predictions.iter().filter(|it| it.came).count(), design.changes());
 }
+
+#[test]
+fn draws_by_one_step_are_those_of_whole_fits() {
+    let design = simulated(&TRUTH, 600, 40, &mut Random(23));
+    let layout = Layout::of(&design);
+    let assumptions = assumptions(layout).without_spread(&design);
+    let all = vec![1.0; 600];
+    let fit = design.fit(&assumptions, &all);
+    // Drivers of whom every third counts twice, and every fourth not at all.
+    let draw = |number: usize| -> Vec<f64> {
+        let times = |it: usize| match (it + number) % 12 {
+            0 | 4 | 8 => 0.0,
+            3 | 6 | 9 => 2.0,
+            _ => 1.0,
+        };
+        (0..600).map(times).collect()
+    };
+    let draws: Vec<Vec<f64>> = (0..4).map(draw).collect();
+    let stepped = design.redrawn(&assumptions, &all, (&fit.estimates, Some(&fit.covariance)), &draws);
+    for (draw, stepped) in draws.iter().zip(&stepped) {
+        let whole = design.refit(&assumptions, draw, &fit.estimates, &fit.covariance);
+        for at in layout.slopes().chain([layout.intercept()]) {
+            let error = fit.standard_error(at);
+            let off = (stepped[at] - whole[at]).abs();
+            assert!(off < 0.35 * error, "{at}: {} or {} ± {error}", stepped[at], whole[at]);
+        }
+        assert_ne!(stepped[layout.intercept()], fit.estimates[layout.intercept()]);
+    }
+    // Who counts once is the fit itself.
+    let same = design.redrawn(&assumptions, &all, (&fit.estimates, None), std::slice::from_ref(&all));
+    assert_eq!(same, [fit.estimates]);
+}

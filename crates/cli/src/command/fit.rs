@@ -1,12 +1,14 @@
 //! `laneweave fit`.
 
+use std::num::NonZero;
 use std::path::PathBuf;
+use std::thread::available_parallelism;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::calibration::Classes;
-use laneweave::fit::{FitReport, Request, page};
+use laneweave::fit::{FIGURES, FITTED, FitReport, Request, Rollouts, figures, page};
 use laneweave::folder::{FIT, FIT_REPORT};
 use laneweave::models::Reading as Formulas;
 use laneweave::output::write_whole;
@@ -56,6 +58,10 @@ pub(crate) struct Arguments {
     /// or 1.5 if many changes had begun before their vehicles were first seen].
     #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
     lead: Option<f64>,
+    /// Judge the fit in the world: fit a style to the first two thirds of the recorded time, too, and simulate the last
+    /// third with it N times, beside a constant chance, MOBIL and LMRS [default for N: 40].
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "40", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    judge: Option<u32>,
     /// Seed of all random numbers.
     #[arg(long, value_name = "N", value_parser = seed, default_value = "1")]
     seed: u64,
@@ -90,7 +96,17 @@ impl Arguments {
             let plan = observed.plan();
             return say(&if self.json { json(&plan)? } else { plan.to_text() });
         }
-        let report = observed.fit()?;
+        let mut report = observed.fit()?;
+        if let Some(count) = self.judge {
+            let threads = available_parallelism().map_or(1, NonZero::get);
+            report.judged = observed.judge(&Rollouts { count, threads })?;
+            if report.judged.is_none() {
+                eprintln!(
+                    "warning: the recordings are too short to be simulated: at least 60 s are needed before and after two \
+                     thirds of their time"
+                );
+            }
+        }
         self.write(&report)?;
         if self.json {
             return say(&json(&report)?);
@@ -135,14 +151,32 @@ impl Arguments {
         self.out.join(format!("{name}.toml"))
     }
 
+    /// Removes what an earlier fit left: it may have had more classes.
+    fn remove_earlier(&self) -> Result<(), Fault> {
+        let numbered = (1..=MOST_CLASSES).map(|it| format!("{FITTED}-{it}"));
+        let styles = numbered.chain([FITTED.to_owned()]).map(|it| self.style_path(&it));
+        let others = [FIT, FIT_REPORT].into_iter().chain(FIGURES).map(|it| self.out.join(it));
+        for path in styles.chain(others) {
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(Fault::refused(&path, "removed", &error));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
     fn write(&self, report: &FitReport) -> Result<(), Fault> {
         std::fs::create_dir_all(&self.out).map_err(|error| Fault::refused(&self.out, "created", &error))?;
+        self.remove_earlier()?;
         for style in &report.styles {
             write_whole(&self.style_path(&style.name), &style.text)?;
         }
         let names: Vec<String> = self.recordings.iter().map(|it| it.display().to_string()).collect();
         let page = page(report, &names.join(", "), &super::given());
         write_whole(&self.out.join(FIT_REPORT), &page.to_html())?;
+        figures(report).iter().try_for_each(|(name, svg)| write_whole(&self.out.join(name), svg))?;
         write_whole(&self.out.join(FIT), &json(report)?)
     }
 }

@@ -3,16 +3,19 @@
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::thread::available_parallelism;
 use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
+use laneweave::folder::DRAWS;
+use laneweave::output::write_whole;
 use laneweave::run::{self, Resumed, Run};
-use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat};
+use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, mixture};
 use laneweave::style::Model;
 
-use super::check::Limit;
+use super::check::{Limit, json};
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
 use super::resume::same_run;
@@ -85,6 +88,10 @@ pub(crate) struct Arguments {
     /// the same as in the run, except --threads, --quiet and --json.
     #[arg(long)]
     resume: bool,
+    /// Then run the scenario with N draws of the parameters of fitted styles, twice each, and say how much of the
+    /// spread of what runs show comes from the parameters, and how much is chance.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000), conflicts_with = "resume")]
+    draw_parameters: Option<u32>,
     /// Search for overlapping vehicles at every step, not only once a second.
     #[arg(long)]
     audit: bool,
@@ -140,8 +147,17 @@ impl Arguments {
             return self.resume(started);
         }
         let (mut scenario, mut origin) = Origin::open(&self.input)?;
+        let draws = self.draw_parameters;
         self.replace(&mut scenario, &mut origin);
-        run(&scenario, &origin, screen, started)
+        if let Some(count) = draws {
+            check_draws(&scenario, &origin, count)?;
+        }
+        let code = run(&scenario, &origin, screen, started)?;
+        match draws {
+            Some(count) if code == ExitCode::SUCCESS => draw(&scenario, &origin, screen, count)?,
+            _ => {}
+        }
+        Ok(code)
     }
 
     /// Resumes the run that left its scenario in the named folder.
@@ -220,6 +236,37 @@ pub(crate) fn run(
     started: Instant,
 ) -> Result<ExitCode, Fault> {
     drive(Run::begin(scenario, origin, &super::given())?, screen, started)
+}
+
+/// Refuses more draws of parameters than the styles have, before anything runs.
+fn check_draws(scenario: &Scenario, origin: &Origin, count: u32) -> Result<(), Fault> {
+    let fault = |what, remedy| Err(Fault::new("--draw-parameters", what, remedy));
+    let mixture = mixture(scenario, origin)?;
+    let drawn: Vec<_> = mixture.iter().filter(|it| it.0.draws() > 0).collect();
+    if drawn.is_empty() {
+        let what = "no style of the scenario has draws of its parameters".to_owned();
+        return fault(what, "leave the option out, or name a style that `laneweave fit` wrote".to_owned());
+    }
+    match drawn.iter().find(|it| it.0.draws() < count as usize) {
+        None => Ok(()),
+        Some((style, _)) => {
+            let (name, has) = (&style.typical().name, style.draws());
+            let what =
+                format!("the style {name} has {has} draws of its parameters, but {count} are asked for");
+            fault(what, format!("choose 2 to {has}, or fit more: laneweave fit --draws {count}"))
+        }
+    }
+}
+
+/// Runs a scenario with draws of parameters.
+fn draw(scenario: &Scenario, origin: &Origin, screen: Screen, count: u32) -> Result<(), Fault> {
+    let threads = available_parallelism().map_or(1, NonZero::get);
+    let draws = run::draws(scenario, origin, count, threads)?;
+    write_whole(&scenario.output.dir.join(DRAWS), &json(&draws)?)?;
+    match screen {
+        Screen { json: false, quiet: false } => say(&draws.to_text()),
+        _ => Ok(()),
+    }
 }
 
 /// Drives a run to its end, and shows its progress and its results.

@@ -1,26 +1,51 @@
 //! `fit`: driving styles from recordings.
 
+use std::path::Path;
 use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use crate::program::Folder;
+use crate::golden::assert_golden;
+use crate::program::{Folder, at_home};
 
-/// A folder with a recording of a motorway, `observed.csv`, and with what a fit to it found, in `fit`.
-static FITTED: LazyLock<(Folder, Value)> = LazyLock::new(|| {
-    let folder = Folder::new();
-    for line in [
-        "run MAPS/ramps.osm --duration 90 --demand 4000 --warmup 60 --record 0 --quiet --out driven",
-        "observe driven --rate 10",
-    ] {
-        let run = folder.laneweave(line);
-        assert_eq!(run.code(), 0, "{}", run.errors());
+/// The tutorial, and the folder of its figures.
+const TUTORIAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/src/how-to/from-a-recording");
+
+/// What the commands of the tutorial leave: the folder in which they ran, what they printed, and the report of the fit.
+struct Fitted {
+    folder: Folder,
+    printed: String,
+    report: Value,
+}
+
+static FITTED: LazyLock<Fitted> = LazyLock::new(|| {
+    let (folder, mut printed) = (at_home(), String::new());
+    for line in commands(&tutorial()) {
+        let run = folder.laneweave(&line);
+        assert_eq!(run.code(), 0, "{line}: {}", run.errors());
+        printed += &run.text();
     }
-    let report = json(&folder, FIT);
-    (folder, report)
+    let report = serde_json::from_str(&folder.read("fit/fit.json")).expect("it is JSON");
+    Fitted { folder, printed, report }
 });
 
-const FIT: &str = "fit observed.csv --map MAPS/ramps.osm --draws 3 --repetitions 1 --json";
+fn tutorial() -> String {
+    std::fs::read_to_string(Path::new(TUTORIAL).with_extension("md")).expect("the tutorial")
+}
+
+/// The commands of a page, without the name of the program.
+fn commands(page: &str) -> Vec<String> {
+    page.lines().filter_map(|it| it.strip_prefix("laneweave ")).map(str::to_owned).collect()
+}
+
+/// The text of the blocks without a language: what commands print.
+fn shown(page: &str) -> Vec<&str> {
+    let blocks = page.split("```").skip(1).step_by(2).filter_map(|it| it.strip_prefix('\n'));
+    blocks.flat_map(str::lines).collect()
+}
+
+/// A fit to the recording of the tutorial that takes less time.
+const FIT: &str = "fit tracks.csv --map maps/motorway_2_lanes.osm --draws 20 --repetitions 1";
 
 fn json(folder: &Folder, line: &str) -> Value {
     let run = folder.laneweave(line);
@@ -29,7 +54,7 @@ fn json(folder: &Folder, line: &str) -> Value {
 }
 
 fn refusal(line: &str) -> String {
-    let run = FITTED.0.laneweave(line);
+    let run = FITTED.folder.laneweave(line);
     assert_eq!(run.code(), 2, "{line}: {}", run.text());
     run.errors()
 }
@@ -40,7 +65,7 @@ fn number(value: &Value) -> f64 {
 
 #[test]
 fn every_lane_change_is_used_or_has_a_reason() {
-    let report = &FITTED.1;
+    let report = &FITTED.report;
     let count = |key: &str| report[key].as_u64().expect("a number");
     let sum = |key: &str| {
         let counts = report[key].as_object().expect("counts").values();
@@ -54,7 +79,7 @@ fn every_lane_change_is_used_or_has_a_reason() {
 
 #[test]
 fn a_fit_says_what_it_knows_and_what_it_does_not() {
-    let report = &FITTED.1;
+    let report = &FITTED.report;
     let weights = report["weights"].as_array().expect("a list");
     let names: Vec<&Value> = weights.iter().map(|it| &it["name"]).collect();
     assert_eq!(names, ["speed", "route", "comfort", "courtesy", "keeping"]);
@@ -79,14 +104,15 @@ fn a_fit_says_what_it_knows_and_what_it_does_not() {
 
 #[test]
 fn the_fitted_style_drives_and_the_folder_has_nothing_else_that_looks_like_one() {
-    let (folder, _) = &*FITTED;
+    let folder = &FITTED.folder;
     let files = std::fs::read_dir(folder.path().join("fit")).expect("a folder");
     let mut names: Vec<String> =
         files.map(|it| it.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    assert_eq!(names, ["fit.html", "fit.json", "fitted.toml"]);
-    let run =
-        folder.laneweave("run MAPS/ramps.osm --style fit/fitted.toml=1 --duration 20 --quiet --out again");
+    assert_eq!(names, ["fit.html", "fit.json", "fitted.toml", "prediction.svg", "world.svg"]);
+    let run = folder.laneweave(
+        "run maps/motorway_2_lanes.osm --style fit/fitted.toml=1 --duration 20 --quiet --out again",
+    );
     assert_eq!(run.code(), 0, "{}", run.errors());
     let style = folder.read("fit/fitted.toml");
     for part in ["sigma = 1.0", "[fit]", "draws_of", "[fit.intervals]", "# The recordings do not tell: route"]
@@ -98,45 +124,105 @@ fn the_fitted_style_drives_and_the_folder_has_nothing_else_that_looks_like_one()
 }
 
 #[test]
+fn the_tutorial_shows_what_its_commands_print_and_draw() {
+    for line in shown(&tutorial()) {
+        let is_printed = FITTED.printed.lines().any(|it| it.trim_end() == line.trim_end());
+        assert!(is_printed, "nothing prints: {line}\n{}", FITTED.printed);
+    }
+    for figure in ["prediction.svg", "world.svg"] {
+        assert_golden(&Path::new(TUTORIAL).join(figure), &FITTED.folder.read(&format!("fit/{figure}")));
+    }
+}
+
+#[test]
 fn the_same_fit_is_the_same_again() {
-    assert_eq!(json(&FITTED.0, FIT), FITTED.1);
+    let mut report = FITTED.report.clone();
+    let judged = report.as_object_mut().and_then(|it| it.remove("judged"));
+    assert!(judged.is_some());
+    assert_eq!(json(&FITTED.folder, &format!("{FIT} --json --out same")), report);
+}
+
+#[test]
+fn a_fit_is_judged_beside_recorded_traffic_that_it_has_not_seen() {
+    let judged = &FITTED.report["judged"];
+    let models: Vec<&Value> =
+        judged["models"].as_array().expect("a list").iter().map(|it| &it["model"]).collect();
+    assert_eq!(models, ["fitted", "null", "mobil", "lmrs"]);
+    assert!(number(&judged["fitted_s"]) > 190.0 && number(&judged["simulated_s"]) > 90.0, "{judged}");
+    let measures = judged["measures"].as_array().expect("a list");
+    let measure = |key: &str| measures.iter().find(|it| it["key"] == key).expect("it is measured");
+    for key in ["rate", "faster_share_pct", "lead_gap_m", "duration_s", "speed_kmh", "pace_s_per_km"] {
+        let predicted = measure(key)["simulated"].as_array().expect("a list");
+        assert_eq!(predicted.len(), models.len());
+        for it in predicted {
+            let interval = [&it["interval"][0], &it["interval"][1]].map(number);
+            let median = number(&it["median"]);
+            assert!(interval[0] <= median && median <= interval[1], "{key}: {it}");
+        }
+    }
+    // The true style, with the recorded demand: durations, speed and rate are predicted.
+    for key in ["rate", "duration_s", "speed_kmh"] {
+        assert_eq!(measure(key)["simulated"][0]["recorded_is"], "inside", "{key}: {}", measure(key));
+    }
+}
+
+#[test]
+fn draws_of_parameters_say_how_much_of_the_spread_is_not_chance() {
+    let draws: Value = serde_json::from_str(&FITTED.folder.read("again/draws.json")).expect("it is JSON");
+    assert_eq!((&draws["draws"], &draws["per_draw"]), (&5.into(), &2.into()));
+    let measures = draws["measures"].as_array().expect("a list");
+    let speed = measures.iter().find(|it| it["measure"] == "mean_speed_kmh").expect("it is measured");
+    assert_eq!(speed["values"].as_array().map(Vec::len), Some(10));
+    assert!((0.0..=1.0).contains(&number(&speed["from_parameters"])), "{speed}");
+    let run = "run maps/motorway_2_lanes.osm --duration 10 --out more --draw-parameters";
+    assert!(refusal(&format!("{run} 3")).contains("no style of the scenario has draws of its parameters"));
+    let told = refusal(&format!("{run} 21 --style fit/fitted.toml=1"));
+    assert!(told.contains("has 20 draws of its parameters, but 21 are asked for"), "{told}");
+    assert!(!FITTED.folder.path().join("more").exists());
 }
 
 #[test]
 fn a_plan_fits_nothing_and_says_what_would_be_needed() {
-    let plan = json(&FITTED.0, "fit observed.csv --map MAPS/ramps.osm --plan --json --out planned");
-    assert_eq!(plan["events"], FITTED.1["events"]);
+    let plan =
+        json(&FITTED.folder, "fit tracks.csv --map maps/motorway_2_lanes.osm --plan --json --out planned");
+    assert_eq!(plan["events"], FITTED.report["events"]);
     let expected = plan["expected"].as_array().expect("a list");
     assert!(expected.iter().any(|it| it["name"] == "courtesy" && number(&it["events_for_a_quarter"]) > 1.0));
-    assert!(!FITTED.0.path().join("planned").exists());
-    let text = FITTED.0.laneweave("fit observed.csv --map MAPS/ramps.osm --plan").text();
+    assert!(!FITTED.folder.path().join("planned").exists());
+    let text = FITTED.folder.laneweave("fit tracks.csv --map maps/motorway_2_lanes.osm --plan").text();
     assert!(text.contains("lane changes") && text.contains("for ± 25 %"), "{text}");
 }
 
 #[test]
 fn the_papers_procedure_stands_beside_ours_when_it_is_asked_for() {
     let report = json(
-        &FITTED.0,
-        "fit observed.csv --map MAPS/ramps.osm --draws 0 --repetitions 1 --procedure paper --out paper --json",
+        &FITTED.folder,
+        "fit tracks.csv --map maps/motorway_2_lanes.osm --draws 0 --repetitions 1 --procedure paper --out paper --json",
     );
     let groups: Vec<&Value> =
         report["by_paper"].as_array().expect("a list").iter().map(|it| &it["group"]).collect();
     assert_eq!(groups, ["aggressive", "conservative"]);
-    assert_eq!(report["events_used"], FITTED.1["events_used"]);
-    assert!(FITTED.1["by_paper"].is_null());
+    assert_eq!(report["events_used"], FITTED.report["events_used"]);
+    assert!(FITTED.report["by_paper"].is_null());
 }
 
 #[test]
 fn mistakes_are_refused_with_their_place_and_their_remedy() {
     let told = [
-        ("fit observed.csv", "observed.csv: a recording needs the map of its location; add --map MAP"),
-        ("fit nothing.csv --map MAPS/ramps.osm", "nothing.csv: cannot be read"),
-        ("fit observed.csv --map MAPS/town.osm", "most of it lies outside all lanelets"),
-        ("fit observed.csv --map MAPS/ramps.osm --prior cautios", "did you mean \"cautious\"?"),
-        ("fit observed.csv --map MAPS/ramps.osm --prior mobil", "does not decide by weighted incentives"),
-        ("fit observed.csv --map MAPS/ramps.osm --classes many", "choose auto, or 1 to 6"),
-        ("fit observed.csv --map MAPS/ramps.osm --lead 30", "choose 0 to 10 s"),
-        ("fit observed.csv --map MAPS/ramps.osm --reading exact", "[possible values: literal, repaired]"),
+        ("fit tracks.csv", "tracks.csv: a recording needs the map of its location; add --map MAP"),
+        ("fit nothing.csv --map maps/motorway_2_lanes.osm", "nothing.csv: cannot be read"),
+        ("fit tracks.csv --map maps/town.osm", "most of it lies outside all lanelets"),
+        ("fit tracks.csv --map maps/motorway_2_lanes.osm --prior cautios", "did you mean \"cautious\"?"),
+        (
+            "fit tracks.csv --map maps/motorway_2_lanes.osm --prior mobil",
+            "does not decide by weighted incentives",
+        ),
+        ("fit tracks.csv --map maps/motorway_2_lanes.osm --classes many", "choose auto, or 1 to 6"),
+        ("fit tracks.csv --map maps/motorway_2_lanes.osm --lead 30", "choose 0 to 10 s"),
+        (
+            "fit tracks.csv --map maps/motorway_2_lanes.osm --reading exact",
+            "[possible values: literal, repaired]",
+        ),
     ];
     for (line, expected) in told {
         let error = refusal(line);

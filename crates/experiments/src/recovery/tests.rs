@@ -1,6 +1,8 @@
 //! Recovery in small.
 
-use super::{drone, exact};
+use super::drone::{Driven, Seen, WEIGHTS};
+use super::exact;
+use super::variants::{EXACT, OURS, PLAIN, fits_of};
 use crate::effort::Effort;
 
 #[test]
@@ -17,10 +19,16 @@ fn weights_observed_exactly_come_back() {
 }
 
 #[test]
-fn weights_seen_by_a_drone_come_back_far_better_than_a_plain_logit_has_them() {
-    let fits = drone::fits(&Effort { seeds: 1, length: 0.6, threads: 2 }, 1).expect("built-in styles");
-    let drone::Seen { changes: [all, used], shares, .. } = fits[0];
+fn what_is_known_of_drivers_whom_a_drone_sees_brings_their_weights_nearer() {
+    let driven = Driven::of(1, 0.6).expect("built-in styles");
+    let [plain, exact, ours] = fits_of(&[PLAIN, EXACT, OURS], &driven).expect("three fits")[..] else {
+        panic!("three fits")
+    };
+    let off = |it: &Seen, weight: usize| (it.shares[weight] - 1.0).abs();
+    for weight in 0..WEIGHTS.len() {
+        assert!(off(&exact, weight) < 0.3 * off(&plain, weight), "{plain:?} {exact:?}");
+        assert!(off(&ours, weight) < 0.5 * off(&plain, weight), "{plain:?} {ours:?}");
+    }
+    let [all, used] = ours.changes;
     assert!(used * 10 > all * 7, "{used} of {all}");
-    // A plain logit has .38, .36 and .10 of the truth.
-    assert!(shares.iter().all(|it| (0.6..1.8).contains(it)), "{shares:?}");
 }

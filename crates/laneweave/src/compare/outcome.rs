@@ -87,7 +87,7 @@ pub const MEASURES: [Measure; 13] = [
 
 impl Outcome {
     /// Runs `prepared` to its end; also returns the traffic in boxes, with the discretionary lane changes in them.
-    pub(super) fn of(prepared: &mut Prepared) -> (Outcome, Vec<EdieRow>) {
+    pub(crate) fn of(prepared: &mut Prepared) -> (Outcome, Vec<EdieRow>) {
         let Prepared { world, script, warmup_steps, steps, .. } = prepared;
         (0..*warmup_steps).for_each(|_| script.step(world));
         world.reset_counts();

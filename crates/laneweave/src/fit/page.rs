@@ -3,6 +3,7 @@
 use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
 use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
+use super::judge;
 use super::report::{FitReport, HeldOut, Spread};
 
 /// The report of a fit to the recordings with these names, made by `command`.
@@ -39,7 +40,7 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
             "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
              significantly, by 1.92 nats, on both sides.",
         ))
-        .section(Section::new("held-out", "Predicting drivers who were not seen").figures(vec![figure(report)]).table(
+        .section(Section::new("held-out", "Predicting drivers who were not seen").figures(vec![figure(report, Sheet::Column)]).table(
             held_out(report),
         ).table(predictive(report)).text(
             "A third of the drivers is held out in turn, again and again. All models but the first have the same intercepts of places: \
@@ -48,9 +49,23 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         ))
         ;
     let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
+    let page = match &report.judged {
+        Some(judged) => page.section(judge::section(judged)),
+        None => page,
+    };
     page.section(Section::new("manner", "Durations, gaps, desired speeds").table(spreads(report)).text(
             "Durations are those of changes that were seen as a whole, so long ones are rarer than they should be. Gaps count up to 150 m.",
         ))
+}
+
+/// The names of the figures as files.
+pub const FIGURES: [&str; 2] = ["prediction.svg", "world.svg"];
+
+/// The figures of the report by the names of their files; the second one only if the fit was judged.
+pub fn figures(report: &FitReport) -> Vec<(&'static str, String)> {
+    let mut figures = vec![(FIGURES[0], figure(report, Sheet::Page).svg)];
+    figures.extend(report.judged.as_ref().map(|it| (FIGURES[1], judge::figure(it, Sheet::Page).svg)));
+    figures
 }
 
 fn events(report: &FitReport) -> Table {
@@ -149,7 +164,7 @@ fn beta(report: &FitReport) -> Table {
     table
 }
 
-fn figure(report: &FitReport) -> Figure {
+fn figure(report: &FitReport, sheet: Sheet) -> Figure {
     let row = |it: &HeldOut| {
         let [lower, upper] = it.over_constant_interval;
         let interval = Interval { lower, upper };
@@ -161,7 +176,7 @@ fn figure(report: &FitReport) -> Figure {
     let rows: Vec<BarRow> = report.held_out.iter().filter(|it| it.model != "constant").map(row).collect();
     let label = "Better than a constant chance [nats per lane change]";
     Figure {
-        svg: bars(Sheet::Column, [label, "Model"], &["held out"], &rows),
+        svg: bars(sheet, [label, "Model"], &["held out"], &rows),
         title: "Prediction of held-out drivers".into(),
         caption: format!(
             "By how much models predict better than a constant chance, with 95 % intervals by a bootstrap over drivers. n = {} lane \
@@ -238,7 +253,10 @@ fn spreads(report: &FitReport) -> Table {
         ("duration of a lane change [s]", report.durations_s),
         ("gap to the new leader when it begins [m]", report.lead_gaps_m),
         ("gap to the new follower when it begins [m]", report.lag_gaps_m),
-        ("desired speed, share of what limit and class allow", report.desired_speed_factors),
+        (
+            "desired speed of those who drove freely, share of what limit and class allow",
+            report.desired_speed_factors,
+        ),
     ];
     for (name, spread) in rows {
         let cells = spread.map_or(["0".into(), "–".into(), "–".into()], |it| {

@@ -8,6 +8,8 @@ use laneweave_calibration::{Candidate, Compared, Difference, Fitted, PaperGroup,
 use laneweave_scenario::Fault;
 use serde::Serialize;
 
+use super::accepted::{Accepted, GapLimits};
+use super::judge::Judged;
 use super::plan::Plan;
 use super::style::{FittedStyle, styles};
 use super::{Observed, words};
@@ -43,8 +45,15 @@ pub struct FitReport {
     pub lead_gaps_m: Option<Spread>,
     /// The same to the new follower.
     pub lag_gaps_m: Option<Spread>,
-    /// Desired speeds, as factors on what limit and class allow.
+    /// The limits of a gap test that accepts nearly all of these gaps, if enough were seen.
+    pub gap_limits: Option<GapLimits>,
+    /// Time after a change in which drivers make no other one [s].
+    pub cooldown_s: f64,
+    /// Desired speeds of the drivers who showed them, as factors on what limit and class allow.
     pub desired_speed_factors: Option<Spread>,
+    /// Mean and standard deviation of the logarithms of the factors over all drivers: those who were held up count,
+    /// too.
+    pub desired_speed_logs: [f64; 2],
     /// Other numbers of the process: the chance per second of a change that nothing explains, and of giving up.
     pub background_per_s: f64,
     /// Chance per second that who waits for a gap gives up.
@@ -53,6 +62,9 @@ pub struct FitReport {
     pub place_spread: [f64; 2],
     /// Whether the search ended at a maximum.
     pub is_converged: bool,
+    /// What the fit is worth in the world, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub judged: Option<Judged>,
     /// The styles.
     #[serde(skip)]
     pub styles: Vec<FittedStyle>,
@@ -247,7 +259,8 @@ impl FitReport {
         let layout = study.layout();
         let logistic = laneweave_calibration::waiting::logistic;
         let parameter = |at: usize| study.fit.estimates[at];
-        let [lead_gaps_m, lag_gaps_m] = accepted_gaps(observations).map(Spread::of);
+        let accepted = Accepted::of(observations);
+        let gaps = |all: &[[f64; 3]]| Spread::of(all.iter().map(|it| it[0]).collect());
         let durations = observations.changes.iter().filter_map(|it| it.duration).collect();
         let factors = observations.drivers.iter().filter(|it| it.desired.is_shown);
         let mut report = FitReport {
@@ -267,13 +280,17 @@ impl FitReport {
             by_paper: Vec::new(),
             by_lead: Vec::new(),
             durations_s: Spread::of(durations),
-            lead_gaps_m,
-            lag_gaps_m,
+            lead_gaps_m: gaps(&accepted.lead),
+            lag_gaps_m: gaps(&accepted.lag),
+            gap_limits: accepted.limits(&observed.prior.typical),
+            cooldown_s: observations.recordings.iter().map(|it| it.cooldown).fold(f64::INFINITY, f64::min),
             desired_speed_factors: Spread::of(factors.map(|it| it.desired.mean()).collect()),
+            desired_speed_logs: desired_logs(observations),
             background_per_s: logistic(parameter(layout.background())),
             giving_up_per_s: logistic(parameter(layout.giving_up())),
             place_spread: [study.spread.lanes, study.spread.distances],
             is_converged: study.fit.is_converged,
+            judged: None,
             styles: Vec::new(),
         };
         report.data.not_identified = not_identified(study);
@@ -285,6 +302,20 @@ impl FitReport {
     pub fn to_text(&self) -> String {
         words::text_of(self)
     }
+}
+
+/// Mean and standard deviation of the logarithms of desired speeds over the drivers of all recordings.
+fn desired_logs(observations: &Observations) -> [f64; 2] {
+    let mut drivers = vec![0.0; observations.recordings.len()];
+    observations.drivers.iter().for_each(|it| drivers[it.recording as usize] += 1.0);
+    let all = drivers.iter().sum::<f64>().max(1.0);
+    let of = |moment: fn([f64; 2]) -> f64| {
+        let each = observations.recordings.iter().zip(&drivers);
+        each.map(|(it, count)| count * moment(it.desired_logs)).sum::<f64>() / all
+    };
+    let mean = of(|[mean, _]| mean);
+    let square = of(|[mean, deviation]| mean * mean + deviation * deviation);
+    [mean, (square - mean * mean).max(0.0).sqrt()]
 }
 
 fn weight(it: &Fitted) -> WeightReport {
@@ -340,16 +371,4 @@ fn held_out(it: &Compared, observations: &Observations) -> HeldOut {
         mcdm_over_it_interval,
         mcdm_is: it.mcdm_over_it.verdict(),
     }
-}
-
-/// Gaps to the new leader and to the new follower when the changes that are used begin [m].
-fn accepted_gaps(observations: &Observations) -> [Vec<f64>; 2] {
-    let mut gaps = [Vec::new(), Vec::new()];
-    for spell in observations.drivers.iter().flat_map(|it| &it.spells) {
-        let Some((_, side)) = spell.change else { continue };
-        let Some(seen) = spell.sightings.last().and_then(|it| it.sides[side.at()].as_ref()) else { continue };
-        gaps[0].push(f64::from(seen.lead[0]));
-        gaps[1].push(f64::from(seen.lag[0]));
-    }
-    gaps
 }

@@ -45,7 +45,15 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     write_spread("duration of a change [s]", report.durations_s.as_ref(), out)?;
     write_spread("gap to the new leader [m]", report.lead_gaps_m.as_ref(), out)?;
     write_spread("gap to the new follower [m]", report.lag_gaps_m.as_ref(), out)?;
-    write_spread("desired speed, share of what is allowed", report.desired_speed_factors.as_ref(), out)
+    let [mean, deviation] = report.desired_speed_logs;
+    let ends = [-0.6745, 0.0, 0.6745].map(|it| (mean + it * deviation).exp());
+    writeln!(
+        out,
+        "desired speed of all drivers, share of what is allowed: {:.2} in the median, {:.2} to {:.2} in the middle half",
+        ends[1], ends[0], ends[2]
+    )?;
+    write_spread("desired speed of those who drove freely", report.desired_speed_factors.as_ref(), out)?;
+    report.judged.as_ref().map_or(Ok(()), |it| out.write_str(&it.to_text()))
 }
 
 fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {

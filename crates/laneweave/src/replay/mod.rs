@@ -55,7 +55,7 @@ pub fn scenario(map: PathBuf, replay: Replay) -> Result<Scenario, Fault> {
 }
 
 /// The step for a recording with so much time between its frames [s].
-fn fitting_step(frames: f64) -> f64 {
+pub(crate) fn fitting_step(frames: f64) -> f64 {
     /// Times are rounded to this [s].
     const ROUNDING: f64 = 1e-9;
     let several = (STEP / frames + ROUNDING).floor();

@@ -61,3 +61,26 @@ fn a_recorded_vehicle_that_cuts_in_is_at_fault_and_recorded_ones_may_overlap() {
     let found = collisions([vec![car(1, 100.0, |_| 5.25, |_| 20.0)], overlap.to_vec()].concat());
     assert_eq!(found, Collisions { between_recorded: 1, ..Collisions::default() });
 }
+
+#[test]
+fn a_driver_comes_onto_the_road_as_soon_as_there_is_room_for_it() {
+    // The leader stops where the other one comes later: as recorded, they would overlap.
+    let stops = car(2, 100.0, |_| 1.75, |time| (20.0 - 8.0 * time).max(0.0));
+    let mut comes = car(1, 118.0, |_| 1.75, |_| 20.0);
+    comes.states.iter_mut().for_each(|it| it.frame += 30);
+    let recording = Recording { step: 0.1, tracks: vec![stops, comes] };
+    let file = written(&recording);
+    let mut scenario = replayed(file, map("motorway_3_lanes.osm"), 1.0);
+    scenario.styles = [("conservative".to_owned(), 1.0)].into();
+    let mut prepared = crate::set_up::ready(&scenario);
+    let mut came = None;
+    for step in 1..=150 {
+        prepared.step();
+        if came.is_none() && prepared.script.played().any(|it| it.recorded == 1) {
+            came = Some(step);
+        }
+    }
+    // Its own place is free when it is recorded there, but the one who stopped drives on as a driver and is behind it.
+    assert!(came.is_some_and(|it| (30..=150).contains(&it)), "{came:?}");
+    assert_eq!(prepared.world.counters().collisions, 0);
+}

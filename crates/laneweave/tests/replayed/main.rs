@@ -2,6 +2,7 @@
 
 mod as_recorded;
 mod collisions;
+mod desired;
 mod future;
 mod scores;
 mod set_up;

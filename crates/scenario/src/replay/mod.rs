@@ -11,7 +11,7 @@ mod part;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use laneweave_network::Position;
+use laneweave_network::{LaneletIndex, Position};
 use laneweave_recordings::{Matched, Recording, TurningShares, clean};
 use laneweave_sim::{Purpose, Random, VehicleId, World};
 
@@ -25,6 +25,18 @@ use part::Part;
 /// the seed of the run.
 const CHOICE: u64 = 1;
 
+/// A recording in memory, in place of the files that a scenario names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// The recording.
+    pub recording: Recording,
+    /// Time after its first frame at which the simulation begins [s]. What was recorded before shows only where
+    /// vehicles go.
+    pub from_s: f64,
+    /// Pairs of lanelets, from the first of which drivers may change to the second, whatever the map says.
+    pub permitted: BTreeSet<[LaneletIndex; 2]>,
+}
+
 /// A recording that is played. It has no state: what is due follows from the world, and from the ids of its vehicles.
 #[derive(Clone)]
 pub struct Player {
@@ -36,6 +48,9 @@ pub struct Player {
     random: Random,
     /// Time from the first frame to the last [s].
     duration_s: f64,
+    /// Time of the recording at which the simulation begins [s].
+    from_s: f64,
+    permitted: Arc<BTreeSet<[LaneletIndex; 2]>>,
 }
 
 /// A recorded vehicle of a world.
@@ -60,22 +75,38 @@ impl Player {
         if !replay.is_asked() {
             return Ok(None);
         }
-        let (mut recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
+        let (recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
+        let recorded = Recorded { recording, from_s: 0.0, permitted: BTreeSet::new() };
+        Player::of_recorded(recorded, scenario, origin, world)
+    }
+
+    /// The same of a recording in memory.
+    pub(crate) fn of_recorded(
+        recorded: Recorded,
+        scenario: &Scenario,
+        origin: &Origin,
+        world: &World,
+    ) -> Result<Option<Player>, Fault> {
+        let (replay, dt) = (&scenario.replay, world.clock().dt);
+        let Recorded { mut recording, from_s, permitted } = recorded;
         let Some((first, last)) = recording.frames() else { return Ok(None) };
-        let states = recording.tracks.iter_mut().flat_map(|it| &mut it.states);
-        states.for_each(|it| it.frame -= first);
-        let reactive = chosen(&recording, replay, origin)?;
+        shift(&mut recording, first);
         let (cleaned, _) = clean(recording.clone());
         let matched = Matched::new(world.network(), &cleaned);
         check_place(&matched, scenario)?;
-        let navigator = world.scene().navigator;
-        let from_step = first_step_from(replay.reactive_from_s, world.clock().dt);
+        let shares = TurningShares::of(&matched, world.scene().navigator).into();
+        let begin = (from_s / recording.step).round() as i64;
+        shift(&mut recording, begin);
+        let reactive = chosen(&recording, replay, origin)?;
+        let from_step = first_step_from(replay.reactive_from_s, dt);
         Ok(Some(Player {
-            parts: part::parts(&recording, &reactive, from_step, world.clock().dt).into(),
+            parts: part::parts(&recording, &reactive, from_step, dt).into(),
             from_step: (!reactive.is_empty()).then_some(from_step),
-            shares: Arc::new(TurningShares::of(&matched, navigator)),
+            shares,
             random: Random::new(scenario.run.seed),
-            duration_s: (last - first) as f64 * recording.step,
+            duration_s: (last - first - begin) as f64 * recording.step,
+            from_s: begin as f64 * recording.step,
+            permitted: permitted.into(),
         }))
     }
 
@@ -94,6 +125,11 @@ impl Player {
         self.duration_s
     }
 
+    /// Pairs of lanelets between which its drivers may change lanes, whatever the map says.
+    pub(crate) fn permitted(&self) -> &BTreeSet<[LaneletIndex; 2]> {
+        &self.permitted
+    }
+
     /// Number of its parts: a vehicle that was lost and seen again has several.
     pub(crate) fn len(&self) -> usize {
         self.parts.len()
@@ -105,7 +141,7 @@ impl Player {
         vehicles: &'a [Option<VehicleId>],
     ) -> impl Iterator<Item = Played> + 'a {
         self.parts.iter().zip(vehicles).filter_map(|(part, vehicle)| {
-            let (recorded, is_reactive) = (part.recorded, part.is_reactive && self.from_step.is_some());
+            let (recorded, is_reactive) = (part.recorded, self.is_driver(part, part.last_step()));
             vehicle.map(|vehicle| Played { recorded, vehicle, is_reactive })
         })
     }
@@ -125,17 +161,34 @@ impl Player {
     pub(crate) fn come_and_go(&self, vehicles: &mut [Option<VehicleId>], world: &mut World) {
         let now = world.clock().step;
         for (part, id) in self.parts.iter().zip(vehicles.iter_mut()) {
-            if part.first_step == now && !(part.is_driven && self.from_step.is_some()) {
+            let comes = id.is_none() && self.comes(part, world);
+            if comes {
                 // Its numbers are in their ranges.
                 *id = world.put_recorded(&part.vehicle()).ok();
             }
             let Some(id) = *id else { continue };
-            if part.last_step() < now {
+            if part.last_step() < now && !comes {
                 world.remove_recorded(id);
-            } else if part.is_reactive && self.from_step.is_some_and(|it| it <= now) {
+            } else if self.is_driver(part, now) {
                 self.release(part, id, world);
             }
         }
+    }
+
+    /// Whether a vehicle that is not there comes now: when it is first seen, or, if it is to be a driver from then on,
+    /// as soon as there is room for it.
+    fn comes(&self, part: &Part, world: &World) -> bool {
+        let now = world.clock().step;
+        match part.is_driven && self.from_step.is_some() {
+            true => false,
+            false if self.is_driver(part, now) => part.first_step <= now && world.has_room(&part.vehicle()),
+            false => part.first_step == now,
+        }
+    }
+
+    /// Whether a vehicle is a driver at a step.
+    fn is_driver(&self, part: &Part, now: u32) -> bool {
+        part.is_reactive && self.from_step.is_some_and(|it| it <= now)
     }
 
     /// Lets a vehicle become a driver, if it is not one and is in a lane.
@@ -147,13 +200,23 @@ impl Player {
         let (lanelet, _) = world.network().chain(at.chain).lanelet(at.x);
         let navigator = world.scene().navigator;
         let draw = self.random.uniform(part.subject(), Purpose::Destination, 0);
-        let drawn = self.shares.draw(navigator, (lanelet, at), world.clock().time(), draw);
+        let time = self.from_s + world.clock().time();
+        let drawn = self.shares.draw(navigator, (lanelet, at), time, draw);
         let number = navigator.number(drawn);
         let destination = number.and_then(|it| world.demand().destinations.get(it)).map(|it| it.id());
         let draw = self.random.uniform(part.subject(), Purpose::Character, 0);
         let parameters = desire::parameters(&vehicle, world, draw);
         world.release_recorded(id, destination, parameters);
     }
+}
+
+/// Makes `first` the frame 0 of a recording. What was recorded before is left out.
+fn shift(recording: &mut Recording, first: i64) {
+    for track in &mut recording.tracks {
+        track.states.retain(|it| it.frame >= first);
+        track.states.iter_mut().for_each(|it| it.frame -= first);
+    }
+    recording.tracks.retain(|it| !it.states.is_empty());
 }
 
 /// The ids of the vehicles that are to become drivers.

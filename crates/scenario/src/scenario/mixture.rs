@@ -12,11 +12,16 @@ pub fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplat
     let mut mixture = Vec::new();
     for (name, weight) in &scenario.styles {
         let place = || origin.place(&["styles", name]);
-        let template = StyleTemplate::parse(&find(name, origin.style_folder(), place)?)?;
+        let source = origin.style(name).map_or_else(|| find(name, origin.style_folder(), place), Ok)?;
+        let template = StyleTemplate::parse(&source)?;
         if !(weight.is_finite() && *weight >= 0.0) {
             let what = format!("the style {name:?} has the weight {weight}");
             return Err(Fault::new(place(), what, "give it a finite weight of 0 or more"));
         }
+        let template = match scenario.run.parameter_draw.filter(|_| template.draws() > 0) {
+            Some(number) => template.drawn(number).map_err(|fault| Fault { place: place(), ..fault })?,
+            None => template,
+        };
         let template = match scenario.model {
             Some(model) => model.drives(template)?,
             None => template,

@@ -31,7 +31,7 @@ pub use map::open_map;
 pub use mixture::mixture;
 pub use origin::Origin;
 pub(crate) use prepare::LONGEST;
-pub use prepare::{Prepared, driven, driving, prepare, prepare_on, prepare_playing};
+pub use prepare::{Prepared, driven, driving, prepare, prepare_on, prepare_playing, prepare_recorded};
 pub use replay::Replay;
 pub use signals::{MadeSignals, Signal, SignalPhase};
 pub use turns::Turns;
@@ -232,11 +232,22 @@ pub struct Run {
     pub threads: Option<NonZero<usize>>,
     /// Whether to search for overlapping vehicles at every step, not only once a second.
     pub audit: bool,
+    /// Number of a draw of the parameters of fitted styles, from 0 on, in place of their estimates: styles that
+    /// `laneweave fit` wrote have such draws. Other styles stay as they are.
+    pub parameter_draw: Option<u32>,
 }
 
 impl Default for Run {
     fn default() -> Run {
-        Run { duration_s: 600.0, step_s: 0.1, seed: 1, warmup_s: 0.0, threads: None, audit: false }
+        Run {
+            duration_s: 600.0,
+            step_s: 0.1,
+            seed: 1,
+            warmup_s: 0.0,
+            threads: None,
+            audit: false,
+            parameter_draw: None,
+        }
     }
 }
 

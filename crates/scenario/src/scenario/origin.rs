@@ -19,6 +19,8 @@ pub struct Origin {
     pub(super) map: Option<&'static str>,
     /// Options by the key whose value they replace.
     options: BTreeMap<&'static str, &'static str>,
+    /// Style files in memory, by the names that a scenario gives them.
+    styles: BTreeMap<String, String>,
 }
 
 impl Origin {
@@ -53,6 +55,17 @@ impl Origin {
         let mut scenario: Scenario = source.parse()?;
         scenario.map = PathBuf::from("maps/town.osm");
         Ok((scenario, Origin { source: Some(source), map: Some(DEMO_MAP), ..Origin::default() }))
+    }
+
+    /// Keeps the text of a style file for the style that a scenario calls `name`.
+    pub fn with_style(mut self, name: &str, text: &str) -> Origin {
+        self.styles.insert(name.to_owned(), text.to_owned());
+        self
+    }
+
+    /// The text of a style that is kept in memory.
+    pub(super) fn style(&self, name: &str) -> Option<Source> {
+        self.styles.get(name).map(|text| Source { path: name.into(), text: text.clone() })
     }
 
     /// Records that `option` has replaced the value of `key`.

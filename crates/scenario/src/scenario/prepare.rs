@@ -19,7 +19,7 @@ use super::{Origin, Scenario, SumoFile};
 use crate::capacity::Capacity;
 use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
-use crate::replay::Player;
+use crate::replay::{Player, Recorded};
 use crate::script::Script;
 use crate::style::Population;
 
@@ -79,7 +79,7 @@ pub struct Prepared {
 /// # Errors
 /// If something is missing, not readable, or invalid.
 pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
-    prepare_with(scenario, origin, None, || read_map(scenario, origin))
+    prepare_with(scenario, origin, Playing::AsAsked, || read_map(scenario, origin))
 }
 
 /// The same as [`prepare`], with the recording that `player` plays in place of the one that the scenario names.
@@ -87,7 +87,45 @@ pub fn prepare(scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> 
 /// # Errors
 /// If something is missing, not readable, or invalid.
 pub fn prepare_playing(scenario: &Scenario, origin: &Origin, player: Player) -> Result<Prepared, Fault> {
-    prepare_with(scenario, origin, Some(player), || read_map(scenario, origin))
+    prepare_with(scenario, origin, Playing::Again(player), || read_map(scenario, origin))
+}
+
+/// The same as [`prepare`], with a recording in memory in place of the one that the scenario names.
+///
+/// # Errors
+/// If something is missing, not readable, or invalid.
+pub fn prepare_recorded(scenario: &Scenario, origin: &Origin, recorded: Recorded) -> Result<Prepared, Fault> {
+    prepare_with(scenario, origin, Playing::Recorded(recorded), || read_map(scenario, origin))
+}
+
+/// What is played in a world.
+enum Playing {
+    /// The recording that the scenario names, if it names one.
+    AsAsked,
+    /// What was played before.
+    Again(Player),
+    /// A recording in memory.
+    Recorded(Recorded),
+}
+
+impl Playing {
+    /// The same network, on which drivers may change where those of the recording did.
+    fn permit(&self, network: Network) -> Network {
+        match self {
+            Playing::AsAsked => network,
+            Playing::Again(player) => network.permitting(player.permitted()),
+            Playing::Recorded(recorded) => network.permitting(&recorded.permitted),
+        }
+    }
+
+    /// Who plays it in a `world` at its start.
+    fn player(self, scenario: &Scenario, origin: &Origin, world: &World) -> Result<Option<Player>, Fault> {
+        match self {
+            Playing::AsAsked => Player::of(scenario, origin, world),
+            Playing::Again(player) => Ok(Some(player)),
+            Playing::Recorded(recorded) => Player::of_recorded(recorded, scenario, origin, world),
+        }
+    }
 }
 
 /// Makes the world of `scenario` on a `map` that was read or generated before. The path and the options of the map in
@@ -96,13 +134,13 @@ pub fn prepare_playing(scenario: &Scenario, origin: &Origin, player: Player) -> 
 /// # Errors
 /// If something is missing, not readable, or invalid.
 pub fn prepare_on(map: Map, scenario: &Scenario, origin: &Origin) -> Result<Prepared, Fault> {
-    prepare_with(scenario, origin, None, || Ok(map))
+    prepare_with(scenario, origin, Playing::AsAsked, || Ok(map))
 }
 
 fn prepare_with(
     scenario: &Scenario,
     origin: &Origin,
-    player: Option<Player>,
+    playing: Playing,
     map: impl FnOnce() -> Result<Map, Fault>,
 ) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
@@ -119,6 +157,7 @@ fn prepare_with(
     let (network, places) = if scenario.map_options.joins_ends { joined(&map) } else { driven(&map) };
     // A user cannot correct the built-in map.
     let is_own = origin.map.is_none();
+    let network = playing.permit(network);
     let remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
     let plans = plans(scenario, origin, &network)?;
     let network = network.with_signals(&plans);
@@ -144,7 +183,7 @@ fn prepare_with(
     let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
-    let player = player.map_or_else(|| Player::of(scenario, origin, &world), |it| Ok(Some(it)))?;
+    let player = playing.player(scenario, origin, &world)?;
     let script = Script::of(scenario, origin, player, &world)?;
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {

@@ -3,6 +3,8 @@
 //! The file is compared with the complete style of the models that it names, so that an unknown key, a wrong type or
 //! a number out of range is reported with its place.
 
+mod draws;
+
 use laneweave_models::change::{Flaw, LaneChangeModel};
 use laneweave_models::{self as models, Range, Style};
 use laneweave_sim::{Purpose, Random};
@@ -11,8 +13,9 @@ use toml::{Table, Value};
 use super::distribution::Distribution;
 use crate::fault::{Fault, did_you_mean};
 use crate::source::Source;
+use draws::Draws;
 
-/// The table of a fitted style that says where its numbers come from. No driver needs it.
+/// The table of a fitted style that says where its numbers come from, and what else they may be.
 const PROVENANCE: &str = "fit";
 /// Number of different drivers of a style with distributions.
 const CHARACTERS: u32 = 512;
@@ -25,6 +28,7 @@ pub struct StyleTemplate {
     table: Table,
     parameters: Vec<Parameter>,
     typical: Style,
+    draws: Draws,
 }
 
 /// A distributed number of a style.
@@ -45,7 +49,10 @@ impl StyleTemplate {
     /// If it is no TOML, has an unknown key, lacks a key, or has an invalid value.
     pub fn parse(source: &Source) -> Result<StyleTemplate, Fault> {
         let mut table: Table = source.parse()?;
-        table.remove(PROVENANCE);
+        let draws = match table.remove(PROVENANCE) {
+            Some(Value::Table(provenance)) => Draws::of(&provenance, source)?,
+            _ => Draws::default(),
+        };
         let mut reader = Reader { source, path: Vec::new(), parameters: Vec::new() };
         reader.table(&table, &complete(&table, source)?)?;
         let parameters = reader.parameters;
@@ -57,7 +64,7 @@ impl StyleTemplate {
         if let Some(Flaw { path, what, remedy }) = typical.change.flaw() {
             return Err(Fault::new(source.place(path), what, remedy));
         }
-        Ok(StyleTemplate { table, parameters, typical })
+        Ok(StyleTemplate { table, parameters, typical, draws })
     }
 
     /// Number of different drivers of the style: one, or 512 if a number is distributed.
@@ -85,12 +92,16 @@ impl StyleTemplate {
     /// # Errors
     /// None, as long as every model can be serialized.
     pub fn with_change(self, change: &LaneChangeModel) -> Result<StyleTemplate, Fault> {
-        let StyleTemplate { mut table, mut parameters, typical } = self;
+        let StyleTemplate { mut table, mut parameters, typical, mut draws } = self;
         let model = Table::try_from(change)
             .map_err(|error| Fault::new(&typical.name, error, "report this as a bug"))?;
         table.insert("change".into(), Value::Table(model));
-        parameters.retain(|it| it.path.first().is_none_or(|it| it != "change"));
-        Ok(StyleTemplate { table, parameters, typical: Style { change: change.clone(), ..typical } })
+        let is_other = |path: &[String]| path.first().is_none_or(|it| it != "change");
+        parameters.retain(|it| is_other(&it.path));
+        if !draws.of.iter().all(|it| is_other(it)) {
+            draws = Draws::default();
+        }
+        Ok(StyleTemplate { table, parameters, typical: Style { change: change.clone(), ..typical }, draws })
     }
 
     /// Whether there is a key at `path`, the keys from the outermost in.
@@ -101,26 +112,46 @@ impl StyleTemplate {
         is_distributed || Table::try_from(&self.typical).is_ok_and(found)
     }
 
+    /// Number of the draws of its parameters: none, if it was not fitted.
+    pub fn draws(&self) -> usize {
+        self.draws.values.len()
+    }
+
+    /// The same style with the parameters of the draw with this number, counted from 0.
+    ///
+    /// # Errors
+    /// If there is no such draw, or it has an invalid value.
+    pub fn drawn(&self, number: u32) -> Result<StyleTemplate, Fault> {
+        let name = &self.typical.name;
+        let Some(values) = self.draws.values.get(number as usize) else {
+            let count = self.draws();
+            let what = format!(
+                "the style {name} has {count} draws of its parameters, from number 0 on, but none has number {number}"
+            );
+            return Err(Fault::new(
+                name,
+                what,
+                format!("use at most its {count} draws, or fit more: laneweave fit --draws N"),
+            ));
+        };
+        let pairs: Vec<(&[String], Value)> =
+            self.draws.of.iter().zip(values).map(|(path, value)| (&path[..], Value::Float(*value))).collect();
+        self.with_values(&pairs, &format!("draw {number} of the style {name}"))
+    }
+
     /// The same style with `value` at `path`, the keys from the outermost in. The random numbers of the others stay
     /// the same.
     ///
     /// # Errors
     /// If there is no such key, or the value is invalid; its place is `place`.
     pub fn with_value(&self, path: &[String], value: Value, place: &str) -> Result<StyleTemplate, Fault> {
+        self.with_values(&[(path, value)], place)
+    }
+
+    /// The same with several values at once.
+    fn with_values(&self, values: &[(&[String], Value)], place: &str) -> Result<StyleTemplate, Fault> {
         let mut table = self.table.clone();
-        let Some((last, outer)) = path.split_last() else { return Ok(self.clone()) };
-        let mut inner = &mut table;
-        for key in outer {
-            let next = inner.entry(key.clone()).or_insert_with(|| Value::Table(Table::new()));
-            inner = next.as_table_mut().ok_or_else(|| {
-                Fault::new(
-                    place,
-                    format!("{key} is not a section of a style"),
-                    "see `laneweave styles show NAME`",
-                )
-            })?;
-        }
-        inner.insert(last.clone(), value);
+        values.iter().try_for_each(|(path, value)| insert(&mut table, path, value.clone(), place))?;
         let text =
             toml::to_string(&table).map_err(|error| Fault::new(place, error, "report this as a bug"))?;
         let source = Source { path: self.typical.name.clone().into(), text };
@@ -137,7 +168,7 @@ impl StyleTemplate {
             Parameter { number, ..it.clone() }
         });
         let parameters = renumbered.collect();
-        Ok(StyleTemplate { parameters, ..changed })
+        Ok(StyleTemplate { parameters, draws: self.draws.clone(), ..changed })
     }
 
     /// Driver `number` of the style, which is number `style` of the run.
@@ -153,6 +184,21 @@ impl StyleTemplate {
             Fault::new(&self.typical.name, error.message(), "check the distributions of the style")
         })
     }
+}
+
+/// Puts `value` at `path`.
+fn insert(table: &mut Table, path: &[String], value: Value, place: &str) -> Result<(), Fault> {
+    let Some((last, outer)) = path.split_last() else { return Ok(()) };
+    let mut inner = table;
+    for key in outer {
+        let next = inner.entry(key.clone()).or_insert_with(|| Value::Table(Table::new()));
+        inner = next.as_table_mut().ok_or_else(|| {
+            let what = format!("{key} is not a section of a style");
+            Fault::new(place, what, "see `laneweave styles show NAME`")
+        })?;
+    }
+    inner.insert(last.clone(), value);
+    Ok(())
 }
 
 /// The style of `table` with `value` in the place of each distribution.

@@ -2,11 +2,12 @@
 
 use laneweave_models::braking::is_secure;
 use laneweave_models::follow::Ahead;
-use laneweave_network::Position;
+use laneweave_network::{ChainIndex, Position};
 
 use crate::driver::perceive::driver_of;
 use crate::state::command::NewVehicle;
 use crate::state::control::Control;
+use crate::state::goal::Destination;
 use crate::state::lane::VehicleId;
 use crate::state::setup::Placement;
 use crate::step::command::{CommandError, in_range};
@@ -60,7 +61,8 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
         ));
     }
     let placement = Placement { chain, x, speed: *speed_mps, class: *class, parameters, destination };
-    match in_the_way(world, &placement) {
+    let body = Body { chain, x, length, speed: *speed_mps, destination, is_long: class.is_long() };
+    match in_the_way(world, &body) {
         Some(other) => Err(refused(format!(
             "vehicle {other} is too near; choose another place, or a speed nearer to the traffic's"
         ))),
@@ -68,11 +70,24 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
     }
 }
 
-/// The vehicle that could not stay clear of one at `placement`, or of which that one could not stay clear.
-fn in_the_way(world: &World, placement: &Placement) -> Option<VehicleId> {
-    let Placement { chain, x, speed, class, destination, .. } = *placement;
-    let (scene, dt, length) = (world.scene(), world.clock().dt, class.body().length);
-    let nobody = Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, is_long: class.is_long() };
+/// A vehicle that is not on the road yet.
+pub(super) struct Body {
+    pub(super) chain: ChainIndex,
+    /// Place of its front bumper [m].
+    pub(super) x: f64,
+    /// Length [m].
+    pub(super) length: f64,
+    /// Speed [m/s].
+    pub(super) speed: f64,
+    pub(super) destination: Destination,
+    pub(super) is_long: bool,
+}
+
+/// The vehicle that could not stay clear of `body`, or of which that one could not stay clear.
+pub(super) fn in_the_way(world: &World, body: &Body) -> Option<VehicleId> {
+    let Body { chain, x, length, speed, destination, is_long } = *body;
+    let (scene, dt) = (world.scene(), world.clock().dt);
+    let nobody = Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, is_long };
     let id = |spot| scene.motion(spot).id;
     // Seen from its rear bumper, a vehicle beside it is ahead of it.
     let rear = scene.viewpoint_at(nobody, chain, x - length);

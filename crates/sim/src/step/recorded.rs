@@ -11,13 +11,14 @@ use crate::record::lanelet_aggregates::Mark;
 use crate::record::trip_log::TripRecord;
 use crate::route::roads::Roads;
 use crate::state::control::Control;
-use crate::state::externals::{Body, External};
+use crate::state::externals::{self, External};
 use crate::state::lane::{Entry, VehicleId};
 use crate::state::setup::Placement;
 use crate::state::vehicle::Class;
 use crate::step::carry_out::CarryingOut;
 use crate::step::change_roads::desire_speed;
 use crate::step::command::{CommandError, check_control, in_range};
+use crate::step::insert::{Body, in_the_way};
 use crate::step::move_externals::{limit_speeds, main_lane, on_one_level, settle};
 use crate::step::names;
 use crate::step::obstacle::Moved;
@@ -101,7 +102,8 @@ impl World {
         let mut external = External::new(id, pose.control(), at);
         external.is_recorded = true;
         let Rectangle { pose: centre, .. } = rectangle;
-        external.body = Some(Body { pose: centre, length, width, speed: pose.speed, off_road: Some(entry) });
+        external.body =
+            Some(externals::Body { pose: centre, length, width, speed: pose.speed, off_road: Some(entry) });
         let (speed, has_known_speed) = (pose.speed, true);
         let moved = Moved { rectangle, before: None, speed, has_known_speed, way: 0.0 };
         let mut relocating = Relocating { roads, traffic, junctions, log, work };
@@ -110,6 +112,20 @@ impl World {
         traffic.externals_mut().add(external);
         index.forget();
         Ok(id)
+    }
+
+    /// Whether a driver could come onto the road in place of a recorded vehicle that is not there yet: neither it nor
+    /// its follower would have to brake harder than vehicles can. There is room for a vehicle in no lane.
+    pub fn has_room(&self, vehicle: &RecordedVehicle) -> bool {
+        let RecordedVehicle { class, length, width, pose } = *vehicle;
+        let at = Pose { at: Point::new(pose.x, pose.y, 0.0), heading: pose.heading };
+        let rectangle = Rectangle { pose: at, length, width };
+        let footprints = self.roads.ground().footprints(&rectangle);
+        let Some(number) = main_lane(&self.roads, &rectangle, &footprints, None) else { return true };
+        let Footprint { chain, to: x, .. } = footprints[number];
+        let destination = self.roads.navigator().seen_by(class, None);
+        let body = Body { chain, x, length, speed: pose.speed, destination, is_long: class.is_long() };
+        in_the_way(self, &body).is_none()
     }
 
     /// Moves a recorded vehicle: it is at `pose` at the end of the next step. Returns whether it could be moved: not so

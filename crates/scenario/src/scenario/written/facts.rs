@@ -62,6 +62,7 @@ impl Facts {
             ("commands", json!("out/commands.parquet"), Some("For example:".into())),
             ("model", json!("mcdm"), Some("For example:".into())),
             ("run.threads", json!(prepared.threads), Some("On this machine:".into())),
+            ("run.parameter_draw", json!(0), Some("For example, the first draw:".into())),
         ];
         let rows = [
             ("demand.entrances", entrances(prepared)),

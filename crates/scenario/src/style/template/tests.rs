@@ -178,3 +178,58 @@ fn a_parameter_is_the_number_at_its_key() {
         assert_eq!(Value::try_from(parameter).unwrap(), Value::String(parameter.key().into()));
     }
 }
+
+/// A style with draws of its threshold and its first weight.
+fn fitted(draws: &str) -> Result<StyleTemplate, Fault> {
+    let table = "[fit]\ndraws_of = [\"change.theta\", \"change.speed.weight\"]";
+    let text = format!("{}\n{table}\ndraws = {draws}\n", built_in("conservative").unwrap().text);
+    StyleTemplate::parse(&Source { path: "own.toml".into(), text })
+}
+
+#[test]
+fn a_fitted_style_has_draws_of_its_parameters() {
+    let template = fitted("[[4.0, 0.1], [5.0, 0.2]]").unwrap();
+    assert_eq!(template.draws(), 2);
+    let numbers = |it: &StyleTemplate| match &it.typical().change {
+        LaneChangeModel::Mcdm(Mcdm { theta, speed, courtesy, .. }) => (*theta, speed.weight, courtesy.weight),
+        _ => panic!("another model"),
+    };
+    assert_eq!(numbers(&template.drawn(1).unwrap()), (5.0, 0.2, 1.72));
+    assert_eq!(numbers(&template), (0.01, 0.44, 1.72));
+    // All that is not drawn stays, with its random numbers.
+    let drivers = |it: &StyleTemplate| it.draw(&Random::new(1), 0, 7).unwrap().speed_factor;
+    assert_eq!(drivers(&template.drawn(0).unwrap()), drivers(&template));
+    let error = template.drawn(2).unwrap_err();
+    assert_eq!(
+        error.what,
+        "the style conservative has 2 draws of its parameters, from number 0 on, but none has number 2"
+    );
+    // Another lane-change model has no such parameters.
+    assert_eq!(
+        template
+            .with_change(&LaneChangeModel::Mobil(laneweave_models::change::Mobil::default()))
+            .unwrap()
+            .draws(),
+        0
+    );
+}
+
+#[test]
+fn draws_that_are_no_numbers_are_refused_with_their_place() {
+    for (draws, what) in [
+        ("7", "draws are no lists of numbers"),
+        ("[[1.0, 2.0], [\"a\", 2.0]]", "draws are no lists of numbers"),
+        ("[[1.0, 2.0], [1.0]]", "draw 2 has 1 numbers for 2 keys"),
+    ] {
+        let error = fitted(draws).unwrap_err();
+        assert_eq!(error.what, what);
+        assert!(error.place.starts_with("own.toml:"), "{}", error.place);
+    }
+    // A value out of its range.
+    let template = fitted("[[4.0, 0.1]]").unwrap();
+    let text = "draws_of = [\"safety.min_gap\"]\ndraws = [[-1.0]]";
+    let text = format!("{}\n[fit]\n{text}\n", built_in("conservative").unwrap().text);
+    let wrong = StyleTemplate::parse(&Source { path: "own.toml".into(), text }).unwrap();
+    assert_eq!(wrong.drawn(0).unwrap_err().what, "safety.min_gap is -1");
+    assert!(template.drawn(0).is_ok());
+}

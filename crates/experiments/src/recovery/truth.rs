@@ -1,0 +1,55 @@
+//! What is true of simulated drivers: their desired speeds, when they decide, and when they begin to want a change.
+
+use std::collections::BTreeSet;
+
+use laneweave::calibration::observe::{FreeTime, Known};
+use laneweave::sim::{Phase, Vehicle, World};
+
+/// Notes the truth at every step, as a drone's [`laneweave::recordings::Watch`] notes the vehicles.
+pub(super) struct Truth {
+    /// The step at which the recording begins.
+    first: u32,
+    known: Known,
+    /// The vehicles whose drivers can begin to want a change now.
+    free: BTreeSet<i64>,
+}
+
+impl Truth {
+    /// The truth from the present step of `world` on.
+    pub(super) fn from_now(world: &World) -> Truth {
+        let known = Known { free: Some(Default::default()), ..Known::default() };
+        Truth { first: world.clock().step, known, free: BTreeSet::new() }
+    }
+
+    /// Notes what is true of all drivers now.
+    pub(super) fn see(&mut self, world: &World) {
+        for vehicle in world.vehicles() {
+            self.note(world, &vehicle);
+        }
+    }
+
+    fn note(&mut self, world: &World, vehicle: &Vehicle) {
+        let (id, clock, driver) = (i64::from(vehicle.id()), world.clock(), vehicle.driver);
+        let period = clock.steps(vehicle.style().attention.epoch);
+        let turn = f64::from((driver.due + period - self.first % period) % period) * clock.dt;
+        self.known.desired.insert(id, vehicle.style().speed_factor);
+        self.known.turns.insert(id, turn);
+        let time = f64::from(clock.step - self.first) * clock.dt;
+        let is_free = driver.phase == Phase::Cruises && clock.step >= driver.cooldown_until;
+        let was_free = if is_free { !self.free.insert(id) } else { self.free.remove(&id) };
+        let times = self.known.free.get_or_insert_default().entry(id).or_default();
+        match times.last_mut().filter(|_| was_free) {
+            Some(last) => {
+                let wanted = (driver.phase == Phase::Wants).then_some(vehicle.lane_change.side);
+                *last = FreeTime { until: time, wanted, ..*last };
+            }
+            None if is_free => times.push(FreeTime { from: time, until: time, wanted: None }),
+            None => {}
+        }
+    }
+
+    /// All that was noted.
+    pub(super) fn known(self) -> Known {
+        self.known
+    }
+}

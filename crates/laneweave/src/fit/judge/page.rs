@@ -1,0 +1,111 @@
+//! What a fit is worth in the world, in its report.
+
+use laneweave_results::report::{Align, Figure, Section, Table};
+use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
+
+use super::{Judged, JudgedMeasure};
+
+/// The measures of the figure, with their names there.
+const SHOWN: [(&str, &str); 8] = [
+    ("rate", "lane changes"),
+    ("rate_discretionary", "discretionary"),
+    ("faster_share_pct", "to the faster lane"),
+    ("lead_gap_m", "gap ahead"),
+    ("lag_gap_m", "gap behind"),
+    ("duration_s", "duration"),
+    ("speed_kmh", "mean speed"),
+    ("pace_s_per_km", "travel time"),
+];
+
+/// The section of the report.
+pub(in crate::fit) fn section(judged: &Judged) -> Section {
+    let Judged { fitted_s, simulated_s, events_used, events, rollouts, .. } = judged;
+    Section::new("world", "In the world")
+        .text(format!(
+            "A style is fitted to the first two thirds of the recorded time, {fitted_s:.0} s with {events_used} lane changes. In the last \
+             third, {simulated_s:.0} s with {events} lane changes, vehicles come when, where and as fast as they came, and drive on as \
+             drivers of that style: {rollouts} rollouts, each pair with another draw of the parameters. A drone sees them with errors of \
+             10 cm. Lane changes count that began in view. Where vehicles go is drawn from those who went before."
+        ))
+        .figures(vec![figure(judged, Sheet::Column)])
+        .table(measures(judged))
+        .table(differences(judged))
+        .text(
+            "The other models have the style's car-following and one number that is fitted to the rate of lane changes in the ten minutes \
+             before: a constant chance its threshold, MOBIL its threshold, LMRS its gain of speed. Neither drivers nor models know what \
+             traffic does beyond the view: no queue from there slows them down.",
+        )
+}
+
+/// The figure of simulated beside recorded traffic.
+pub(in crate::fit) fn figure(judged: &Judged, sheet: Sheet) -> Figure {
+    let row = |(key, name): &(&str, &str)| {
+        let measure = judged.measures.iter().find(|it| it.key == *key)?;
+        let recorded = measure.recorded.filter(|it| *it > 0.0)?;
+        let values = measure.simulated.iter().map(|it| {
+            let [lower, upper] = it.interval.unwrap_or([f64::NAN; 2]).map(|it| it / recorded);
+            let value = it.median.unwrap_or(f64::NAN) / recorded;
+            Estimated { at: 0.0, value, interval: Interval { lower, upper } }
+        });
+        Some(BarRow { name: (*name).to_owned(), values: values.collect() })
+    };
+    let rows: Vec<BarRow> = SHOWN.iter().filter_map(row).collect();
+    let models: Vec<&str> = judged.models.iter().map(|it| it.model).collect();
+    Figure {
+        svg: bars(sheet, ["Simulated, as a share of recorded", "Measure"], &models, &rows),
+        title: "Simulated beside recorded traffic".into(),
+        caption: format!(
+            "Medians of {} rollouts as shares of what was recorded, with the middle 95 % of the rollouts. 1 is as recorded.",
+            judged.rollouts
+        ),
+    }
+}
+
+fn measures(judged: &Judged) -> Table {
+    let models = judged.models.iter().map(|it| (it.model, Align::Numbers));
+    let parameters = [("of the fitted one's spread, from parameters [%]", Align::Numbers)];
+    let columns: Vec<(&str, Align)> = [("measure", Align::Words), ("recorded", Align::Numbers)]
+        .into_iter()
+        .chain(models)
+        .chain(parameters)
+        .collect();
+    let what = "Medians of the rollouts with the middle 95 %; an asterisk where the recorded value lies outside. What of the spread does \
+                not come from the parameters is chance.";
+    let mut table = Table::new(what, &columns);
+    for JudgedMeasure { name, recorded, simulated, .. } in &judged.measures {
+        let recorded = recorded.map_or("–".to_owned(), |it| format!("{it:.2}"));
+        let share = simulated[0].from_parameters;
+        let share = share.map_or("–".to_owned(), |it| format!("{:.0}", 100.0 * it));
+        let cells = simulated.iter().map(|it| it.to_text().trim_end().to_owned());
+        table.row([name.clone(), recorded].into_iter().chain(cells).chain([share]));
+    }
+    table
+}
+
+fn differences(judged: &Judged) -> Table {
+    let columns = [
+        ("model", Align::Words),
+        ("number that is fitted", Align::Words),
+        ("its value", Align::Numbers),
+        ("not as recorded", Align::Words),
+        ("differs from the fitted style in", Align::Words),
+        ("collisions per rollout", Align::Numbers),
+    ];
+    let what = "What tells the models apart: a model differs from the fitted style where more than 97.5 % of its rollouts, or fewer than \
+                2.5 %, show more.";
+    let mut table = Table::new(what, &columns);
+    for (number, model) in judged.models.iter().enumerate() {
+        let (key, value) =
+            model.scale.map_or(("–", "–".to_owned()), |(key, it)| (key, format!("{it:.2}")));
+        let differences = if number == 0 { "–".to_owned() } else { judged.differences(number) };
+        table.row([
+            model.model.to_owned(),
+            key.to_owned(),
+            value,
+            judged.misses(number),
+            differences,
+            format!("{:.1}", model.collisions),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,90 @@
+//! What a fit is worth in the world, in words.
+
+use std::fmt::Write;
+
+use super::{Judged, JudgedMeasure, Predicted};
+
+impl Judged {
+    /// It in words.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        // Writing to a string never fails.
+        let _ = self.write_to(&mut out);
+        out
+    }
+
+    fn write_to(&self, out: &mut String) -> std::fmt::Result {
+        const NAME: usize = 40;
+        const RECORDED: usize = 8;
+        const FITTED: usize = 26;
+        const OTHER: usize = 10;
+        writeln!(
+            out,
+            "\nIn the world: a style fitted to {:.0} s with {} lane changes drives in the {:.0} s after them,",
+            self.fitted_s, self.events_used, self.simulated_s
+        )?;
+        writeln!(
+            out,
+            "in which {} lane changes were recorded; {} rollouts of each model, * not as recorded",
+            self.events, self.rollouts
+        )?;
+        write!(out, "  {:NAME$}{:>RECORDED$}", "", "recorded")?;
+        for (number, it) in self.models.iter().enumerate() {
+            let width = if number == 0 { FITTED } else { OTHER };
+            write!(out, "{:>width$}", it.model)?;
+        }
+        writeln!(out)?;
+        for JudgedMeasure { name, recorded, simulated, .. } in &self.measures {
+            let recorded = recorded.map_or("–".to_owned(), |it| format!("{it:.2}"));
+            write!(out, "  {name:NAME$}{recorded:>RECORDED$}")?;
+            for (number, it) in simulated.iter().enumerate() {
+                match number {
+                    0 => write!(out, "{:>FITTED$}", it.to_text())?,
+                    _ => write!(out, "{:>OTHER$}", it.median_text())?,
+                }
+            }
+            writeln!(out)?;
+        }
+        for (number, it) in self.models.iter().enumerate().skip(1) {
+            writeln!(out, "{} differs from the fitted style in: {}", it.model, self.differences(number))?;
+        }
+        Ok(())
+    }
+
+    /// The measures that tell a model apart from the fitted style, in words.
+    pub(super) fn differences(&self, model: usize) -> String {
+        self.names(|it| it.simulated[model].is_told_apart)
+    }
+
+    /// The measures whose recorded values lie outside of what a model predicts, in words.
+    pub(super) fn misses(&self, model: usize) -> String {
+        self.names(|it| it.simulated[model].is_missed())
+    }
+
+    /// The names of some measures.
+    fn names(&self, is_named: impl Fn(&JudgedMeasure) -> bool) -> String {
+        let named = self.measures.iter().filter(|it| is_named(it));
+        let names: Vec<&str> = named.map(|it| it.name.split(" [").next().unwrap_or(&it.name)).collect();
+        if names.is_empty() { "nothing that was measured".to_owned() } else { names.join("; ") }
+    }
+}
+
+impl Predicted {
+    /// The median with the interval, marked if the recorded value lies outside.
+    pub(super) fn to_text(&self) -> String {
+        match (self.median, self.interval) {
+            (Some(median), Some([low, high])) => {
+                format!("{median:.2} ({low:.2} to {high:.2}){}", self.mark())
+            }
+            _ => "–".to_owned(),
+        }
+    }
+
+    fn median_text(&self) -> String {
+        self.median.map_or("–  ".to_owned(), |it| format!("{it:.2}{}", self.mark()))
+    }
+
+    fn mark(&self) -> &'static str {
+        if self.is_missed() { " *" } else { "  " }
+    }
+}
