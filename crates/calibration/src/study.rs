@@ -7,6 +7,7 @@ use crate::desire_model::{DesireModel, assumptions};
 use crate::held_out::{Candidate, Difference, Folds, interval};
 use crate::observe::Observations;
 use crate::place_spread::{PlaceSpread, effect};
+use crate::prior::Prior;
 use crate::resample::resampled;
 use crate::waiting::{Assumptions, Design, Layout, NO_STRATUM, WaitingFit};
 
@@ -155,7 +156,7 @@ impl Study {
         let maximum = (&fit.estimates[..], Some(&fit.covariance));
         let draws = design.redrawn(&assumptions, &all, maximum, &resampled);
         let layout = fit.layout;
-        let weights = weights(&fit, &draws, &asked.prior);
+        let weights = weights(&fit, &draws, &asked.prior, &assumptions.prior);
         let prior_theta = -assumptions.prior.means[layout.intercept()];
         let theta = Fitted::of_parameter("theta", (layout.intercept(), -1.0), &fit, &draws, prior_theta);
         let mean_place = mean_place(&design, &fit);
@@ -198,10 +199,22 @@ fn mixture(design: &Design, assumptions: &Assumptions, fit: &WaitingFit, asked: 
 }
 
 /// The weights of a fit with the terms of multi-criteria decision-making.
-fn weights(fit: &WaitingFit, draws: &[Vec<f64>], prior: &PriorWeights) -> Vec<Fitted> {
-    let names = DesireModel::Mcdm { beta: prior.beta }.terms();
-    let each = names.iter().zip(prior.terms()).zip(fit.layout.slopes());
-    each.map(|((name, prior), at)| Fitted::of_parameter(name, (at, 1.0), fit, draws, prior)).collect()
+fn weights(fit: &WaitingFit, draws: &[Vec<f64>], values: &PriorWeights, prior: &Prior) -> Vec<Fitted> {
+    let names = DesireModel::Mcdm { beta: values.beta }.terms();
+    let each = names.iter().zip(values.terms()).zip(fit.layout.slopes());
+    let of = |((name, value), at): ((&&'static str, f64), usize)| {
+        let mut fitted = Fitted::of_parameter(name, (at, 1.0), fit, draws, value);
+        fitted.is_identified &= !is_the_prior(fit, prior, at);
+        fitted
+    };
+    each.map(of).collect()
+}
+
+/// Whether the data add little to what was assumed of a parameter: its variance is hardly less than that of the prior.
+fn is_the_prior(fit: &WaitingFit, prior: &Prior, at: usize) -> bool {
+    /// Share of the prior's variance that is left.
+    const LEFT: f64 = 0.8;
+    fit.covariance[(at, at)] * prior.precisions[at] > LEFT
 }
 
 /// One parameter of all draws.
@@ -325,7 +338,7 @@ impl Study {
         let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
         let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread).without_spread(&design);
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
-        weights(&fit, &[], &asked.prior)
+        weights(&fit, &[], &asked.prior, &assumptions.prior)
     }
 
     /// Where the parameters of the fit stand.

@@ -29,7 +29,7 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         .section(Section::new("weights", "Weights").table(weights(report)).text(
             "Intervals are those of a bootstrap over blocks of drivers who were seen at the same time, or of the information matrix if \
              there are no draws. A weight is not identified if its standard error is more than twice what matters: its prior value, or \
-             what its interval leaves between it and zero. Between lanes that lead to the same place the yield of the route is one with \
+             what its interval leaves between it and zero; nor if more than .8 of its prior's variance is left. Between lanes that lead to the same place the yield of the route is one with \
              that of speed, so its weight has the prior's proportion to that of speed.",
         ))
         .section(Section::new("lead", "When changes begin").table(by_lead(report)).text(

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
-use laneweave_network::{ChainIndex, LaneletIndex, Network, Position};
+use laneweave_network::{ChainIndex, LaneletIndex, Network, Position, Side};
 use laneweave_recordings::{
     Assumed, Extent, Kind, LaneChange, Matched, Place, Recording, Replay, extents, lane_changes,
 };
@@ -253,8 +253,8 @@ fn lane_number(network: &Network, lanelet: LaneletIndex) -> usize {
     let slower = |it: &LaneletIndex| {
         let lanelet = &network.lanelets[it.at()];
         match network.driving_side.overtaking() {
-            laneweave_network::Side::Left => lanelet.adjacent_right,
-            laneweave_network::Side::Right => lanelet.adjacent_left,
+            Side::Left => lanelet.right.or(lanelet.adjacent_right),
+            Side::Right => lanelet.left.or(lanelet.adjacent_left),
         }
     };
     // No road has more lanes than the map has lanelets.
