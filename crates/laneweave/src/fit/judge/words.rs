@@ -52,12 +52,12 @@ impl Judged {
     }
 
     /// The measures that tell a model apart from the fitted style, in words.
-    pub(super) fn differences(&self, model: usize) -> String {
+    pub fn differences(&self, model: usize) -> String {
         self.names(|it| it.simulated[model].is_told_apart)
     }
 
     /// The measures whose recorded values lie outside of what a model predicts, in words.
-    pub(super) fn misses(&self, model: usize) -> String {
+    pub fn misses(&self, model: usize) -> String {
         self.names(|it| it.simulated[model].is_missed())
     }
 
