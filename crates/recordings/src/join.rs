@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use thiserror::Error;
 
 use crate::recording::{Recording, State, Track};
-use crate::smooth::motion;
+use crate::smooth::{Motion, motion};
 
 /// Positions this long before and after the cut give the motion there [s].
 const REACH: f64 = 0.4;
@@ -215,7 +215,7 @@ impl Pair<'_> {
     fn lag(&self, step: f64) -> Option<f64> {
         let (here, there) = self.nearest();
         let [a, b] = [motion(self.before, here, REACH, step), motion(self.after, there, REACH, step)];
-        let velocity = [0.5 * (a.vx + b.vx), 0.5 * (a.vy + b.vy)];
+        let velocity = velocity_between((self.before, a), (self.after, b));
         let squared = velocity[0] * velocity[0] + velocity[1] * velocity[1];
         if squared < SLOWEST * SLOWEST {
             return None;
@@ -268,9 +268,19 @@ impl Pair<'_> {
     }
 }
 
+/// The velocity between two motions, each with the states that show it: a single state shows none.
+fn velocity_between((before, a): (&[State], Motion), (after, b): (&[State], Motion)) -> [f64; 2] {
+    match (before.len(), after.len()) {
+        (_, 1) => [a.vx, a.vy],
+        (1, _) => [b.vx, b.vy],
+        _ => [0.5 * (a.vx + b.vx), 0.5 * (a.vy + b.vy)],
+    }
+}
+
 /// Whether a vehicle that was last seen in `earlier` is, `time` [s] later, where `later` begins.
 fn goes_on(earlier: &[State], later: &[State], time: f64, step: f64) -> bool {
     let [a, b] = [motion(earlier, earlier.len() - 1, REACH, step), motion(later, 0, REACH, step)];
-    let [x, y] = [a.x + 0.5 * (a.vx + b.vx) * time, a.y + 0.5 * (a.vy + b.vy) * time];
+    let [vx, vy] = velocity_between((earlier, a), (later, b));
+    let [x, y] = [a.x + vx * time, a.y + vy * time];
     time <= LONGEST && (b.x - x).hypot(b.y - y) <= TOLERANCE + 0.125 * ACCELERATION * time * time
 }

@@ -100,3 +100,10 @@ fn another_vehicle_with_a_known_id_gets_a_new_one() {
     let tracks = &joined.recording.tracks;
     assert!(tracks.iter().filter(|it| it.id == id).count() == 1 && tracks.iter().any(|it| it.id > 39));
 }
+
+#[test]
+fn a_vehicle_that_is_seen_once_after_a_cut_does_not_move_the_frames() {
+    let whole = traffic(0.04, 0.0);
+    let joined = join(cut(&whole, 177, 0, true)).expect("they continue one another");
+    assert_eq!(joined.offsets, [0, 177, 354, 531, 708, 885, 1062, 1239]);
+}
