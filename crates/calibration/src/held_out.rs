@@ -148,7 +148,7 @@ impl Candidate {
 }
 
 /// The 95 % interval of what was drawn.
-pub fn interval(mut drawn: Vec<f64>) -> [f64; 2] {
+pub(crate) fn interval(mut drawn: Vec<f64>) -> [f64; 2] {
     drawn.sort_by(f64::total_cmp);
     let Some(last) = drawn.len().checked_sub(1) else { return [f64::NEG_INFINITY, f64::INFINITY] };
     let quantile = |share: f64| {

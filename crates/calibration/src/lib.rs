@@ -19,7 +19,7 @@ pub mod waiting;
 pub use choice::{Choices, Epoch, Fit, sampling_correction};
 pub use classes::{Mixture, are_two};
 pub use desire_model::{DesireModel, assumptions};
-pub use held_out::{Candidate, Difference, Folds, interval};
+pub use held_out::{Candidate, Difference, Folds};
 pub use paper::{PaperGroup, by_paper};
 pub use place_spread::{PlaceSpread, effect};
 pub use plan::{Expected, expected};

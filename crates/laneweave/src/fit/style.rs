@@ -1,8 +1,9 @@
 //! Fitted styles as files that the simulator takes.
 
+use laneweave_calibration::Study;
 use laneweave_calibration::waiting::Layout;
-use laneweave_calibration::{Study, interval};
 use laneweave_scenario::Fault;
+use laneweave_study::middle_95;
 use toml::{Table, Value};
 
 use super::Observed;
@@ -219,7 +220,10 @@ fn intervals(study: &Study, report: &FitReport, draws: &[[(&'static str, f64); 7
         return all.map(|it| (it.name.to_owned(), shifted(it))).collect();
     }
     let Some(first) = draws.first() else { return Table::new() };
-    let of = |at: usize| pair(interval(draws.iter().map(|it| it[at].1).collect()));
+    let of = |at: usize| {
+        let all: Vec<f64> = draws.iter().map(|it| it[at].1).collect();
+        pair(middle_95(&all).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]))
+    };
     let name = |key: &str| key.split('.').next().unwrap_or(key).to_owned();
     first.iter().enumerate().map(|(at, (key, _))| (name(key), of(at))).collect()
 }

@@ -16,7 +16,7 @@ impl Judged {
     fn write_to(&self, out: &mut String) -> std::fmt::Result {
         const NAME: usize = 40;
         const RECORDED: usize = 8;
-        const FITTED: usize = 26;
+        const FITTED: usize = 29;
         const OTHER: usize = 10;
         writeln!(
             out,
