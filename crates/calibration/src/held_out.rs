@@ -1,4 +1,4 @@
-//! How well models predict drivers whom they have not seen: log-likelihoods held out by driver.
+//! How well models predict drivers whom they have not seen: log-likelihoods held out by driver and by site.
 
 use rayon::prelude::*;
 
@@ -31,6 +31,8 @@ pub struct Candidate {
     pub fit: WaitingFit,
     /// For each driver its log-likelihood while it was held out, the mean over repetitions.
     pub held_out: Vec<f64>,
+    /// The same while its whole site was held out; empty if there is one site only.
+    pub held_out_by_site: Vec<f64>,
     /// Predictions of all seconds of drivers who were held out in the first repetition.
     pub predictions: Vec<Prediction>,
 }
@@ -66,7 +68,8 @@ impl Candidate {
         let design = observations.design(model);
         let assumptions = assumptions(&design, means, effect(&design, means, spread), spread);
         let assumptions = assumptions.without_spread(&design);
-        Candidate::fitted(model.name().into(), [&design, &design], &assumptions, folds)
+        let by_driver = Candidate::fitted(model.name().into(), [&design, &design], &assumptions, folds);
+        by_driver.with_sites(observations, [&design, &design], &assumptions)
     }
 
     /// The same model, fitted to changes that are shuffled over all seconds and sides, and asked to predict the real
@@ -92,7 +95,8 @@ impl Candidate {
             places: order.iter().map(|row| design.places[*row]).collect(),
             ..design.clone()
         };
-        Candidate::fitted("shuffled".into(), [&others, &design], &assumptions, folds)
+        let by_driver = Candidate::fitted("shuffled".into(), [&others, &design], &assumptions, folds);
+        by_driver.with_sites(observations, [&others, &design], &assumptions)
     }
 
     /// Fits to the first of two designs, and predicts the second.
@@ -123,14 +127,64 @@ impl Candidate {
             predictions.extend(predicted);
             held_out.iter_mut().zip(score).for_each(|(it, log)| *it += log / f64::from(asked.repetitions));
         }
-        Candidate { name, fit, held_out, predictions }
+        Candidate { name, fit, held_out, held_out_by_site: Vec::new(), predictions }
     }
 
-    /// By how much this model predicts better than `other`: nats per change, with the interval of a bootstrap over
-    /// drivers.
+    /// Holds out each site in turn, if there are several. What a model knows of other sites is how drivers weigh
+    /// things, not how often they change lanes here: the intercept is estimated again, at the site itself, for every
+    /// model alike. Of its places nothing is known.
+    fn with_sites(
+        self,
+        observations: &Observations,
+        [design, real]: [&Design; 2],
+        assumptions: &Assumptions,
+    ) -> Candidate {
+        if observations.sites < 2 {
+            return self;
+        }
+        let of = |site: u32| {
+            let is_here = |here: bool| {
+                let weight = move |it: bool| if it == here { 1.0 } else { 0.0 };
+                observations.drivers.iter().map(|it| weight(it.site == site)).collect::<Vec<f64>>()
+            };
+            let (elsewhere, here) = (is_here(false), is_here(true));
+            let estimates = design.refit(assumptions, &elsewhere, &self.fit.estimates, &self.fit.covariance);
+            let mut intercept = assumptions.clone();
+            intercept.prior.means = estimates;
+            intercept.is_fixed =
+                (0..intercept.is_fixed.len()).map(|it| it != self.fit.layout.intercept()).collect();
+            let estimates = real.fit_roughly(&intercept, &here, None).estimates;
+            real.log_likelihoods(&estimates, assumptions.has_spread, &here)
+        };
+        let by_site: Vec<Vec<f64>> = (0..observations.sites).into_par_iter().map(of).collect();
+        // A driver counts at its own site, and is 0 elsewhere.
+        let sum = |driver: usize| by_site.iter().map(|it| it[driver]).sum();
+        let held_out_by_site = (0..observations.drivers.len()).map(sum).collect();
+        Candidate { held_out_by_site, ..self }
+    }
+
+    /// By how much this model predicts drivers who were held out better than `other`: nats per change, with the
+    /// interval of a bootstrap over drivers.
     pub fn better_than(&self, other: &Candidate, observations: &Observations, folds: &Folds) -> Difference {
-        let differences: Vec<f64> =
-            self.held_out.iter().zip(&other.held_out).map(|(own, other)| own - other).collect();
+        Difference::between(&self.held_out, &other.held_out, observations, folds)
+    }
+
+    /// The same for sites that were held out; `None` if there is one site only.
+    pub fn better_elsewhere_than(
+        &self,
+        other: &Candidate,
+        observations: &Observations,
+        folds: &Folds,
+    ) -> Option<Difference> {
+        let [own, other] = [self, other].map(|it| &it.held_out_by_site);
+        (!own.is_empty()).then(|| Difference::between(own, other, observations, folds))
+    }
+}
+
+impl Difference {
+    /// Between log-likelihoods of all drivers.
+    fn between(own: &[f64], other: &[f64], observations: &Observations, folds: &Folds) -> Difference {
+        let differences: Vec<f64> = own.iter().zip(other).map(|(own, other)| own - other).collect();
         let mut changes = vec![0.0; differences.len()];
         for (driver, count) in observations.drivers.iter().zip(&mut changes) {
             *count = driver.spells.iter().filter(|it| it.change.is_some()).count() as f64;

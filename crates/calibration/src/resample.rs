@@ -9,7 +9,7 @@ const BLOCK: f64 = 10.0;
 
 /// How many times each driver counts in draw number `draw` of a bootstrap over blocks of time: as many blocks as there
 /// are, drawn with replacement.
-pub(crate) fn resampled(observations: &Observations, seed: u64, draw: u32) -> Vec<f64> {
+pub fn resampled(observations: &Observations, seed: u64, draw: u32) -> Vec<f64> {
     drawn_again(&blocks(observations), seed, draw)
 }
 

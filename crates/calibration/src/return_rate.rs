@@ -60,6 +60,8 @@ fn derivatives(attempts: &[&Attempt], log_alpha: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use laneweave_sim::{Purpose, Random};
+
     use super::*;
 
     fn attempts(pairs: &[(f64, f64)]) -> Vec<Attempt> {
@@ -67,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn alpha_of_model_md() {
+    fn v32_alpha_of_the_papers_probability_and_of_six_attempts() {
         let alpha = |pairs: &[(f64, f64)]| return_rate(&attempts(pairs)).unwrap().alpha;
         // At one x the estimate has a closed form: −ln(1 − y)/x.
         assert!((alpha(&[(20.0, 0.686514)]) - 0.058000).abs() < 1e-6);
@@ -80,5 +82,29 @@ mod tests {
         assert_eq!(return_rate(&attempts(&[(10.0, 1.0), (20.0, 1.0)])), None);
         assert_eq!(return_rate(&attempts(&[(10.0, 0.0)])), None);
         assert_eq!(return_rate(&[]), None);
+        assert_eq!(return_rate(&attempts(&[(0.0, 1.0), (10.0, 0.0)])), None);
+        assert_eq!(return_rate(&attempts(&[(f64::NAN, 1.0), (10.0, 0.0)])), None);
+    }
+
+    /// 2,000 drivers who had to come back, of whom it is known whether they did. Time headways are those of gaps and
+    /// speeds with errors of .14 m and .2 m/s, remaining distances have errors of .1 m.
+    #[test]
+    fn alpha_comes_back_where_returns_are_seen_with_the_errors_of_a_drone() {
+        const ALPHA: f64 = 0.058;
+        let random = Random::new(4);
+        let seen = |driver: u32| {
+            let uniform = |part: u32| random.uniform(driver, Purpose::Observation, part);
+            // The sum of twelve uniform numbers, less its mean, is almost normal.
+            let normal = |first: u32| (0..12).map(|it| uniform(first + it)).sum::<f64>() - 6.0;
+            let [gap, speed, left] =
+                [5.0 + 60.0 * uniform(0), 2.0 + 28.0 * uniform(1), 2.0 + 38.0 * uniform(2)];
+            let came_back = f64::from(u8::from(uniform(3) < -libm::expm1(-ALPHA * gap / speed * left)));
+            let headway = (gap + 0.14 * normal(4)) / (speed + 0.2 * normal(16));
+            Attempt { x: headway * (left + 0.1 * normal(28)), came_back }
+        };
+        let all: Vec<Attempt> = (0..2000).map(seen).collect();
+        let found = return_rate(&all).unwrap();
+        assert!((found.alpha / ALPHA - 1.0).abs() < 0.1, "{found:?}");
+        assert!(found.log_error < 0.05, "{found:?}");
     }
 }

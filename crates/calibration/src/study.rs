@@ -82,6 +82,8 @@ pub struct Compared {
     pub over_constant: Difference,
     /// By how much multi-criteria decision-making predicts better than it [nats per change].
     pub mcdm_over_it: Difference,
+    /// Both at sites that were held out; `None` if there is one site only.
+    pub elsewhere: Option<[Difference; 2]>,
 }
 
 /// A fit of a style to observations.
@@ -326,6 +328,10 @@ fn compared(
     let compare = |candidate: Candidate| Compared {
         over_constant: candidate.better_than(&constant, observations, folds),
         mcdm_over_it: mcdm.better_than(&candidate, observations, folds),
+        elsewhere: candidate
+            .better_elsewhere_than(&constant, observations, folds)
+            .zip(mcdm.better_elsewhere_than(&candidate, observations, folds))
+            .map(|(over_constant, mcdm_over_it)| [over_constant, mcdm_over_it]),
         candidate,
     };
     candidates.into_iter().map(compare).collect()

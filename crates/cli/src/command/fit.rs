@@ -58,6 +58,10 @@ pub(crate) struct Arguments {
     /// or 1.5 if many changes had begun before their vehicles were first seen].
     #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
     lead: Option<f64>,
+    /// Correct the weights for errors of the recorded positions, normal with a standard deviation of M metres along
+    /// each axis: by simulation-extrapolation [default: no correction].
+    #[arg(long, value_name = "M", value_parser = number, allow_negative_numbers = true)]
+    position_error: Option<f64>,
     /// Judge the fit in the world: fit a style to the first two thirds of the recorded time, too, and simulate the last
     /// third with it N times, beside a constant chance, MOBIL and LMRS [default for N: 40].
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "40", value_parser = clap::value_parser!(u32).range(2..=10_000))]
@@ -91,6 +95,7 @@ fn formulas() -> impl TypedValueParser<Value = Formulas> {
 impl Arguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         self.check_lead()?;
+        self.check_position_error()?;
         let observed = self.request().observe()?;
         if self.plan {
             let plan = observed.plan();
@@ -129,6 +134,7 @@ impl Arguments {
             draws: self.draws,
             repetitions: self.repetitions,
             lead: self.lead,
+            position_error: self.position_error,
             seed: self.seed,
             ..Request::new(self.recordings.clone())
         }
@@ -142,6 +148,19 @@ impl Arguments {
                 "--lead",
                 format!("{lead} s is no time before a crossing"),
                 "choose 0 to 10 s",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_position_error(&self) -> Result<(), Fault> {
+        /// Largest error [m]: beyond it lanes are not told apart.
+        const LARGEST: f64 = 1.0;
+        match self.position_error {
+            Some(error) if !(error > 0.0 && error <= LARGEST) => Err(Fault::new(
+                "--position-error",
+                format!("{error} m is no error of positions that can be corrected"),
+                "choose more than 0, and 1 m at most",
             )),
             _ => Ok(()),
         }

@@ -207,6 +207,46 @@ fn the_papers_procedure_stands_beside_ours_when_it_is_asked_for() {
 }
 
 #[test]
+fn weights_are_corrected_for_errors_of_positions_whose_size_is_given() {
+    let corrected = |error: f64| {
+        let line = format!(
+            "fit tracks.csv --map maps/motorway_2_lanes.osm --draws 20 --repetitions 1 --position-error {error} --out corrected --json"
+        );
+        json(&FITTED.folder, &line)
+    };
+    let plain = json(&FITTED.folder, &format!("{FIT} --out corrected --json"));
+    assert!(plain["correction"].is_null());
+    let (small, usual) = (corrected(1e-6), corrected(0.1));
+    assert_eq!(number(&usual["correction"]["position_error_m"]), 0.1);
+    for (at, weight) in plain["weights"].as_array().expect("a list").iter().enumerate() {
+        let [estimate, error] = ["estimate", "standard_error"].map(|it| number(&weight[it]));
+        let of = |report: &Value| number(&report["weights"][at]["estimate"]);
+        assert_eq!(number(&usual["correction"]["uncorrected"][at]["estimate"]), estimate, "{weight}");
+        // Errors of a micrometre change nothing.
+        assert!((of(&small) - estimate).abs() < 0.05 * error, "{weight} {small}");
+        assert!(error == 0.0 || of(&usual) != estimate, "{weight}");
+    }
+    let style = FITTED.folder.read("corrected/fitted.toml");
+    let courtesy = number(&usual["weights"][3]["estimate"]);
+    assert!(style.contains(&format!("{courtesy}")), "{courtesy} {style}");
+}
+
+#[test]
+fn sites_are_held_out_where_there_are_several() {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad");
+    let names = ["USA_US101-26_1_T-1", "USA_US101-6_1_T-1", "USA_Lanker-1_3_T-1"];
+    let files = names.map(|it| format!("{data}/{it}.xml")).join(" ");
+    let report = json(&FITTED.folder, &format!("fit {files} --draws 0 --repetitions 1 --out sites --json"));
+    for model in report["held_out"].as_array().expect("a list") {
+        let elsewhere = &model["elsewhere"];
+        assert!(number(&elsewhere["over_constant"]).is_finite(), "{model}");
+        let is_constant = model["model"] == "constant";
+        assert_eq!(number(&elsewhere["over_constant"]) == 0.0, is_constant, "{model}");
+    }
+    assert!(FITTED.report["held_out"][2]["elsewhere"].is_null());
+}
+
+#[test]
 fn mistakes_are_refused_with_their_place_and_their_remedy() {
     let told = [
         ("fit tracks.csv", "tracks.csv: a recording needs the map of its location; add --map MAP"),
@@ -219,6 +259,10 @@ fn mistakes_are_refused_with_their_place_and_their_remedy() {
         ),
         ("fit tracks.csv --map maps/motorway_2_lanes.osm --classes many", "choose auto, or 1 to 6"),
         ("fit tracks.csv --map maps/motorway_2_lanes.osm --lead 30", "choose 0 to 10 s"),
+        (
+            "fit tracks.csv --map maps/motorway_2_lanes.osm --position-error 0",
+            "choose more than 0, and 1 m at most",
+        ),
         (
             "fit tracks.csv --map maps/motorway_2_lanes.osm --reading exact",
             "[possible values: literal, repaired]",

@@ -1,69 +1,46 @@
 //! Drivers who are seen by a drone: their positions, 25 times a second, with errors of 10 cm.
 
+use std::collections::BTreeMap;
+
 use laneweave::Fault;
 use laneweave::calibration::observe::{Known, Observations, Options, Origin, observe};
-use laneweave::calibration::waiting::{Assumptions, Design, Layout};
-use laneweave::calibration::{DesireModel, PlaceSpread, assumptions};
 use laneweave::models::Style;
-use laneweave::models::change::{LaneChangeModel, Mcdm};
 use laneweave::network::Network;
 use laneweave::recordings::{Drone, Matched, Recording, Watch, clean};
 use laneweave::sim::Navigator;
 
-use super::exact::traffic;
+use super::settings::Setting;
 use super::truth::Truth;
 
-/// The weights that are fitted; the threshold has its true value.
-pub(crate) const WEIGHTS: [&str; 3] = ["speed and route", "comfort", "courtesy"];
-
+/// The name of the style whose drivers are fitted.
+const FITTED: &str = "conservative";
 /// Frames per second.
 const FRAMES: f64 = 25.0;
 /// Errors of positions [m].
 pub(crate) const NOISE: f64 = 0.1;
 
-/// What a fit to one recording found.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen {
-    /// Lane changes of the recording, and of them those that are used.
-    pub(crate) changes: [usize; 2],
-    /// The estimates as shares of the true weights, and their standard errors.
-    pub(crate) shares: [f64; WEIGHTS.len()],
-    pub(crate) errors: [f64; WEIGHTS.len()],
-}
-
-impl Seen {
-    /// How many standard errors the estimate of a weight is off.
-    pub(crate) fn off(&self, weight: usize) -> f64 {
-        (self.shares[weight] - 1.0) / self.errors[weight]
-    }
-}
-
-/// What is supposed of the way from a decision to a change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Process {
-    /// Nothing is known: drivers wait for a gap, give up, and want changes for which nothing in the record speaks.
-    Waits,
-    /// A desire is carried out within its second. Some have no reason in the record.
-    AtOnce,
-    /// The same, and all have one: a plain logit.
-    PlainLogit,
-}
-
 /// Simulated drivers with the truth about them.
 pub(crate) struct Driven {
-    seed: u64,
+    pub(crate) seed: u64,
     /// The traffic, exactly.
     traffic: Recording,
     network: Network,
-    style: Style,
+    /// The names of the styles of all drivers.
+    styles: BTreeMap<i64, String>,
+    /// The parameters of all drivers.
+    driver_parameters: Vec<Style>,
+    /// The style that is fitted.
+    pub(crate) style: Style,
+    /// Whether rates of changes differ between places.
+    pub(crate) has_places: bool,
     /// What is true of the drivers.
     pub(crate) truth: Known,
 }
 
 impl Driven {
-    /// Those of one seed, its times multiplied by `length`.
-    pub(crate) fn of(seed: u64, length: f64) -> Result<Driven, Fault> {
-        let mut prepared = traffic().prepared(seed, length)?;
+    /// Those of `setting` with one seed, its times multiplied by `length`.
+    pub(crate) fn of(setting: &Setting, seed: u64, length: f64) -> Result<Driven, Fault> {
+        let mut prepared = setting.traffic.prepared(seed, length)?;
         let world = &mut prepared.world;
         (0..prepared.warmup_steps).for_each(|_| world.step());
         let (mut watch, mut truth) = (Watch::from_now(world), Truth::from_now(world));
@@ -72,19 +49,35 @@ impl Driven {
             truth.see(world);
             world.step();
         }
+        let (truth, styles) = truth.into_known();
+        let driver_parameters = world.driver_parameters().to_vec();
+        let style = driver_parameters.iter().find(|it| it.name == FITTED).cloned();
+        let none = || Fault::new("recovery", format!("nobody is {FITTED}"), "report this as a bug");
         Ok(Driven {
             seed,
             traffic: watch.into_recording(),
             network: world.network().clone(),
-            style: world.driver_parameters()[0].clone(),
-            truth: truth.known(),
+            styles,
+            driver_parameters,
+            has_places: setting.has_places,
+            style: style.ok_or_else(none)?,
+            truth,
         })
     }
 
     /// What a drone records of them, with errors of `noise` [m].
     pub(crate) fn recorded(&self, noise: f64) -> Recording {
-        let drone = Drone { noise, seed: self.seed + 1, ..Drone::exact(FRAMES) };
-        clean(drone.observe(&self.traffic)).0
+        clean(self.drone(noise).observe(&self.traffic)).0
+    }
+
+    /// The same with errors of [`NOISE`], to which others of `more` [m] are added, drawn with their own seed.
+    pub(crate) fn recorded_worse(&self, more: f64, seed: u64) -> Recording {
+        let drone = Drone { noise: more, seed: (self.seed << 16) + seed, ..Drone::exact(FRAMES) };
+        clean(drone.observe(&self.drone(NOISE).observe(&self.traffic))).0
+    }
+
+    fn drone(&self, noise: f64) -> Drone {
+        Drone { noise, seed: self.seed + 1, ..Drone::exact(FRAMES) }
     }
 
     /// The recording with the places of its vehicles.
@@ -92,7 +85,8 @@ impl Driven {
         Matched::new(&self.network, recording)
     }
 
-    /// What the recording shows of drivers of whom this is known. They are looked at `phases` times in a second.
+    /// What the recording shows of the drivers of the fitted style, of whom this is known. They are looked at `phases`
+    /// times in a second.
     pub(crate) fn observations(
         &self,
         matched: &Matched,
@@ -100,52 +94,28 @@ impl Driven {
         phases: u32,
     ) -> Result<Observations, Fault> {
         let options = Options { known, phases, ..Options::of(self.style.clone()) };
-        let seen = observe(matched, &Navigator::new(&self.network), &options, Origin::default());
+        let mut seen = self.all_observations(matched, &options)?;
+        seen.drivers.retain(|it| self.style_of(it.vehicle) == FITTED);
+        Ok(seen)
+    }
+
+    /// What the recording shows of all drivers.
+    pub(crate) fn all_observations(
+        &self,
+        matched: &Matched,
+        options: &Options,
+    ) -> Result<Observations, Fault> {
+        let seen = observe(matched, &Navigator::new(&self.network), options, Origin::default());
         seen.map_err(|error| Fault::new("recovery", error, "report this as a bug"))
     }
 
-    /// Fits the weights; the threshold is known.
-    pub(crate) fn fit(&self, observations: &Observations, process: Process) -> Result<Seen, Fault> {
-        let LaneChangeModel::Mcdm(model) = &self.style.change else {
-            return Err(Fault::new("recovery", "the drivers have no weights", "report this as a bug"));
-        };
-        let design = observations.design(&DesireModel::Mcdm { beta: model.comfort.beta });
-        let fit = design.fit(&assumed(&design, model, process), &vec![1.0; design.drivers.len()]);
-        let truth = [model.speed.weight, model.comfort.weight, model.courtesy.weight];
-        let at = |number: usize| fit.layout.slopes().start + number;
-        let truth = truth.map(|it| it / model.sigma);
-        Ok(Seen {
-            changes: [observations.changes.len(), observations.used().count()],
-            shares: [0, 1, 2].map(|it| fit.estimates[at(it)] / truth[it]),
-            errors: [0, 1, 2].map(|it| fit.standard_error(at(it)) / truth[it]),
-        })
+    /// The first driver parameters of the style with this name.
+    pub(crate) fn style(&self, name: &str) -> Option<&Style> {
+        self.driver_parameters.iter().find(|it| it.name == name)
     }
-}
 
-/// What is assumed in a fit: the threshold has its true value, and of the weights nothing is assumed.
-fn assumed(design: &Design, model: &Mcdm, process: Process) -> Assumptions {
-    /// A logit of a chance of 1.
-    const CERTAIN: f64 = 700.0;
-    let layout = Layout::of(design);
-    // The road has no places that differ.
-    let none = PlaceSpread { lanes: 1e-3, distances: 1e-3 };
-    let mut assumed = assumptions(design, &[0.0; 4], 1e3, &none);
-    let mut know = |parameter: usize, value: f64| {
-        assumed.prior.means[parameter] = value;
-        assumed.is_fixed[parameter] = true;
-    };
-    know(layout.intercept(), -model.theta / model.sigma);
-    know(layout.slopes().start + WEIGHTS.len(), 0.0);
-    know(layout.spread(), 0.0);
-    if process != Process::Waits {
-        layout.acceptance().for_each(|it| know(it, 0.0));
-        know(layout.acceptance().start, CERTAIN);
-        know(layout.waiting(), -CERTAIN);
-        know(layout.giving_up(), 0.0);
+    /// The name of the style of a driver.
+    pub(crate) fn style_of(&self, vehicle: i64) -> &str {
+        self.styles.get(&vehicle).map_or("", String::as_str)
     }
-    if process == Process::PlainLogit {
-        know(layout.background(), -CERTAIN);
-    }
-    assumed.has_spread = false;
-    assumed
 }

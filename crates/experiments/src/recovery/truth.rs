@@ -1,6 +1,7 @@
-//! What is true of simulated drivers: their desired speeds, when they decide, and when they begin to want a change.
+//! What is true of simulated drivers: their styles, their desired speeds, when they decide, and when they begin to want
+//! a change.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use laneweave::calibration::observe::{FreeTime, Known};
 use laneweave::sim::{Phase, Vehicle, World};
@@ -10,6 +11,8 @@ pub(super) struct Truth {
     /// The step at which the recording begins.
     first: u32,
     known: Known,
+    /// The names of the styles of all drivers, by the ids of their vehicles.
+    styles: BTreeMap<i64, String>,
     /// The vehicles whose drivers can begin to want a change now.
     free: BTreeSet<i64>,
 }
@@ -18,7 +21,7 @@ impl Truth {
     /// The truth from the present step of `world` on.
     pub(super) fn from_now(world: &World) -> Truth {
         let known = Known { free: Some(Default::default()), ..Known::default() };
-        Truth { first: world.clock().step, known, free: BTreeSet::new() }
+        Truth { first: world.clock().step, known, styles: BTreeMap::new(), free: BTreeSet::new() }
     }
 
     /// Notes what is true of all drivers now.
@@ -32,6 +35,7 @@ impl Truth {
         let (id, clock, driver) = (i64::from(vehicle.id()), world.clock(), vehicle.driver);
         let period = clock.steps(vehicle.style().attention.epoch);
         let turn = f64::from((driver.due + period - self.first % period) % period) * clock.dt;
+        self.styles.entry(id).or_insert_with(|| vehicle.style().name.clone());
         self.known.desired.insert(id, vehicle.style().speed_factor);
         self.known.turns.insert(id, turn);
         let time = f64::from(clock.step - self.first) * clock.dt;
@@ -48,8 +52,8 @@ impl Truth {
         }
     }
 
-    /// All that was noted.
-    pub(super) fn known(self) -> Known {
-        self.known
+    /// All that was noted, and the styles.
+    pub(super) fn into_known(self) -> (Known, BTreeMap<i64, String>) {
+        (self.known, self.styles)
     }
 }

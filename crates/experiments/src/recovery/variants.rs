@@ -6,7 +6,9 @@ use laneweave::study::mean;
 use laneweave::{Fault, in_parallel};
 
 use super::HALF;
-use super::drone::{Driven, NOISE, Process, Seen, WEIGHTS};
+use super::drone::{Driven, NOISE};
+use super::settings::Setting;
+use super::weights::{Process, Seen, WEIGHTS, WeightFit};
 use crate::effort::Effort;
 use crate::finding::{Row, markdown, quoted, text_of};
 
@@ -21,7 +23,7 @@ pub(crate) struct Variant {
     sides: Sides,
     process: Process,
     errors: Errors,
-    /// What the prototype found, in the order of [`WEIGHTS`]. Its drivers had eleven times the choice noise.
+    /// What the prototype found, in the order of [`WEIGHTS`], of drivers with choice noise.
     prototype: Option<&'static str>,
 }
 
@@ -167,9 +169,14 @@ pub(crate) const EXACT: Variant = Variant {
 };
 
 /// Fits by these variants to the recordings of so many seeds.
-pub(crate) fn fits(effort: &Effort, count: u64, variants: &[Variant]) -> Result<Vec<Vec<Seen>>, Fault> {
+pub(crate) fn fits(
+    setting: &Setting,
+    effort: &Effort,
+    count: u64,
+    variants: &[Variant],
+) -> Result<Vec<Vec<Seen>>, Fault> {
     let seeds: Vec<u64> = (1..=count).collect();
-    in_parallel(&seeds, effort.threads, |seed| fits_of(variants, &Driven::of(*seed, effort.length)?))
+    in_parallel(&seeds, effort.threads, |seed| fits_of(variants, &Driven::of(setting, *seed, effort.length)?))
 }
 
 /// Fits by these variants to the same drivers.
@@ -181,10 +188,9 @@ pub(crate) fn fits_of(variants: &[Variant], driven: &Driven) -> Result<Vec<Seen>
         for alike in alike.chunk_by(Variant::sees_as) {
             let seen = alike[0].observations(driven, &matched)?;
             for variant in alike {
-                fits.push(match variant.sides {
-                    Sides::Permitted => driven.fit(&seen, variant.process)?,
-                    Sides::WithSafeGap => driven.fit(&with_safe_gaps(seen.clone()), variant.process)?,
-                });
+                let safe = (variant.sides == Sides::WithSafeGap).then(|| with_safe_gaps(seen.clone()));
+                let seen = safe.as_ref().unwrap_or(&seen);
+                fits.push(WeightFit::of(driven, seen, variant.process)?.whole());
             }
         }
     }
@@ -238,12 +244,12 @@ fn with_safe_gaps(mut observations: Observations) -> Observations {
 }
 
 /// What each variant finds: rows of a finding.
-pub(crate) fn rows(fits: &[Vec<Seen>]) -> Vec<Row> {
+pub(crate) fn rows(setting: &str, fits: &[Vec<Seen>]) -> Vec<Row> {
     let mut rows = Vec::new();
     for (number, variant) in VARIANTS.iter().enumerate() {
         for (at, name) in WEIGHTS.iter().enumerate() {
             rows.push(Row {
-                what: format!("Seen by a drone, {}: weight of {name}", variant.name),
+                what: format!("Seen by a drone, {setting}, {}: weight of {name}", variant.name),
                 unit: "",
                 value: mean(&fits.iter().map(|it| it[number].shares[at]).collect::<Vec<f64>>()),
                 range: [f64::NEG_INFINITY, f64::INFINITY],

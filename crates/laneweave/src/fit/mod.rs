@@ -4,10 +4,12 @@
 //! says what they can tell; [`Observed::fit`] fits styles to them.
 
 mod accepted;
+mod correct;
 mod judge;
 #[cfg(feature = "reports")]
 mod page;
 mod plan;
+mod prediction;
 mod report;
 mod sources;
 mod style;
@@ -26,13 +28,13 @@ use laneweave_scenario::style::{StyleTemplate, find};
 use sources::Sources;
 
 pub use accepted::GapLimits;
+pub use correct::Correction;
 pub use judge::{Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
 #[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};
 pub use plan::{ExpectedWeight, Plan};
-pub use report::{
-    BetaReport, ByPaper, ClassReport, FitReport, HeldOut, Predictive, Spread, WeightReport, WithLead,
-};
+pub use prediction::{Elsewhere, HeldOut, Predictive};
+pub use report::{BetaReport, ByPaper, ClassReport, FitReport, Spread, WeightReport, WithLead};
 pub use style::{FITTED, FittedStyle};
 
 /// Times before the crossing at which changes may begin, for comparison [s].
@@ -63,6 +65,9 @@ pub struct Request {
     pub repetitions: u32,
     /// Time before the crossing at which changes begin [s]; `None`: as the recording shows it.
     pub lead: Option<f64>,
+    /// Standard deviation of the errors of recorded positions along each axis [m], for which weights are corrected;
+    /// `None`: they are not.
+    pub position_error: Option<f64>,
     /// Seed of all random numbers.
     pub seed: u64,
 }
@@ -82,6 +87,7 @@ impl Request {
             draws: 200,
             repetitions: 10,
             lead: None,
+            position_error: None,
             seed: 1,
         }
     }
@@ -189,8 +195,9 @@ impl Observed {
     pub fn fit(&self) -> Result<FitReport, Fault> {
         self.check_changes()?;
         let asked = self.asked();
-        let study = Study::of(&self.observations, &asked);
+        let (study, correction) = self.corrected(Study::of(&self.observations, &asked), &asked)?;
         let mut report = FitReport::of(self, &study)?;
+        report.correction = correction;
         if self.request.by_paper {
             report.by_paper =
                 by_paper(&self.observations, self.request.seed).iter().map(ByPaper::of).collect();
@@ -211,13 +218,17 @@ impl Observed {
         if self.observations.used().next().is_some() {
             return Ok(());
         }
-        let place = self.request.recordings.first().map_or(String::new(), |it| it.display().to_string());
+        let place = match &self.request.recordings[..] {
+            [] => String::new(),
+            [one] => one.display().to_string(),
+            [first, others @ ..] => format!("{} and {} other recordings", first.display(), others.len()),
+        };
         let (what, remedy) = match self.observations.changes.len() {
             0 => {
                 ("nobody changes lanes".to_owned(), "give longer recordings, or of roads with several lanes")
             }
             count => (
-                format!("none of its {count} lane changes can be used"),
+                format!("none of the {count} lane changes can be used"),
                 "see why with --plan, or give more recordings",
             ),
         };

@@ -4,7 +4,9 @@ use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
 use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
 use super::judge;
-use super::report::{FitReport, HeldOut, Spread};
+use super::prediction::HeldOut;
+use super::report::{FitReport, Spread};
+use super::words::{correction, with_interval};
 
 /// The report of a fit to the recordings with these names, made by `command`.
 pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
@@ -24,9 +26,14 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         ("Not identified", data.not_identified.join(", ")),
     ];
     let facts = facts.map(|(name, value)| (name.to_owned(), value)).to_vec();
+    let of_weights = Section::new("weights", "Weights").table(weights(report));
+    let of_weights = match &report.correction {
+        Some(it) => of_weights.text(correction(it)),
+        None => of_weights,
+    };
     let page = Page::new("Fit of driving styles", lead)
         .section(Section::new("what", "What was fitted").facts(facts).table(events(report)))
-        .section(Section::new("weights", "Weights").table(weights(report)).text(
+        .section(of_weights.text(
             "Intervals are those of a bootstrap over blocks of drivers who were seen at the same time, or of the information matrix if \
              there are no draws. A weight is not identified if its standard error is more than twice what matters: its prior value, or \
              what its interval leaves between it and zero; nor if more than .8 of its prior's variance is left. Between lanes that lead to the same place the yield of the route is one with \
@@ -39,15 +46,8 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         .section(Section::new("beta", "β of comfort").table(beta(report)).text(
             "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
              significantly, by 1.92 nats, on both sides.",
-        ))
-        .section(Section::new("held-out", "Predicting drivers who were not seen").figures(vec![figure(report, Sheet::Column)]).table(
-            held_out(report),
-        ).table(predictive(report)).text(
-            "A third of the drivers is held out in turn, again and again. All models but the first have the same intercepts of places: \
-             lane, side and distance before the next fork, since no recording shows the route of a driver before it takes it. The last \
-             one is a control: it is fitted to changes that are shuffled over all seconds.",
-        ))
-        ;
+        ));
+    let page = page.section(held_out_section(report));
     let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
     let page = match &report.judged {
         Some(judged) => page.section(judge::section(judged)),
@@ -186,6 +186,21 @@ fn figure(report: &FitReport, sheet: Sheet) -> Figure {
     }
 }
 
+fn held_out_section(report: &FitReport) -> Section {
+    let section = Section::new("held-out", "Predicting drivers who were not seen")
+        .figures(vec![figure(report, Sheet::Column)])
+        .table(held_out(report));
+    let section = match elsewhere(report) {
+        Some(table) => section.table(table),
+        None => section,
+    };
+    section.table(predictive(report)).text(
+        "A third of the drivers is held out in turn, again and again. All models but the first have the same intercepts of places: lane, \
+         side and distance before the next fork, since no recording shows the route of a driver before it takes it. The last one is a \
+         control: it is fitted to changes that are shuffled over all seconds.",
+    )
+}
+
 fn held_out(report: &FitReport) -> Table {
     let columns = [
         ("model", Align::Words),
@@ -195,18 +210,42 @@ fn held_out(report: &FitReport) -> Table {
         ("mcdm is", Align::Words),
     ];
     let mut table = Table::new("Held-out drivers [nats per lane change], with 95 % intervals.", &columns);
-    let text = |value: f64, [lower, upper]: [f64; 2]| format!("{value:.3} ({lower:.3} to {upper:.3})");
     for it in &report.held_out {
-        let is_mcdm = it.model == "mcdm";
-        table.row([
-            it.model.clone(),
-            format!("{:.3}", it.log_likelihood_per_event),
-            text(it.over_constant, it.over_constant_interval),
-            if is_mcdm { "–".to_owned() } else { text(it.mcdm_over_it, it.mcdm_over_it_interval) },
-            if is_mcdm { "–".to_owned() } else { it.mcdm_is.to_owned() },
-        ]);
+        let log = format!("{:.3}", it.log_likelihood_per_event);
+        let over = with_interval(it.over_constant, it.over_constant_interval);
+        let mcdm = with_interval(it.mcdm_over_it, it.mcdm_over_it_interval);
+        let [mcdm, verdict] = beside_mcdm(it, [mcdm, it.mcdm_is.to_owned()]);
+        table.row([it.model.clone(), log, over, mcdm, verdict]);
     }
     table
+}
+
+/// How multi-criteria decision-making compares with a model, unless it is that model.
+fn beside_mcdm(it: &HeldOut, cells: [String; 2]) -> [String; 2] {
+    if it.model == "mcdm" { ["–".to_owned(), "–".to_owned()] } else { cells }
+}
+
+/// Predictions for sites that were not seen, if there are several sites.
+fn elsewhere(report: &FitReport) -> Option<Table> {
+    let columns = [
+        ("model", Align::Words),
+        ("over a constant chance", Align::Numbers),
+        ("mcdm over it", Align::Numbers),
+        ("mcdm is", Align::Words),
+    ];
+    let mut table = Table::new(
+        "Sites that were held out [nats per lane change], with 95 % intervals. Only how often drivers change lanes is estimated at the \
+         site itself, for all models alike; of its places nothing is known.",
+        &columns,
+    );
+    for it in &report.held_out {
+        let elsewhere = it.elsewhere.as_ref()?;
+        let over = with_interval(elsewhere.over_constant, elsewhere.over_constant_interval);
+        let mcdm = with_interval(elsewhere.mcdm_over_it, elsewhere.mcdm_over_it_interval);
+        let [mcdm, verdict] = beside_mcdm(it, [mcdm, elsewhere.mcdm_is.to_owned()]);
+        table.row([it.model.clone(), over, mcdm, verdict]);
+    }
+    Some(table)
 }
 
 fn predictive(report: &FitReport) -> Table {

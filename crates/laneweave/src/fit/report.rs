@@ -1,16 +1,15 @@
 //! What a fit found, as plain data.
 
-use laneweave_calibration::measures::{
-    brier, calibration, log_likelihood_of_share, log_score, precision_recall_area, roc_area,
-};
 use laneweave_calibration::observe::Observations;
-use laneweave_calibration::{Candidate, Compared, Difference, Fitted, PaperGroup, Study};
+use laneweave_calibration::{Fitted, PaperGroup, Study};
 use laneweave_scenario::Fault;
 use serde::Serialize;
 
 use super::accepted::{Accepted, GapLimits};
+use super::correct::Correction;
 use super::judge::Judged;
 use super::plan::Plan;
+use super::prediction::{HeldOut, Predictive};
 use super::style::{FittedStyle, styles};
 use super::{Observed, words};
 
@@ -26,6 +25,9 @@ pub struct FitReport {
     pub weights: Vec<WeightReport>,
     /// θ in units of the choice noise, at a place of the mean intercept.
     pub theta: WeightReport,
+    /// The correction of θ and weights for errors of positions, if their size is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub correction: Option<Correction>,
     /// β of comfort.
     pub beta: BetaReport,
     /// The classes of drivers.
@@ -113,65 +115,6 @@ pub struct ClassReport {
     pub theta: f64,
     /// Its weights, in the order of all weights but the route's.
     pub weights: Vec<f64>,
-}
-
-/// How well a model predicts drivers who were not seen.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct HeldOut {
-    /// The model.
-    pub model: String,
-    /// Its log-likelihood of held-out drivers [nats per change].
-    pub log_likelihood_per_event: f64,
-    /// By how much it predicts better than a constant chance [nats per change], with the 95 % interval.
-    pub over_constant: f64,
-    /// The interval.
-    pub over_constant_interval: [f64; 2],
-    /// By how much multi-criteria decision-making predicts better than it [nats per change], with the 95 % interval.
-    pub mcdm_over_it: f64,
-    /// The interval.
-    pub mcdm_over_it_interval: [f64; 2],
-    /// Multi-criteria decision-making is `better` than it, `worse`, or `not distinguishable`.
-    pub mcdm_is: &'static str,
-}
-
-/// How good the predictions of single seconds are, of drivers who were not seen.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Predictive {
-    /// The model.
-    pub model: String,
-    /// Seconds, and the share of them in which a change began: what a prediction by chance has as the area of precision
-    /// over recall.
-    pub seconds: usize,
-    /// That share.
-    pub base_rate: f64,
-    /// 1 less the log-likelihood over that of a constant chance (McFadden).
-    pub mcfadden_r2: f64,
-    /// Area under the receiver operating characteristic.
-    pub roc_area: Option<f64>,
-    /// Area under the curve of precision over recall.
-    pub precision_recall_area: Option<f64>,
-    /// Mean squared error (Brier).
-    pub brier: f64,
-    /// Intercept and slope of a logit of the events on the logits of the predictions: 0 and 1 if they are right.
-    pub calibration: Option<[f64; 2]>,
-}
-
-impl Predictive {
-    fn of(candidate: &Candidate) -> Predictive {
-        let all = &candidate.predictions;
-        let events = all.iter().filter(|it| it.came).count();
-        let by_share = log_likelihood_of_share(all.len().max(1), events);
-        Predictive {
-            model: candidate.name.clone(),
-            seconds: all.len(),
-            base_rate: events as f64 / all.len().max(1) as f64,
-            mcfadden_r2: 1.0 - log_score(all) * all.len() as f64 / by_share,
-            roc_area: roc_area(all),
-            precision_recall_area: precision_recall_area(all),
-            brier: brier(all),
-            calibration: calibration(all),
-        }
-    }
 }
 
 /// What the paper's procedure finds of one group of vehicles.
@@ -268,6 +211,7 @@ impl FitReport {
             leads_s: observations.recordings.iter().map(|it| it.lead).collect(),
             weights: weights(observed, study),
             theta: weight(&study.theta),
+            correction: None,
             beta: BetaReport {
                 estimate: study.beta.beta,
                 interval: study.beta.interval,
@@ -275,7 +219,7 @@ impl FitReport {
                 profile: study.beta.profile.iter().map(|(beta, log)| [*beta, *log]).collect(),
             },
             classes: Vec::new(),
-            held_out: study.compared.iter().map(|it| held_out(it, observations)).collect(),
+            held_out: study.compared.iter().map(|it| HeldOut::of(it, observations)).collect(),
             predictive: study.compared.iter().map(|it| Predictive::of(&it.candidate)).collect(),
             by_paper: Vec::new(),
             by_lead: Vec::new(),
@@ -330,7 +274,7 @@ fn weight(it: &Fitted) -> WeightReport {
 }
 
 /// The weights; that of the route has the prior's proportion to that of speed.
-fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
+pub(super) fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
     let mut weights: Vec<WeightReport> = study.weights.iter().map(weight).collect();
     let prior = observed.weights();
     let ratio = if prior.speed > 0.0 { prior.route / prior.speed } else { 0.0 };
@@ -356,19 +300,4 @@ fn not_identified(study: &Study) -> Vec<&'static str> {
     let classes = study.mixture.is_none().then_some("classes");
     let always = ["route", "alpha"].into_iter();
     always.chain(weights.map(|it| it.name)).chain(beta).chain(classes).collect()
-}
-
-fn held_out(it: &Compared, observations: &Observations) -> HeldOut {
-    let used = observations.used().count().max(1) as f64;
-    let Difference { estimate: over_constant, interval: over_constant_interval } = it.over_constant;
-    let Difference { estimate: mcdm_over_it, interval: mcdm_over_it_interval } = it.mcdm_over_it;
-    HeldOut {
-        model: it.candidate.name.clone(),
-        log_likelihood_per_event: it.candidate.held_out.iter().sum::<f64>() / used,
-        over_constant,
-        over_constant_interval,
-        mcdm_over_it,
-        mcdm_over_it_interval,
-        mcdm_is: it.mcdm_over_it.verdict(),
-    }
 }

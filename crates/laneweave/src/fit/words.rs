@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::report::{ByPaper, FitReport, HeldOut, Spread, WeightReport};
+use super::correct::Correction;
+use super::prediction::HeldOut;
+use super::report::{ByPaper, FitReport, Spread, WeightReport};
 
 /// The report in words.
 pub(super) fn text_of(report: &FitReport) -> String {
@@ -30,6 +32,9 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
         "Weights are in units of the choice noise. Not identified: {}.",
         report.data.not_identified.join(", ")
     )?;
+    if let Some(it) = &report.correction {
+        writeln!(out, "{}", correction(it))?;
+    }
     if let [_, _, ..] = &report.classes[..] {
         writeln!(out, "\n{} classes of drivers:", report.classes.len())?;
         for it in &report.classes {
@@ -41,6 +46,10 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     writeln!(out, "\nPredicting drivers who were not seen [nats per lane change, 95 % interval]")?;
     writeln!(out, "  model       better than a constant chance       mcdm better than it by")?;
     report.held_out.iter().try_for_each(|it| write_held_out(it, out))?;
+    if report.held_out.iter().any(|it| it.elsewhere.is_some()) {
+        writeln!(out, "\nThe same for a site that was not seen, with its rate of changes known")?;
+        report.held_out.iter().try_for_each(|it| write_elsewhere(it, out))?;
+    }
     writeln!(out)?;
     write_spread("duration of a change [s]", report.durations_s.as_ref(), out)?;
     write_spread("gap to the new leader [m]", report.lead_gaps_m.as_ref(), out)?;
@@ -54,6 +63,17 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     )?;
     write_spread("desired speed of those who drove freely", report.desired_speed_factors.as_ref(), out)?;
     report.judged.as_ref().map_or(Ok(()), |it| out.write_str(&it.to_text()))
+}
+
+/// What was corrected, and from where.
+pub(super) fn correction(it: &Correction) -> String {
+    let each =
+        it.uncorrected.iter().map(|it| format!("{} {:.2} ± {:.2}", it.name, it.estimate, it.standard_error));
+    format!(
+        "Weights and theta (not those of classes) are corrected for errors of positions of {} m by simulation-extrapolation. Without: {}.",
+        it.position_error_m,
+        each.collect::<Vec<String>>().join(", ")
+    )
 }
 
 fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {
@@ -84,14 +104,26 @@ fn write_by_paper(it: &ByPaper, out: &mut String) -> std::fmt::Result {
 }
 
 fn write_held_out(it: &HeldOut, out: &mut String) -> std::fmt::Result {
-    let text = |value: f64, [lower, upper]: [f64; 2]| format!("{value:.3} ({lower:.3} to {upper:.3})");
-    let over = text(it.over_constant, it.over_constant_interval);
-    let mcdm = text(it.mcdm_over_it, it.mcdm_over_it_interval);
-    let verdict = match it.model.as_str() {
-        "mcdm" => String::new(),
-        _ => format!("  {mcdm}: {}", it.mcdm_is),
-    };
-    writeln!(out, "  {:10} {over:<34}{verdict}", it.model)
+    let over = with_interval(it.over_constant, it.over_constant_interval);
+    let mcdm = with_interval(it.mcdm_over_it, it.mcdm_over_it_interval);
+    write_prediction(&it.model, [&over, &mcdm, it.mcdm_is], out)
+}
+
+fn write_elsewhere(it: &HeldOut, out: &mut String) -> std::fmt::Result {
+    let Some(elsewhere) = &it.elsewhere else { return Ok(()) };
+    let over = with_interval(elsewhere.over_constant, elsewhere.over_constant_interval);
+    let mcdm = with_interval(elsewhere.mcdm_over_it, elsewhere.mcdm_over_it_interval);
+    write_prediction(&it.model, [&over, &mcdm, elsewhere.mcdm_is], out)
+}
+
+fn write_prediction(model: &str, [over, mcdm, verdict]: [&str; 3], out: &mut String) -> std::fmt::Result {
+    let verdict = if model == "mcdm" { String::new() } else { format!("  {mcdm}: {verdict}") };
+    writeln!(out, "  {model:10} {over:<34}{verdict}")
+}
+
+/// A number with its interval.
+pub(super) fn with_interval(value: f64, [lower, upper]: [f64; 2]) -> String {
+    format!("{value:.3} ({lower:.3} to {upper:.3})")
 }
 
 fn write_spread(what: &str, spread: Option<&Spread>, out: &mut String) -> std::fmt::Result {

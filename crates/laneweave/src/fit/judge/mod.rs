@@ -59,7 +59,8 @@ impl Observed {
         let observed = self.of(split.fitted)?;
         let asked = Asked { draws: rollouts.count.div_ceil(SAME_DRAW as u32), ..observed.asked() };
         observed.check_changes()?;
-        let report = FitReport::of(&observed, &Study::alone(&observed.observations, &asked))?;
+        let (study, _) = observed.corrected(Study::alone(&observed.observations, &asked), &asked)?;
+        let report = FitReport::of(&observed, &study)?;
         let shares = report.classes.iter().map(|it| it.share);
         let texts = report.styles.iter().map(|it| it.text.clone());
         let drivers = Drivers { styles: texts.zip(shares).collect(), draw: None };

@@ -1,0 +1,72 @@
+//! Weights without what errors of the recorded positions do to them.
+
+use laneweave_calibration::{Asked, Estimate, MULTIPLES, Study, extrapolated};
+use laneweave_recordings::{Drone, clean};
+use laneweave_scenario::Fault;
+use serde::Serialize;
+
+use super::Observed;
+use super::report::{WeightReport, weights};
+use super::sources::{Part, Sources};
+
+/// Recordings with more errors are made so often for each multiple of the variance (ours).
+const REPEATS: u64 = 4;
+
+/// A correction for errors of positions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Correction {
+    /// Standard deviation of the errors along each axis [m].
+    pub position_error_m: f64,
+    /// The weights without the correction.
+    pub uncorrected: Vec<WeightReport>,
+}
+
+impl Observed {
+    /// The study with the weights as they would be without errors of positions, if their size is known: by
+    /// simulation-extrapolation.
+    ///
+    /// # Errors
+    /// If the style's numbers make no sense for a driver.
+    pub(super) fn corrected(
+        &self,
+        study: Study,
+        asked: &Asked,
+    ) -> Result<(Study, Option<Correction>), Fault> {
+        let Some(position_error_m) = self.request.position_error else { return Ok((study, None)) };
+        let plain = self.with_errors(&study, asked, 0.0, 0)?;
+        let mut repeated: [Vec<Vec<Estimate>>; MULTIPLES.len()] = Default::default();
+        for (number, (all, multiple)) in repeated.iter_mut().zip(MULTIPLES).enumerate() {
+            for repeat in 0..REPEATS {
+                let seed = number as u64 * REPEATS + repeat;
+                all.push(self.with_errors(&study, asked, position_error_m * multiple.sqrt(), seed)?);
+            }
+        }
+        let of = |at: usize| {
+            extrapolated(plain[at], &repeated.each_ref().map(|it| it.iter().map(|it| it[at]).collect()))
+        };
+        let corrected: Vec<Estimate> = (0..plain.len()).map(of).collect();
+        let uncorrected = weights(self, &study);
+        let correction = Correction { position_error_m, uncorrected };
+        Ok((study.corrected(&plain, &corrected), Some(correction)))
+    }
+
+    /// Intercept and weights if all positions had `more` errors [m]. Speeds are those of a tracker, whatever `more` is.
+    fn with_errors(
+        &self,
+        study: &Study,
+        asked: &Asked,
+        more: f64,
+        seed: u64,
+    ) -> Result<Vec<Estimate>, Fault> {
+        let seed = self.request.seed.wrapping_add(seed);
+        let err = |it: &Part| {
+            let drone = Drone { noise: more, seed, ..Drone::exact(1.0 / it.recording.step) };
+            Part { recording: clean(drone.observe(&it.recording)).0, site: it.site }
+        };
+        let parts = self.sources.parts.iter().map(err).collect();
+        let maps = self.sources.sites.iter().map(|it| it.map.clone()).collect();
+        let sources = Sources::of(maps, parts);
+        let observations = sources.observations(&self.prior.typical, self.request.begin())?;
+        Ok(study.repeated(&observations, asked))
+    }
+}
