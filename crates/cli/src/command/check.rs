@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use laneweave::check::{GraphJson, Named, RecordingReport, Report, SetReport, extension, picture, tracks};
+use laneweave::check::{
+    GraphJson, Named, RecordingReport, Report, SetReport, explorer, extension, picture, tracks,
+};
 use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
@@ -21,7 +23,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "MAP|RECORDING", value_hint = ValueHint::FilePath, required = true)]
     files: Vec<PathBuf>,
     /// The map of the recording.
-    #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath, conflicts_with_all = ["graph", "svg"])]
+    #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath, conflicts_with_all = ["graph", "svg", "html"])]
     map: Option<PathBuf>,
     /// A TOML file that says what the columns of the recording hold.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "map")]
@@ -37,6 +39,10 @@ pub(crate) struct Arguments {
     /// Write a picture of the map to this file.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
+    /// Write a page to this file on which lanelets of the map are found by their ids: the picture, what is known of
+    /// each lanelet, entrances, exits and problems.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    html: Option<PathBuf>,
 }
 
 /// How a map is read.
@@ -119,9 +125,12 @@ impl Arguments {
         if let Some(path) = &self.graph {
             write_whole(path, &json(&GraphJson(&map))?)?;
         }
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
         if let Some(path) = &self.svg {
-            let name = file.file_name().unwrap_or_default().to_string_lossy();
             write_whole(path, &picture(&name, &map, &report.problems))?;
+        }
+        if let Some(path) = &self.html {
+            write_whole(path, &explorer(&name, &map, &report))?;
         }
         if self.json {
             return say(&json(&Both { map: report, recording })?);
@@ -145,7 +154,7 @@ impl Arguments {
 
     /// Checks before anything is written: no file replaces another one that is needed, and all have a folder.
     fn check_outputs(&self, file: &Path) -> Result<(), Fault> {
-        let outputs = [("--graph", &self.graph), ("--svg", &self.svg)];
+        let outputs = [("--graph", &self.graph), ("--svg", &self.svg), ("--html", &self.html)];
         let outputs: Vec<(&str, &PathBuf)> =
             outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_ref()?))).collect();
         let place = |path: &Path| std::path::absolute(path).unwrap_or(path.to_owned());

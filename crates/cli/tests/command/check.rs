@@ -54,6 +54,39 @@ fn check_writes_the_graph_and_a_picture() {
 }
 
 #[test]
+fn a_page_of_a_map_finds_lanelets_by_their_ids() {
+    let folder = Folder::new();
+    let karlsruhe = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2/karlsruhe.osm");
+    for map in ["MAPS/town.osm", karlsruhe] {
+        let report = answer(&folder, &format!("check {map} --json --html m.html"));
+        let page = folder.read("m.html");
+        assert!(!page.contains("{{") && !page.replace("http://www.w3.org", "").contains("://"), "{map}");
+        let (_, facts) = page.split_once("id=\"facts\">").expect("the facts");
+        let facts: Value =
+            serde_json::from_str(facts.split_once("</script>").expect("their end").0).expect("JSON");
+        let list = |it: &Value| it.as_array().expect("a list").clone();
+        let lanelets = list(&facts["lanelets"]);
+        assert_eq!(lanelets.len() as u64, report["lanelets"].as_u64().expect("a number"), "{map}");
+        for lanelet in &lanelets {
+            let id = lanelet["id"].as_str().expect("digits");
+            assert_eq!(page.matches(&format!("data-lanelet=\"{id}\"")).count(), 1, "{map}: {id}");
+            for next in list(&lanelet["next"]) {
+                let back = lanelets.iter().find(|it| it["id"] == next).expect("it is on the map");
+                assert!(list(&back["before"]).contains(&lanelet["id"]), "{map}: {id} {next}");
+            }
+        }
+        for (gates, own) in [("entrances", "entrance"), ("exits", "exit")] {
+            let named: Vec<String> = list(&report[gates]).iter().map(|it| it["id"].to_string()).collect();
+            assert_eq!(facts[gates], json!(named), "{map}");
+            assert!(named.iter().all(|it| lanelets.iter().any(|lanelet| lanelet[own] == json!(it))), "{map}");
+        }
+        assert_eq!(list(&facts["problems"]).len(), list(&report["problems"]).len(), "{map}");
+    }
+    let refused = refusal(&folder, "check MAPS/town.osm --html m.svg --svg m.svg");
+    assert!(refused.contains("m.svg is already used for another file of this command"), "{refused}");
+}
+
+#[test]
 fn compressed_maps_are_maps() {
     let text = fs::read(maps().join("on_ramp.osm")).unwrap();
     let mut packed = GzEncoder::new(Vec::new(), Compression::fast());

@@ -12,7 +12,7 @@ pub use evidence::{EvidenceReport, Forbidden, SeenAt, SeenOn};
 pub use graph::GraphJson;
 pub use laneweave_scenario::Remark;
 #[cfg(feature = "reports")]
-pub use picture::picture;
+pub use picture::{explorer, picture};
 pub use recording::{ChangeRow, RecordingReport, extension, tracks};
 pub use report::{Lit, Opening, Report};
 pub use set::{Named, SetReport};

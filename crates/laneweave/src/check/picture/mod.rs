@@ -1,6 +1,7 @@
 //! A picture of a map: lanes with their markings, entrances and exits, conflict areas, lights and problems. Parts
 //! that lie far from each other have panels of their own.
 
+mod explorer;
 mod panel;
 mod parts;
 
@@ -9,6 +10,7 @@ use std::collections::HashSet;
 use laneweave_maps::{Map, Problem};
 use laneweave_study::{escaped, text_width};
 
+pub use explorer::explorer;
 use panel::Panel;
 use parts::parts;
 
@@ -38,13 +40,13 @@ mod colours {
     pub(super) const CROSSWALK: &str = "#8d99a6";
 }
 
-/// The picture of a map as SVG, with a circle around each lanelet that `problems` name.
+/// The picture of a map as SVG, with a circle around each lanelet that `problems` name. It is as wide as what it is
+/// shown in; each lanelet says its id when it is pointed at.
 pub fn picture(title: &str, map: &Map, problems: &[Problem]) -> String {
     let (panels, height) = laid_out(map);
     let named: HashSet<&str> = problems.iter().map(|it| it.element.as_str()).collect();
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" \
-         height=\"{height:.0}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
          <text x=\"{MARGIN}\" y=\"30\" font-size=\"18\">{}</text>\n",
         escaped(title)

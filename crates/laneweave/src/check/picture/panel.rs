@@ -101,15 +101,8 @@ impl<'a> Panel<'a> {
     }
 
     fn lanes(&self, svg: &mut String) {
-        for index in &self.lanelets {
-            let [left, right] = borders(&self.map.network.lanelets[*index]);
-            let path = self.path(left.points().iter().chain(right.points().iter().rev()));
-            add(svg, format_args!("<path d=\"{path}Z\" fill=\"{}\"/>", colours::ROAD));
-            if !self.map.graph.conflicting[*index].is_empty() {
-                let colour = colours::CONFLICT;
-                add(svg, format_args!("<path d=\"{path}Z\" fill=\"{colour}\" fill-opacity=\"0.22\"/>"));
-            }
-        }
+        self.lanelets.iter().for_each(|it| self.surface(svg, *it));
+        svg.push_str("<g pointer-events=\"none\">\n");
         for lanelet in self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]) {
             for (side, border) in Side::BOTH.into_iter().zip(borders(lanelet)) {
                 let dashes = if lanelet.beside(side).is_some() { " stroke-dasharray=\"4 5\"" } else { "" };
@@ -122,6 +115,27 @@ impl<'a> Panel<'a> {
                 );
             }
         }
+        svg.push_str("</g>\n");
+    }
+
+    /// The area of a lanelet, which says what it is when it is pointed at.
+    fn surface(&self, svg: &mut String, index: usize) {
+        let lanelet = &self.map.network.lanelets[index];
+        let [left, right] = borders(lanelet);
+        let path = self.path(left.points().iter().chain(right.points().iter().rev()));
+        let (id, road, conflict) = (lanelet.id, colours::ROAD, colours::CONFLICT);
+        let (length, limit) = (lanelet.length(), lanelet.speed_limit * 3.6);
+        let over = match self.map.graph.conflicting[index].is_empty() {
+            true => String::new(),
+            false => format!("<path d=\"{path}Z\" fill=\"{conflict}\" fill-opacity=\"0.22\"/>"),
+        };
+        add(
+            svg,
+            format_args!(
+                "<g data-lanelet=\"{id}\"><title>lanelet {id}: {length:.0} m, {limit:.0} km/h</title>\
+                 <path d=\"{path}Z\" fill=\"{road}\"/>{over}</g>"
+            ),
+        );
     }
 
     /// Stop lines in the colour of their rule, and the lights themselves.
