@@ -12,6 +12,9 @@ use super::sources::{Part, Sources};
 /// Recordings with more errors are made so often for each multiple of the variance (ours).
 const REPEATS: u64 = 4;
 
+/// Added to the seed, so that errors are not those with which a virtual drone of the same seed made a recording.
+const OWN_SEEDS: u64 = 0x6f75_7273_0000_0000;
+
 /// A correction for errors of positions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Correction {
@@ -58,9 +61,9 @@ impl Observed {
         more: f64,
         seed: u64,
     ) -> Result<Vec<Estimate>, Fault> {
-        let seed = self.request.seed.wrapping_add(seed);
+        let drone = drone(more, self.request.seed.wrapping_add(seed));
         let err = |it: &Part| {
-            let drone = Drone { noise: more, seed, ..Drone::exact(1.0 / it.recording.step) };
+            let drone = Drone { frames_per_second: 1.0 / it.recording.step, ..drone };
             Part { recording: clean(drone.observe(&it.recording)).0, site: it.site }
         };
         let parts = self.sources.parts.iter().map(err).collect();
@@ -68,5 +71,40 @@ impl Observed {
         let sources = Sources::of(maps, parts);
         let observations = sources.observations(&self.prior.typical, self.request.begin())?;
         Ok(study.repeated(&observations, asked))
+    }
+}
+
+/// A drone that adds errors of `noise` [m].
+fn drone(noise: f64, seed: u64) -> Drone {
+    Drone { noise, seed: seed.wrapping_add(OWN_SEEDS), ..Drone::exact(1.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_recordings::{Recording, RoadUser, State, Track};
+
+    use super::*;
+
+    /// Errors that are those of the recording again would add up to more than their variances do.
+    #[test]
+    fn errors_are_not_those_of_a_recording_that_was_made_with_the_same_seed() {
+        let state = |frame: i64| State { frame, x: 10.0 * frame as f64, y: 0.0, speed: 10.0, heading: 0.0 };
+        let track = Track {
+            id: 1,
+            class: RoadUser::Car,
+            length: 4.5,
+            width: 1.8,
+            states: (0..400).map(state).collect(),
+        };
+        let exact = Recording { step: 1.0, tracks: vec![track] };
+        let errors = |drone: Drone| -> Vec<f64> {
+            drone.observe(&exact).tracks[0].states.iter().map(|it| it.y).collect()
+        };
+        let recorded = errors(Drone { noise: 0.1, seed: 1, ..Drone::exact(1.0) });
+        let added = errors(drone(0.1, 1));
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let correlation =
+            product(&recorded, &added) / (product(&recorded, &recorded) * product(&added, &added)).sqrt();
+        assert!(correlation.abs() < 0.2, "{correlation}");
     }
 }
