@@ -37,8 +37,8 @@ pub use laneweave_network::{LightState, Side};
 pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};
 pub use laneweave_scenario::{
-    Bottleneck, Capacity, Cause, Fault, Played, Player, Script, Source, did_you_mean, open_recording,
-    open_recordings, scenario, style,
+    Bottleneck, COMMAND_COLUMNS, Capacity, Cause, Fault, Played, Player, Script, Source, Written,
+    did_you_mean, open_recording, open_recordings, refused, scenario, style,
 };
 pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle,

@@ -22,7 +22,7 @@ mod size;
 pub mod xml;
 
 pub use check::check;
-pub use contents::Contents;
+pub use contents::{Contents, Marking, MarkingPaint};
 pub use drawing::Drawing;
 pub use error::MapError;
 pub use format::{FORMATS, Format, Law, Map, ReadOptions, load};

@@ -21,6 +21,18 @@ Examples:
   # One egoist to three altruists, after four minutes of warm-up; only the summary, as JSON
   laneweave run maps/ramps.osm --style egoistic=1 --style altruistic=3 --warmup 240 --json";
 
+pub(super) const VIEW: &str = "The page is served on this machine only. Its address carries a token: whoever knows it can do what you
+can do there.
+
+Examples:
+  # The demo
+  laneweave view
+  # A map of your own; scenarios with what was done by hand are saved in mine/
+  laneweave view maps/ramps.osm --save mine
+  # A run that has ended, to be looked at again
+  laneweave run maps/ramps.osm --duration 120
+  laneweave view out";
+
 pub(super) const EXPLAIN: &str =
     "The run is repeated; no log is needed. Vehicle ids and times are those of the tables.
 

@@ -21,6 +21,7 @@ mod shell;
 mod stop;
 mod styles;
 mod tips;
+mod view;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -48,6 +49,9 @@ enum Command {
     /// Simulate a scenario, or a bare map.
     #[command(after_help = examples::RUN)]
     Run(run::Arguments),
+    /// Show traffic on its map in the browser, in 3-D, with the reasons of its drivers, and change it while it drives.
+    #[command(after_help = examples::VIEW)]
+    View(view::Arguments),
     /// Explain why a driver of a run changed lanes, waited, or stayed in its lane.
     #[command(after_help = examples::EXPLAIN)]
     Explain(explain::Arguments),
@@ -107,6 +111,7 @@ impl Cli {
                 return run::run(&scenario, &origin, run::Screen::default(), started);
             }
             Some(Command::Run(arguments)) => return arguments.execute(started),
+            Some(Command::View(arguments)) => arguments.execute(),
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Compare(arguments)) => arguments.execute(),

@@ -86,6 +86,8 @@ fn shortened(command: &str, is_asked_about: bool) -> String {
         }
         // Experiments take minutes: the arguments are read, and nothing runs.
         Some("reproduce") => format!("{line} --help"),
+        // It ends when the user says so, and has tests of its own.
+        Some("view") => format!("{line} --help"),
         // Fits take a minute, and have tests of their own: only what a recording can tell is asked.
         Some("fit") if !line.contains("--plan") => format!("{line} --plan"),
         _ => line,

@@ -40,6 +40,8 @@ fn every_example_works() {
             let line = match line.split_whitespace().next() {
                 // Experiments take minutes: the arguments are read, and nothing runs.
                 Some("reproduce") => format!("{line} --help"),
+                // It ends when the user says so, and has tests of its own.
+                Some("view") => format!("{line} --help"),
                 // Fits take a minute, and have tests of their own.
                 Some("fit") if !line.contains("--plan") => format!("{line} --plan"),
                 // For other commands the results are used.

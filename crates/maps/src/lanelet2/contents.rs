@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 
 use laneweave_network::Point;
+use rayon::prelude::*;
 
 use super::lookup::Lookup;
 use super::orientation::reversals;
 use super::osm::{Document, Relation};
+use super::rules::marking;
 use super::sharing::{MAXIMUM_SHARING, Sharing};
-use crate::contents::Contents;
+use crate::contents::{Contents, Marking};
 use crate::problem::Problem;
 
 /// Counts the elements of a document by type and subtype, and finds its crosswalks.
@@ -44,8 +46,20 @@ pub(super) fn contents(document: &Document, lookup: &Lookup, problems: &mut Vec<
     Contents {
         counts: counts.into_iter().map(named).chain(elements).collect(),
         crosswalks,
+        markings: markings(document, lookup),
         ..Contents::default()
     }
+}
+
+/// All lines that can be seen.
+fn markings(document: &Document, lookup: &Lookup) -> Vec<Marking> {
+    let markings = document.ways.par_iter().filter_map(|way| {
+        let (paint, is_thick) = marking(document.tags(way.tags))?;
+        let nodes = document.nodes_of(way).iter();
+        let line: Vec<Point> = nodes.map(|it| lookup.point(*it)).collect::<Option<_>>()?;
+        (line.len() > 1).then_some(Marking { line, paint, is_thick })
+    });
+    markings.collect()
 }
 
 /// The indices of the left and the right border of a lanelet, if both exist.

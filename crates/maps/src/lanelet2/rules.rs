@@ -4,6 +4,7 @@
 
 use super::draw::Flaw;
 use super::osm::Tags;
+use crate::contents::MarkingPaint;
 use crate::drawing::{Crossing, Paint, Surroundings};
 
 /// The tags that allow, or forbid, a lanelet for cars; the first one given decides.
@@ -69,6 +70,25 @@ pub(super) fn subtype_and_location(surroundings: Surroundings) -> (&'static str,
 /// The visible form of a border with these tags.
 pub(super) fn paint(border: Tags) -> Paint {
     if border.is("type", "virtual") { Paint::Virtual } else { Paint::Painted }
+}
+
+/// What a way with these tags looks like: none, if it is virtual or no line at all.
+pub(super) fn marking(way: Tags) -> Option<(MarkingPaint, bool)> {
+    let paint = match way.get("type")? {
+        "line_thin" | "line_thick" => match way.get("subtype") {
+            Some("dashed") => MarkingPaint::Dashed,
+            Some("dashed_solid") => MarkingPaint::DashedSolid,
+            Some("solid_dashed") => MarkingPaint::SolidDashed,
+            Some("solid_solid") => MarkingPaint::SolidSolid,
+            Some("dashed_dashed") => MarkingPaint::DashedDashed,
+            _ => MarkingPaint::Solid,
+        },
+        "curbstone" => MarkingPaint::Curb,
+        "guard_rail" | "wall" | "fence" | "jersey_barrier" => MarkingPaint::Barrier,
+        "road_border" => MarkingPaint::Edge,
+        _ => return None,
+    };
+    Some((paint, way.is("type", "line_thick")))
 }
 
 /// The directions in which a border with these tags may be crossed, seen along its points.

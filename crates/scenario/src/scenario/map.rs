@@ -9,7 +9,10 @@ use super::{MapOptions, Origin, Scenario};
 use crate::fault::Fault;
 
 /// Reads the map of a scenario.
-pub(super) fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
+///
+/// # Errors
+/// If it cannot be read, or has no lanelet for vehicles.
+pub fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
     let options = ReadOptions::from(&scenario.map_options);
     let read = match origin.map {
         Some(text) => lanelet2::read(text.as_bytes(), &options),

@@ -27,7 +27,7 @@ use crate::style::{DEFAULT_MIXTURE, Model};
 pub use basis::Basis;
 pub use external::External;
 pub use headways::Headways;
-pub use map::open_map;
+pub use map::{open_map, read_map};
 pub use mixture::mixture;
 pub use origin::Origin;
 pub(crate) use prepare::LONGEST;

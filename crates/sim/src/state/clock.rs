@@ -30,7 +30,7 @@ impl Clock {
     }
 
     /// Whether a step begins at a whole second: work that is done once a second is done now.
-    pub(crate) fn begins_a_second(&self) -> bool {
+    pub fn begins_a_second(&self) -> bool {
         self.step.is_multiple_of(self.steps(1.0))
     }
 

@@ -233,7 +233,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The next vehicle within sight, on the route or beside it in a fork, wherever it comes from.
-    pub(crate) fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
+    pub fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
         self.walk(from).within(SIGHT).find_map(|Leg { chain, before, .. }| {
             let (first, beside) = match before {
                 Some(before) => (0, self.beyond_the_fork(before, chain, from.id)),

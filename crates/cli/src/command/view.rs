@@ -1,0 +1,130 @@
+//! `laneweave view`.
+
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+use clap::{Args, ValueHint};
+use laneweave::Fault;
+use laneweave::check::{extension, tracks};
+use laneweave::record::SCENARIO;
+use laneweave::scenario::{Origin, open_map};
+use laneweave_viewer::{Live, Page, Recorded, Rerun, Server, Source, Token};
+
+use super::check::Reading;
+use super::say;
+use super::stop::Stop;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// A scenario (.toml) or a map to simulate, the folder with the results of a run, or with --map a recording
+    /// (several that continue one another are joined) [default: the demo].
+    #[arg(value_name = "SCENARIO|MAP|OUT|RECORDING", value_hint = ValueHint::AnyPath)]
+    input: Vec<PathBuf>,
+    /// The map of the recording.
+    #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath, requires = "input")]
+    map: Option<PathBuf>,
+    /// A TOML file that says what the columns of the recording hold.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "map")]
+    columns: Option<PathBuf>,
+    #[command(flatten)]
+    options: Reading,
+    /// The port of the page [default: any free one].
+    #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
+    port: u16,
+    /// The address of this machine under which other machines see the page; whoever knows the address of the page can
+    /// do what you can do there.
+    #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    address: IpAddr,
+    /// Folder in which scenarios are saved with what was done by hand.
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, default_value = "saved")]
+    save: PathBuf,
+    /// Print the address of the page, and open no browser.
+    #[arg(long)]
+    no_browser: bool,
+}
+
+impl Arguments {
+    /// Serves the page until the user stops it.
+    pub(crate) fn execute(self) -> Result<(), Fault> {
+        if Page::embedded().is_none() {
+            let what = "this program was built without the page of the viewer";
+            let remedy = format!("build the page with Node: {}; then build the program again", Page::COMMAND);
+            return Err(Fault::new("view", what, remedy));
+        }
+        let source = self.source()?;
+        let stop = Stop::listen()?;
+        let address = SocketAddr::new(self.address, self.port);
+        let server = Server::start(source, address, Token::new()).map_err(|error| {
+            Fault::new(format!("view: {address}"), error, "choose another --port or --address")
+        })?;
+        say(&format!("{}\nCtrl-C ends it.\n", server.url()))?;
+        if !self.no_browser && open::that_detached(server.url()).is_err() {
+            eprintln!("no browser could be opened: open this address yourself");
+        }
+        while !stop.is_raised() {
+            thread::sleep(Duration::from_millis(50));
+        }
+        Ok(())
+    }
+
+    /// The traffic that is shown.
+    fn source(&self) -> Result<Box<dyn Source>, Fault> {
+        if let Some(map) = &self.map {
+            let options = self.options.options();
+            return Ok(Box::new(Recorded::open(&self.input, map, self.columns.as_deref(), &options)?));
+        }
+        let path = match &self.input[..] {
+            [] => {
+                let (scenario, origin) = Origin::demo()?;
+                return Ok(Box::new(Live::new(scenario, origin, self.save.clone())?));
+            }
+            [path] => path,
+            [_, second, ..] => {
+                let remedy = "add --map MAP if these are recordings, or give one of them";
+                return Err(Fault::new(second.display(), "one thing is shown at a time", remedy));
+            }
+        };
+        if path.is_dir() {
+            return run(path);
+        }
+        match extension(path).as_str() {
+            "csv" => {
+                Err(Fault::new(path.display(), "a recording needs the map of its location", "add --map MAP"))
+            }
+            "xml" => self.common_road(path),
+            _ => self.simulated(path),
+        }
+    }
+
+    /// A simulation that runs now.
+    fn simulated(&self, path: &Path) -> Result<Box<dyn Source>, Fault> {
+        let (mut scenario, origin) = Origin::open(path)?;
+        if extension(path) != "toml" {
+            scenario.map_options = self.options.options();
+        }
+        Ok(Box::new(Live::new(scenario, origin, self.save.clone())?))
+    }
+
+    /// A CommonRoad file may contain a recording beside its map.
+    fn common_road(&self, path: &Path) -> Result<Box<dyn Source>, Fault> {
+        let map = open_map(path, &self.options.options())?;
+        match tracks(path)? {
+            Some((recording, _)) => {
+                let title = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                Ok(Box::new(Recorded::new(title, &map, recording)?))
+            }
+            None => self.simulated(path),
+        }
+    }
+}
+
+/// A run that has ended.
+fn run(dir: &Path) -> Result<Box<dyn Source>, Fault> {
+    if !dir.join(SCENARIO).is_file() {
+        let what = "this folder has no results of a run";
+        return Err(Fault::new(dir.display(), what, "give the folder that laneweave run has written"));
+    }
+    Ok(Box::new(Rerun::open(dir)?))
+}

@@ -1,0 +1,245 @@
+//! The server: it gives the page and what it needs to those who may have it, on this machine only unless the user
+//! wants it otherwise.
+
+mod connection;
+mod guard;
+
+use std::io;
+use std::net::SocketAddr;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, mpsc};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::{Query, State, WebSocketUpgrade};
+use axum::http::{StatusCode, header};
+use axum::middleware;
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use serde::Deserialize;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{Semaphore, watch};
+
+use crate::asked::LONGEST;
+use crate::page::Page;
+use crate::snapshot::Snapshot;
+use crate::source::Source;
+use crate::stage::{Request, Stage};
+
+pub use guard::{Address, Token};
+
+/// Connections at the same time.
+const CONNECTIONS: usize = 64;
+/// Pages at the same time.
+const PAGES: usize = 16;
+/// Requests that wait for the stage.
+const REQUESTS: usize = 4096;
+/// A client that needs longer for the head of a request is cut off.
+const HEAD: Duration = Duration::from_secs(5);
+
+/// A server that runs.
+pub struct Server {
+    address: Address,
+    token: Token,
+    requests: mpsc::SyncSender<Request>,
+    stage: Option<JoinHandle<()>>,
+    sending: Option<JoinHandle<()>>,
+    stop: watch::Sender<bool>,
+}
+
+/// What requests need.
+struct Shared {
+    address: Address,
+    token: Token,
+    page: Option<Page>,
+    scene: Vec<u8>,
+    origin: [f64; 3],
+    requests: mpsc::SyncSender<Request>,
+    snapshots: watch::Receiver<Arc<Snapshot>>,
+    next_page: AtomicU64,
+    pages: AtomicUsize,
+}
+
+impl Server {
+    /// Serves `source` at `address`; port 0 is any free one.
+    ///
+    /// # Errors
+    /// If the address cannot be used.
+    pub fn start(source: Box<dyn Source>, address: SocketAddr, token: Token) -> io::Result<Server> {
+        let scene = source.scene();
+        let (requests, receiver) = mpsc::sync_channel(REQUESTS);
+        let (publisher, snapshots) = watch::channel(Arc::new(Snapshot::default()));
+        let listener = std::net::TcpListener::bind(address)?;
+        listener.set_nonblocking(true)?;
+        let address = Address::of(listener.local_addr()?);
+        let shared = Arc::new(Shared {
+            address: address.clone(),
+            token: token.clone(),
+            page: Page::embedded(),
+            scene: serde_json::to_vec(&scene)?,
+            origin: scene.origin,
+            requests: requests.clone(),
+            snapshots,
+            next_page: AtomicU64::new(1),
+            pages: AtomicUsize::new(0),
+        });
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let (stop, stopped) = watch::channel(false);
+        let stage = Stage::new(source, receiver, publisher);
+        let stage = thread::Builder::new().name("stage".into()).spawn(move || stage.run())?;
+        let sending = thread::Builder::new().name("sending".into()).spawn(move || {
+            runtime.block_on(async {
+                // A listener of the standard library that does not block is one of tokio's.
+                if let Ok(listener) = TcpListener::from_std(listener) {
+                    accept(listener, &shared, stopped).await;
+                }
+            });
+            runtime.shutdown_timeout(Duration::from_millis(200));
+        })?;
+        Ok(Server { address, token, requests, stage: Some(stage), sending: Some(sending), stop })
+    }
+
+    /// The address of the page, with its token.
+    pub fn url(&self) -> String {
+        format!("http://{}/?token={}", self.address, self.token)
+    }
+
+    /// The address and the port.
+    pub fn address(&self) -> &Address {
+        &self.address
+    }
+
+    /// Hash of all vehicles; none if the stage has ended.
+    pub fn state_hash(&self) -> Option<u64> {
+        let (answer, answered) = mpsc::channel();
+        self.requests.send(Request::Hash(answer)).ok()?;
+        answered.recv().ok()
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.stop.send_replace(true);
+        // A stage that has ended takes no request.
+        let _ = self.requests.send(Request::End);
+        for thread in [self.sending.take(), self.stage.take()].into_iter().flatten() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Accepts connections, each with its own task, until the server stops.
+async fn accept(listener: TcpListener, shared: &Arc<Shared>, mut stopped: watch::Receiver<bool>) {
+    let app = router(shared);
+    let room = Arc::new(Semaphore::new(CONNECTIONS));
+    loop {
+        let accepted = tokio::select! {
+            accepted = listener.accept() => accepted,
+            _ = stopped.changed() => return,
+        };
+        // A client that has gone already, or no more files for this process.
+        let Ok((stream, _)) = accepted else {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+            continue;
+        };
+        let Ok(place) = Arc::clone(&room).try_acquire_owned() else { continue };
+        let app = app.clone();
+        tokio::spawn(async move {
+            serve(stream, app).await;
+            drop(place);
+        });
+    }
+}
+
+/// Serves one connection. What goes wrong there ends it, and nothing else.
+async fn serve(stream: TcpStream, app: Router) {
+    // Frames go out at once.
+    let _ = stream.set_nodelay(true);
+    let service = TowerToHyperService::new(app);
+    let _ = http1::Builder::new()
+        .timer(TokioTimer::new())
+        .header_read_timeout(HEAD)
+        .max_buf_size(16 * 1024)
+        .serve_connection(TokioIo::new(stream), service)
+        .with_upgrades()
+        .await;
+}
+
+fn router(shared: &Arc<Shared>) -> Router {
+    Router::new()
+        .route("/", get(html))
+        .route("/page.js", get(script))
+        .route("/page.css", get(style))
+        .route("/scene.json", get(scene))
+        .route("/live", get(live))
+        .layer(middleware::from_fn_with_state(Arc::clone(shared), guard::check))
+        .with_state(Arc::clone(shared))
+}
+
+/// The part of an address after the question mark.
+#[derive(Deserialize)]
+struct Asks {
+    #[serde(default)]
+    token: String,
+}
+
+async fn html(State(shared): State<Arc<Shared>>) -> Response {
+    match shared.page {
+        Some(page) => file("text/html; charset=utf-8", page.html),
+        None => {
+            let text = format!(
+                "This program was built without the page. Build it with Node, then build the program again:\n\n  {}\n",
+                Page::COMMAND
+            );
+            (StatusCode::NOT_FOUND, text).into_response()
+        }
+    }
+}
+
+async fn script(State(shared): State<Arc<Shared>>) -> Response {
+    file("text/javascript; charset=utf-8", shared.page.map_or("", |it| it.script))
+}
+
+async fn style(State(shared): State<Arc<Shared>>) -> Response {
+    file("text/css; charset=utf-8", shared.page.map_or("", |it| it.style))
+}
+
+fn file(kind: &'static str, content: &'static str) -> Response {
+    ([(header::CONTENT_TYPE, kind)], content).into_response()
+}
+
+async fn scene(State(shared): State<Arc<Shared>>, Query(asks): Query<Asks>) -> Response {
+    if !shared.token.is(&asks.token) {
+        return guard::refused();
+    }
+    ([(header::CONTENT_TYPE, "application/json")], shared.scene.clone()).into_response()
+}
+
+async fn live(
+    State(shared): State<Arc<Shared>>,
+    Query(asks): Query<Asks>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    if !shared.token.is(&asks.token) {
+        return guard::refused();
+    }
+    if shared.pages.fetch_add(1, Ordering::Relaxed) >= PAGES {
+        shared.pages.fetch_sub(1, Ordering::Relaxed);
+        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages: close one of them").into_response();
+    }
+    let leaving = Arc::clone(&shared);
+    upgrade
+        .max_message_size(LONGEST)
+        .max_frame_size(LONGEST)
+        .on_failed_upgrade(move |_| {
+            leaving.pages.fetch_sub(1, Ordering::Relaxed);
+        })
+        .on_upgrade(move |socket| async move {
+            connection::serve(socket, &shared).await;
+            shared.pages.fetch_sub(1, Ordering::Relaxed);
+        })
+}

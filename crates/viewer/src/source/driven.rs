@@ -1,0 +1,204 @@
+//! A simulated world that is looked at.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use laneweave::network::LightIndex;
+use laneweave::scenario::{Origin, Prepared, Scenario, prepare_on, read_map};
+use laneweave::sim::{DriverState, Event, LaneChangeState, Vehicle, World};
+use laneweave::{Class, Fault, Phase, Side, VehicleId};
+
+use super::driver::{DriverFacts, desire};
+use super::lanes::Lanes;
+use super::{DemandFacts, Mark, StyleFacts, Wants, marks};
+use crate::scene::{Scene, Surroundings};
+use crate::snapshot::{Body, Seen, Snapshot};
+
+/// Brake lights are on below this acceleration [m/s²]: more than a vehicle loses by rolling. Ours.
+const BRAKES: f32 = -0.7;
+/// Brake lights are on below this speed [m/s]: the driver holds the vehicle.
+const HOLDS: f64 = 0.1;
+
+/// A scenario in simulation, and what was noted of it for the page.
+pub(super) struct Driven {
+    pub(super) scenario: Scenario,
+    pub(super) origin: Origin,
+    pub(super) prepared: Prepared,
+    title: String,
+    around: Surroundings,
+    lanes: Lanes,
+    /// When each vehicle has last changed lanes [s].
+    last_changes: HashMap<VehicleId, f64>,
+    /// The index of the style of each set of driver parameters.
+    style_of: Vec<u8>,
+}
+
+impl Driven {
+    /// The scenario at its start.
+    pub(super) fn new(scenario: Scenario, origin: Origin) -> Result<Driven, Fault> {
+        let map = read_map(&scenario, &origin)?;
+        let around = Surroundings::of(&map);
+        let prepared = prepare_on(map, &scenario, &origin)?;
+        let lanes = Lanes::of(prepared.world.network());
+        let name = scenario.map.file_name().unwrap_or(scenario.map.as_os_str());
+        let title = name.to_string_lossy().into_owned();
+        let last_changes = HashMap::new();
+        let mut driven =
+            Driven { scenario, origin, prepared, title, around, lanes, last_changes, style_of: Vec::new() };
+        driven.know_styles();
+        Ok(driven)
+    }
+
+    pub(super) fn world(&self) -> &World {
+        &self.prepared.world
+    }
+
+    pub(super) fn time_s(&self) -> f64 {
+        self.world().clock().time()
+    }
+
+    pub(super) fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    pub(super) fn scene(&self) -> Scene {
+        Scene::new(&self.title, self.world().network(), &self.around)
+    }
+
+    /// Finds the style of each set of driver parameters.
+    fn know_styles(&mut self) {
+        let names = &self.prepared.styles;
+        let index = |name: &str| names.iter().position(|(it, _)| it == name).unwrap_or(0) as u8;
+        self.style_of = self.prepared.world.driver_parameters().iter().map(|it| index(&it.name)).collect();
+    }
+
+    pub(super) fn styles(&self) -> Vec<StyleFacts> {
+        let drivers = self.world().driver_parameters();
+        self.prepared.styles.iter().map(|(name, _)| StyleFacts::of(name, drivers)).collect()
+    }
+
+    pub(super) fn demand(&self) -> Vec<DemandFacts> {
+        let now = self.time_s();
+        let facts = |it: &laneweave::sim::Origin| DemandFacts {
+            origin: it.place.id().to_string(),
+            vehicles_per_hour: it.rate.at(now),
+        };
+        self.world().demand().origins.iter().map(facts).collect()
+    }
+
+    /// Simulates a step, and notes what happened in it. Counts begin anew after the warm-up, as in a run.
+    pub(super) fn step(&mut self, marks: &mut Vec<Mark>) {
+        let Prepared { warmup_steps, .. } = self.prepared;
+        if self.world().clock().step == warmup_steps {
+            self.prepared.world.reset_counts();
+        }
+        self.prepared.step();
+        let Driven { prepared: Prepared { world, .. }, lanes, last_changes, .. } = self;
+        for event in world.events() {
+            match event {
+                Event::LaneChange(it) if it.is_completed => {
+                    last_changes.insert(it.vehicle, it.time);
+                    if let Some(lanelet) =
+                        world.network().lanelet_with(world.network().lanelet_at(it.from).0.id)
+                    {
+                        lanes.changed(lanelet.at());
+                    }
+                }
+                Event::Left { vehicle, .. } | Event::Removed { vehicle, .. } => {
+                    last_changes.remove(vehicle);
+                }
+                _ => {}
+            }
+        }
+        marks::look(world, marks);
+        lanes.look(world);
+        if self.style_of.len() != self.world().driver_parameters().len() {
+            self.know_styles();
+        }
+    }
+
+    /// Forgets what was noted: time has jumped.
+    pub(super) fn forget(&mut self) {
+        self.last_changes.clear();
+        self.lanes.clear();
+    }
+
+    /// Adds what can be seen now.
+    pub(super) fn see(&self, wants: &Wants, snapshot: &mut Snapshot) {
+        let world = self.world();
+        snapshot.time_s = self.time_s();
+        snapshot.waiting = world.waiting();
+        let scene = world.scene();
+        let lights = 0..world.network().junctions.lights.len() as u32;
+        snapshot.lights = lights.map(|it| scene.light(LightIndex(it))).collect();
+        snapshot.vehicles = world.vehicles().map(|it| self.seen(&it, wants)).collect();
+        for id in &wants.selected {
+            let vehicle = VehicleId::try_from(*id).ok().and_then(|it| world.vehicle(it));
+            let facts = vehicle.and_then(|it| serde_json::to_string(&DriverFacts::of(world, &it)).ok());
+            snapshot.drivers.extend(facts.map(|it| (*id, Arc::from(it))));
+        }
+        if wants.lanes {
+            snapshot.lanes = serde_json::to_string(&self.lanes.rows()).ok().map(Arc::from);
+        }
+    }
+
+    fn seen(&self, vehicle: &Vehicle, wants: &Wants) -> Seen {
+        let (pose, [length, width], driver) = (vehicle.pose(), vehicle.size(), vehicle.driver);
+        let is_desire_wanted = wants.desire && vehicle.is_in_lane();
+        Seen {
+            id: i64::from(vehicle.id()),
+            at: [pose.at.x, pose.at.y, pose.at.z],
+            heading: pose.heading,
+            speed: vehicle.speed(),
+            length,
+            width,
+            body: body(driver.class),
+            style: self.style_of.get(driver.parameters as usize).copied().unwrap_or_default(),
+            phase: driver.phase as u8,
+            is_braking: vehicle.motion.acceleration < BRAKES || vehicle.speed() < HOLDS,
+            signals: signals(driver, vehicle.lane_change),
+            is_external: driver.is_external,
+            is_recorded: false,
+            values: [
+                if is_desire_wanted { desire(self.world(), vehicle.spot) } else { 0 },
+                self.delay(vehicle),
+                self.since_change(vehicle.id()),
+            ],
+        }
+    }
+
+    /// The delay of a vehicle as the byte of a frame.
+    fn delay(&self, vehicle: &Vehicle) -> u8 {
+        let Some(trip) = self.world().trip(vehicle.id()) else { return 0 };
+        let desired = f64::from(vehicle.driver.desired).max(1.0);
+        let free = (trip.way_to_start + vehicle.x()) / desired;
+        let lost = self.time_s() - trip.entered - free;
+        1 + (lost / 2.0).round().clamp(0.0, 253.0) as u8
+    }
+
+    /// Time since the last lane change of a vehicle, as the byte of a frame.
+    fn since_change(&self, vehicle: VehicleId) -> u8 {
+        let since = self.last_changes.get(&vehicle).map(|it| self.time_s() - it);
+        since.map_or(u8::MAX, |it| 1 + it.round().clamp(0.0, 253.0) as u8)
+    }
+
+    /// Where a vehicle is [m].
+    pub(super) fn find(&self, id: i64) -> Option<[f64; 2]> {
+        let pose = self.world().vehicle(VehicleId::try_from(id).ok()?)?.pose();
+        Some([pose.at.x, pose.at.y])
+    }
+}
+
+fn body(class: Class) -> Body {
+    match class {
+        Class::Car => Body::Car,
+        Class::Truck => Body::Truck,
+        Class::Bus => Body::Bus,
+        Class::Motorcycle => Body::Motorcycle,
+    }
+}
+
+/// The side to which a driver signals: it wants to change there, or does.
+fn signals(driver: &DriverState, lane_change: &LaneChangeState) -> Option<Side> {
+    matches!(driver.phase, Phase::Wants | Phase::Changes).then_some(lane_change.side)
+}

@@ -1,0 +1,356 @@
+//! The thread that owns the traffic: it lets time go on, does what pages ask for, and publishes snapshots. It waits for
+//! no page.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use laneweave::Fault;
+use serde::Serialize;
+use tokio::sync::{mpsc, watch};
+
+use crate::asked::Asked;
+use crate::snapshot::{Colour, Snapshot};
+use crate::source::{Mark, Source, Wants};
+
+/// Time between two snapshots at least.
+const PUBLISHES: Duration = Duration::from_millis(50);
+/// Time for steps between two looks at what pages ask for.
+const WORKS: Duration = Duration::from_millis(25);
+/// If the simulation is behind by more than this, it does not try to catch up.
+const LATE: Duration = Duration::from_millis(300);
+/// Time between two messages about marks that are still being looked for.
+const MARKS: Duration = Duration::from_secs(1);
+
+/// The number of a page that is connected.
+pub type PageId = u64;
+
+/// Something that reaches the stage.
+#[derive(Debug)]
+pub enum Request {
+    /// A page comes. It is told things here.
+    Comes(PageId, mpsc::Sender<Arc<str>>),
+    /// It asks for something.
+    Asks(PageId, Asked),
+    /// It goes.
+    Goes(PageId),
+    /// Answers with the hash of all vehicles.
+    Hash(std::sync::mpsc::Sender<u64>),
+    /// The program ends.
+    End,
+}
+
+/// A page that is connected.
+struct Page {
+    says: mpsc::Sender<Arc<str>>,
+    selected: Vec<i64>,
+    wants_desire: bool,
+    wants_lanes: bool,
+}
+
+/// How time goes on.
+enum Pace {
+    /// It does not.
+    Paused,
+    /// With a factor of reality. It was this time of the simulation [s] at that instant.
+    Factor { factor: f64, from_s: f64, at: Instant },
+    /// As fast as it goes.
+    Unlimited,
+}
+
+/// The stage.
+pub struct Stage {
+    source: Box<dyn Source>,
+    requests: Receiver<Request>,
+    snapshots: watch::Sender<Arc<Snapshot>>,
+    pages: BTreeMap<PageId, Page>,
+    pace: Pace,
+    /// Number of the last snapshot, and when it was published.
+    published: (u32, Instant),
+    /// Whether something has changed since.
+    is_new: bool,
+    /// When marks were last told, and up to which time they were known [s].
+    marks_told: (Instant, f64),
+}
+
+impl Stage {
+    /// The stage for a source, which gets requests and publishes snapshots. Time stands until a page lets it go on.
+    pub fn new(
+        source: Box<dyn Source>,
+        requests: Receiver<Request>,
+        snapshots: watch::Sender<Arc<Snapshot>>,
+    ) -> Stage {
+        let now = Instant::now();
+        Stage {
+            source,
+            requests,
+            snapshots,
+            pages: BTreeMap::new(),
+            pace: Pace::Paused,
+            published: (0, now - PUBLISHES),
+            is_new: true,
+            marks_told: (now, -1.0),
+        }
+    }
+
+    /// Runs until the program ends.
+    pub fn run(mut self) {
+        loop {
+            match self.requests.recv_timeout(self.pause()) {
+                Ok(Request::End) | Err(RecvTimeoutError::Disconnected) => return,
+                Ok(request) => self.take(request),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            self.go_on();
+            self.tell_marks();
+            self.publish();
+        }
+    }
+
+    /// How long nothing has to be done, unless somebody asks for something.
+    fn pause(&self) -> Duration {
+        let due = match self.pace {
+            Pace::Paused => PUBLISHES,
+            Pace::Unlimited => Duration::ZERO,
+            Pace::Factor { factor, from_s, at } => {
+                let next = self.source.time_s() + self.source.step_s() - from_s;
+                Duration::from_secs_f64((next / factor).max(0.0)).saturating_sub(at.elapsed())
+            }
+        };
+        due.min(PUBLISHES)
+    }
+
+    fn take(&mut self, request: Request) {
+        match request {
+            Request::Comes(id, says) => self.welcome(id, says),
+            Request::Goes(id) => {
+                self.pages.remove(&id);
+            }
+            Request::Asks(id, asked) => {
+                let done = self.serve(id, asked);
+                if let Err(fault) = done {
+                    self.tell(id, &Message::refused(&fault));
+                }
+            }
+            // Who asked may have gone.
+            Request::Hash(answer) => drop(answer.send(self.source.state_hash())),
+            Request::End => {}
+        }
+    }
+
+    fn welcome(&mut self, id: PageId, says: mpsc::Sender<Arc<str>>) {
+        let page = Page { says, selected: Vec::new(), wants_desire: false, wants_lanes: false };
+        self.pages.insert(id, page);
+        self.tell(id, &Message { hello: Some(self.source.hello()), ..Message::default() });
+        self.tell(id, &Message { hands: Some(self.source.done()), ..Message::default() });
+        self.marks_told.1 = -1.0;
+        self.is_new = true;
+    }
+
+    fn serve(&mut self, id: PageId, asked: Asked) -> Result<(), Fault> {
+        self.is_new = true;
+        match asked {
+            Asked::Play(None) => self.pace = Pace::Unlimited,
+            Asked::Play(Some(factor)) => self.play(factor),
+            Asked::Pause(_) => self.pace = Pace::Paused,
+            Asked::Step(steps) => {
+                self.pace = Pace::Paused;
+                (0..steps).for_each(|_| self.step());
+            }
+            Asked::Seek(time_s) => {
+                self.source.seek(time_s)?;
+                if let Pace::Factor { factor, .. } = self.pace {
+                    self.play(factor);
+                }
+            }
+            Asked::Find(vehicle) => self.find(id, vehicle),
+            Asked::Hand(hand) => {
+                self.source.hand(&hand)?;
+                self.tell_hands();
+            }
+            Asked::Undo(_) => {
+                self.source.undo()?;
+                self.tell_hands();
+            }
+            Asked::Save(_) => {
+                let saved = Some(self.source.save()?);
+                self.tell(id, &Message { saved, ..Message::default() });
+            }
+            of_page => self.note(id, of_page),
+        }
+        Ok(())
+    }
+
+    /// Notes what a page wants to see.
+    fn note(&mut self, id: PageId, asked: Asked) {
+        let Some(page) = self.pages.get_mut(&id) else { return };
+        match asked {
+            Asked::Select(ids) => page.selected = ids.iter().filter_map(|it| it.parse().ok()).collect(),
+            Asked::Colour(colour) => page.wants_desire = colour == Colour::Desire,
+            Asked::Lanes(wants) => page.wants_lanes = wants,
+            // The connection itself does the rest.
+            _ => {}
+        }
+    }
+
+    fn find(&mut self, id: PageId, vehicle: String) {
+        let at = vehicle.parse().ok().and_then(|it| self.source.find(it));
+        let [x, y] = [0, 1].map(|axis| at.map(|it| it[axis]));
+        self.tell(id, &Message { found: Some(Found { id: vehicle, x, y }), ..Message::default() });
+    }
+
+    fn play(&mut self, factor: f64) {
+        self.pace = Pace::Factor { factor, from_s: self.source.time_s(), at: Instant::now() };
+    }
+
+    /// Lets time go on as far as it should.
+    fn go_on(&mut self) {
+        let started = Instant::now();
+        match self.pace {
+            Pace::Paused => {}
+            Pace::Unlimited => {
+                while started.elapsed() < WORKS && !self.source.has_ended() {
+                    self.step();
+                }
+            }
+            Pace::Factor { factor, from_s, at } => {
+                let due = from_s + at.elapsed().as_secs_f64() * factor;
+                let step = self.source.step_s();
+                while self.source.time_s() + step <= due
+                    && started.elapsed() < WORKS
+                    && !self.source.has_ended()
+                {
+                    self.step();
+                }
+                if due - self.source.time_s() > LATE.as_secs_f64() * factor + step {
+                    self.play(factor);
+                }
+            }
+        }
+        if self.source.has_ended() && !matches!(self.pace, Pace::Paused) {
+            self.pace = Pace::Paused;
+            self.is_new = true;
+        }
+    }
+
+    fn step(&mut self) {
+        let mut marks = Vec::new();
+        if let Err(fault) = self.source.step(&mut marks) {
+            self.tell_all(&Message::refused(&fault));
+        }
+        if !marks.is_empty() {
+            self.tell_all(&Message { events: Some(marks), ..Message::default() });
+        }
+        self.is_new = true;
+    }
+
+    fn tell_hands(&mut self) {
+        self.tell_all(&Message { hands: Some(self.source.done()), ..Message::default() });
+    }
+
+    /// Tells the marks that are known by now, as long as there are new ones.
+    fn tell_marks(&mut self) {
+        let Some(marks) = self.source.marks() else { return };
+        let (told, until) = self.marks_told;
+        if self.pages.is_empty() || (until >= 0.0 && told.elapsed() < MARKS) {
+            return;
+        }
+        let marks = marks.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if marks.until_s > until {
+            self.marks_told = (Instant::now(), marks.until_s);
+            let text = Message { marks: Some(&marks), ..Message::default() }.text();
+            drop(marks);
+            self.tell_text(&text);
+        }
+    }
+
+    /// Publishes what can be seen, if it is new and somebody looks.
+    fn publish(&mut self) {
+        let (number, at) = self.published;
+        if !self.is_new || at.elapsed() < PUBLISHES || self.pages.is_empty() {
+            return;
+        }
+        let selected = self.pages.values().flat_map(|it| it.selected.iter().copied()).collect();
+        let wants = Wants {
+            desire: self.pages.values().any(|it| it.wants_desire),
+            lanes: self.pages.values().any(|it| it.wants_lanes),
+            selected,
+        };
+        let factor = match self.pace {
+            Pace::Factor { factor, .. } => Some(factor),
+            _ => None,
+        };
+        let is_playing = !matches!(self.pace, Pace::Paused);
+        let mut snapshot =
+            Snapshot { number: number.wrapping_add(1), is_playing, factor, ..Snapshot::default() };
+        self.source.see(&wants, &mut snapshot);
+        self.published = (snapshot.number, Instant::now());
+        self.is_new = false;
+        self.snapshots.send_replace(Arc::new(snapshot));
+    }
+
+    fn tell(&mut self, id: PageId, message: &Message) {
+        let text = message.text();
+        if let Some(page) = self.pages.get(&id)
+            && page.says.try_send(text).is_err()
+        {
+            // It does not listen: it is cut off, and may come again.
+            self.pages.remove(&id);
+        }
+    }
+
+    fn tell_all(&mut self, message: &Message) {
+        self.tell_text(&message.text());
+    }
+
+    fn tell_text(&mut self, text: &Arc<str>) {
+        self.pages.retain(|_, it| it.says.try_send(Arc::clone(text)).is_ok());
+    }
+}
+
+/// What is said to pages. One of its fields is set.
+#[derive(Default, Serialize)]
+struct Message<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hello: Option<crate::source::Hello>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hands: Option<Vec<crate::source::Done>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    saved: Option<crate::source::Saved>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    found: Option<Found>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    events: Option<Vec<Mark>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    marks: Option<&'a crate::source::Marks>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<Refused>,
+}
+
+#[derive(Serialize)]
+struct Found {
+    id: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    y: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Refused {
+    what: String,
+    remedy: String,
+}
+
+impl Message<'_> {
+    fn refused(fault: &Fault) -> Message<'static> {
+        let Fault { place, what, remedy, .. } = fault;
+        let refused = Refused { what: format!("{place}: {what}"), remedy: remedy.clone() };
+        Message { refused: Some(refused), ..Message::default() }
+    }
+
+    fn text(&self) -> Arc<str> {
+        serde_json::to_string(self).unwrap_or_default().into()
+    }
+}
