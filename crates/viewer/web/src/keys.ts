@@ -1,0 +1,57 @@
+import type { Rig } from './camera/rig.ts';
+import { toggle } from './panels/driver_panel.ts';
+import type { TimeControls } from './panels/time_controls.ts';
+import type { State } from './state.ts';
+
+const PAN = 0.12;
+const ZOOM = 1.25;
+const TURN = 0.2;
+
+type Moves = Record<string, () => void>;
+
+/** Whether a key press belongs to a field, a list or a slider. */
+export function isForField(event: KeyboardEvent): boolean {
+  const target = event.target as HTMLElement;
+  return target.matches('input, select, textarea, [role=slider]') && !(event.key === 'Escape');
+}
+
+/** The keys of the whole page. */
+export function listenToKeys(state: State, rig: Rig, time: TimeControls, wholeMap: () => void): void {
+  const pan = (right: number, ahead: number) => () => rig.pan(right * rig.goal.distance * PAN, ahead * rig.goal.distance * PAN);
+  const moves: Moves = {
+    ArrowUp: pan(0, 1),
+    ArrowDown: pan(0, -1),
+    ArrowLeft: pan(-1, 0),
+    ArrowRight: pan(1, 0),
+    w: pan(0, 1),
+    s: pan(0, -1),
+    a: pan(-1, 0),
+    d: pan(1, 0),
+    '+': () => rig.zoom(1 / ZOOM),
+    '=': () => rig.zoom(1 / ZOOM),
+    '-': () => rig.zoom(ZOOM),
+    q: () => rig.turn(-TURN, 0),
+    e: () => rig.turn(TURN, 0),
+    r: () => rig.turn(0, -TURN),
+    t: () => rig.turn(0, TURN),
+    Home: wholeMap,
+    f: () => toggle(state, 'follow'),
+    v: () => toggle(state, 'eye'),
+    ' ': () => time.toggle(),
+    '.': () => state.say({ step: 1 }),
+    '[': () => time.shift(-1),
+    ']': () => time.shift(1),
+    n: () => state.isNight.set(!state.isNight.value),
+    Escape: () => state.choose([]),
+  };
+  window.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || isForField(event) || event.defaultPrevented) return;
+    const isButton = (event.target as HTMLElement).matches('button, summary');
+    if (isButton && (event.key === ' ' || event.key === 'Enter')) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const move = moves[key];
+    if (!move) return;
+    event.preventDefault();
+    move();
+  });
+}

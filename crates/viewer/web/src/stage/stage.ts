@@ -1,0 +1,54 @@
+import { LinearSRGBColorSpace, Scene as Graph, WebGLRenderer } from 'three';
+import { Rig } from '../camera/rig.ts';
+import { atmosphere } from './atmosphere.ts';
+import { Ground } from './ground.ts';
+import { Sky } from './sky.ts';
+
+const MOST_PIXELS_PER_POINT = 2;
+/** A picture with more pixels than this is drawn smaller and stretched. */
+const MOST_PIXELS = 9_000_000;
+
+/** The picture: canvas, camera, sky and ground. */
+export class Stage {
+  readonly graph = new Graph();
+  readonly rig = new Rig();
+  readonly renderer: WebGLRenderer;
+  private readonly sky = new Sky();
+  private ground: Ground | null = null;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.sortObjects = true;
+    this.graph.matrixWorldAutoUpdate = true;
+    this.graph.add(this.sky.mesh);
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  /** Lays the ground at a height. */
+  layGround(height: number): void {
+    this.ground = new Ground(height);
+    this.graph.add(this.ground.mesh);
+  }
+
+  draw(): void {
+    const { camera, now } = this.rig;
+    this.sky.update(camera);
+    this.ground?.update(now.x, now.y);
+    atmosphere.fogRange.value.set(Math.max(now.distance * 2.2, 900), Math.max(now.distance * 9, 5500));
+    this.renderer.render(this.graph, camera);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) return;
+    const sharpness = Math.min(devicePixelRatio, MOST_PIXELS_PER_POINT, Math.sqrt(MOST_PIXELS / (width * height)));
+    this.renderer.setPixelRatio(sharpness);
+    this.renderer.setSize(width, height, false);
+    const { camera } = this.rig;
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    atmosphere.pixel.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / height;
+  }
+}

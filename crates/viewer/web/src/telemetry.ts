@@ -1,0 +1,64 @@
+import type { State } from './state.ts';
+import type { TrafficView } from './traffic_view.ts';
+
+const FRAMES = 120;
+const VEHICLES_EVERY = 30;
+
+/** What tests and the curious read from `window.laneweave`. */
+export interface Published {
+  ready: boolean;
+  drawCalls: number;
+  /** The median of the last pictures. */
+  scriptMs: number;
+  scriptMsWorst: number;
+  fps: number;
+  vehicles: number;
+  time_s: number;
+  selected: string[];
+  camera: { mode: string; x: number; y: number; distance: number; azimuth: number; tilt: number };
+}
+
+declare global {
+  interface Window {
+    laneweave?: Published;
+  }
+}
+
+/** Measures how long pictures take. */
+export class Telemetry {
+  fps = 60;
+  private readonly script = new Float64Array(FRAMES);
+  private readonly sorted = new Float64Array(FRAMES);
+  private noted = 0;
+  private drawCalls = 0;
+  private vehicles = 0;
+
+  note(script_ms: number, whole_ms: number, drawCalls: number): void {
+    this.script[this.noted % FRAMES] = script_ms;
+    this.noted += 1;
+    this.drawCalls = drawCalls;
+    if (whole_ms > 0) this.fps += (1000 / whole_ms - this.fps) * 0.05;
+  }
+
+  publish(view: TrafficView, state: State): void {
+    if (this.noted % VEHICLES_EVERY !== 1) {
+      if (window.laneweave) window.laneweave.time_s = view.traffic.playback.time_s;
+      return;
+    }
+    this.vehicles = view.traffic.count();
+    this.sorted.set(this.script);
+    const known = this.sorted.subarray(0, Math.min(this.noted, FRAMES)).sort();
+    const { x, y, distance, azimuth, tilt } = view.stage.rig.now;
+    window.laneweave = {
+      ready: view.traffic.playback.next !== null,
+      drawCalls: this.drawCalls,
+      scriptMs: known[known.length >> 1],
+      scriptMsWorst: known[known.length - 1],
+      fps: this.fps,
+      vehicles: this.vehicles,
+      time_s: view.traffic.playback.time_s,
+      selected: state.selected.value,
+      camera: { mode: state.camera.value, x, y, distance, azimuth, tilt },
+    };
+  }
+}

@@ -1,0 +1,112 @@
+import { classOf, headingOf, heightOf, readFrame, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
+import type { Point } from '../protocol/scene.ts';
+import { Playback } from './playback.ts';
+import { Slots } from './slots.ts';
+
+/** Where a vehicle is at the present time, in the coordinates of the page. */
+export interface Placed {
+  slot: number;
+  x: number;
+  y: number;
+  z: number;
+  heading: number;
+  length: number;
+  width: number;
+  form: number;
+}
+
+/** Margin around a vehicle within which a click still means it. */
+const CLICK_MARGIN_M = 0.8;
+
+/** The vehicles in view, now. */
+export class Traffic {
+  readonly playback = new Playback();
+  slots = new Slots();
+  private readonly guesses = new Map<string, number>();
+
+  /** `zero` is the point of the map at which the page has its zero. */
+  constructor(private readonly zero: Point) {}
+
+  push(bytes: ArrayBuffer, wall_s: number): void {
+    this.playback.push(readFrame(bytes), wall_s);
+  }
+
+  /** Moves on to the present. It returns the frame that has become the next one, if any. */
+  advance(wall_s: number): Frame | null {
+    const frame = this.playback.advance(wall_s);
+    if (frame) this.slots.take(frame);
+    return frame;
+  }
+
+  /** Forgets all vehicles; the next frame brings them anew. */
+  clear(): void {
+    this.playback.clear();
+    this.slots = new Slots();
+    this.guesses.clear();
+  }
+
+  count(): number {
+    const { next } = this.playback;
+    let vehicles = 0;
+    for (let slot = 0; next && slot < next.slotCount; slot += 1) vehicles += classOf(next.words, slot) > 0 ? 1 : 0;
+    return vehicles;
+  }
+
+  locate(id: string): Placed | null {
+    const slot = this.slots.find(id, this.guesses.get(id) ?? -1);
+    this.guesses.set(id, slot);
+    return slot < 0 ? null : this.placed(slot);
+  }
+
+  placed(slot: number): Placed | null {
+    const { previous, next } = this.playback;
+    if (!next || slot >= next.slotCount || classOf(next.words, slot) === 0) return null;
+    const isNew = !previous || slot >= previous.slotCount || this.slots.hasJustCome(slot);
+    const from = isNew ? next : previous;
+    const mix = this.playback.mix();
+    const at = (frame: Frame, axis: number): number => {
+      const part = axis === 2 ? heightOf(frame.words, slot) : frame.floats[slot * RECORD_WORDS + axis];
+      return part + frame.origin[axis] - this.zero[axis];
+    };
+    const between = (axis: number): number => at(from, axis) + (at(next, axis) - at(from, axis)) * mix;
+    const before = headingOf(from.words, slot);
+    const turned = headingOf(next.words, slot) - before;
+    return {
+      slot,
+      x: between(0),
+      y: between(1),
+      z: between(2),
+      heading: before + Math.atan2(Math.sin(turned), Math.cos(turned)) * mix,
+      length: this.slots.length(slot),
+      width: this.slots.width(slot),
+      form: classOf(next.words, slot),
+    };
+  }
+
+  /** The id of the vehicle at a point of the road, or of the nearest one within a reach. */
+  pick(x: number, y: number, reach: number): string | null {
+    const { next } = this.playback;
+    if (!next) return null;
+    let best = { slot: -1, distance: Infinity };
+    const [cx, cy] = [x + this.zero[0] - next.origin[0], y + this.zero[1] - next.origin[1]];
+    const furthest = reach + 60;
+    for (let slot = 0; slot < next.slotCount; slot += 1) {
+      const roughX = Math.abs(next.floats[slot * RECORD_WORDS] - cx);
+      const roughY = Math.abs(next.floats[slot * RECORD_WORDS + 1] - cy);
+      if (roughX > furthest || roughY > furthest) continue;
+      const vehicle = this.placed(slot);
+      if (!vehicle) continue;
+      const distance = distanceTo(vehicle, x, y);
+      if (distance < best.distance) best = { slot, distance };
+    }
+    return best.distance <= Math.max(reach, CLICK_MARGIN_M) ? this.slots.id(best.slot) : null;
+  }
+}
+
+/** From a point to the outline of a vehicle; 0 inside. */
+function distanceTo({ x, y, heading, length, width }: Placed, px: number, py: number): number {
+  const [dx, dy] = [px - x, py - y];
+  const along = Math.abs(dx * Math.cos(heading) + dy * Math.sin(heading)) - length / 2;
+  const across = Math.abs(dy * Math.cos(heading) - dx * Math.sin(heading)) - width / 2;
+  return Math.hypot(Math.max(along, 0), Math.max(across, 0));
+}

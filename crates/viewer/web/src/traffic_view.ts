@@ -1,0 +1,198 @@
+import { Group, Vector3 } from 'three';
+import { groundAt, groundRectangle } from './camera/ground_view.ts';
+import { listenToGestures } from './camera/gestures.ts';
+import { Selection } from './overlays/selection.ts';
+import type { Scene } from './protocol/scene.ts';
+import { LaneletIndex } from './road/lanelet_index.ts';
+import { LightStates } from './road/light_states.ts';
+import { paintMesh } from './road/paint.ts';
+import { signalPlaces, type SignalPlace } from './road/signal_places.ts';
+import { structuresMesh } from './road/structures.ts';
+import { RoadSurface } from './road/surface.ts';
+import { atmosphere, setNight } from './stage/atmosphere.ts';
+import type { Stage } from './stage/stage.ts';
+import type { State } from './state.ts';
+import { Traffic, type Placed } from './traffic/traffic.ts';
+import { Fleet } from './vehicles/fleet.ts';
+
+const BLINK_PERIOD_S = 0.8;
+const VIEW_EVERY_S = 0.25;
+const SORT_EVERY_S = 0.2;
+/** How far the page asks for vehicles where the camera sees to the horizon. */
+const LEAST_SIGHT_M = 900;
+const SIGHT_BY_DISTANCE = 5;
+const SIGNAL_CLICK_M = 4;
+
+/** The moving picture of one scene: roads, signals and vehicles, and what a click on it means. */
+export class TrafficView {
+  readonly traffic: Traffic;
+  readonly index: LaneletIndex;
+  readonly fleet = new Fleet();
+  readonly surface: RoadSurface;
+  readonly signals: SignalPlace[];
+  /** What is drawn in addition. Each is called once for each picture. */
+  readonly onPicture: (() => void)[] = [];
+  private readonly lights: LightStates;
+  private readonly selection = new Selection();
+  private readonly anchor = new Vector3();
+  private sentView = '';
+  private lastView_s = 0;
+  private lastSort_s = 0;
+  private hasReady = false;
+
+  constructor(
+    readonly scene: Scene,
+    readonly stage: Stage,
+    private readonly state: State,
+  ) {
+    this.traffic = new Traffic(scene.origin);
+    this.index = new LaneletIndex(scene.lanelets);
+    this.surface = new RoadSurface(scene);
+    this.lights = new LightStates(scene.lights.length);
+    this.signals = signalPlaces(scene, this.index);
+    const road = new Group();
+    road.add(this.surface.mesh, paintMesh(scene, this.lights.texture), structuresMesh(scene, this.signals, this.lights));
+    stage.graph.add(road, this.fleet.group, this.selection.group);
+    stage.layGround(lowest(scene) - 0.25);
+    stage.rig.frame(...scene.bounds);
+    stage.rig.settle();
+    state.isNight.watch(setNight);
+    state.colour.watch((colour) => this.fleet.colourBy(colour));
+    state.lights.watch((letters) => this.lights.show(letters));
+    this.listen();
+  }
+
+  /** Starts anew with the server: it sends all vehicles again. */
+  restart(): void {
+    this.traffic.clear();
+    this.sentView = '';
+    this.hasReady = false;
+  }
+
+  /** Draws the picture of now. */
+  draw(wall_s: number, elapsed_s: number, fps: number): void {
+    const { rig } = this.stage;
+    const frame = this.traffic.advance(wall_s);
+    this.moveCamera(elapsed_s);
+    this.sendView(wall_s);
+    if (frame || wall_s - this.lastSort_s > SORT_EVERY_S) {
+      this.fleet.sort(this.traffic.playback, this.traffic.slots, rig.camera, this.scene.origin, fps);
+      this.lastSort_s = wall_s;
+    }
+    if (frame || !this.hasReady) {
+      this.state.say({ ready: frame?.number ?? 0 });
+      this.hasReady = true;
+    }
+    this.anchor.set(Math.round(rig.now.x), Math.round(rig.now.y), Math.round(rig.now.z));
+    this.fleet.place(this.traffic.playback, this.anchor, this.scene.origin);
+    atmosphere.blink.value = (wall_s / BLINK_PERIOD_S) % 1 < 0.55 ? 1 : 0;
+    const isInside = this.state.camera.value === 'eye';
+    this.selection.update(isInside ? [] : this.state.selected.value.map((id) => this.traffic.locate(id)), rig.now.distance);
+    for (const update of this.onPicture) update();
+    this.stage.draw();
+  }
+
+  /** Where a place of the window is on the road. */
+  ground(x: number, y: number): { x: number; y: number } | null {
+    const { width, height, left, top } = this.stage.canvas.getBoundingClientRect();
+    const { camera, now } = this.stage.rig;
+    return groundAt(camera, ((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2, now.z);
+  }
+
+  /** Where a vehicle is, even if it is out of view. */
+  whereIs(id: string): { x: number; y: number } | null {
+    const placed = this.traffic.locate(id);
+    if (placed) return placed;
+    const driver = this.state.drivers.value.find((one) => one.id === id);
+    return driver ? { x: driver.x - this.scene.origin[0], y: driver.y - this.scene.origin[1] } : null;
+  }
+
+  private moveCamera(elapsed_s: number): void {
+    const { rig } = this.stage;
+    const mode = this.state.camera.value;
+    const [id] = this.state.selected.value;
+    const isBound = mode !== 'free' && id !== undefined;
+    const place = isBound ? this.whereIs(id) : null;
+    const vehicle = isBound ? this.traffic.locate(id) : null;
+    if (place) {
+      rig.goal.x = place.x;
+      rig.goal.y = place.y;
+      if (mode === 'follow') Object.assign(rig.now, { x: glide(rig.now.x, place.x), y: glide(rig.now.y, place.y) });
+    }
+    rig.goal.z = vehicle ? vehicle.z : this.index.height(rig.goal.x, rig.goal.y);
+    rig.update(elapsed_s);
+    if (mode === 'eye' && vehicle) this.sitIn(vehicle);
+  }
+
+  private sitIn({ x, y, z, heading, length, form }: Placed): void {
+    const { ahead, up } = EYES[form] ?? EYES[1];
+    const forward = ahead(length);
+    this.stage.rig.sitAt(x + Math.cos(heading) * forward, y + Math.sin(heading) * forward, z + up, heading);
+  }
+
+  private sendView(wall_s: number): void {
+    if (wall_s - this.lastView_s < VIEW_EVERY_S) return;
+    const { camera, now } = this.stage.rig;
+    const sight = Math.max(now.distance * SIGHT_BY_DISTANCE, LEAST_SIGHT_M);
+    const [x0, y0, x1, y1] = groundRectangle(camera, now.z, sight);
+    const [ox, oy] = this.scene.origin;
+    const view = [x0 + ox, y0 + oy, x1 + ox, y1 + oy].map((value) => Math.round(value)) as [number, number, number, number];
+    const text = view.join(' ');
+    if (text === this.sentView) return;
+    this.state.say({ view });
+    this.sentView = text;
+    this.lastView_s = wall_s;
+  }
+
+  private listen(): void {
+    const { rig, canvas } = this.stage;
+    const metres = () => atmosphere.pixel.value * rig.now.distance;
+    listenToGestures(canvas, {
+      drag: (dx, dy) => {
+        if (this.state.camera.value === 'follow') this.state.camera.set('free');
+        rig.pan(-dx * metres(), (dy * metres()) / Math.max(Math.cos(rig.now.tilt), 0.3));
+      },
+      turn: (dx, dy) => rig.turn(dx * 0.005, -dy * 0.004),
+      zoom: (factor, x, y) => {
+        const point = this.state.camera.value === 'free' ? this.ground(x, y) : null;
+        rig.zoom(factor, point?.x, point?.y);
+      },
+      click: (x, y, isSecond) => this.click(x, y, isSecond),
+    });
+  }
+
+  private click(x: number, y: number, isSecond: boolean): void {
+    const point = this.ground(x, y);
+    if (!point) return;
+    const reach = 6 * atmosphere.pixel.value * this.stage.rig.now.distance;
+    const id = this.traffic.pick(point.x, point.y, reach);
+    if (id !== null) {
+      this.state.select(id, isSecond);
+      return;
+    }
+    this.state.choose([]);
+    const signal = this.signals.find(({ head }) => Math.hypot(head[0] - point.x, head[1] - point.y) < SIGNAL_CLICK_M + reach);
+    this.state.light.set(signal ? signal.light : null);
+    this.state.lane.set(signal ? null : this.index.at(point.x, point.y));
+  }
+}
+
+/** Where the eyes of drivers are: from the centre ahead, and above the road. */
+const EYES: Record<number, { ahead: (length: number) => number; up: number }> = {
+  1: { ahead: (length) => length * 0.27, up: 1.22 },
+  2: { ahead: (length) => length * 0.5 + 0.1, up: 2.4 },
+  3: { ahead: (length) => length * 0.5 + 0.1, up: 2.1 },
+  4: { ahead: () => 0.3, up: 1.5 },
+  5: { ahead: (length) => length * 0.5 + 0.05, up: 1.4 },
+};
+
+/** Follows closely, without a jump where the vehicle was far away. */
+const glide = (now: number, place: number): number => now + (place - now) * (Math.abs(place - now) < 30 ? 0.35 : 0.08);
+
+function lowest(scene: Scene): number {
+  let height = Infinity;
+  for (const { centre } of scene.lanelets) {
+    for (let at = 2; at < centre.length; at += 3) height = Math.min(height, centre[at]);
+  }
+  return Number.isFinite(height) ? height : 0;
+}
