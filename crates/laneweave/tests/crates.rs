@@ -14,7 +14,7 @@ const LEVELS: [&[&str]; 10] = [
     &["scenario", "explain"],
     &["results"],
     &["laneweave"],
-    &["experiments"],
+    &["experiments", "viewer"],
     &["cli"],
     &["bench"],
 ];

@@ -6,6 +6,7 @@
 //! copied, and only what is done by hand reaches the traffic, as commands of the library.
 
 mod asked;
+mod export;
 mod frame;
 mod page;
 mod scene;
@@ -15,6 +16,7 @@ pub mod source;
 pub mod stage;
 
 pub use asked::{Asked, LONGEST};
+pub use export::export;
 pub use frame::{Slots, View};
 pub use page::Page;
 pub use scene::{Scene, Surroundings};

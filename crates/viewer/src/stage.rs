@@ -35,8 +35,8 @@ pub enum Request {
     Asks(PageId, Asked),
     /// It goes.
     Goes(PageId),
-    /// Answers with the hash of all vehicles.
-    Hash(std::sync::mpsc::Sender<u64>),
+    /// Answers with the time [s] and the hash of all vehicles.
+    State(std::sync::mpsc::Sender<(f64, u64)>),
     /// The program ends.
     End,
 }
@@ -134,7 +134,7 @@ impl Stage {
                 }
             }
             // Who asked may have gone.
-            Request::Hash(answer) => drop(answer.send(self.source.state_hash())),
+            Request::State(answer) => drop(answer.send((self.source.time_s(), self.source.state_hash()))),
             Request::End => {}
         }
     }

@@ -8,11 +8,13 @@ use std::time::Duration;
 use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::check::{extension, tracks};
+use laneweave::output::write_whole;
 use laneweave::record::SCENARIO;
 use laneweave::scenario::{Origin, open_map};
-use laneweave_viewer::{Live, Page, Recorded, Rerun, Server, Source, Token};
+use laneweave_viewer::{Live, Page, Recorded, Rerun, Server, Source, Token, export};
 
 use super::check::Reading;
+use super::numbers::number;
 use super::say;
 use super::stop::Stop;
 
@@ -43,17 +45,27 @@ pub(crate) struct Arguments {
     /// Print the address of the page, and open no browser.
     #[arg(long)]
     no_browser: bool,
+    /// Write a run that has ended, or a recording, into this file instead: the page with all of it, which plays without
+    /// a server and without a network.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    export: Option<PathBuf>,
+    /// Seconds between two frames of the file.
+    #[arg(long, value_name = "S", value_parser = number, default_value = "0.5", requires = "export")]
+    every: f64,
 }
 
 impl Arguments {
     /// Serves the page until the user stops it.
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        if Page::embedded().is_none() {
+        let page = Page::embedded().ok_or_else(|| {
             let what = "this program was built without the page of the viewer";
             let remedy = format!("build the page with Node: {}; then build the program again", Page::COMMAND);
-            return Err(Fault::new("view", what, remedy));
+            Fault::new("view", what, remedy)
+        })?;
+        let mut source = self.source()?;
+        if let Some(path) = &self.export {
+            return self.write(path, page, &mut *source);
         }
-        let source = self.source()?;
         let stop = Stop::listen()?;
         let address = SocketAddr::new(self.address, self.port);
         let server = Server::start(source, address, Token::new()).map_err(|error| {
@@ -67,6 +79,21 @@ impl Arguments {
             thread::sleep(Duration::from_millis(50));
         }
         Ok(())
+    }
+
+    /// Writes the page with all of the traffic.
+    fn write(&self, path: &Path, page: Page, source: &mut dyn Source) -> Result<(), Fault> {
+        /// Frames of a longer time than this would show vehicles beside the road [s].
+        const RANGE: [f64; 2] = [0.01, 10.0];
+        let [least, most] = RANGE;
+        if !(least..=most).contains(&self.every) {
+            let what = format!("{} s between two frames", self.every);
+            return Err(Fault::new("--every", what, format!("choose {least} to {most} s")));
+        }
+        let text = export(page, source, self.every, |_| {})?;
+        write_whole(path, &text)?;
+        let size = text.len() as f64 / 1e6;
+        say(&format!("{}: {size:.1} MB, plays in any browser\n", path.display()))
     }
 
     /// The traffic that is shown.

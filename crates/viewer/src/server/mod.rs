@@ -24,11 +24,11 @@ use serde::Deserialize;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{Semaphore, watch};
 
-use crate::asked::LONGEST;
+use crate::asked::{Asked, LONGEST};
 use crate::page::Page;
 use crate::snapshot::Snapshot;
 use crate::source::Source;
-use crate::stage::{Request, Stage};
+use crate::stage::{PageId, Request, Stage};
 
 pub use guard::{Address, Token};
 
@@ -36,6 +36,8 @@ pub use guard::{Address, Token};
 const CONNECTIONS: usize = 64;
 /// Pages at the same time.
 const PAGES: usize = 16;
+/// The number of no page: the program itself.
+const NO_PAGE: PageId = 0;
 /// Requests that wait for the stage.
 const REQUESTS: usize = 4096;
 /// A client that needs longer for the head of a request is cut off.
@@ -113,10 +115,16 @@ impl Server {
         &self.address
     }
 
-    /// Hash of all vehicles; none if the stage has ended.
-    pub fn state_hash(&self) -> Option<u64> {
+    /// Does what a page could ask for, such as to let time go on.
+    pub fn ask(&self, asked: Asked) {
+        // A stage that has ended takes no request.
+        let _ = self.requests.send(Request::Asks(NO_PAGE, asked));
+    }
+
+    /// The time [s] and the hash of all vehicles; none if the stage has ended.
+    pub fn state(&self) -> Option<(f64, u64)> {
         let (answer, answered) = mpsc::channel();
-        self.requests.send(Request::Hash(answer)).ok()?;
+        self.requests.send(Request::State(answer)).ok()?;
         answered.recv().ok()
     }
 }

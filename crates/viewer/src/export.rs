@@ -1,0 +1,129 @@
+//! A replay as one file: the page with the roads and all frames in it, which needs no server and no network.
+
+use std::io::Write;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use laneweave::Fault;
+use serde::Serialize;
+
+use crate::frame::{Slots, View};
+use crate::page::Page;
+use crate::scene::Scene;
+use crate::snapshot::{Colour, Snapshot};
+use crate::source::{Hello, Mark, Marks, Source, Wants};
+
+/// What a browser lets the file do: use what is in it, and nothing else.
+const POLICY: &str =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+
+/// What the page finds in itself.
+#[derive(Serialize)]
+struct Replay {
+    scene: Scene,
+    hello: Hello,
+    frames: Frames,
+    marks: Marks,
+    events: Vec<Mark>,
+}
+
+#[derive(Serialize)]
+struct Frames {
+    encoding: &'static str,
+    data: String,
+}
+
+/// The page that plays `source` from now to its end, with a frame every `every_s` [s]. `look` is told the time of each
+/// frame [s].
+///
+/// # Errors
+/// If the source has no end, or nothing is left of it.
+pub fn export(
+    page: Page,
+    source: &mut dyn Source,
+    every_s: f64,
+    mut look: impl FnMut(f64),
+) -> Result<String, Fault> {
+    let scene = source.scene();
+    let hello = source.hello();
+    if hello.end_s.is_none() {
+        let remedy = "run it, and export the folder of its results";
+        return Err(Fault::new("export", "a simulation that runs now has no end", remedy));
+    }
+    let mut packed = ZlibEncoder::new(Vec::new(), Compression::best());
+    let (mut slots, mut marks) = (Slots::default(), Marks::default());
+    let every = (every_s / source.step_s()).round().max(1.0) as u32;
+    let mut number = 0;
+    loop {
+        let mut snapshot = Snapshot { number, ..Snapshot::default() };
+        source.see(&Wants::default(), &mut snapshot);
+        look(snapshot.time_s);
+        let frame = slots.frame(&snapshot, scene.origin, View::ALL, Colour::Style);
+        // Writing to memory never fails.
+        let _ = packed.write_all(&(frame.len() as u32).to_le_bytes());
+        let _ = packed.write_all(&frame);
+        number += 1;
+        if source.has_ended() {
+            break;
+        }
+        for _ in 0..every {
+            source.step(&mut marks.marks)?;
+        }
+    }
+    marks.until_s = source.time_s();
+    let packed = packed.finish().map_err(|error| Fault::new("export", error, "report this as a bug"))?;
+    let frames = Frames { encoding: "deflate-base64", data: STANDARD.encode(packed) };
+    let replay = Replay { scene, hello, frames, marks, events: Vec::new() };
+    let json = serde_json::to_string(&replay)
+        .map_err(|error| Fault::new("export", error, "report this as a bug"))?;
+    Ok(inlined(page, &json))
+}
+
+/// The page with its parts and the replay in one file.
+fn inlined(page: Page, replay: &str) -> String {
+    let Page { html, script, style } = page;
+    // This would end the element early. In JSON and in texts of scripts, "<\/" is the same.
+    let escaped = |text: &str| text.replace("</script", "<\\/script");
+    let mut file = String::with_capacity(html.len() + script.len() + style.len() + replay.len());
+    for line in html.lines() {
+        if line.contains("page.css") {
+            file += &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
+            file += &format!("<style>{style}</style>\n");
+        } else if !line.contains("page.js") {
+            if line.contains("</body>") {
+                let before = line.replace("</body>", "");
+                let data = format!("<script id=\"replay\" type=\"application/json\">{}</script>", escaped(replay));
+                file += &format!("{before}{data}\n<script type=\"module\">{}</script>\n", escaped(script));
+                file += "</body>\n";
+            } else {
+                file += line;
+                file.push('\n');
+            }
+        }
+    }
+    file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_of_the_page_go_into_one_file_that_asks_for_no_other() {
+        let page = Page {
+            html: "<!doctype html>\n<link rel=\"stylesheet\" href=\"/page.css\">\n<script src=\"/page.js\"></script>\n<body>\n<p>traffic</p>\n</body>\n",
+            script: "say('</script>')",
+            style: "p { color: red }",
+        };
+        let file = inlined(page, "{\"title\":\"</script>\"}");
+        let file = file.replace(POLICY, "…");
+        assert_eq!(
+            file,
+            "<!doctype html>\n<meta http-equiv=\"Content-Security-Policy\" content=\"…\">\n<style>p { color: red }</style>\n<body>\n<p>traffic</p>\n\
+             <script id=\"replay\" type=\"application/json\">{\"title\":\"<\\/script>\"}</script>\n\
+             <script type=\"module\">say('<\\/script>')</script>\n</body>\n"
+        );
+    }
+}

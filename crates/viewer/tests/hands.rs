@@ -1,0 +1,108 @@
+//! What is done by hand and saved gives the same bits when it is run again.
+
+use std::path::{Path, PathBuf};
+
+use laneweave::scenario::Origin;
+use laneweave::{Class, LightState, Parameter, Simulation};
+use laneweave_viewer::{Hand, Live, Source};
+
+fn map(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
+}
+
+/// A folder of this test alone.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("laneweave-hands-{}-{name}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+fn live(name: &str, dir: &Path) -> Live {
+    let (scenario, origin) = Origin::open(&map(name)).expect("a map");
+    Live::new(scenario, origin, dir.to_owned()).expect("a simulation")
+}
+
+fn steps(live: &mut Live, count: u32) {
+    (0..count).for_each(|_| live.step(&mut Vec::new()).expect("a step"));
+}
+
+/// The hash at the end of the saved scenario.
+fn run_again(live: &Live) -> u64 {
+    let saved = live.save().expect("a scenario");
+    let mut again = Simulation::from_file(&saved.scenario).expect("the saved scenario");
+    assert!((again.end_s() - live.time_s()).abs() < 1e-6);
+    again.run(again.end_s(), &mut []).expect("a run");
+    again.state_hash()
+}
+
+#[test]
+fn a_town_changed_by_hand_is_the_same_when_it_is_run_again() {
+    let dir = folder("town");
+    let mut untouched = live("town.osm", &dir);
+    let mut live = live("town.osm", &dir);
+    steps(&mut untouched, 900);
+    steps(&mut live, 200);
+    let style = live.hello().styles[0].name.clone();
+    let set = |value| Hand::SetParameter { style: style.clone(), parameter: Parameter::SpeedFactor, value };
+    live.hand(&set(0.6)).expect("a slower style");
+    // The slider moves on before the next step.
+    live.hand(&set(0.7)).expect("a slower style");
+    let origin = live.hello().demand[0].origin.clone();
+    live.hand(&Hand::SetDemand { origin, vehicles_per_hour: 1500.0 }).expect("more demand");
+    steps(&mut live, 300);
+    let light = scene(&live)["lights"][0]["id"].as_str().expect("a light").to_owned();
+    live.hand(&Hand::SetLight { light, shows: Some(LightState::Red) }).expect("a red light");
+    let [x, y] = beside_an_entrance(&live);
+    live.hand(&Hand::Put { x, y, class: Class::Truck }).expect("a new vehicle");
+    let vehicle = live.done().last().and_then(|it| it.vehicle.clone()).expect("its id");
+    steps(&mut live, 100);
+    live.hand(&Hand::Drive { vehicle: vehicle.clone(), speed_kmh: Some(20.0), side: None }).expect("a drive");
+    steps(&mut live, 100);
+    live.undo().expect("the drive is taken back");
+    steps(&mut live, 100);
+    live.hand(&Hand::Drive { vehicle, speed_kmh: None, side: None }).expect("its driver drives it");
+    steps(&mut live, 100);
+    assert_ne!(live.state_hash(), untouched.state_hash());
+    assert_eq!(run_again(&live), live.state_hash());
+    // A second one goes beside the first.
+    assert_eq!(live.save().expect("another").folder, dir.join("2"));
+    let _ = std::fs::remove_dir_all(dir);
+}
+
+#[test]
+fn acts_on_one_thing_that_follow_each_other_are_one_and_are_taken_back_as_one() {
+    let dir = folder("undo");
+    let mut live = live("ramps.osm", &dir);
+    let value = |live: &Live| live.hello().styles[0].value(Parameter::SpeedFactor).expect("a number");
+    let style = live.hello().styles[0].name.clone();
+    let before = value(&live);
+    for value in [0.9, 0.8, 0.7] {
+        let style = style.clone();
+        live.hand(&Hand::SetParameter { style, parameter: Parameter::SpeedFactor, value }).expect("a number");
+        steps(&mut live, 2);
+    }
+    assert_eq!((live.done().len(), value(&live)), (1, 0.7));
+    live.undo().expect("an act");
+    steps(&mut live, 1);
+    assert!((value(&live) - before).abs() < 1e-9);
+    assert!(live.undo().is_err());
+    let gone = Hand::Remove { vehicle: "999".into() };
+    assert!(live.hand(&gone).expect_err("no vehicle").what.contains("999"));
+}
+
+/// What stands still, as a page gets it.
+fn scene(live: &Live) -> serde_json::Value {
+    serde_json::to_value(live.scene()).expect("JSON")
+}
+
+/// A place on the first lane of an entrance, a little into the map [m].
+fn beside_an_entrance(live: &Live) -> [f64; 2] {
+    /// How far in [m].
+    const IN: f64 = 12.0;
+    let scene = scene(live);
+    let number = |it: &serde_json::Value| it.as_f64().expect("a number");
+    let gate = &scene["entrances"][0];
+    let heading = number(&gate["heading"]);
+    let at = |axis: usize| number(&scene["origin"][axis]) + number(&gate["at"][axis]);
+    [at(0) + IN * heading.cos(), at(1) + IN * heading.sin()]
+}
