@@ -9,6 +9,17 @@ const TURN = 0.2;
 
 type Moves = Record<string, () => void>;
 
+export interface KeyActs {
+  wholeMap: () => void;
+  toggleMap: () => void;
+  toggleHands: () => void;
+  help: () => void;
+  find: () => void;
+  undo: () => void;
+  /** Goes to the next mark, or the one before. */
+  jump: (sign: 1 | -1) => void;
+}
+
 /** Whether a key press belongs to a field, a list or a slider. */
 export function isForField(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement;
@@ -16,7 +27,7 @@ export function isForField(event: KeyboardEvent): boolean {
 }
 
 /** The keys of the whole page. */
-export function listenToKeys(state: State, rig: Rig, time: TimeControls, wholeMap: () => void): void {
+export function listenToKeys(state: State, rig: Rig, time: TimeControls, acts: KeyActs): void {
   const pan = (right: number, ahead: number) => () => rig.pan(right * rig.goal.distance * PAN, ahead * rig.goal.distance * PAN);
   const moves: Moves = {
     ArrowUp: pan(0, 1),
@@ -34,7 +45,13 @@ export function listenToKeys(state: State, rig: Rig, time: TimeControls, wholeMa
     e: () => rig.turn(TURN, 0),
     r: () => rig.turn(0, -TURN),
     t: () => rig.turn(0, TURN),
-    Home: wholeMap,
+    Home: acts.wholeMap,
+    m: acts.toggleMap,
+    h: acts.toggleHands,
+    '?': acts.help,
+    '/': acts.find,
+    ',': () => acts.jump(-1),
+    ';': () => acts.jump(1),
     f: () => toggle(state, 'follow'),
     v: () => toggle(state, 'eye'),
     ' ': () => time.toggle(),
@@ -42,9 +59,18 @@ export function listenToKeys(state: State, rig: Rig, time: TimeControls, wholeMa
     '[': () => time.shift(-1),
     ']': () => time.shift(1),
     n: () => state.isNight.set(!state.isNight.value),
-    Escape: () => state.choose([]),
+    Escape: () => {
+      state.choose([]);
+      state.lane.set(null);
+      state.light.set(null);
+    },
   };
   window.addEventListener('keydown', (event) => {
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !isForField(event)) {
+      event.preventDefault();
+      acts.undo();
+      return;
+    }
     if (event.ctrlKey || event.metaKey || event.altKey || isForField(event) || event.defaultPrevented) return;
     const isButton = (event.target as HTMLElement).matches('button, summary');
     if (isButton && (event.key === ' ' || event.key === 'Enter')) return;

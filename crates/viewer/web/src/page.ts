@@ -1,47 +1,65 @@
 import type { Feed } from './feed/feed.ts';
+import { Hands } from './hands.ts';
 import { listenToKeys } from './keys.ts';
-import { DriverPanel } from './panels/driver_panel.ts';
+import { dress } from './overlays/dress.ts';
+import { Carry } from './panels/carry.ts';
 import { element } from './panels/dom.ts';
+import { DriverPanel } from './panels/driver_panel.ts';
+import { HandsPanel } from './panels/hands_panel.ts';
+import { Help } from './panels/help.ts';
+import { LanePanel } from './panels/lane_panel.ts';
+import { Legend } from './panels/legend.ts';
+import { LightPanel } from './panels/light_panel.ts';
+import { MarksPanel } from './panels/marks_panel.ts';
 import { TimeControls } from './panels/time_controls.ts';
+import { Timeline } from './panels/timeline.ts';
+import { Toasts } from './panels/toasts.ts';
 import { Toolbar } from './panels/toolbar.ts';
-import type { ServerMessage } from './protocol/messages.ts';
+import { VehicleActions } from './panels/vehicle_actions.ts';
+import type { Found, ServerMessage, TrafficEvent } from './protocol/messages.ts';
+import type { Scene } from './protocol/scene.ts';
 import { localise } from './road/localise.ts';
 import { Stage } from './stage/stage.ts';
 import { State } from './state.ts';
 import { Telemetry } from './telemetry.ts';
 import { TrafficView } from './traffic_view.ts';
 
+const CLOSE_M = 140;
+
 /** Builds the page, and joins the feed, the state, the panels and the picture. */
 export class Page {
   readonly state: State;
-  readonly telemetry = new Telemetry();
-  private readonly canvas = element('canvas', { tabindex: '0', 'aria-label': 'The road. Arrows move the view, plus and minus zoom, Q and E turn.' });
+  private readonly telemetry = new Telemetry();
+  private readonly canvas = element('canvas', {
+    tabindex: '0',
+    'data-test': 'picture',
+    'aria-label': 'The road. Arrows move the view, plus and minus zoom, Q and E turn.',
+  });
   private readonly side = element('aside', { class: 'side', 'aria-label': 'Details' });
-  private readonly top = element('header', { class: 'bar top' });
-  private readonly bottom = element('footer', { class: 'bar bottom' });
   private readonly stage: Stage;
+  private readonly hands: Hands;
   private readonly time: TimeControls;
+  private readonly timeline: Timeline;
   private view: TrafficView | null = null;
 
   constructor(private readonly feed: Feed) {
     this.state = new State((message) => feed.say(message));
-    document.body.append(element('main', {}, this.canvas, this.top, this.side, this.bottom));
+    document.body.append(element('main', {}, this.canvas));
     this.stage = new Stage(this.canvas);
+    this.hands = new Hands(this.state);
     this.time = new TimeControls(this.state);
-    this.bottom.append(this.time.root);
-    this.side.append(new DriverPanel(this.state, element('div')).root);
-    this.top.append(new Toolbar(this.state).root);
-    this.state.isNight.set(matchMedia('(prefers-color-scheme: dark)').matches);
+    this.timeline = new Timeline(this.state);
+    this.lay();
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    this.state.isNight.set(dark.matches);
+    dark.addEventListener('change', () => this.state.isNight.set(dark.matches));
     this.state.isNight.watch((isNight) => (document.documentElement.dataset.mood = isNight ? 'night' : 'day'));
-    listenToKeys(this.state, this.stage.rig, this.time, () => this.wholeMap());
+    this.state.found.listen((found) => this.goToFound(found));
   }
 
   start(): void {
     this.feed.start({
-      scene: (scene) => {
-        this.view = new TrafficView(localise(scene), this.stage, this.state);
-        document.title = `${scene.title} – laneweave`;
-      },
+      scene: (scene) => this.build(scene),
       message: (message) => this.hear(message),
       frame: (bytes) => this.view?.traffic.push(bytes, performance.now() / 1000),
       connection: (connection) => this.state.connection.set(connection),
@@ -49,12 +67,55 @@ export class Page {
     requestAnimationFrame((now) => this.picture(now, now));
   }
 
+  /** Lays out all panels. */
+  private lay(): void {
+    const { state, hands } = this;
+    const actions = new VehicleActions(state, hands);
+    const carry = new Carry(state, hands, actions, () => this.view);
+    const handsPanel = new HandsPanel(state, hands, (form) => carry.put(form, innerWidth / 2, innerHeight / 2));
+    const marks = new MarksPanel(state, (event) => this.goToEvent(event));
+    const help = new Help();
+    const toggle = (panel: HTMLElement) => () => {
+      panel.hidden = !panel.hidden;
+      if (!panel.hidden) panel.scrollIntoView({ block: 'nearest' });
+    };
+    const toggleHands = () => state.hello.value?.can.hands && toggle(handsPanel.root)();
+    const acts = {
+      wholeMap: () => this.wholeMap(),
+      toggleMap: () => this.stage.rig.toggleMap(),
+      help: () => help.toggle(),
+      toggleHands: () => void toggleHands(),
+      toggleMarks: toggle(marks.root),
+      find: () => toolbar.focusFinder(),
+      undo: () => hands.undo(),
+      jump: (sign: 1 | -1) => this.timeline.jump(sign),
+    };
+    const toolbar = new Toolbar(state, acts);
+    this.side.append(new DriverPanel(state, actions.root).root, handsPanel.root, marks.root);
+    document.querySelector('main')?.append(
+      element('header', { class: 'bar top' }, toolbar.root),
+      new Legend(state).root,
+      this.side,
+      element('footer', { class: 'bar bottom' }, this.time.root, this.timeline.root),
+      new Toasts(state).root,
+      carry.root,
+      help.root,
+    );
+    listenToKeys(state, this.stage.rig, this.time, acts);
+  }
+
+  private build(raw: Scene): void {
+    const scene = localise(raw);
+    const view = new TrafficView(scene, this.stage, this.state);
+    this.view = view;
+    dress(view, this.state);
+    this.side.prepend(new LanePanel(this.state, scene, this.hands).root, new LightPanel(this.state, scene, this.hands).root);
+    document.title = `${scene.title} – laneweave`;
+  }
+
   private hear(message: ServerMessage): void {
     const { state } = this;
-    if (message.hello) {
-      this.view?.restart();
-      state.hello.set(message.hello);
-    }
+    if (message.hello) this.begin(message.hello);
     if (message.clock) state.clock.set(message.clock);
     if (message.lights !== undefined) state.lights.set(message.lights);
     if (message.drivers) state.drivers.set(message.drivers);
@@ -67,17 +128,47 @@ export class Page {
     if (message.refused) state.refused.tell(message.refused);
   }
 
+  /** Begins, or goes on after the connection was lost: the server does not know any more what the page wants. */
+  private begin(hello: NonNullable<ServerMessage['hello']>): void {
+    const { state } = this;
+    this.view?.restart();
+    state.hello.set(hello);
+    if (state.selected.value.length > 0) state.say({ select: state.selected.value });
+  }
+
   private wholeMap(): void {
     if (!this.view) return;
     this.state.camera.set('free');
     this.stage.rig.frame(...this.view.scene.bounds);
   }
 
+  private goToFound({ id, x, y }: Found): void {
+    if (x === undefined || y === undefined) return;
+    this.goTo(x, y);
+    this.state.select(id, false);
+    this.state.camera.set('follow');
+  }
+
+  private goToEvent({ x, y, vehicle }: TrafficEvent): void {
+    this.state.camera.set('free');
+    this.goTo(x, y);
+    if (vehicle !== null) this.state.select(vehicle, false);
+  }
+
+  private goTo(x: number, y: number): void {
+    if (!this.view) return;
+    const [ox, oy] = this.view.scene.origin;
+    const { goal } = this.stage.rig;
+    Object.assign(goal, { x: x - ox, y: y - oy, distance: Math.min(goal.distance, CLOSE_M) });
+  }
+
   private picture(now_ms: number, last_ms: number): void {
     const began = performance.now();
     if (this.view && this.state.hello.value) {
       this.view.draw(now_ms / 1000, Math.min((now_ms - last_ms) / 1000, 0.25), this.telemetry.fps);
-      this.time.showTime(this.view.traffic.playback.time_s);
+      const { time_s } = this.view.traffic.playback;
+      this.time.showTime(time_s);
+      this.timeline.show(time_s);
       this.telemetry.note(performance.now() - began, now_ms - last_ms, this.stage.renderer.info.render.calls);
       this.telemetry.publish(this.view, this.state);
     }

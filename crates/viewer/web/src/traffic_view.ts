@@ -1,6 +1,7 @@
 import { Group, Vector3 } from 'three';
 import { groundAt, groundRectangle } from './camera/ground_view.ts';
 import { listenToGestures } from './camera/gestures.ts';
+import { signalIcons } from './overlays/signal_icons.ts';
 import { Selection } from './overlays/selection.ts';
 import type { Scene } from './protocol/scene.ts';
 import { LaneletIndex } from './road/lanelet_index.ts';
@@ -52,7 +53,7 @@ export class TrafficView {
     this.signals = signalPlaces(scene, this.index);
     const road = new Group();
     road.add(this.surface.mesh, paintMesh(scene, this.lights.texture), structuresMesh(scene, this.signals, this.lights));
-    stage.graph.add(road, this.fleet.group, this.selection.group);
+    stage.graph.add(road, this.fleet.group, this.selection.group, signalIcons(this.signals, this.lights));
     stage.layGround(lowest(scene) - 0.25);
     stage.rig.frame(...scene.bounds);
     stage.rig.settle();

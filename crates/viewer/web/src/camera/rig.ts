@@ -3,6 +3,7 @@ import { Matrix4, PerspectiveCamera, Vector3 } from 'three';
 const FIELD_OF_VIEW_DEG = 42;
 const NEAREST_M = 12;
 const FURTHEST_M = 40_000;
+const ASLANT = 0.95;
 const STEEPEST = 1.48;
 /** Share of the way to the goal that is left after a second. */
 const EASE = 4e-5;
@@ -21,7 +22,7 @@ interface Pose {
 /** A camera that looks at a point of the ground from a distance. It glides to its goal. */
 export class Rig {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.5, 10_000);
-  readonly goal: Pose = { x: 0, y: 0, z: 0, distance: 300, azimuth: 0, tilt: 0.9 };
+  readonly goal: Pose = { x: 0, y: 0, z: 0, distance: 300, azimuth: 0, tilt: ASLANT };
   readonly now: Pose = { ...this.goal };
   private readonly basis = new Matrix4();
   private readonly right = new Vector3();
@@ -54,6 +55,12 @@ export class Rig {
   turn(azimuth: number, tilt: number): void {
     this.goal.azimuth += azimuth;
     this.goal.tilt = Math.min(Math.max(this.goal.tilt + tilt, 0), STEEPEST);
+  }
+
+  /** Looks straight down with north above, or aslant again. */
+  toggleMap(): void {
+    const isMap = this.goal.tilt < 0.02;
+    Object.assign(this.goal, isMap ? { tilt: ASLANT } : { tilt: 0, azimuth: Math.round(this.goal.azimuth / (2 * Math.PI)) * 2 * Math.PI });
   }
 
   /** Stands at its goal at once. */

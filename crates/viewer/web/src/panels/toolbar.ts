@@ -1,5 +1,6 @@
-import type { VehicleColour } from '../colour/scales.ts';
-import type { State } from '../state.ts';
+import type { Heat, VehicleColour } from '../colour/scales.ts';
+import type { Signal } from '../signal.ts';
+import type { State, Trails } from '../state.ts';
 import { button, choice, element, say } from './dom.ts';
 
 const COLOURS: readonly (readonly [VehicleColour, string])[] = [
@@ -10,27 +11,108 @@ const COLOURS: readonly (readonly [VehicleColour, string])[] = [
   ['delay', 'delay'],
   ['since_change', 'time since change'],
 ];
+const HEATS: readonly (readonly [Heat, string])[] = [
+  ['none', 'plain'],
+  ['changes', 'lane changes'],
+  ['speed', 'speed'],
+  ['density', 'density'],
+];
+const TRAILS: readonly (readonly [Trails, string])[] = [
+  ['none', 'none'],
+  ['selected', 'selected'],
+  ['all', 'all'],
+];
 
-/** What is shown, at the top of the page. */
+export interface ToolbarActs {
+  wholeMap: () => void;
+  toggleMap: () => void;
+  help: () => void;
+  toggleHands: () => void;
+  toggleMarks: () => void;
+}
+
+/** What is shown, at the top of the page. On narrow windows all but the first row is folded. */
 export class Toolbar {
   readonly root = element('div', { class: 'tools', role: 'toolbar', 'aria-label': 'View' });
+  private readonly find = element('input', {
+    type: 'search',
+    inputmode: 'numeric',
+    placeholder: 'find vehicle',
+    'data-test': 'find',
+    'aria-label': 'Find a vehicle by its id (/)',
+  });
 
-  constructor(state: State) {
-    const title = element('h1', { class: 'title' }, 'laneweave');
-    state.hello.watch((hello) => {
-      if (hello) say(title, hello.title);
+  constructor(state: State, acts: ToolbarActs) {
+    const more = element('div', { class: 'more', id: 'more-tools' });
+    const menu = button('menu', '☰', 'More tools', () => {
+      const isOpen = this.root.classList.toggle('is-open');
+      menu.setAttribute('aria-expanded', String(isOpen));
     });
-    const find = element('input', { type: 'search', inputmode: 'numeric', placeholder: 'vehicle id', 'data-test': 'find', 'aria-label': 'Find a vehicle by its id' });
-    const form = element('form', { role: 'search' }, find);
+    menu.setAttribute('aria-expanded', 'false');
+    menu.setAttribute('aria-controls', 'more-tools');
+    const hands = button('hands', 'By hand', 'Change the traffic by hand (H)', acts.toggleHands);
+    state.hello.watch((hello) => (hands.hidden = !hello?.can.hands));
+    more.append(
+      labelled('colour', this.colours(state)),
+      labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat))),
+      labelled('trails', choice('trails', 'Which vehicles have trails', TRAILS, (which) => state.trails.set(which))),
+      toggleButton('changes', 'Changes', 'Lane changes and other events of the last minute, on the road', state.showsChanges),
+      toggleButton('arrows', 'Arrows', 'Arrows in the direction of the lanes', state.showsArrows),
+      button('marks', 'Marks', 'List of collisions, emergency brakings and missed turns', acts.toggleMarks),
+      hands,
+    );
+    this.root.append(
+      this.title(state),
+      this.finder(state),
+      button('map', 'Map', 'Straight down, or aslant (M)', acts.toggleMap),
+      button('whole-map', '⤢', 'The whole map (Home)', acts.wholeMap),
+      toggleButton('night', '◐', 'Night or day (N)', state.isNight),
+      button('help', '?', 'Keys (?)', acts.help),
+      menu,
+      more,
+    );
+  }
+
+  focusFinder(): void {
+    this.find.focus();
+  }
+
+  private title(state: State): HTMLElement {
+    const title = element('h1', { class: 'title' }, 'laneweave');
+    state.hello.watch((hello) => hello && say(title, hello.title));
+    return title;
+  }
+
+  private finder(state: State): HTMLElement {
+    const form = element('form', { role: 'search' }, this.find);
     form.addEventListener('submit', (event) => {
       event.preventDefault();
-      if (/^-?\d+$/.test(find.value.trim())) state.say({ find: find.value.trim() });
+      const id = this.find.value.trim();
+      if (/^-?\d+$/.test(id)) state.say({ find: id });
+      else if (id !== '') state.refused.tell({ what: `“${id}” is no id of a vehicle.`, remedy: 'Ids are whole numbers.' });
     });
-    const colour = choice('colour', 'What the colours of vehicles tell', COLOURS, (value) => {
-      state.colour.set(value);
-      if (value !== 'speed' && value !== 'state') state.say({ colour: value });
-    });
-    const night = button('night', '◐', 'Day or night (N)', () => state.isNight.set(!state.isNight.value));
-    this.root.append(title, form, element('label', {}, 'colour ', colour), night);
+    return form;
   }
+
+  private colours(state: State): HTMLSelectElement {
+    state.hello.watch(() => askForColour(state));
+    return choice('colour', 'What the colours of vehicles tell', COLOURS, (value) => {
+      state.colour.set(value);
+      askForColour(state);
+    });
+  }
+}
+
+/** Speed and state are in every frame; for the others the server is asked. */
+function askForColour(state: State): void {
+  const { value } = state.colour;
+  state.say({ colour: value === 'speed' || value === 'state' ? 'style' : value });
+}
+
+const labelled = (name: string, control: HTMLElement): HTMLElement => element('label', { class: 'labelled' }, element('span', {}, name), control);
+
+function toggleButton(test: string, label: string, title: string, signal: Signal<boolean>): HTMLButtonElement {
+  const made = button(test, label, title, () => signal.set(!signal.value));
+  signal.watch((isOn) => made.setAttribute('aria-pressed', String(isOn)));
+  return made;
 }

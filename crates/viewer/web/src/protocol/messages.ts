@@ -115,6 +115,8 @@ export interface HandEntry {
   number: number;
   time_s: number;
   text: string;
+  /** The vehicle that was put on the road, once it is there. */
+  vehicle?: string | null;
   is_undone: boolean;
 }
 
