@@ -2,7 +2,7 @@ import { DoubleSide, Group, Mesh, MeshBasicMaterial, RingGeometry } from 'three'
 import { atmosphere } from '../stage/atmosphere.ts';
 import type { Placed } from '../traffic/traffic.ts';
 
-const COLOURS = [0x1266f1, 0xc2185b];
+const COLOURS = [0x2f86ff, 0xe0338f];
 const LEAST_PIXELS = 13;
 
 /** A ring around each selected vehicle: the first one is whole, the second one has gaps. */

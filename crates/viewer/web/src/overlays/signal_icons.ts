@@ -21,6 +21,8 @@ void main() {
   float height = 11.0 * pixel * away;
   // Near by, the signal itself is large enough; far away, signs would cover the map.
   strength = smoothstep(0.75, 1.1, height) * (1.0 - smoothstep(7.0, 10.0, height));
+  // In front of the signal itself.
+  seen.xyz *= 1.0 - 0.6 / away;
   seen.xy += position.xy * vec2(0.5, 1.0) * height + vec2(0.0, height * 0.4);
   place = position.xy;
   gl_Position = strength > 0.0 ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
@@ -62,7 +64,6 @@ export function signalIcons(signals: SignalPlace[], lights: LightStates): Mesh {
     fragmentShader: FRAGMENT,
     uniforms: { ...atmosphere, lightStates: { value: lights.texture } },
     transparent: true,
-    depthTest: false,
     depthWrite: false,
   });
   const mesh = new Mesh(geometry, material);

@@ -16,9 +16,10 @@ export function clockTime(time_s: number): string {
   return `${hours > 0 ? `${hours}:` : ''}${two(minutes)}:${two(seconds)}.${tenths % 10}`;
 }
 
-/** A number with about four significant digits, without needless noughts. */
+/** A number with three significant digits, or three places after the point; very small ones as powers of ten. */
 export function short(value: number): string {
-  if (value === 0) return '0';
-  const digits = Math.max(0, 3 - Math.floor(Math.log10(Math.abs(value))));
-  return String(Number(value.toFixed(Math.min(digits, 8)))).replace('-', '−');
+  const size = Math.abs(value);
+  if (size === 0) return '0';
+  const text = size < 0.0005 ? value.toExponential(1) : size < 1 ? value.toFixed(3) : value.toPrecision(size < 1000 ? 3 : 6);
+  return (size < 0.0005 ? text : String(Number(text))).replaceAll('-', '−');
 }

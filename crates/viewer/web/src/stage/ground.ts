@@ -27,8 +27,25 @@ float grid(float spacing) {
   return max(line.x, line.y) * fade;
 }
 
+float chance(vec2 at) {
+  return fract(sin(dot(at, vec2(127.1, 311.7))) * 43758.5453);
+}
+
+/** Soft blotches of about the size 1. */
+float blotch(vec2 at) {
+  vec2 cell = floor(at);
+  vec2 inside = fract(at);
+  inside = inside * inside * (3.0 - 2.0 * inside);
+  float low = mix(chance(cell), chance(cell + vec2(1.0, 0.0)), inside.x);
+  float high = mix(chance(cell + vec2(0.0, 1.0)), chance(cell + vec2(1.0, 1.0)), inside.x);
+  return mix(low, high, inside.y);
+}
+
 void main() {
-  vec3 base = mix(vec3(0.83, 0.86, 0.79), vec3(0.30, 0.34, 0.36), night);
+  float patches = 0.5 * blotch(place / 90.0) + 0.3 * blotch(place / 31.0) + 0.2 * blotch(place / 370.0);
+  float seen = 1.0 - smoothstep(300.0, 3000.0, depth);
+  vec3 day = mix(vec3(0.80, 0.845, 0.735), vec3(0.845, 0.865, 0.79), mix(0.5, patches, seen));
+  vec3 base = mix(day, vec3(0.29, 0.33, 0.35) * (0.94 + 0.12 * mix(0.5, patches, seen)), night);
   vec3 tone = lit(base, vec3(0.0, 0.0, 1.0));
   tone *= 1.0 - 0.05 * grid(100.0) - 0.05 * grid(1000.0);
   colour = vec4(fogged(tone, depth), 1.0);

@@ -1,4 +1,4 @@
-import { LinearSRGBColorSpace, Scene as Graph, WebGLRenderer } from 'three';
+import { ColorManagement, LinearSRGBColorSpace, Scene as Graph, WebGLRenderer } from 'three';
 import { Rig } from '../camera/rig.ts';
 import { atmosphere } from './atmosphere.ts';
 import { Ground } from './ground.ts';
@@ -7,6 +7,9 @@ import { Sky } from './sky.ts';
 const MOST_PIXELS_PER_POINT = 2;
 /** A picture with more pixels than this is drawn smaller and stretched. */
 const MOST_PIXELS = 9_000_000;
+
+// Shaders get and give colours as they are shown.
+ColorManagement.enabled = false;
 
 /** The picture: canvas, camera, sky and ground. */
 export class Stage {

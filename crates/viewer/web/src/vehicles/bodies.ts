@@ -35,12 +35,12 @@ interface Faces {
 
 const all = (part: Part): Faces => ({ sides: part, front: part, back: part, top: part });
 
-/** A body between a lower and an upper rectangle; it has no floor. */
-function addBlock(builder: Builder, low: Rectangle, z0: number, high: Rectangle, z1: number, faces: Faces, across = 0): void {
+/** A body between a lower and an upper rectangle; it has no floor. Its middle may be beside that of the vehicle. */
+function addBlock(builder: Builder, low: Rectangle, z0: number, high: Rectangle, z1: number, faces: Faces, middle: Place = [0, 0]): void {
   const corner = (rectangle: Rectangle, end: 'back' | 'front', sign: number, z: number, normal: number[], part: Part, roof = [0, 0]) =>
     builder.vertex({
-      position: [rectangle[end][1], rectangle.half[1] * sign + across, z],
-      anchor: [rectangle[end][0], rectangle.half[0] * sign],
+      position: [rectangle[end][1], rectangle.half[1] * sign + middle[1], z],
+      anchor: [rectangle[end][0], rectangle.half[0] * sign + middle[0]],
       normal,
       part: [part],
       roof,
@@ -71,51 +71,34 @@ const slope = (low: Place, high: Place): number => Math.min(Math.abs(low[0] - hi
 
 const box = (back: Place, front: Place, half: Place): Rectangle => ({ back, front, half });
 
-function addBox(builder: Builder, rectangle: Rectangle, z0: number, z1: number, faces: Faces, across = 0): void {
-  addBlock(builder, rectangle, z0, rectangle, z1, faces, across);
+function addBox(builder: Builder, rectangle: Rectangle, z0: number, z1: number, faces: Faces): void {
+  addBlock(builder, rectangle, z0, rectangle, z1, faces);
 }
 
+/** Wheels at both sides of places along the vehicle: a lower and an upper half, so that they look round. */
 function addWheels(builder: Builder, places: Place[], radius: number): void {
   for (const [share, metres] of places) {
+    const at = (reach: number): Rectangle => box([share, metres - reach * radius], [share, metres + reach * radius], [0, 0.12]);
     for (const sign of [1, -1]) {
-      const place = (by: number): Place => [share, metres + by];
-      const wheel = box(place(-radius), place(radius), [0.02, 0.05]);
-      const top = box(place(-radius * 0.6), place(radius * 0.6), [0.02, 0.05]);
-      addShifted(builder, wheel, 0, top, radius * 2, sign);
+      const middle: Place = [0.5 * sign, -0.1 * sign];
+      addBlock(builder, at(0.45), 0, at(1), radius * 0.6, all(PART.dark), middle);
+      addBlock(builder, at(1), radius * 0.6, at(0.6), radius * 1.8, all(PART.dark), middle);
     }
-  }
-}
-
-/** A wheel at a side: its middle is a share of the width from the centre. */
-function addShifted(builder: Builder, low: Rectangle, z0: number, high: Rectangle, z1: number, sign: number): void {
-  const shift = (rectangle: Rectangle): Rectangle => ({ ...rectangle, half: [0.5, 0.02] });
-  const inner = (rectangle: Rectangle): Rectangle => ({ ...rectangle, half: [0.38, 0] });
-  for (const outline of [shift, inner]) {
-    const [a, b] = [outline(low), outline(high)];
-    const vertex = (rectangle: Rectangle, end: 'back' | 'front', z: number) =>
-      builder.vertex({
-        position: [rectangle[end][1], rectangle.half[1] * sign, z],
-        anchor: [rectangle[end][0], rectangle.half[0] * sign],
-        normal: [0, sign, 0.2],
-        part: [PART.dark],
-        roof: [0, 0],
-      });
-    builder.quad(vertex(a, 'back', z0), vertex(a, 'front', z0), vertex(b, 'front', z1), vertex(b, 'back', z1));
   }
 }
 
 /** Lamps at the corners: tail and head lamps, and indicators outside of them. */
 function addLamps(builder: Builder, z0: number, z1: number, inset: number): void {
   const tips: [Place, Place][] = [
-    [[-0.5, -0.03], [-0.5, 0.12 + inset]],
-    [[0.5, -0.14 - inset], [0.5, 0.02]],
+    [[-0.5, -0.02], [-0.5, 0.12 + inset]],
+    [[0.5, -0.14 - inset], [0.5, 0.012]],
   ];
   tips.forEach(([back, front], end) => {
     for (const sign of [1, -1]) {
       const lamp = end === 0 ? PART.tail : PART.head;
       const indicator = sign > 0 ? PART.left : PART.right;
       addCorner(builder, back, front, [0.26 * sign, 0], [0.42 * sign, 0], z0, z1, lamp);
-      addCorner(builder, back, front, [0.42 * sign, 0], [0.5 * sign, 0.03 * sign], z0, z1 + 0.02, indicator);
+      addCorner(builder, back, front, [0.42 * sign, 0], [0.5 * sign, 0.012 * sign], z0, z1, indicator);
     }
   });
 }

@@ -144,14 +144,17 @@ bool has(uint bit) {
 vec3 roofColour() {
   float bright = dot(paint, vec3(0.3, 0.6, 0.1));
   vec3 ink = bright > 0.5 ? vec3(0.09, 0.1, 0.12) : vec3(1.0);
-  vec3 tone = mix(paint, ink, 0.85 * onMark(pattern, roofPlace, roofHalf));
+  vec2 blur = fwidth(roofPlace);
+  // Marks that are smaller than pixels would only flicker.
+  float seen = 1.0 - smoothstep(0.2, 0.55, max(blur.x, blur.y));
+  vec3 tone = mix(paint, ink, 0.85 * seen * onMark(pattern, roofPlace, roofHalf));
   if (isFlat < 0.5) return tone;
   if (has(8u) && roofPlace.x < -0.72) return vec3(1.0, 0.12, 0.1);
   float side = has(16u) ? roofPlace.y : (has(32u) ? -roofPlace.y : 0.0);
   if (blink > 0.5 && side > 0.6 && abs(roofPlace.x) > 0.55) return vec3(1.0, 0.7, 0.1);
   bool isRim = max(abs(roofPlace.x), abs(roofPlace.y)) > 0.8;
   if (has(64u) && isRim) return vec3(1.0, 0.2, 0.75);
-  if (has(128u) && isRim) return vec3(1.0);
+  if (has(128u) && isRim) return mix(tone, vec3(1.0), seen);
   return tone;
 }
 
@@ -161,7 +164,7 @@ void main() {
   float shines = 0.0;
   if (piece == ${PART.glass}) tone = mix(vec3(0.13, 0.17, 0.22), vec3(0.45, 0.55, 0.64), clamp(facing.z, 0.0, 1.0) * 0.8);
   if (piece == ${PART.dark}) tone = vec3(0.12, 0.125, 0.14);
-  if (piece == ${PART.light}) tone = mix(paint, vec3(0.93, 0.94, 0.95), 0.72);
+  if (piece == ${PART.light}) tone = mix(paint, vec3(0.97, 0.975, 0.98), 0.86);
   if (piece == ${PART.roof}) tone = roofColour();
   if (piece == ${PART.tail}) {
     tone = has(8u) ? vec3(1.0, 0.13, 0.1) : mix(vec3(0.42, 0.05, 0.06), vec3(0.66, 0.07, 0.07), night);
