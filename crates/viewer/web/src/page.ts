@@ -25,6 +25,7 @@ import { Telemetry } from './telemetry.ts';
 import { TrafficView } from './traffic_view.ts';
 
 const CLOSE_M = 140;
+const LOOK_EVERY_MS = 250;
 
 /** Builds the page, and joins the feed, the state, the panels and the picture. */
 export class Page {
@@ -41,6 +42,7 @@ export class Page {
   private readonly time: TimeControls;
   private readonly timeline: Timeline;
   private view: TrafficView | null = null;
+  private lastLook_ms = 0;
 
   constructor(private readonly feed: Feed) {
     this.state = new State((message) => feed.say(message));
@@ -162,9 +164,20 @@ export class Page {
     Object.assign(goal, { x: x - ox, y: y - oy, distance: Math.min(goal.distance, CLOSE_M) });
   }
 
+  /** Tells the stage what panels cover: a column at the right, or a sheet at the bottom of a narrow window. */
+  private leaveFree(now_ms: number): void {
+    if (now_ms - this.lastLook_ms < LOOK_EVERY_MS) return;
+    this.lastLook_ms = now_ms;
+    const { left, top, width } = this.side.getBoundingClientRect();
+    const isShown = [...this.side.children].some((panel) => !(panel as HTMLElement).hidden);
+    const isSheet = width > innerWidth * 0.7;
+    this.stage.leaveFree(isShown && !isSheet ? 1 - left / innerWidth : 0, isShown && isSheet ? 1 - top / innerHeight : 0);
+  }
+
   private picture(now_ms: number, last_ms: number): void {
     const began = performance.now();
     if (this.view && this.state.hello.value) {
+      this.leaveFree(now_ms);
       this.view.draw(now_ms / 1000, Math.min((now_ms - last_ms) / 1000, 0.25), this.telemetry.fps);
       const { time_s } = this.view.traffic.playback;
       this.time.showTime(time_s);

@@ -2,7 +2,7 @@ import type { State } from './state.ts';
 import type { TrafficView } from './traffic_view.ts';
 
 const FRAMES = 120;
-const VEHICLES_EVERY = 30;
+const VEHICLES_EVERY = 10;
 
 /** What tests and the curious read from `window.laneweave`. */
 export interface Published {

@@ -74,6 +74,7 @@ export class TrafficView {
   draw(wall_s: number, elapsed_s: number, fps: number): void {
     const { rig } = this.stage;
     const frame = this.traffic.advance(wall_s);
+    this.stage.shiftMiddle(elapsed_s);
     this.moveCamera(elapsed_s);
     this.sendView(wall_s);
     if (frame || wall_s - this.lastSort_s > SORT_EVERY_S) {

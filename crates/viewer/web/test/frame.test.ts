@@ -25,10 +25,12 @@ test('a slot keeps its vehicle, and ids of 64 bits stay exact', () => {
   const id = 9_007_199_254_740_993n;
   slots.take(readFrame(frameBytes(1, 0, 2, [{ slot: 1, id, x: 0, hasCome: true }, { slot: 0, id: -5n, x: 0, hasCome: true }])));
   assert.ok(slots.hasJustCome(1));
+  assert.equal(slots.id(0), '-5');
+  assert.equal(slots.find('-5', -1), 0);
   slots.take(readFrame(frameBytes(2, 0.1, 2, [{ slot: 1, id, x: 1, hasCome: false }])));
   assert.ok(!slots.hasJustCome(1));
   assert.equal(slots.id(1), String(id));
-  assert.equal(slots.id(0), '-5');
+  assert.equal(slots.find('-5', 0), -1, 'a vehicle that has left is found no more');
   assert.equal(slots.find(String(id), -1), 1);
   assert.equal(slots.find('17', 1), -1);
   assert.deepEqual([slots.length(1), slots.width(1)], [4.5, 1.8]);

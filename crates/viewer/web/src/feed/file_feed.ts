@@ -125,7 +125,7 @@ export class FileFeed implements Feed {
   private find(id: string): void {
     const frame = this.present();
     const slot = this.slots.find(id, -1);
-    if (!frame || slot < 0 || slot >= frame.slotCount || classOf(frame.words, slot) === 0) {
+    if (!frame || slot < 0) {
       this.listener?.message({ found: { id } });
       return;
     }
@@ -156,7 +156,7 @@ export class FileFeed implements Feed {
   /** What a frame knows of a driver. */
   private driver(frame: Frame, id: string): Driver | null {
     const slot = this.slots.find(id, -1);
-    if (slot < 0 || slot >= frame.slotCount || classOf(frame.words, slot) === 0) return null;
+    if (slot < 0) return null;
     const flags = flagsOf(frame.words, slot);
     const isRecorded = (flags & FLAG_RECORDED) !== 0;
     const phase = (frame.words[slot * RECORD_WORDS + 3] >>> 14) & 3;

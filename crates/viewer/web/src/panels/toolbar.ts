@@ -31,7 +31,7 @@ export interface ToolbarActs {
   toggleMarks: () => void;
 }
 
-/** What is shown, at the top of the page. On narrow windows all but the first row is folded. */
+/** What is shown, at the top of the page. On narrow windows most of it is folded. */
 export class Toolbar {
   readonly root = element('div', { class: 'tools', role: 'toolbar', 'aria-label': 'View' });
   private readonly find = element('input', {
@@ -53,6 +53,10 @@ export class Toolbar {
     const hands = button('hands', 'By hand', 'Change the traffic by hand (H)', acts.toggleHands);
     state.hello.watch((hello) => (hands.hidden = !hello?.can.hands));
     more.append(
+      button('map', 'Map', 'Straight down, or aslant (M)', acts.toggleMap),
+      button('whole-map', '⤢', 'The whole map (Home)', acts.wholeMap),
+      toggleButton('night', '◐', 'Night or day (N)', state.isNight),
+      button('help', '?', 'Keys (?)', acts.help),
       labelled('colour', this.colours(state)),
       labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat))),
       labelled('trails', choice('trails', 'Which vehicles have trails', TRAILS, (which) => state.trails.set(which))),
@@ -64,10 +68,6 @@ export class Toolbar {
     this.root.append(
       this.title(state),
       this.finder(state),
-      button('map', 'Map', 'Straight down, or aslant (M)', acts.toggleMap),
-      button('whole-map', '⤢', 'The whole map (Home)', acts.wholeMap),
-      toggleButton('night', '◐', 'Night or day (N)', state.isNight),
-      button('help', '?', 'Keys (?)', acts.help),
       menu,
       more,
     );

@@ -5,6 +5,8 @@ import { Ground } from './ground.ts';
 import { Sky } from './sky.ts';
 
 const MOST_PIXELS_PER_POINT = 2;
+/** Share of the way to its goal that is left after a second, for the middle of the picture. */
+const GLIDE = 1e-3;
 /** A picture with more pixels than this is drawn smaller and stretched. */
 const MOST_PIXELS = 9_000_000;
 
@@ -18,6 +20,9 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   private readonly sky = new Sky();
   private ground: Ground | null = null;
+  /** How much of the window panels cover at the right and at the bottom, as shares of it; `covered` glides towards the goal. */
+  private readonly covered = { right: 0, bottom: 0 };
+  private readonly coveredGoal = { right: 0, bottom: 0 };
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
@@ -33,6 +38,21 @@ export class Stage {
   layGround(height: number): void {
     this.ground = new Ground(height);
     this.graph.add(this.ground.mesh);
+  }
+
+  /** Shows what is looked at in the middle of what panels leave free. */
+  leaveFree(right: number, bottom: number): void {
+    Object.assign(this.coveredGoal, { right, bottom });
+  }
+
+  /** Moves the middle of the picture; it must go before the camera moves. */
+  shiftMiddle(elapsed_s: number): void {
+    const share = 1 - GLIDE ** elapsed_s;
+    const { covered, coveredGoal: goal } = this;
+    covered.right += (goal.right - covered.right) * share;
+    covered.bottom += (goal.bottom - covered.bottom) * share;
+    const { camera } = this.rig;
+    camera.setViewOffset(camera.aspect, 1, (covered.right / 2) * camera.aspect, covered.bottom / 2, camera.aspect, 1);
   }
 
   draw(): void {
@@ -51,7 +71,6 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     const { camera } = this.rig;
     camera.aspect = width / height;
-    camera.updateProjectionMatrix();
     atmosphere.pixel.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / height;
   }
 }

@@ -1,4 +1,4 @@
-import { RECORD_WORDS, type Frame } from '../protocol/frame.ts';
+import { classOf, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
 
 const CENTIMETRES = 100;
 
@@ -10,10 +10,12 @@ export class Slots {
   private high = new Int32Array(0);
   private cameWith = new Uint32Array(0);
   private taken = 0;
+  private present: Frame | null = null;
 
   /** Takes the vehicles that have come with the next frame. */
   take(frame: Frame): void {
     this.taken += 1;
+    this.present = frame;
     this.grow(frame.slotCount);
     for (let at = 0; at < frame.came.length; at += RECORD_WORDS) {
       const slot = frame.came[at];
@@ -33,16 +35,22 @@ export class Slots {
     return ((BigInt(this.high[slot]) << 32n) | BigInt(this.low[slot])).toString();
   }
 
-  /** The slot in which a vehicle was last seen, or -1. `guess` is tried first. */
+  /** The slot of a vehicle that is in view, or -1. `guess` is tried first. */
   find(id: string, guess: number): number {
     const wanted = BigInt(id);
     const low = Number(BigInt.asUintN(32, wanted));
     const high = Number(BigInt.asIntN(32, wanted >> 32n));
-    if (guess >= 0 && this.low[guess] === low && this.high[guess] === high) return guess;
-    for (let slot = 0; slot < this.low.length; slot += 1) {
-      if (this.low[slot] === low && this.high[slot] === high) return slot;
-    }
+    if (guess >= 0 && this.holds(guess, low, high)) return guess;
+    const count = this.present?.slotCount ?? 0;
+    for (let slot = 0; slot < count; slot += 1) if (this.holds(slot, low, high)) return slot;
     return -1;
+  }
+
+  /** A slot that a vehicle has left still has its id, but is empty. */
+  private holds(slot: number, low: number, high: number): boolean {
+    const { present } = this;
+    if (this.low[slot] !== low || this.high[slot] !== high || !present) return false;
+    return slot < present.slotCount && classOf(present.words, slot) > 0;
   }
 
   length(slot: number): number {
