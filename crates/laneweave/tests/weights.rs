@@ -54,7 +54,14 @@ fn run(parameter: Parameter, factor: f64, seed: u64) -> Counted {
 
 #[test]
 fn probe() {
-    for parameter in [Parameter::SpeedWeight, Parameter::RouteWeight, Parameter::ComfortWeight, Parameter::CourtesyWeight, Parameter::UrgencyWeight, Parameter::KeepingWeight] {
+    for parameter in [
+        Parameter::SpeedWeight,
+        Parameter::RouteWeight,
+        Parameter::ComfortWeight,
+        Parameter::CourtesyWeight,
+        Parameter::UrgencyWeight,
+        Parameter::KeepingWeight,
+    ] {
         for factor in [0.0, 10.0] {
             let tasks: Vec<u64> = (1..=SEEDS).collect();
             for seed in tasks {

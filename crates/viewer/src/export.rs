@@ -94,7 +94,8 @@ fn inlined(page: Page, replay: &str) -> String {
         } else if !line.contains("page.js") {
             if line.contains("</body>") {
                 let before = line.replace("</body>", "");
-                let data = format!("<script id=\"replay\" type=\"application/json\">{}</script>", escaped(replay));
+                let data =
+                    format!("<script id=\"replay\" type=\"application/json\">{}</script>", escaped(replay));
                 file += &format!("{before}{data}\n<script type=\"module\">{}</script>\n", escaped(script));
                 file += "</body>\n";
             } else {

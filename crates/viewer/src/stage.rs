@@ -50,13 +50,12 @@ struct Page {
 }
 
 /// How time goes on.
-enum Pace {
-    /// It does not.
-    Paused,
-    /// With a factor of reality. It was this time of the simulation [s] at that instant.
-    Factor { factor: f64, from_s: f64, at: Instant },
-    /// As fast as it goes.
-    Unlimited,
+struct Pace {
+    is_playing: bool,
+    /// How many times as fast as reality; none: as fast as it goes.
+    factor: Option<f64>,
+    /// It was this time of the simulation [s] at that instant.
+    from: (f64, Instant),
 }
 
 /// The stage.
@@ -87,7 +86,7 @@ impl Stage {
             requests,
             snapshots,
             pages: BTreeMap::new(),
-            pace: Pace::Paused,
+            pace: Pace { is_playing: false, factor: Some(1.0), from: (0.0, now) },
             published: (0, now - PUBLISHES),
             is_new: true,
             marks_told: (now, -1.0),
@@ -110,15 +109,16 @@ impl Stage {
 
     /// How long nothing has to be done, unless somebody asks for something.
     fn pause(&self) -> Duration {
-        let due = match self.pace {
-            Pace::Paused => PUBLISHES,
-            Pace::Unlimited => Duration::ZERO,
-            Pace::Factor { factor, from_s, at } => {
+        let Pace { is_playing, factor, from: (from_s, at) } = self.pace;
+        match factor {
+            _ if !is_playing => PUBLISHES,
+            None => Duration::ZERO,
+            Some(factor) => {
                 let next = self.source.time_s() + self.source.step_s() - from_s;
-                Duration::from_secs_f64((next / factor).max(0.0)).saturating_sub(at.elapsed())
+                let due = Duration::from_secs_f64((next / factor).max(0.0));
+                due.saturating_sub(at.elapsed()).min(PUBLISHES)
             }
-        };
-        due.min(PUBLISHES)
+        }
     }
 
     fn take(&mut self, request: Request) {
@@ -151,18 +151,19 @@ impl Stage {
     fn serve(&mut self, id: PageId, asked: Asked) -> Result<(), Fault> {
         self.is_new = true;
         match asked {
-            Asked::Play(None) => self.pace = Pace::Unlimited,
-            Asked::Play(Some(factor)) => self.play(factor),
-            Asked::Pause(_) => self.pace = Pace::Paused,
+            Asked::Play(factor) => {
+                self.pace.is_playing = true;
+                self.pace.factor = factor;
+                self.begin_anew();
+            }
+            Asked::Pause(_) => self.pace.is_playing = false,
             Asked::Step(steps) => {
-                self.pace = Pace::Paused;
+                self.pace.is_playing = false;
                 (0..steps).for_each(|_| self.step());
             }
             Asked::Seek(time_s) => {
                 self.source.seek(time_s)?;
-                if let Pace::Factor { factor, .. } = self.pace {
-                    self.play(factor);
-                }
+                self.begin_anew();
             }
             Asked::Find(vehicle) => self.find(id, vehicle),
             Asked::Hand(hand) => {
@@ -200,36 +201,29 @@ impl Stage {
         self.tell(id, &Message { found: Some(Found { id: vehicle, x, y }), ..Message::default() });
     }
 
-    fn play(&mut self, factor: f64) {
-        self.pace = Pace::Factor { factor, from_s: self.source.time_s(), at: Instant::now() };
+    /// Time goes on from now.
+    fn begin_anew(&mut self) {
+        self.pace.from = (self.source.time_s(), Instant::now());
     }
 
     /// Lets time go on as far as it should.
     fn go_on(&mut self) {
-        let started = Instant::now();
-        match self.pace {
-            Pace::Paused => {}
-            Pace::Unlimited => {
-                while started.elapsed() < WORKS && !self.source.has_ended() {
-                    self.step();
-                }
-            }
-            Pace::Factor { factor, from_s, at } => {
-                let due = from_s + at.elapsed().as_secs_f64() * factor;
-                let step = self.source.step_s();
-                while self.source.time_s() + step <= due
-                    && started.elapsed() < WORKS
-                    && !self.source.has_ended()
-                {
-                    self.step();
-                }
-                if due - self.source.time_s() > LATE.as_secs_f64() * factor + step {
-                    self.play(factor);
-                }
-            }
+        if !self.pace.is_playing {
+            return;
         }
-        if self.source.has_ended() && !matches!(self.pace, Pace::Paused) {
-            self.pace = Pace::Paused;
+        let Pace { factor, from: (from_s, at), .. } = self.pace;
+        let (started, step) = (Instant::now(), self.source.step_s());
+        let due = factor.map_or(f64::INFINITY, |it| from_s + at.elapsed().as_secs_f64() * it);
+        while self.source.time_s() + step <= due && started.elapsed() < WORKS && !self.source.has_ended() {
+            self.step();
+        }
+        if let Some(factor) = factor
+            && due - self.source.time_s() > LATE.as_secs_f64() * factor + step
+        {
+            self.begin_anew();
+        }
+        if self.source.has_ended() {
+            self.pace.is_playing = false;
             self.is_new = true;
         }
     }
@@ -277,11 +271,7 @@ impl Stage {
             lanes: self.pages.values().any(|it| it.wants_lanes),
             selected,
         };
-        let factor = match self.pace {
-            Pace::Factor { factor, .. } => Some(factor),
-            _ => None,
-        };
-        let is_playing = !matches!(self.pace, Pace::Paused);
+        let Pace { is_playing, factor, .. } = self.pace;
         let mut snapshot =
             Snapshot { number: number.wrapping_add(1), is_playing, factor, ..Snapshot::default() };
         self.source.see(&wants, &mut snapshot);

@@ -21,7 +21,8 @@ Examples:
   # One egoist to three altruists, after four minutes of warm-up; only the summary, as JSON
   laneweave run maps/ramps.osm --style egoistic=1 --style altruistic=3 --warmup 240 --json";
 
-pub(super) const VIEW: &str = "The page is served on this machine only. Its address carries a token: whoever knows it can do what you
+pub(super) const VIEW: &str =
+    "The page is served on this machine only. Its address carries a token: whoever knows it can do what you
 can do there.
 
 Examples:

@@ -49,15 +49,15 @@ impl ParameterFacts {
     fn of(parameter: Parameter, drivers: &[&Style]) -> Option<ParameterFacts> {
         let value = |style: &Style| parameter.place(&mut style.clone()).map(|it| *it);
         let values: Vec<f64> = drivers.iter().filter_map(|it| value(it)).collect();
-        if values.is_empty() {
-            return None;
-        }
+        // Equal values have exactly their mean.
+        let first = *values.first()?;
+        let above = values.iter().map(|it| it - first).sum::<f64>() / values.len() as f64;
         let range = parameter.range();
         let limit = |it: f64| it.is_finite().then_some(it);
         Some(ParameterFacts {
             key: parameter.key(),
             unit: range.unit,
-            value: values.iter().sum::<f64>() / values.len() as f64,
+            value: first + above,
             minimum: limit(range.from),
             maximum: limit(range.to),
         })

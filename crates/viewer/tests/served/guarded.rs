@@ -27,11 +27,20 @@ fn strangers_get_nothing() {
     // Without the token, or with another one.
     for token in ["", "?token=", "?token=0123456789abcdef0123456789abcdef"] {
         assert_eq!(status(&ask(&format!("GET /scene.json{token}"), &own, "")), "403");
-        let upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
-        assert_eq!(status(&ask(&format!("GET /live{token}"), &own, upgrade)), "403");
+        let upgrade = format!(
+            "GET /live{token} HTTP/1.1\r\nHost: {own}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+             Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+        );
+        assert_eq!(status(&raw(&server, upgrade.as_bytes(), 1)), "403");
     }
     // Nothing else is there, and nothing can be put there.
-    for line in ["GET /../Cargo.toml", "GET /%2e%2e/Cargo.toml", "GET //etc/passwd", "GET /page.js/../../x", "GET /scene"] {
+    for line in [
+        "GET /../Cargo.toml",
+        "GET /%2e%2e/Cargo.toml",
+        "GET //etc/passwd",
+        "GET /page.js/../../x",
+        "GET /scene",
+    ] {
         assert_eq!(status(&ask(line, &own, "")), "404", "{line}");
     }
     assert_eq!(status(&ask(&scene.replace("GET", "POST"), &own, "Content-Length: 0\r\n")), "403");

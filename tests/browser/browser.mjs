@@ -1,0 +1,98 @@
+// A browser with software WebGL, the program that serves the page, and what both have in common in all tests.
+
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { mkdirSync } from 'node:fs';
+import { once } from 'node:events';
+import path from 'node:path';
+import { chromium } from 'playwright-core';
+
+const PATIENCE_MS = 60_000;
+const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+/** A browser in which pictures are drawn by Mesa. It needs a display, such as that of xvfb-run. */
+export async function open() {
+  return chromium.launch({
+    executablePath: CHROMIUM,
+    headless: false,
+    args: [
+      '--no-sandbox', '--use-gl=angle', '--use-angle=gl', '--ignore-gpu-blocklist', '--disable-quic',
+      '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    ],
+  });
+}
+
+/** `laneweave view` with these arguments: its address, and how to end it. */
+export async function view(program, args, cwd) {
+  const server = spawn(program, ['view', '--no-browser', ...args], { cwd, stdio: ['ignore', 'pipe', 'pipe'] });
+  let said = '';
+  server.stdout.setEncoding('utf8');
+  server.stderr.setEncoding('utf8').on('data', (text) => (said += text));
+  const url = await new Promise((found, failed) => {
+    let heard = '';
+    server.stdout.on('data', (text) => {
+      heard += text;
+      const address = heard.match(/http:\S+/);
+      if (address) found(address[0]);
+    });
+    server.on('exit', (code) => failed(new Error(`laneweave view ended with ${code}: ${said}`)));
+  });
+  const end = async () => {
+    server.kill('SIGINT');
+    const [code] = await once(server, 'exit');
+    assert.equal(code, 0, said);
+  };
+  return { url, end };
+}
+
+/** A page of a browser, which counts what goes wrong in it and what it asks the network for. */
+export async function page(browser, { width = 1280, height = 720, dark = false, offline = false } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? 'dark' : 'light', offline });
+  const opened = await context.newPage();
+  opened.setDefaultTimeout(PATIENCE_MS);
+  const wrong = [];
+  const asked = new Set();
+  opened.on('pageerror', (error) => wrong.push(String(error)));
+  opened.on('console', (message) => message.type() === 'error' && wrong.push(message.text()));
+  opened.on('request', (request) => asked.add(request.url()));
+  return { page: opened, wrong, asked, close: () => context.close() };
+}
+
+export const hook = (name) => `[data-test="${name}"]`;
+
+/** What the page publishes of itself. */
+export const state = (opened) => opened.evaluate(() => window.laneweave);
+
+/** Waits until the page publishes something for which `test` holds. */
+export async function until(opened, what, test) {
+  const begin = Date.now();
+  for (;;) {
+    const now = await state(opened);
+    if (now && test(now)) return now;
+    assert.ok(Date.now() - begin < PATIENCE_MS, `waited in vain until ${what}: ${JSON.stringify(now)}`);
+    await opened.waitForTimeout(100);
+  }
+}
+
+/** Keeps a picture of the page. */
+export async function shoot(opened, folder, name) {
+  mkdirSync(folder, { recursive: true });
+  await opened.waitForTimeout(400);
+  await opened.screenshot({ path: path.join(folder, `${name}.png`) });
+}
+
+/** Fails if no more than `most` draw calls and `most_ms` of script are needed for a picture, over ten seconds. */
+export async function measure(opened, seconds = 10) {
+  const calls = [];
+  const scripts = [];
+  const rates = [];
+  for (let n = 0; n < seconds * 4; n += 1) {
+    await opened.waitForTimeout(250);
+    const { drawCalls, scriptMs, fps } = await state(opened);
+    calls.push(drawCalls);
+    scripts.push(scriptMs);
+    rates.push(fps);
+  }
+  const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+  return { drawCalls: Math.max(...calls), scriptMs: median(scripts), fps: median(rates) };
+}

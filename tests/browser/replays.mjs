@@ -1,0 +1,79 @@
+// Runs that have ended, recordings, and replays in one file.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { statSync } from 'node:fs';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { hook, page, shoot, until, view } from './browser.mjs';
+
+const run = (program, folder, ...args) => execFileSync(program, args, { cwd: folder, stdio: 'ignore' });
+
+/** Clicks the time line at this share of its length. */
+async function click(opened, share) {
+  const { x, y, width } = await opened.locator(hook('timeline')).boundingBox();
+  await opened.mouse.click(x + width * share, y + 18);
+}
+
+async function scrubbed(browser, server, look) {
+  const { page: opened, wrong, close } = await page(browser);
+  await opened.goto(server.url);
+  await until(opened, 'it is ready', (it) => it.ready);
+  await look(opened);
+  assert.deepEqual(wrong, []);
+  await close();
+  await server.end();
+}
+
+/** A jammed motorway, scrubbed along its time line. */
+export async function a_run_that_has_ended({ browser, program, home, folder, shots }) {
+  run(program, folder, 'run', path.join(home, 'maps/ramps.osm'), '--demand', '7000', '--duration', '300', '--out', 'jam', '--quiet');
+  await scrubbed(browser, await view(program, ['jam'], folder), async (opened) => {
+    await click(opened, 0.8);
+    await until(opened, 'four minutes are reached', (it) => Math.abs(it.time_s - 240) < 8 && it.vehicles > 50);
+    await shoot(opened, shots, 'jam');
+    await click(opened, 0.2);
+    const early = await until(opened, 'one minute is reached', (it) => Math.abs(it.time_s - 60) < 8);
+    // The next mark.
+    await opened.keyboard.press(';');
+    await until(opened, 'the next mark is reached', (it) => it.time_s > early.time_s && it.time_s < early.time_s + 60);
+  });
+}
+
+/** A recording. */
+export async function a_recording({ browser, program, folder, data, shots }) {
+  if (!data) return 'skipped: no data';
+  const place = path.join(data, 'recordings/mona_east');
+  const args = [path.join(place, 'vehicle_tracks_000.csv'), '--map', path.join(place, 'map.osm')];
+  await scrubbed(browser, await view(program, args, folder), async (opened) => {
+    await opened.click(hook('play'));
+    await until(opened, 'vehicles are seen', (it) => it.vehicles > 5);
+    await opened.waitForTimeout(2000);
+    await shoot(opened, shots, 'mona_east');
+  });
+  return undefined;
+}
+
+/** The demo as one file, without a server and without a network. */
+export async function one_file({ browser, program, home, folder, shots }) {
+  run(program, folder, 'run', path.join(home, 'scenarios/demo.toml'), '--out', 'demo', '--quiet');
+  run(program, folder, 'view', 'demo', '--export', 'replay.html');
+  const file = path.join(folder, 'replay.html');
+  const size = statSync(file).size / 1e6;
+  assert.ok(size <= 10, `${size} MB`);
+  const { page: opened, wrong, asked, close } = await page(browser, { offline: true });
+  const begin = Date.now();
+  await opened.goto(pathToFileURL(file).href);
+  await until(opened, 'the first frame is there', (it) => it.ready);
+  const first_s = (Date.now() - begin) / 1000;
+  await opened.click(hook('play'));
+  await until(opened, 'it plays', (it) => it.time_s > 0.5);
+  await click(opened, 0.5);
+  await until(opened, 'its middle is reached', (it) => it.vehicles > 50);
+  await shoot(opened, shots, 'replay');
+  assert.deepEqual([...asked].filter((it) => !/^(file|data|blob):/.test(it)), []);
+  assert.deepEqual(wrong, []);
+  assert.ok(first_s < 3, `the first frame after ${first_s} s`);
+  await close();
+  return `${size.toFixed(1)} MB, first frame after ${first_s.toFixed(1)} s`;
+}
