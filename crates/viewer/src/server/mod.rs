@@ -67,7 +67,7 @@ struct Shared {
 }
 
 impl Server {
-    /// Serves `source` at `address`; port 0 is any free one.
+    /// Serves `source` at `address`; port 0 is any free one. The name of the thread that sends ends with the port.
     ///
     /// # Errors
     /// If the address cannot be used.
@@ -93,15 +93,16 @@ impl Server {
         let (stop, stopped) = watch::channel(false);
         let stage = Stage::new(source, receiver, publisher);
         let stage = thread::Builder::new().name("stage".into()).spawn(move || stage.run())?;
-        let sending = thread::Builder::new().name("sending".into()).spawn(move || {
-            runtime.block_on(async {
-                // A listener of the standard library that does not block is one of tokio's.
-                if let Ok(listener) = TcpListener::from_std(listener) {
-                    accept(listener, &shared, stopped).await;
-                }
-            });
-            runtime.shutdown_timeout(Duration::from_millis(200));
-        })?;
+        let sending =
+            thread::Builder::new().name(format!("sending {}", address.port())).spawn(move || {
+                runtime.block_on(async {
+                    // A listener of the standard library that does not block is one of tokio's.
+                    if let Ok(listener) = TcpListener::from_std(listener) {
+                        accept(listener, &shared, stopped).await;
+                    }
+                });
+                runtime.shutdown_timeout(Duration::from_millis(200));
+            })?;
         Ok(Server { address, token, requests, stage: Some(stage), sending: Some(sending), stop })
     }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use laneweave::scenario::Origin;
-use laneweave_viewer::{Live, Server, Token};
+use laneweave_viewer::{Live, Server, Source, Token};
 use tungstenite::{Message, WebSocket, client};
 
 /// Nothing takes longer than this.
@@ -23,12 +23,17 @@ pub(crate) fn live(name: &str) -> Live {
     Live::new(scenario, origin, std::env::temp_dir()).expect("a simulation")
 }
 
-/// A server on this machine, with its token.
+/// A server of a simulation on this machine, with its token.
 pub(crate) fn server(source: Live) -> (Server, String) {
+    serving(Box::new(source))
+}
+
+/// The same for any source.
+pub(crate) fn serving(source: Box<dyn Source>) -> (Server, String) {
     let token = Token::new();
     let text = token.to_string();
     let address = SocketAddr::from(([127, 0, 0, 1], 0));
-    (Server::start(Box::new(source), address, token).expect("a server"), text)
+    (Server::start(source, address, token).expect("a server"), text)
 }
 
 /// Sends bytes, and returns what comes back until the server closes the connection, or for some seconds.

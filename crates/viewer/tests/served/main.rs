@@ -4,4 +4,6 @@ mod client;
 mod frames;
 mod guarded;
 mod limits;
+#[cfg(target_os = "linux")]
+mod sending;
 mod watching;
