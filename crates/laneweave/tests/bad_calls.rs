@@ -93,7 +93,7 @@ fn command(
     let id = numbers.one(&names.vehicles);
     let lanelet = numbers.one(&names.lanelets);
     let style = numbers.one(&["conservative", "aggressive", "nobody", ""]);
-    match numbers.below(10) {
+    match numbers.below(11) {
         0 => {
             let vehicle = NewVehicle {
                 lanelet,
@@ -118,7 +118,8 @@ fn command(
             ("set_parameter", simulation.set_parameter(style, parameter, value))
         }
         7 => ("close_lanelet", simulation.close_lanelet(lanelet, numbers.below(2) == 0)),
-        8 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),
+        8 => ("set_share", simulation.set_share(style, numbers.real())),
+        9 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),
         _ => ("control", simulation.control(id, numbers.control())),
     }
 }
@@ -172,6 +173,7 @@ fn a_hundred_thousand_random_calls_break_nothing_and_each_refusal_says_what_to_d
         "set_destination",
         "set_light",
         "set_parameter",
+        "set_share",
         "set_style",
         "vehicles_on",
     ];

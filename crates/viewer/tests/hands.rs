@@ -49,6 +49,7 @@ fn a_town_changed_by_hand_is_the_same_when_it_is_run_again() {
     live.hand(&set(0.7)).expect("a slower style");
     let origin = live.hello().demand[0].origin.clone();
     live.hand(&Hand::SetDemand { origin, vehicles_per_hour: 1500.0 }).expect("more demand");
+    live.hand(&Hand::SetShare { style: style.clone(), weight: 30.0 }).expect("more of them");
     steps(&mut live, 300);
     let light = scene(&live)["lights"][0]["id"].as_str().expect("a light").to_owned();
     live.hand(&Hand::SetLight { light, shows: Some(LightState::Red) }).expect("a red light");
@@ -86,6 +87,20 @@ fn acts_on_one_thing_that_follow_each_other_are_one_and_are_taken_back_as_one() 
     steps(&mut live, 1);
     assert!((value(&live) - before).abs() < 1e-9);
     assert!(live.undo().is_err());
+    // Each is taken back to what it was before, whatever has been done in between.
+    let origin = live.hello().demand[0].origin.clone();
+    let demand = |live: &Live| live.hello().demand[0].vehicles_per_hour;
+    let (planned, set) =
+        (demand(&live), |it| Hand::SetDemand { origin: origin.clone(), vehicles_per_hour: it });
+    live.hand(&set(500.0)).expect("a demand");
+    steps(&mut live, 20);
+    live.hand(&set(700.0)).expect("a demand");
+    steps(&mut live, 20);
+    live.undo().expect("an act");
+    assert_eq!(demand(&live), 500.0);
+    steps(&mut live, 1);
+    live.undo().expect("an act");
+    assert_eq!(demand(&live), planned);
     let gone = Hand::Remove { vehicle: "999".into() };
     assert!(live.hand(&gone).expect_err("no vehicle").what.contains("999"));
 }

@@ -67,6 +67,18 @@ impl Simulation {
         self.command(&format!("set_demand of origin {origin}"), command).map(|_| ())
     }
 
+    /// Sets the weight of a style among those of the drivers who arrive from now on. The shares of the styles are in
+    /// proportion to their weights.
+    ///
+    /// # Errors
+    /// If no driver of the scenario has this style, if the weight is not between 0 and 1,000,000, if no style would have
+    /// a weight, or if the style has such a command in this step.
+    pub fn set_share(&mut self, style: impl Into<String>, weight: f64) -> Result<(), Fault> {
+        let style = style.into();
+        let place = format!("set_share of style {style}");
+        self.command(&place, Command::SetShare { style, weight }).map(|_| ())
+    }
+
     /// Makes a light show a state, whatever its program says. `None`: it follows its program again.
     ///
     /// # Errors

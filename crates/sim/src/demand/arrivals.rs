@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::demand::Demand;
 use crate::demand::perimeter_control::PerimeterControl;
-use crate::demand::source::{Queue, Source};
+use crate::demand::source::{Coming, Queue, Source};
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
 use crate::state::externals::FIRST_INSERTED;
@@ -26,6 +26,8 @@ pub(crate) struct Backlog {
     sources: Vec<Source>,
     /// `None` where the map has no town core.
     perimeter: Option<PerimeterControl>,
+    /// The weight of each style of the population.
+    weights: Vec<f64>,
     next_id: VehicleId,
     /// That of the next vehicle that a user puts on the road.
     next_inserted: VehicleId,
@@ -36,7 +38,8 @@ impl Arrivals {
     pub(crate) fn new(roads: &Roads, demand: Demand) -> Arrivals {
         let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
         let perimeter = PerimeterControl::new(roads.network());
-        let backlog = Backlog { sources, perimeter, next_id: 0, next_inserted: FIRST_INSERTED };
+        let weights = demand.population.iter().map(|it| it.weight).collect();
+        let backlog = Backlog { sources, perimeter, weights, next_id: 0, next_inserted: FIRST_INSERTED };
         Arrivals { demand, backlog }
     }
 
@@ -65,6 +68,21 @@ impl Arrivals {
         self.backlog.sources[origin].set_rate(rate, random, time);
     }
 
+    /// The weight of each style of the population.
+    pub(crate) fn weights(&self) -> &[f64] {
+        &self.backlog.weights
+    }
+
+    /// Sets the weight of a style of the population for the vehicles that arrive from now on.
+    pub(crate) fn set_weight(&mut self, style: usize, weight: f64) {
+        self.backlog.weights[style] = weight;
+    }
+
+    /// The index of a set of driver parameters for the vehicle `id`, drawn at random.
+    pub(crate) fn draw_driver(&self, random: &Random, id: VehicleId) -> u32 {
+        self.demand.draw_driver(&self.backlog.weights, random, id)
+    }
+
     /// The id of a new vehicle.
     pub(crate) fn new_id(&mut self) -> VehicleId {
         let id = self.backlog.next_id;
@@ -91,8 +109,9 @@ impl Arrivals {
 
     /// The vehicles that arrive at an origin by `time` [s] join its queues.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
-        let Arrivals { demand, backlog: Backlog { sources, perimeter, next_id, .. } } = self;
-        sources[origin].arrive(scene, demand, perimeter.as_ref(), random, time, next_id);
+        let Arrivals { demand, backlog: Backlog { sources, perimeter, weights, next_id, .. } } = self;
+        let coming = Coming { demand, weights, perimeter: perimeter.as_ref() };
+        sources[origin].arrive(scene, coming, random, time, next_id);
     }
 
     /// Vehicles that wait to enter.
@@ -126,7 +145,7 @@ impl Backlog {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Backlog { sources, perimeter, next_id: _, next_inserted } = self;
+        let Backlog { sources, perimeter, weights, next_id: _, next_inserted } = self;
         let perimeter_fits = match (perimeter, &other.perimeter) {
             (Some(one), Some(other)) => one.fits(other),
             (one, other) => one.is_none() && other.is_none(),
@@ -136,6 +155,9 @@ impl Backlog {
         sources.len() == other.sources.len()
             && sources.iter().zip(&other.sources).all(source_fits)
             && perimeter_fits
+            && weights.len() == other.weights.len()
+            && weights.iter().all(|it| *it >= 0.0)
+            && weights.iter().sum::<f64>() > 0.0
             && *next_inserted >= FIRST_INSERTED
     }
 

@@ -85,16 +85,18 @@ impl Demand {
 }
 
 impl Demand {
-    /// The index of a set of driver parameters for the vehicle `id`, drawn at random from the population.
-    pub(crate) fn draw_driver(&self, random: &Random, id: VehicleId) -> u32 {
+    /// The index of a set of driver parameters for the vehicle `id`, drawn at random from the population, whose styles
+    /// have these `weights`.
+    pub(crate) fn draw_driver(&self, weights: &[f64], random: &Random, id: VehicleId) -> u32 {
         let uniform = |purpose| random.uniform(id, purpose, 0);
-        let total: f64 = self.population.iter().map(|it| it.weight).sum();
-        let mut at = uniform(Purpose::Style) * total;
-        let drawn = self.population.iter().find(|it| {
-            at -= it.weight;
+        let mut at = uniform(Purpose::Style) * weights.iter().sum::<f64>();
+        let drawn = self.population.iter().zip(weights).find(|(_, weight)| {
+            at -= *weight;
             at < 0.0
         });
-        drawn.or(self.population.last()).map_or(0, |it| {
+        // By rounding, nobody may be drawn: then it is the last style that anybody has.
+        let last = || self.population.iter().zip(weights).rfind(|(_, weight)| **weight > 0.0);
+        drawn.or_else(last).map_or(0, |(it, _)| {
             it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
         })
     }

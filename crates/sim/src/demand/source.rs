@@ -104,6 +104,16 @@ impl Start {
     }
 }
 
+/// Who comes, and whether the town has room.
+#[derive(Clone, Copy)]
+pub(crate) struct Coming<'a> {
+    pub(crate) demand: &'a Demand,
+    /// The weight of each style of the population.
+    pub(crate) weights: &'a [f64],
+    /// `None` where the map has no town core.
+    pub(crate) perimeter: Option<&'a PerimeterControl>,
+}
+
 impl Source {
     /// The sources of all origins.
     pub(crate) fn all(
@@ -180,8 +190,7 @@ impl Source {
     pub(crate) fn arrive(
         &mut self,
         scene: &Scene,
-        demand: &Demand,
-        perimeter: Option<&PerimeterControl>,
+        coming: Coming,
         random: &Random,
         time: f64,
         next_id: &mut VehicleId,
@@ -193,7 +202,7 @@ impl Source {
         };
         while let Some(stream) = due(self) {
             let came = self.streams[stream].next;
-            let mut arrival = self.draw(scene.navigator, demand, random, (*next_id, came));
+            let mut arrival = self.draw(scene.navigator, coming, random, (*next_id, came));
             *next_id += 1;
             self.streams[stream].arrived += 1;
             self.draw_next(stream, random);
@@ -201,7 +210,7 @@ impl Source {
             let lane = &mut self.lanes[lane];
             let is_on_way =
                 |it: &PerimeterControl| it.is_on_way(scene.navigator, lane.chain, arrival.destination);
-            arrival.is_through_town = perimeter.is_some_and(is_on_way);
+            arrival.is_through_town = coming.perimeter.is_some_and(is_on_way);
             lane.waiting.push_back(arrival);
         }
     }
@@ -210,13 +219,13 @@ impl Source {
     fn draw(
         &self,
         navigator: &Navigator,
-        demand: &Demand,
+        Coming { demand, weights, .. }: Coming,
         random: &Random,
         (id, time): (VehicleId, f64),
     ) -> Arrival {
         let uniform = |purpose| random.uniform(id, purpose, 0);
         let class = demand.fleet.class(uniform(Purpose::Class));
-        let parameters = demand.draw_driver(random, id);
+        let parameters = demand.draw_driver(weights, random, id);
         let last = self.destinations.last().map_or(0.0, |it| it.1);
         let wanted = uniform(Purpose::Destination) * last;
         let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);

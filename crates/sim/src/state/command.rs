@@ -31,6 +31,13 @@ pub enum Command {
         /// Vehicles that arrive per hour.
         vehicles_per_hour: f64,
     },
+    /// Sets the weight of a style among those of the drivers who arrive from now on.
+    SetShare {
+        /// The name of the style.
+        style: String,
+        /// Its weight; the shares of the styles are in proportion to their weights.
+        weight: f64,
+    },
     /// Makes a light show a state, whatever its program says. `None`: it follows its program again.
     SetLight {
         /// The id of the light.
@@ -96,6 +103,8 @@ pub enum Target {
     Light(i64),
     /// A parameter of a style, by the style's name.
     Parameter(String, Parameter),
+    /// A style, by its name.
+    Style(String),
     /// A vehicle.
     Vehicle(VehicleId),
 }
@@ -107,6 +116,7 @@ impl fmt::Display for Target {
             Target::Lanelet(id) => write!(f, "lanelet {id}"),
             Target::Light(id) => write!(f, "light {id}"),
             Target::Parameter(style, parameter) => write!(f, "style {style} with its {}", parameter.key()),
+            Target::Style(style) => write!(f, "style {style}"),
             Target::Vehicle(id) => write!(f, "vehicle {id}"),
         }
     }
@@ -122,6 +132,7 @@ impl Command {
             | Command::SetStyle(id, _)
             | Command::SetDestination(id, _) => Target::Vehicle(*id),
             Command::SetDemand { origin, .. } => Target::Origin(*origin),
+            Command::SetShare { style, .. } => Target::Style(style.clone()),
             Command::SetLight { light, .. } => Target::Light(*light),
             Command::CloseLanelet { lanelet, .. } => Target::Lanelet(*lanelet),
             Command::SetParameter { style, parameter, .. } => Target::Parameter(style.clone(), *parameter),
@@ -145,6 +156,7 @@ impl Command {
             | Command::SetDestination(id, _) => Some(id),
             Command::Insert(_)
             | Command::SetDemand { .. }
+            | Command::SetShare { .. }
             | Command::SetLight { .. }
             | Command::CloseLanelet { .. }
             | Command::SetParameter { .. } => None,
@@ -160,6 +172,7 @@ impl Command {
             Command::Control(..) => 3,
             Command::Remove(_) => 4,
             Command::SetDemand { .. }
+            | Command::SetShare { .. }
             | Command::SetLight { .. }
             | Command::CloseLanelet { .. }
             | Command::SetParameter { .. } => 5,

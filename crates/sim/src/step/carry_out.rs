@@ -62,6 +62,11 @@ impl CarryingOut<'_> {
                     self.arrivals.set_rate(origin, *vehicles_per_hour, &random, time);
                 }
             }
+            Command::SetShare { style, weight } => {
+                if let Some(number) = names::style(self.roads, self.arrivals.demand(), style) {
+                    self.arrivals.set_weight(number, *weight);
+                }
+            }
             Command::SetLight { light, shows } => {
                 if let Some(light) = names::light(self.roads.network(), *light) {
                     self.junctions.set_light(self.roads.network(), light, *shows, self.traffic.clock());

@@ -11,6 +11,7 @@ use crate::state::command::{Command, NewVehicle};
 use crate::state::control::{Control, Lateral, Longitudinal};
 use crate::state::lane::VehicleId;
 use crate::step::insert::check_place;
+use crate::step::names;
 use crate::step::put_vehicle::{Named, put};
 use crate::step::world::World;
 
@@ -68,6 +69,9 @@ pub enum CommandError {
     /// The headways of the scenario are impossible at this demand.
     #[error("{0}; choose a lower demand")]
     Headways(String),
+    /// No style would be left for the drivers who arrive.
+    #[error("no style would have a weight, so nobody could arrive; give another style a weight first")]
+    NoStyle,
     /// A lanelet cannot be closed.
     #[error("lanelet {lanelet} cannot be closed: {why}")]
     Closing {
@@ -167,12 +171,31 @@ impl World {
                 let of_a_lane = vehicles_per_hour / (SECONDS_PER_HOUR * lanes);
                 demand.headways.check(of_a_lane).map_err(|it| CommandError::Headways(it.to_string()))
             }
+            Command::SetShare { style, weight } => self.check_share(style, *weight),
             Command::SetLight { light, .. } => self.light_with(*light).map(|_| ()),
             Command::CloseLanelet { lanelet, is_closed } => self.check_closing(*lanelet, *is_closed),
             Command::SetParameter { style, parameter, value } => {
                 self.check_parameter(style, *parameter, *value)
             }
         }
+    }
+
+    /// Checks that a style can have this weight, and that some style has one, with all that waits to be changed.
+    fn check_share(&self, style: &str, weight: f64) -> Result<(), CommandError> {
+        /// The largest weight: a share is one of a million at least.
+        const LARGEST: f64 = 1e6;
+        self.parameters_of(style, VehicleId::MAX)?;
+        in_range("the weight of a style", weight, [0.0, LARGEST], "")?;
+        let number = |it: &str| names::style(&self.roads, self.arrivals.demand(), it);
+        let mut weights = self.arrivals.weights().to_vec();
+        let mut set = |style: &str, weight| number(style).into_iter().for_each(|it| weights[it] = weight);
+        for waiting in self.commands.waiting() {
+            if let Command::SetShare { style, weight } = &waiting.command {
+                set(style, *weight);
+            }
+        }
+        set(style, weight);
+        if weights.iter().sum::<f64>() > 0.0 { Ok(()) } else { Err(CommandError::NoStyle) }
     }
 
     /// Checks that a vehicle that is to drive in lanes is in one.

@@ -17,11 +17,15 @@ const LISTED: usize = 20;
 /// The index of a set of driver parameters of `style` for the vehicle `id`, drawn at random from the sets of the
 /// population.
 pub(super) fn parameters_of(roads: &Roads, demand: &Demand, style: &str, id: VehicleId) -> Option<u32> {
-    let is_named = |it: u32| roads.driver_parameters().get(it as usize).is_some_and(|it| it.name == style);
-    let Share { first, count, .. } =
-        demand.population.iter().find(|it| it.count > 0 && is_named(it.first))?;
-    let drawn = (roads.random().uniform(id, Purpose::Character, 0) * f64::from(*count)) as u32;
+    let Share { first, count, .. } = demand.population[self::style(roads, demand, style)?];
+    let drawn = (roads.random().uniform(id, Purpose::Character, 0) * f64::from(count)) as u32;
     Some(first + drawn.min(count - 1))
+}
+
+/// The place of the style with this name in the population.
+pub(super) fn style(roads: &Roads, demand: &Demand, name: &str) -> Option<usize> {
+    let is_named = |it: u32| roads.driver_parameters().get(it as usize).is_some_and(|it| it.name == name);
+    demand.population.iter().position(|it| it.count > 0 && is_named(it.first))
 }
 
 /// The destination with this name.

@@ -94,6 +94,11 @@ impl World {
         self.arrivals.demand()
     }
 
+    /// The weight of each style of the population of its demand, for the vehicles that arrive now.
+    pub fn style_weights(&self) -> &[f64] {
+        self.arrivals.weights()
+    }
+
     /// The average assignment of its demand between two times [s].
     pub fn assignment(&self, during: [f64; 2]) -> Assignment {
         Assignment::new(self.roads.network(), self.roads.navigator(), self.arrivals.demand(), during)

@@ -85,7 +85,7 @@ impl World {
             x: at.x,
             speed: pose.speed,
             class,
-            parameters: arrivals.demand().draw_driver(&roads.random(), id),
+            parameters: arrivals.draw_driver(&roads.random(), id),
             destination: roads.navigator().seen_by(class, None),
         };
         log.begin_trip(id, None, || TripRecord {

@@ -98,6 +98,46 @@ fn a_demand_holds_from_the_command_on() {
 }
 
 #[test]
+fn a_share_holds_for_those_who_arrive_from_the_command_on() {
+    let mut world = world("motorway_3_lanes.osm", 3600.0, 1, 1);
+    let mut share = |style: &str, weight| {
+        world.command(Command::SetShare { style: style.into(), weight }).expect("it is possible");
+        let begin = world.clock().time();
+        let (mut named, mut all) = (0, 0);
+        for _ in 0..6000 {
+            world.step();
+            for event in world.events() {
+                if let Event::Entered(id) = event
+                    && world.trip(*id).is_none_or(|it| it.arrived >= begin)
+                {
+                    all += 1;
+                    named += usize::from(world.vehicle(*id).is_some_and(|it| it.style().name == style));
+                }
+            }
+        }
+        named as f64 / all as f64
+    };
+    // The other style has the weight 1.
+    assert!(share("aggressive", 0.0) < 0.01);
+    let more = share("aggressive", 3.0);
+    assert!((0.69..0.81).contains(&more), "{more}");
+}
+
+#[test]
+fn the_last_style_keeps_a_weight() {
+    let mut world = world("motorway_3_lanes.osm", 3600.0, 1, 1);
+    let mut none = |style: &str| world.command(Command::SetShare { style: style.into(), weight: 0.0 });
+    assert_eq!(none("aggressive"), Ok(None));
+    assert_eq!(none("conservative"), Err(CommandError::NoStyle));
+    let saved = {
+        world.step();
+        world.save().expect("a state")
+    };
+    world.restore(&saved).expect("its own state");
+    assert_eq!(world.style_weights(), [0.0, 1.0]);
+}
+
+#[test]
 fn a_demand_that_the_headways_cannot_have_is_refused() {
     let network = crate::worlds::network("motorway_3_lanes.osm");
     let mut demand = crate::drivers::demand(&network, 1000.0, 0.1, &[1.0, 1.0]);

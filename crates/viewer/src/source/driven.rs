@@ -73,8 +73,15 @@ impl Driven {
     }
 
     pub(super) fn styles(&self) -> Vec<StyleFacts> {
-        let drivers = self.world().driver_parameters();
-        self.prepared.styles.iter().map(|(name, _)| StyleFacts::of(name, drivers)).collect()
+        let world = self.world();
+        let drivers = world.driver_parameters();
+        let population = world.demand().population.iter().zip(world.style_weights());
+        let weight = |name: &str| {
+            let of_name = population.clone().filter(|(it, _)| drivers[it.first as usize].name == name);
+            of_name.map(|(_, weight)| weight).sum()
+        };
+        let styles = self.prepared.styles.iter();
+        styles.map(|(name, _)| StyleFacts::of(name, weight(name), drivers)).collect()
     }
 
     pub(super) fn demand(&self) -> Vec<DemandFacts> {

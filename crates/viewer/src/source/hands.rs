@@ -34,6 +34,13 @@ pub enum Hand {
         /// Vehicles that arrive per hour.
         vehicles_per_hour: f64,
     },
+    /// Changes the weight of a style among those of the drivers who arrive.
+    SetShare {
+        /// The name of the style.
+        style: String,
+        /// Its new weight.
+        weight: f64,
+    },
     /// Makes a light show something.
     SetLight {
         /// The light, by its id.
@@ -116,6 +123,18 @@ pub struct Saved {
     pub scenario: PathBuf,
 }
 
+/// What can be changed, as it is after all that was done by hand.
+pub(super) trait Present {
+    /// The value of a number of a style.
+    fn parameter(&self, style: &str, parameter: Parameter) -> Option<f64>;
+
+    /// The weight of a style.
+    fn share(&self, style: &str) -> Option<f64>;
+
+    /// The demand at an entrance [veh/h].
+    fn demand(&self, origin: i64) -> Option<f64>;
+}
+
 /// The commands of something done by hand: what is done, what takes it back, and what it is called.
 pub(super) struct Deed {
     pub(super) command: Command,
@@ -133,17 +152,13 @@ fn id(text: &str) -> Result<i64, Fault> {
 }
 
 impl Deed {
-    /// What `hand` means in `world`, where the numbers of styles have values that `value` knows.
-    pub(super) fn of(
-        hand: &Hand,
-        world: &World,
-        value: impl Fn(&str, Parameter) -> Option<f64>,
-    ) -> Result<Deed, Fault> {
+    /// What `hand` means in `world`; `now` knows what can be changed as it is now.
+    pub(super) fn of(hand: &Hand, world: &World, now: &impl Present) -> Result<Deed, Fault> {
         Ok(match hand {
             Hand::SetParameter { style, parameter, value: new } => {
                 let set =
                     |value| Command::SetParameter { style: style.clone(), parameter: *parameter, value };
-                let old = value(style, *parameter);
+                let old = now.parameter(style, *parameter);
                 let from = old.map_or_else(String::new, |it| format!(" from {}", short(it)));
                 let text = format!("{} of {style}{from} to {}", parameter.key(), short(*new));
                 Deed { command: set(*new), back: old.map(set), text }
@@ -151,10 +166,16 @@ impl Deed {
             Hand::SetDemand { origin, vehicles_per_hour } => {
                 let origin = id(origin)?;
                 let set = |vehicles_per_hour| Command::SetDemand { origin, vehicles_per_hour };
-                let found = world.demand().origins.iter().find(|it| it.place.id() == origin);
-                let old = found.map(|it| it.rate.at(world.clock().time()));
+                let old = now.demand(origin);
                 let text = format!("demand at entrance {origin} to {} veh/h", short(*vehicles_per_hour));
                 Deed { command: set(*vehicles_per_hour), back: old.map(set), text }
+            }
+            Hand::SetShare { style, weight } => {
+                let set = |weight| Command::SetShare { style: style.clone(), weight };
+                let old = now.share(style);
+                let from = old.map_or_else(String::new, |it| format!(" from {}", short(it)));
+                let text = format!("share of {style}{from} to {}", short(*weight));
+                Deed { command: set(*weight), back: old.map(set), text }
             }
             Hand::SetLight { light, shows } => {
                 let light = id(light)?;

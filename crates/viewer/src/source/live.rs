@@ -9,8 +9,8 @@ use laneweave::sim::{Command, Commanded};
 use laneweave::{Control, Fault, Lateral, Longitudinal, Parameter, refused};
 
 use super::driven::Driven;
-use super::hands::{Deed, Done, Hand, Saved, save};
-use super::{Abilities, Hello, Kind, Mark, Marks, Source, Wants};
+use super::hands::{Deed, Done, Hand, Present, Saved, save};
+use super::{Abilities, DemandFacts, Hello, Kind, Mark, Marks, Source, StyleFacts, Wants};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
@@ -39,16 +39,24 @@ impl Live {
         Ok(Live { driven, pending: Vec::new(), given: Vec::new(), done: Vec::new(), dir })
     }
 
-    /// The value of a number of a style, as it will be in the next step.
-    fn value(&self, style: &str, parameter: Parameter) -> Option<f64> {
-        let pending = self.pending.iter().find_map(|it| match it {
-            Command::SetParameter { style: of, parameter: number, value } => {
-                (of == style && *number == parameter).then_some(*value)
-            }
-            _ => None,
-        });
-        let styles = || self.driven.styles().into_iter().find(|it| it.name == style);
-        pending.or_else(|| styles()?.value(parameter))
+    /// The last command that `found` knows, of those for the next step and those before it.
+    fn last<T>(&self, found: impl Fn(&Command) -> Option<T>) -> Option<T> {
+        let given = self.given.iter().map(|it| &it.command);
+        given.chain(&self.pending).rev().find_map(found)
+    }
+
+    fn style(&self, name: &str) -> Option<StyleFacts> {
+        self.driven.styles().into_iter().find(|it| it.name == name)
+    }
+
+    /// The demand of each entrance.
+    fn demand_now(&self) -> Vec<DemandFacts> {
+        let mut facts = self.driven.demand();
+        for it in &mut facts {
+            let now = it.origin.parse().ok().and_then(|origin| self.demand(origin));
+            it.vehicles_per_hour = now.unwrap_or(it.vehicles_per_hour);
+        }
+        facts
     }
 
     /// Gives a command before the next step, in place of one of the same kind for the same thing.
@@ -92,6 +100,38 @@ impl Live {
     }
 }
 
+impl Present for Live {
+    fn parameter(&self, style: &str, parameter: Parameter) -> Option<f64> {
+        let set = self.last(|it| match it {
+            Command::SetParameter { style: of, parameter: number, value } => {
+                (of == style && *number == parameter).then_some(*value)
+            }
+            _ => None,
+        });
+        set.or_else(|| self.style(style)?.value(parameter))
+    }
+
+    fn share(&self, style: &str) -> Option<f64> {
+        let set = self.last(|it| match it {
+            Command::SetShare { style: of, weight } => (of == style).then_some(*weight),
+            _ => None,
+        });
+        set.or_else(|| Some(self.style(style)?.weight))
+    }
+
+    fn demand(&self, origin: i64) -> Option<f64> {
+        let set = self.last(|it| match it {
+            Command::SetDemand { origin: of, vehicles_per_hour } => {
+                (*of == origin).then_some(*vehicles_per_hour)
+            }
+            _ => None,
+        });
+        let name = origin.to_string();
+        let planned = || self.driven.demand().into_iter().find(|it| it.origin == name);
+        set.or_else(|| Some(planned()?.vehicles_per_hour))
+    }
+}
+
 /// Whether a world takes only one of the two in a step.
 fn is_same(a: &Command, b: &Command) -> bool {
     a.target().is_some() && a.target() == b.target() && discriminant(a) == discriminant(b)
@@ -112,7 +152,7 @@ impl Source for Live {
             end_s: None,
             can: Abilities { hands: true, seek: false, explain: true },
             styles: self.driven.styles(),
-            demand: self.driven.demand(),
+            demand: self.demand_now(),
         }
     }
 
@@ -158,8 +198,7 @@ impl Source for Live {
     }
 
     fn hand(&mut self, hand: &Hand) -> Result<(), Fault> {
-        let value = |style: &str, parameter| self.value(style, parameter);
-        let Deed { command, back, text } = Deed::of(hand, self.driven.world(), value)?;
+        let Deed { command, back, text } = Deed::of(hand, self.driven.world(), self)?;
         if let Command::Insert(_) = command {
             let back = self.insert(command.clone())?;
             self.note(&command, Some(back), text);

@@ -11,6 +11,8 @@ pub struct StyleFacts {
     pub name: String,
     /// One sentence about it.
     pub description: String,
+    /// Its weight among the styles of the drivers who arrive.
+    pub weight: f64,
     /// Its numbers.
     pub parameters: Vec<ParameterFacts>,
 }
@@ -31,12 +33,12 @@ pub struct ParameterFacts {
 }
 
 impl StyleFacts {
-    /// The style `name` of these drivers.
-    pub fn of(name: &str, drivers: &[Style]) -> StyleFacts {
+    /// The style `name` of these drivers, with its weight.
+    pub fn of(name: &str, weight: f64, drivers: &[Style]) -> StyleFacts {
         let own: Vec<&Style> = drivers.iter().filter(|it| it.name == name).collect();
         let parameters = Parameter::ALL.iter().filter_map(|it| ParameterFacts::of(*it, &own)).collect();
         let description = own.first().map_or_else(String::new, |it| it.description.clone());
-        StyleFacts { name: name.to_owned(), description, parameters }
+        StyleFacts { name: name.to_owned(), description, weight, parameters }
     }
 
     /// The value of a number.
