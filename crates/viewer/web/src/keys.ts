@@ -66,6 +66,7 @@ export function listenToKeys(state: State, rig: Rig, time: TimeControls, acts: K
     },
   };
   window.addEventListener('keydown', (event) => {
+    if (document.querySelector('dialog[open]')) return;
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !isForField(event)) {
       event.preventDefault();
       acts.undo();

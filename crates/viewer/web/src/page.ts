@@ -45,7 +45,7 @@ export class Page {
   private lastLook_ms = 0;
 
   constructor(private readonly feed: Feed) {
-    this.state = new State((message) => feed.say(message));
+    this.state = new State(feed.hasServer, (message) => feed.say(message));
     document.body.append(element('main', {}, this.canvas));
     this.stage = new Stage(this.canvas);
     this.hands = new Hands(this.state);

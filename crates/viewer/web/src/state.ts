@@ -52,7 +52,11 @@ export class State {
   readonly isNight = new Signal(false);
   readonly camera = new Signal<CameraMode>('free');
 
-  constructor(readonly say: (message: PageMessage) => void) {}
+  constructor(
+    /** Whether there is a server that measures lanes, and says of vehicles what a frame has no room for. */
+    readonly hasServer: boolean,
+    readonly say: (message: PageMessage) => void,
+  ) {}
 
   /** Selects a vehicle; as the second one if there is a first. */
   select(id: string, isSecond: boolean): void {

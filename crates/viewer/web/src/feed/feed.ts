@@ -16,6 +16,8 @@ export interface FeedListener {
 
 /** Where scenes, frames and messages come from: a server, or the file that the page is. */
 export interface Feed {
+  /** Whether it can measure lanes, and say of vehicles what a frame has no room for. */
+  readonly hasServer: boolean;
   start(listener: FeedListener): void;
   say(message: PageMessage): void;
 }

@@ -1,4 +1,4 @@
-import { classOf, flagsOf, FLAG_RECORDED, FLAG_USER, headingOf, readFrame, speedOf, styleOf, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
+import { classOf, flagsOf, FLAG_RECORDED, FLAG_USER, readFrame, speedOf, styleOf, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
 import type { Driver, Marks, PageMessage, VehicleClass } from '../protocol/messages.ts';
 import { Slots } from '../traffic/slots.ts';
 import type { Feed, FeedListener } from './feed.ts';
@@ -13,6 +13,7 @@ const CLASS_NAMES: readonly VehicleClass[] = ['car', 'car', 'truck', 'bus', 'mot
 
 /** A replay that the page brings along. It keeps the time itself, and answers as a server would. */
 export class FileFeed implements Feed {
+  readonly hasServer = false;
   private listener: FeedListener | null = null;
   private store: FrameStore | null = null;
   private marks: Marks;
@@ -180,7 +181,7 @@ export class FileFeed implements Feed {
       leader: null,
       sides: [],
       gap_test: null,
-      act: `heads ${Math.round((450 - (headingOf(frame.words, slot) * 180) / Math.PI) % 360)}° from north`,
+      act: null,
       story: null,
     };
   }

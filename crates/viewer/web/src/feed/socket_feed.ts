@@ -7,6 +7,7 @@ const LONGEST_RETRY_S = 10;
 
 /** The server that sent the page. It connects again whenever the connection is lost. */
 export class SocketFeed implements Feed {
+  readonly hasServer = true;
   private socket: WebSocket | null = null;
   private listener: FeedListener | null = null;
   private retry_s = FIRST_RETRY_S;

@@ -89,22 +89,24 @@ export function toggle(state: State, mode: 'follow' | 'eye'): void {
 
 const name = (driver: Driver): string => driver.class[0].toUpperCase() + driver.class.slice(1);
 
+/** What is known of a driver. */
 function facts(driver: Driver): Fact[] {
   const { leader } = driver;
   const state = [driver.state, driver.side && `to the ${driver.side}`, driver.concentration].filter(Boolean).join(', ');
-  const list: Fact[] = [
-    ['style', driver.style ?? 'not known'],
-    ['state', state || 'not known'],
+  const place = driver.position_m === null ? '' : `, at ${withUnit(driver.position_m, 1, 'm')}`;
+  const list: [name: string, value: string | null][] = [
+    ['style', driver.style],
+    ['state', state || null],
     ['speed', withUnit(driver.speed_kmh, 1, 'km/h')],
-    ['wants to drive', withUnit(driver.desired_kmh, 1, 'km/h')],
-    ['accelerates', withUnit(driver.acceleration_mps2, 2, 'm/s²')],
-    ['leader', leader ? `${leader.id}: ${fixed(leader.gap_m, 1)} m ahead, ${fixed(leader.speed_kmh, 0)} km/h` : 'none'],
-    ['lane', driver.lanelet === null ? 'none' : `${driver.lanelet}, at ${withUnit(driver.position_m, 1, 'm')}`],
-    ['destination', driver.destination ?? 'not known'],
+    ['wants to drive', driver.desired_kmh === null ? null : withUnit(driver.desired_kmh, 1, 'km/h')],
+    ['accelerates', driver.acceleration_mps2 === null ? null : withUnit(driver.acceleration_mps2, 2, 'm/s²')],
+    ['leader', leader && `${leader.id}: ${fixed(leader.gap_m, 1)} m ahead, ${fixed(leader.speed_kmh, 0)} km/h`],
+    ['lane', driver.lanelet && `${driver.lanelet}${place}`],
+    ['destination', driver.destination],
     ['length', withUnit(driver.length_m, 1, 'm')],
+    ['driven by', driver.is_external ? 'a user' : null],
   ];
-  if (driver.is_external) list.push(['driven by', 'a user']);
-  return list;
+  return list.filter((fact): fact is Fact => fact[1] !== null);
 }
 
 function sideBlock(account: SideAccount): HTMLElement {

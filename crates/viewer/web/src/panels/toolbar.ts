@@ -11,6 +11,8 @@ const COLOURS: readonly (readonly [VehicleColour, string])[] = [
   ['delay', 'delay'],
   ['since_change', 'time since change'],
 ];
+/** The first ones need nothing but frames. */
+const COLOURS_OF_FRAMES = 3;
 const HEATS: readonly (readonly [Heat, string])[] = [
   ['none', 'plain'],
   ['changes', 'lane changes'],
@@ -58,7 +60,7 @@ export class Toolbar {
       toggleButton('night', '◐', 'Night or day (N)', state.isNight),
       button('help', '?', 'Keys (?)', acts.help),
       labelled('colour', this.colours(state)),
-      labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat))),
+      ...(state.hasServer ? [labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat)))] : []),
       labelled('trails', choice('trails', 'Which vehicles have trails', TRAILS, (which) => state.trails.set(which))),
       toggleButton('changes', 'Changes', 'Lane changes and other events of the last minute, on the road', state.showsChanges),
       toggleButton('arrows', 'Arrows', 'Arrows in the direction of the lanes', state.showsArrows),
@@ -96,7 +98,8 @@ export class Toolbar {
 
   private colours(state: State): HTMLSelectElement {
     state.hello.watch(() => askForColour(state));
-    return choice('colour', 'What the colours of vehicles tell', COLOURS, (value) => {
+    const colours = state.hasServer ? COLOURS : COLOURS.slice(0, COLOURS_OF_FRAMES);
+    return choice('colour', 'What the colours of vehicles tell', colours, (value) => {
       state.colour.set(value);
       askForColour(state);
     });
