@@ -22,6 +22,7 @@ const SORT_EVERY_S = 0.2;
 /** How far the page asks for vehicles where the camera sees to the horizon. */
 const LEAST_SIGHT_M = 900;
 const SIGHT_BY_DISTANCE = 5;
+const CLICK_PIXELS = 6;
 const SIGNAL_CLICK_M = 4;
 
 /** The moving picture of one scene: roads, signals and vehicles, and what a click on it means. */
@@ -148,7 +149,7 @@ export class TrafficView {
 
   private listen(): void {
     const { rig, canvas } = this.stage;
-    const metres = () => atmosphere.pixel.value * rig.now.distance;
+    const metres = () => this.stage.pixel * rig.now.distance;
     listenToGestures(canvas, {
       drag: (dx, dy) => {
         if (this.state.camera.value === 'follow') this.state.camera.set('free');
@@ -166,7 +167,7 @@ export class TrafficView {
   private click(x: number, y: number, isSecond: boolean): void {
     const point = this.ground(x, y);
     if (!point) return;
-    const reach = 6 * atmosphere.pixel.value * this.stage.rig.now.distance;
+    const reach = CLICK_PIXELS * this.stage.pixel * this.stage.rig.now.distance;
     const id = this.traffic.pick(point.x, point.y, reach);
     if (id !== null) {
       this.state.select(id, isSecond);

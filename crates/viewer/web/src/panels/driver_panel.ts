@@ -34,6 +34,7 @@ export class DriverPanel {
       button('deselect', 'Close', 'Select nothing (Esc)', () => state.choose([])),
     );
     this.root.append(this.title, this.act, views, this.facts, this.charts, this.gap, this.whole, this.second, actions);
+    this.second.hidden = true;
     state.camera.watch((mode) => {
       for (const one of ['follow', 'eye']) views.querySelector(`[data-test=${one}]`)?.setAttribute('aria-pressed', String(mode === one));
     });

@@ -5,6 +5,8 @@ import { element } from './dom.ts';
 import { nextMark, previousMark, TimelineScale } from './timeline_scale.ts';
 import { clockTime } from './words.ts';
 
+/** Sizes in pixels where the text has the size `USUAL_TEXT`. */
+const USUAL_TEXT = 13.4;
 const HEIGHT = 46;
 const TRACK_TOP = 10;
 const TRACK_HEIGHT = 16;
@@ -24,6 +26,9 @@ export class Timeline {
   });
   private readonly paths = Object.fromEntries(Object.entries(SHAPE_PATHS).map(([shape, path]) => [shape, new Path2D(path)]));
   private time_s = 0;
+  /** How much larger than usual the text is, and the width in pixels of usual text. */
+  private size = 1;
+  private width = 1;
   private drawnAt = '';
   private lastSeek_ms = 0;
 
@@ -34,7 +39,7 @@ export class Timeline {
     });
     state.marks.watch(() => (this.drawnAt = ''));
     state.isNight.watch(() => (this.drawnAt = ''));
-    new ResizeObserver(() => (this.drawnAt = '')).observe(this.root);
+    new ResizeObserver(() => this.measure()).observe(this.root);
     this.root.addEventListener('pointerdown', (event) => {
       this.root.setPointerCapture(event.pointerId);
       this.seekTo(event, true);
@@ -68,6 +73,12 @@ export class Timeline {
     if (mark && this.state.hello.value?.can.seek) this.state.say({ seek: mark.time_s });
   }
 
+  private measure(): void {
+    this.size = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / USUAL_TEXT;
+    this.width = Math.max(this.root.clientWidth / this.size, 1);
+    this.drawnAt = '';
+  }
+
   private key(event: KeyboardEvent): void {
     const { value: hello } = this.state.hello;
     if (!hello || hello.end_s === null) return;
@@ -94,15 +105,15 @@ export class Timeline {
     if (!hello || hello.end_s === null || (!isSure && now - this.lastSeek_ms < SEEK_EVERY_MS)) return;
     this.lastSeek_ms = now;
     const { left } = this.root.getBoundingClientRect();
-    this.state.say({ seek: this.scale(hello).time(event.clientX - left) });
+    this.state.say({ seek: this.scale(hello).time((event.clientX - left) / this.size) });
   }
 
   private scale({ begin_s, end_s }: Hello): TimelineScale {
-    return new TimelineScale(begin_s, end_s ?? begin_s, Math.max(this.root.clientWidth, 1));
+    return new TimelineScale(begin_s, end_s ?? begin_s, this.width);
   }
 
   private draw(scale: TimelineScale, x: number, marks: Marks | null): void {
-    const sharpness = devicePixelRatio;
+    const sharpness = devicePixelRatio * this.size;
     this.root.width = Math.round(scale.width * sharpness);
     this.root.height = Math.round(HEIGHT * sharpness);
     const pen = this.root.getContext('2d');

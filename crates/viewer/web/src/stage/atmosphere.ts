@@ -12,7 +12,7 @@ export const atmosphere = {
   fogRange: { value: new Vector2(1000, 4000) },
   /** 0 by day, 1 by night. */
   night: { value: 0 },
-  /** Metres that a pixel covers at a distance of one metre. */
+  /** Metres that a point covers at a distance of one metre: a pixel, or more on large screens. */
   pixel: { value: 0.001 },
   /** 1 while indicators are lit. */
   blink: { value: 0 },

@@ -5,6 +5,8 @@ import { Ground } from './ground.ts';
 import { Sky } from './sky.ts';
 
 const MOST_PIXELS_PER_POINT = 2;
+/** A window that is higher than this shows small things larger. */
+const LARGE_PIXELS = 1000;
 /** Share of the way to its goal that is left after a second, for the middle of the picture. */
 const GLIDE = 1e-3;
 /** A picture with more pixels than this is drawn smaller and stretched. */
@@ -19,6 +21,8 @@ export class Stage {
   readonly rig = new Rig();
   readonly renderer: WebGLRenderer;
   private readonly sky = new Sky();
+  /** Metres that a pixel covers at a distance of one metre. */
+  pixel = 0.001;
   private ground: Ground | null = null;
   /** How much of the window panels cover at the right and at the bottom, as shares of it; `covered` glides towards the goal. */
   private readonly covered = { right: 0, bottom: 0 };
@@ -71,6 +75,7 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     const { camera } = this.rig;
     camera.aspect = width / height;
-    atmosphere.pixel.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / height;
+    this.pixel = (2 * Math.tan((camera.fov * Math.PI) / 360)) / height;
+    atmosphere.pixel.value = this.pixel * Math.max(height / LARGE_PIXELS, 1);
   }
 }
