@@ -9,8 +9,10 @@ import { LightStates } from './road/light_states.ts';
 import { paintMesh } from './road/paint.ts';
 import { signalPlaces, type SignalPlace } from './road/signal_places.ts';
 import { structuresMesh } from './road/structures.ts';
+import { terrainOf } from './road/terrain.ts';
 import { RoadSurface } from './road/surface.ts';
 import { atmosphere, setNight } from './stage/atmosphere.ts';
+import { groundMesh } from './stage/ground.ts';
 import type { Stage } from './stage/stage.ts';
 import type { State } from './state.ts';
 import { Traffic, type Placed } from './traffic/traffic.ts';
@@ -53,9 +55,8 @@ export class TrafficView {
     this.lights = new LightStates(scene.lights.length);
     this.signals = signalPlaces(scene, this.index);
     const road = new Group();
-    road.add(this.surface.mesh, paintMesh(scene, this.lights.texture), structuresMesh(scene, this.signals, this.lights));
+    road.add(groundMesh(terrainOf(scene)), this.surface.mesh, paintMesh(scene, this.lights.texture), structuresMesh(scene, this.index, this.signals, this.lights));
     stage.graph.add(road, this.fleet.group, this.selection.group, signalIcons(this.signals, this.lights));
-    stage.layGround(lowest(scene) - 0.25);
     stage.rig.frame(...scene.bounds);
     stage.rig.settle();
     state.isNight.watch(setNight);
@@ -191,11 +192,3 @@ const EYES: Record<number, { ahead: (length: number) => number; up: number }> = 
 
 /** Follows closely, without a jump where the vehicle was far away. */
 const glide = (now: number, place: number): number => now + (place - now) * (Math.abs(place - now) < 30 ? 0.35 : 0.08);
-
-function lowest(scene: Scene): number {
-  let height = Infinity;
-  for (const { centre } of scene.lanelets) {
-    for (let at = 2; at < centre.length; at += 3) height = Math.min(height, centre[at]);
-  }
-  return Number.isFinite(height) ? height : 0;
-}

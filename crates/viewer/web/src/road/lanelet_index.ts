@@ -34,6 +34,16 @@ export class LaneletIndex {
     return found;
   }
 
+  /** Whether there is a road at a point, at about a height. */
+  hasRoadNear(x: number, y: number, height: number, apart: number): boolean {
+    return (this.cells.get(cellName(x, y)) ?? []).some(({ ring: outline }) => Math.abs(outline[2] - height) < apart && isInside(outline, x, y));
+  }
+
+  /** Whether a road goes through below a point. */
+  hasRoadBelow(x: number, y: number, height: number): boolean {
+    return (this.cells.get(cellName(x, y)) ?? []).some(({ ring: outline }) => outline[2] < height && isInside(outline, x, y));
+  }
+
   /** The height of the road at a point, or of the point of a lane that is nearest in the same part of the map. */
   height(x: number, y: number): number {
     let best = { height: 0, square: Infinity };

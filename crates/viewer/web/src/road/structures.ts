@@ -2,6 +2,8 @@ import { GLSL3, Mesh, ShaderMaterial } from 'three';
 import { rgb, type Rgb } from '../colour/palette.ts';
 import type { Line, Scene } from '../protocol/scene.ts';
 import { atmosphere, LIGHT_CHUNK } from '../stage/atmosphere.ts';
+import { addBanks } from './banks.ts';
+import type { LaneletIndex } from './lanelet_index.ts';
 import { LIGHT_STATES_CHUNK, type LightStates } from './light_states.ts';
 import { MeshBuilder } from './mesh_builder.ts';
 import { stations } from './ribbon.ts';
@@ -52,13 +54,14 @@ void main() {
 type Builder = MeshBuilder<'position' | 'normal' | 'tone' | 'lamp'>;
 type Vector = [x: number, y: number, z: number];
 
-/** Curbs, barriers, and signals with their posts, in one mesh. */
-export function structuresMesh(scene: Scene, signals: SignalPlace[], lights: LightStates): Mesh {
+/** Curbs, barriers, banks, and signals with their posts, in one mesh. */
+export function structuresMesh(scene: Scene, index: LaneletIndex, signals: SignalPlace[], lights: LightStates): Mesh {
   const builder: Builder = new MeshBuilder({ position: 3, normal: 3, tone: 3, lamp: 2 });
   for (const { line, paint } of scene.markings) {
     if (paint === 'curb') addWall(builder, line, CURB);
     if (paint === 'barrier') addWall(builder, line, BARRIER);
   }
+  addBanks(builder, scene, index);
   for (const signal of signals) addSignal(builder, signal);
   const material = new ShaderMaterial({
     glslVersion: GLSL3,

@@ -7,8 +7,8 @@ import { pairs, stations } from './ribbon.ts';
 
 const TEXTURE_WIDTH = 1024;
 /** Asphalt beside the lanes. */
-const SHOULDER_M = 0.7;
-const SHOULDER_DROP_M = 0.03;
+export const SHOULDER_M = 0.7;
+export const SHOULDER_DROP_M = 0.03;
 const NO_LANE = -1;
 /** Opacities of the colours of lanes; above `CLOSED_FROM` a lane is hatched. */
 const TINT_OPACITY = 190;

@@ -1,13 +1,16 @@
-import { GLSL3, Mesh, PlaneGeometry, ShaderMaterial, Vector3 } from 'three';
+import { GLSL3, Mesh, ShaderMaterial, type BufferGeometry } from 'three';
+import { MeshBuilder } from '../road/mesh_builder.ts';
+import type { Terrain } from '../road/terrain.ts';
 import { atmosphere, LIGHT_CHUNK } from './atmosphere.ts';
 
 const VERTEX = /* glsl */ `
-uniform vec3 centre;
 out vec2 place;
+out vec3 spot;
 out float depth;
 void main() {
-  vec4 seen = viewMatrix * vec4(position + centre, 1.0);
-  place = position.xy + centre.xy;
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  place = position.xy;
+  spot = position;
   depth = -seen.z;
   gl_Position = projectionMatrix * seen;
 }
@@ -16,6 +19,7 @@ void main() {
 const FRAGMENT = /* glsl */ `
 ${LIGHT_CHUNK}
 in vec2 place;
+in vec3 spot;
 in float depth;
 out vec4 colour;
 
@@ -46,35 +50,57 @@ void main() {
   float seen = 1.0 - smoothstep(300.0, 3000.0, depth);
   vec3 day = mix(vec3(0.80, 0.845, 0.735), vec3(0.845, 0.865, 0.79), mix(0.5, patches, seen));
   vec3 base = mix(day, vec3(0.29, 0.33, 0.35) * (0.94 + 0.12 * mix(0.5, patches, seen)), night);
-  vec3 tone = lit(base, vec3(0.0, 0.0, 1.0));
+  vec3 slope = normalize(cross(dFdx(spot), dFdy(spot)));
+  vec3 tone = lit(base, slope.z < 0.0 ? -slope : slope);
   tone *= 1.0 - 0.05 * grid(100.0) - 0.05 * grid(1000.0);
   colour = vec4(fogged(tone, depth), 1.0);
 }
 `;
 
-const HALF_SIZE_M = 60_000;
+/** How far the ground goes on beyond the grid, in rings of growing width. */
+const RINGS_M = [2000, 6000, 15_000, 30_000, 60_000];
 
-/** The ground around the roads, with lines every 100 m and every kilometre. It moves along with the camera. */
-export class Ground {
-  readonly mesh: Mesh;
-  private readonly centre = new Vector3();
-
-  constructor(private readonly height: number) {
-    const material = new ShaderMaterial({
-      glslVersion: GLSL3,
-      vertexShader: VERTEX,
-      fragmentShader: FRAGMENT,
-      uniforms: { ...atmosphere, centre: { value: this.centre } },
-      polygonOffset: true,
-      polygonOffsetFactor: 2,
-      polygonOffsetUnits: 8,
-    });
-    this.mesh = new Mesh(new PlaneGeometry(HALF_SIZE_M * 2, HALF_SIZE_M * 2, 32, 32), material);
-    this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = -5;
-  }
-
-  update(x: number, y: number): void {
-    this.centre.set(Math.round(x / 1000) * 1000, Math.round(y / 1000) * 1000, this.height);
-  }
+/** The ground around the roads, with lines every 100 m and every kilometre. */
+export function groundMesh(terrain: Terrain): Mesh {
+  const material = new ShaderMaterial({
+    glslVersion: GLSL3,
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: { ...atmosphere },
+    polygonOffset: true,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 8,
+  });
+  const mesh = new Mesh(groundGeometry(terrain), material);
+  mesh.frustumCulled = false;
+  mesh.renderOrder = -5;
+  return mesh;
 }
+
+/** The grid, and around it rings with the heights of its rim. */
+function groundGeometry({ xs, ys, heights }: Terrain): BufferGeometry {
+  const builder = new MeshBuilder({ position: 3 });
+  const wideXs = withRings(xs);
+  const wideYs = withRings(ys);
+  wideYs.forEach((y, j) => {
+    const row = Math.min(Math.max(j - RINGS_M.length, 0), ys.length - 1);
+    wideXs.forEach((x, i) => {
+      const column = Math.min(Math.max(i - RINGS_M.length, 0), xs.length - 1);
+      builder.vertex({ position: [x, y, heights[row * xs.length + column]] });
+    });
+  });
+  const columns = wideXs.length;
+  for (let j = 0; j + 1 < wideYs.length; j += 1) {
+    for (let i = 0; i + 1 < columns; i += 1) {
+      const corner = j * columns + i;
+      builder.quad(corner, corner + 1, corner + columns + 1, corner + columns);
+    }
+  }
+  return builder.geometry();
+}
+
+const withRings = (axis: number[]): number[] => [
+  ...RINGS_M.toReversed().map((way) => axis[0] - way),
+  ...axis,
+  ...RINGS_M.map((way) => axis[axis.length - 1] + way),
+];

@@ -1,7 +1,6 @@
 import { ColorManagement, LinearSRGBColorSpace, Scene as Graph, WebGLRenderer } from 'three';
 import { Rig } from '../camera/rig.ts';
 import { atmosphere } from './atmosphere.ts';
-import { Ground } from './ground.ts';
 import { Sky } from './sky.ts';
 
 const MOST_PIXELS_PER_POINT = 2;
@@ -15,7 +14,7 @@ const MOST_PIXELS = 9_000_000;
 // Shaders get and give colours as they are shown.
 ColorManagement.enabled = false;
 
-/** The picture: canvas, camera, sky and ground. */
+/** The picture: canvas, camera and sky. */
 export class Stage {
   readonly graph = new Graph();
   readonly rig = new Rig();
@@ -23,7 +22,6 @@ export class Stage {
   private readonly sky = new Sky();
   /** Metres that a pixel covers at a distance of one metre. */
   pixel = 0.001;
-  private ground: Ground | null = null;
   /** How much of the window panels cover at the right and at the bottom, as shares of it; `covered` glides towards the goal. */
   private readonly covered = { right: 0, bottom: 0 };
   private readonly coveredGoal = { right: 0, bottom: 0 };
@@ -36,12 +34,6 @@ export class Stage {
     this.graph.add(this.sky.mesh);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
-  }
-
-  /** Lays the ground at a height. */
-  layGround(height: number): void {
-    this.ground = new Ground(height);
-    this.graph.add(this.ground.mesh);
   }
 
   /** Shows what is looked at in the middle of what panels leave free. */
@@ -62,7 +54,6 @@ export class Stage {
   draw(): void {
     const { camera, now } = this.rig;
     this.sky.update(camera);
-    this.ground?.update(now.x, now.y);
     atmosphere.fogRange.value.set(Math.max(now.distance * 2.2, 900), Math.max(now.distance * 9, 5500));
     this.renderer.render(this.graph, camera);
   }
