@@ -20,10 +20,14 @@ export interface KeyActs {
   jump: (sign: 1 | -1) => void;
 }
 
+const SLIDER_KEYS = /^(Arrow|Page|Home|End)/;
+
 /** Whether a key press belongs to a field, a list or a slider. */
 export function isForField(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement;
-  return target.matches('input, select, textarea, [role=slider]') && !(event.key === 'Escape');
+  if (event.key === 'Escape') return false;
+  if (target.matches('input[type=range], [role=slider]')) return SLIDER_KEYS.test(event.key);
+  return target.matches('input, select, textarea');
 }
 
 /** The keys of the whole page. */

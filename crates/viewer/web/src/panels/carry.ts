@@ -5,8 +5,6 @@ import type { TrafficView } from '../traffic_view.ts';
 import { element, say } from './dom.ts';
 import type { VehicleActions } from './vehicle_actions.ts';
 
-const FIRST_SPEED_KMH = 50;
-
 /** A vehicle that is dragged from its button onto the road. Where it is dropped the server puts it, and the user drives it. */
 export class Carry {
   readonly root = element('div', { class: 'carried', 'aria-hidden': 'true' });
@@ -33,10 +31,11 @@ export class Carry {
     const point = view?.ground(x, y);
     if (!view || !point) return;
     const [ox, oy] = view.scene.origin;
-    this.hands.do({ put: { x: point.x + ox, y: point.y + oy, class: form } }, undefined, (vehicle) => {
+    const hasPut = (vehicle: string) => {
       this.state.select(vehicle, false);
-      this.actions.take(vehicle, FIRST_SPEED_KMH);
-    });
+      this.actions.take(vehicle);
+    };
+    this.hands.do({ put: { x: point.x + ox, y: point.y + oy, class: form } }, { hasPut });
   }
 
   private move(x: number, y: number): void {

@@ -84,7 +84,7 @@ export class HandsPanel {
       maximum: Math.max(MOST_DEMAND, value),
       marks: { 'data-origin': origin },
       choose: (vehicles_per_hour, before) =>
-        this.hands.do({ set_demand: { origin, vehicles_per_hour } }, () => slider.show(before)),
+        this.hands.do({ set_demand: { origin, vehicles_per_hour } }, { revert: () => slider.show(before) }),
     });
     return slider.root;
   }

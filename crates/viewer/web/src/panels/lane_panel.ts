@@ -53,7 +53,7 @@ export class LanePanel {
     if (index === null) return;
     const lanelet = this.scene.lanelets[index].id;
     this.note(lanelet, isClosed);
-    this.hands.do({ close_lanelet: { lanelet, is_closed: isClosed } }, () => this.note(lanelet, !isClosed));
+    this.hands.do({ close_lanelet: { lanelet, is_closed: isClosed } }, { revert: () => this.note(lanelet, !isClosed) });
   }
 
   private note(lanelet: string, isClosed: boolean): void {

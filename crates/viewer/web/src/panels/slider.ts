@@ -3,6 +3,7 @@ import { rounded, sliderScale } from './slider_scale.ts';
 import { short } from './words.ts';
 
 const STEPS = 1000;
+const SHOWN_DIGITS = 6;
 
 export interface SliderOptions {
   label: string;
@@ -50,7 +51,7 @@ export class Slider {
   }
 
   private write(value: number): void {
-    this.field.value = String(value);
+    this.field.value = String(Number(value.toPrecision(SHOWN_DIGITS)));
     this.range.setAttribute('aria-valuetext', `${short(value)} ${this.options.unit}`.trim());
   }
 

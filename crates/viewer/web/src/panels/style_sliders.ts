@@ -38,10 +38,11 @@ export function styleSliders(style: Style, hands: Hands): HTMLElement {
       marks: { 'data-style': style.name, 'data-key': key },
       choose: (chosen, before) => {
         parameter.value = chosen;
-        hands.do({ set_parameter: { style: style.name, parameter: key, value: chosen } }, () => {
+        const revert = () => {
           parameter.value = before;
           made.show(before);
-        });
+        };
+        hands.do({ set_parameter: { style: style.name, parameter: key, value: chosen } }, { revert });
       },
     });
     return made.root;

@@ -1,5 +1,6 @@
 import type { Hands } from '../hands.ts';
 import type { Side } from '../protocol/messages.ts';
+import { isForField } from '../keys.ts';
 import type { State } from '../state.ts';
 import { button, choice, element, say } from './dom.ts';
 
@@ -12,19 +13,19 @@ export class VehicleActions {
   private readonly wheel = element('div', { class: 'buttons', role: 'group', 'aria-label': 'Drive' });
   private readonly drive: HTMLButtonElement;
   private readonly wanted = element('output', { 'data-test': 'held-speed' });
-  private speed_kmh = 0;
+  private held_kmh: number | null = null;
 
   constructor(
     private readonly state: State,
     private readonly hands: Hands,
   ) {
     this.drive = button('drive', 'Drive it', 'Drive this vehicle with the arrow keys', () => this.toggle());
-    const remove = button('remove', 'Remove', 'Remove this vehicle', () => this.withSelected((vehicle) => hands.do({ remove: { vehicle } })));
+    const remove = button('remove', 'Remove', 'Remove this vehicle', () => this.remove());
     this.wheel.append(
       button('slower', '▼', 'Slower (arrow down)', () => this.faster(-1)),
       button('faster', '▲', 'Faster (arrow up)', () => this.faster(1)),
-      button('to-left', '←', 'Change to the left lane (arrow left)', () => this.steer('left')),
-      button('to-right', '→', 'Change to the right lane (arrow right)', () => this.steer('right')),
+      button('to-left', '←', 'Change to the left lane (arrow left)', () => this.send('left')),
+      button('to-right', '→', 'Change to the right lane (arrow right)', () => this.send('right')),
       this.wanted,
     );
     this.root.append(element('div', { class: 'buttons' }, this.drive, this.styles, remove), this.wheel);
@@ -40,17 +41,28 @@ export class VehicleActions {
     window.addEventListener('keydown', (event) => this.key(event));
   }
 
-  /** Lets the user drive a vehicle. */
-  take(vehicle: string, speed_kmh: number): void {
-    this.speed_kmh = speed_kmh;
+  /** Lets the user drive a vehicle that already holds its speed. */
+  take(vehicle: string): void {
+    this.held_kmh = null;
+    say(this.wanted, '');
     this.state.driven.set(vehicle);
-    this.send(null);
+  }
+
+  private remove(): void {
+    this.state.driven.set(null);
+    this.withSelected((vehicle) => this.hands.do({ remove: { vehicle } }));
+    this.state.choose([]);
   }
 
   private toggle(): void {
-    const [driver] = this.state.drivers.value;
-    if (this.state.driven.value !== null) this.giveBack();
-    else this.withSelected((id) => this.take(id, Math.round((driver?.speed_kmh ?? 0) / SPEED_STEP_KMH) * SPEED_STEP_KMH));
+    if (this.state.driven.value !== null) {
+      this.giveBack();
+      return;
+    }
+    this.withSelected((id) => {
+      this.take(id);
+      this.send(null);
+    });
   }
 
   private giveBack(): void {
@@ -61,29 +73,33 @@ export class VehicleActions {
   }
 
   private faster(sign: 1 | -1): void {
-    this.speed_kmh = Math.max(this.speed_kmh + sign * SPEED_STEP_KMH, 0);
+    this.held_kmh = Math.max(this.held() + sign * SPEED_STEP_KMH, 0);
     this.send(null);
   }
 
-  private steer(side: Side): void {
-    this.send(side);
+  /** The speed that the vehicle holds; at first the one that it has. */
+  private held(): number {
+    const driver = this.state.drivers.value.find(({ id }) => id === this.state.driven.value);
+    this.held_kmh ??= Math.round((driver?.speed_kmh ?? 0) / SPEED_STEP_KMH) * SPEED_STEP_KMH;
+    return this.held_kmh;
   }
 
   private send(side: Side | null): void {
     const { value: vehicle } = this.state.driven;
     if (vehicle === null) return;
-    say(this.wanted, `holds ${this.speed_kmh} km/h`);
-    this.hands.do({ drive: { vehicle, speed_kmh: this.speed_kmh, side } });
+    const speed_kmh = this.held();
+    say(this.wanted, `holds ${speed_kmh} km/h`);
+    this.hands.do({ drive: { vehicle, speed_kmh, side } });
   }
 
   private key(event: KeyboardEvent): void {
     if (this.state.driven.value === null || event.ctrlKey || event.metaKey || event.altKey) return;
-    if ((event.target as HTMLElement).matches('input, select, [role=slider]')) return;
+    if (isForField(event)) return;
     const acts: Record<string, () => void> = {
       ArrowUp: () => this.faster(1),
       ArrowDown: () => this.faster(-1),
-      ArrowLeft: () => this.steer('left'),
-      ArrowRight: () => this.steer('right'),
+      ArrowLeft: () => this.send('left'),
+      ArrowRight: () => this.send('right'),
     };
     const act = acts[event.key];
     if (!act) return;
