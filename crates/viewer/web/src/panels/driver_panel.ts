@@ -6,6 +6,7 @@ import { pairFacts } from './pair.ts';
 import { fixed, short, withUnit } from './words.ts';
 
 const EVERY_MS = 120;
+const GONE_AFTER_MS = 2500;
 
 type Fact = [name: string, value: string];
 
@@ -21,6 +22,7 @@ export class DriverPanel {
   private readonly whole = element('details', {}, element('summary', {}, 'The whole account'), this.story);
   private readonly second = element('div', { class: 'pair', 'data-test': 'pair' });
   private shown_ms = 0;
+  private asked_ms = 0;
 
   constructor(
     private readonly state: State,
@@ -41,9 +43,11 @@ export class DriverPanel {
     state.selected.watch((ids) => {
       this.root.hidden = ids.length === 0;
       this.shown_ms = 0;
+      this.asked_ms = performance.now();
       if (ids[0] !== undefined) this.waitFor(ids[0]);
     });
     state.drivers.watch((drivers) => this.update(drivers));
+    state.clock.watch((clock) => clock?.is_playing && this.notice());
   }
 
   private waitFor(id: string): void {
@@ -56,6 +60,14 @@ export class DriverPanel {
     this.facts.replaceChildren();
     this.charts.replaceChildren();
     this.whole.hidden = true;
+  }
+
+  /** Says so when nothing has been heard of the driver for a while: it has left the road. */
+  private notice(): void {
+    const [id] = this.state.selected.value;
+    if (id === undefined || performance.now() - Math.max(this.shown_ms, this.asked_ms) < GONE_AFTER_MS) return;
+    say(this.act, 'is not on the road now');
+    if (this.state.driven.value === id) this.state.driven.set(null);
   }
 
   private update(drivers: Driver[]): void {

@@ -3,7 +3,7 @@ import { rounded, sliderScale } from './slider_scale.ts';
 import { short } from './words.ts';
 
 const STEPS = 1000;
-const SHOWN_DIGITS = 6;
+const SHOWN_DIGITS = 4;
 
 export interface SliderOptions {
   label: string;
@@ -61,7 +61,7 @@ export class Slider {
       return;
     }
     const before = this.value;
-    if (value === before) return;
+    if (value === before || value === Number(before.toPrecision(SHOWN_DIGITS))) return;
     this.show(value);
     this.options.choose(value, before);
   }

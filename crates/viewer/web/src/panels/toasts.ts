@@ -25,7 +25,8 @@ export class Toasts {
   }
 
   show(what: string, remedy = ''): void {
-    const toast = element('div', { class: 'toast' }, element('p', {}, element('strong', {}, what)), remedy ? element('p', {}, remedy) : null);
+    for (const old of this.root.querySelectorAll('[data-what]')) if (old.getAttribute('data-what') === what) old.remove();
+    const toast = element('div', { class: 'toast', 'data-what': what }, element('p', {}, element('strong', {}, what)), remedy ? element('p', {}, remedy) : null);
     toast.append(button('dismiss', '×', 'Close this message', () => toast.remove()));
     this.root.append(toast);
     setTimeout(() => toast.remove(), SHOWN_FOR_MS);
