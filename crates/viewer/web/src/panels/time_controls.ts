@@ -14,6 +14,7 @@ export class TimeControls {
   private readonly time = element('output', { class: 'clock', 'data-test': 'time', 'aria-label': 'Time of the simulation' });
   private readonly count = element('span', { class: 'count', 'data-test': 'vehicles' });
   private wanted: number | null = 1;
+  private hasChosen = false;
 
   constructor(private readonly state: State) {
     this.play = button('play', '▶', 'Play (space)', () => this.start());
@@ -24,7 +25,8 @@ export class TimeControls {
     this.root.append(this.play, this.pause, step, this.factor, this.time, this.count);
     state.clock.watch((clock) => {
       if (!clock) return;
-      this.wanted = clock.factor;
+      // While time stands still the user may choose a factor for later.
+      if (clock.is_playing || !this.hasChosen) this.wanted = clock.factor;
       this.showFactor();
       this.showPlaying(clock.is_playing);
       const waiting = clock.waiting > 0 ? `, ${clock.waiting} waiting to enter` : '';
@@ -60,12 +62,9 @@ export class TimeControls {
 
   private setFactor(factor: number | null): void {
     this.wanted = factor;
+    this.hasChosen = true;
     this.showFactor();
     if (this.state.clock.value?.is_playing) this.start();
-    else {
-      const clock = this.state.clock.value;
-      if (clock) this.state.clock.set({ ...clock, factor });
-    }
   }
 
   private showFactor(): void {

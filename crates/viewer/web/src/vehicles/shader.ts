@@ -179,7 +179,9 @@ void main() {
     tone = isLit ? vec3(1.0, 0.68, 0.08) : vec3(0.62, 0.36, 0.12);
     shines = isLit ? 1.0 : 0.0;
   }
-  vec3 shaded = mix(lit(tone, facing), tone, max(shines, 0.25 * night * float(piece == ${PART.roof})));
+  // Colours tell things, so that they must be seen at night, too.
+  bool isColoured = piece == ${PART.paint} || piece == ${PART.roof} || piece == ${PART.light};
+  vec3 shaded = mix(lit(tone, facing), tone, max(shines, isColoured ? 0.35 * night : 0.0));
   colour = vec4(fogged(shaded, depth), 1.0);
 }
 `;
