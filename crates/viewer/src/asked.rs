@@ -40,6 +40,8 @@ pub enum Asked {
     Lanes(bool),
     /// Something done by hand.
     Hand(Hand),
+    /// Whether the traffic is shown, too, as it would be without what is done by hand from now on.
+    Twin(bool),
     /// The last thing done by hand is taken back.
     Undo(bool),
     /// The scenario is saved with what was done by hand.

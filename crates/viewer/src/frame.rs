@@ -158,7 +158,7 @@ mod tests {
             signals: Some(Side::Left),
             is_external: false,
             is_recorded: false,
-            values: [200, 0, 255],
+            values: [200, 0, 255, 0],
         }
     }
 

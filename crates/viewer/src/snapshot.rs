@@ -52,7 +52,7 @@ pub struct Seen {
     /// It moves as it was recorded.
     pub is_recorded: bool,
     /// What its colour may show, one of [`Colour`] each.
-    pub values: [u8; 3],
+    pub values: [u8; 4],
 }
 
 /// What the colour of a vehicle may show beside what is always sent.
@@ -68,6 +68,8 @@ pub enum Colour {
     Delay,
     /// Time since its last lane change.
     SinceChange,
+    /// How far it is from where it is in the unchanged twin.
+    Difference,
 }
 
 impl Colour {
@@ -78,6 +80,7 @@ impl Colour {
             Colour::Desire => vehicle.values[0],
             Colour::Delay => vehicle.values[1],
             Colour::SinceChange => vehicle.values[2],
+            Colour::Difference => vehicle.values[3],
         }
     }
 }

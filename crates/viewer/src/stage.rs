@@ -174,6 +174,7 @@ impl Stage {
                 self.source.undo()?;
                 self.tell_hands();
             }
+            Asked::Twin(is_wanted) => self.source.twin(is_wanted)?,
             Asked::Save(_) => {
                 let saved = Some(self.source.save()?);
                 self.tell(id, &Message { saved, ..Message::default() });

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use laneweave::scenario::Origin;
 use laneweave::{Class, LightState, Parameter, Simulation};
-use laneweave_viewer::{Hand, Live, Source};
+use laneweave_viewer::source::Wants;
+use laneweave_viewer::{Hand, Live, Seen, Snapshot, Source};
 
 fn map(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
@@ -103,6 +104,38 @@ fn acts_on_one_thing_that_follow_each_other_are_one_and_are_taken_back_as_one() 
     assert_eq!(demand(&live), planned);
     let gone = Hand::Remove { vehicle: "999".into() };
     assert!(live.hand(&gone).expect_err("no vehicle").what.contains("999"));
+}
+
+#[test]
+fn a_twin_goes_on_without_what_is_done_by_hand() {
+    let dir = folder("twin");
+    let [mut live, mut untouched] = ["ramps.osm"; 2].map(|it| live(it, &dir));
+    steps(&mut live, 600);
+    steps(&mut untouched, 1200);
+    live.twin(true).expect("a twin");
+    let seen = |live: &Live| {
+        let mut snapshot = Snapshot::default();
+        live.see(&Wants::default(), &mut snapshot);
+        snapshot.vehicles
+    };
+    let own = |all: &[Seen]| all.iter().filter(|it| it.id >= 0).copied().collect::<Vec<_>>();
+    let ghosts =
+        |all: &[Seen]| all.iter().filter(|it| it.id < 0).map(|it| (-1 - it.id, it.at)).collect::<Vec<_>>();
+    let places = |all: &[Seen]| all.iter().map(|it| (it.id, it.at)).collect::<Vec<_>>();
+    // At first both are the same.
+    let begin = seen(&live);
+    assert!(begin.len() > 40 && ghosts(&begin) == places(&own(&begin)));
+    assert!(own(&begin).iter().all(|it| it.values[3] == 1));
+    for style in live.hello().styles {
+        let (style, parameter, value) = (style.name, Parameter::SpeedFactor, 0.5);
+        live.hand(&Hand::SetParameter { style, parameter, value }).expect("slower drivers");
+    }
+    steps(&mut live, 600);
+    let all = seen(&live);
+    assert_eq!(ghosts(&all), places(&seen(&untouched)), "the twin is the untouched traffic");
+    assert!(own(&all).iter().any(|it| it.values[3] > 100));
+    live.twin(false).expect("no twin");
+    assert!(ghosts(&seen(&live)).is_empty());
 }
 
 /// What stands still, as a page gets it.

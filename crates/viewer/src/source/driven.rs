@@ -65,6 +65,16 @@ impl Driven {
         Scene::new(&self.title, self.world().network(), &self.around)
     }
 
+    /// The same world in the same state, to be driven on without it.
+    pub(super) fn twin(&self) -> Result<Driven, Fault> {
+        let bug = |error: &dyn std::fmt::Display| Fault::new("twin", error, "report this as a bug");
+        let mut twin = Driven::new(self.scenario.clone(), self.origin.clone())?;
+        let saved = self.prepared.save().map_err(|error| bug(&error))?;
+        twin.prepared.restore(&saved).map_err(|error| bug(&error))?;
+        twin.know_styles();
+        Ok(twin)
+    }
+
     /// Finds the style of each set of driver parameters.
     fn know_styles(&mut self) {
         let names = &self.prepared.styles;
@@ -170,6 +180,7 @@ impl Driven {
                 if is_desire_wanted { desire(self.world(), vehicle.spot) } else { 0 },
                 self.delay(vehicle),
                 self.since_change(vehicle.id()),
+                0,
             ],
         }
     }

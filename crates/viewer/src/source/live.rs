@@ -9,6 +9,7 @@ use laneweave::sim::{Command, Commanded};
 use laneweave::{Control, Fault, Lateral, Longitudinal, Parameter, refused};
 
 use super::driven::Driven;
+use super::ghosts;
 use super::hands::{Deed, Done, Hand, Present, Saved, save};
 use super::{Abilities, DemandFacts, Hello, Kind, Mark, Marks, Source, StyleFacts, Wants};
 use crate::scene::Scene;
@@ -25,6 +26,8 @@ pub struct Live {
     /// All commands that were carried out.
     given: Vec<Commanded>,
     done: Vec<Done>,
+    /// The unchanged twin, if somebody wants one.
+    twin: Option<Box<Driven>>,
     /// Where scenarios are saved.
     dir: PathBuf,
 }
@@ -36,7 +39,7 @@ impl Live {
     /// If something is missing, not readable, or invalid.
     pub fn new(scenario: Scenario, origin: Origin, dir: PathBuf) -> Result<Live, Fault> {
         let driven = Driven::new(scenario, origin)?;
-        Ok(Live { driven, pending: Vec::new(), given: Vec::new(), done: Vec::new(), dir })
+        Ok(Live { driven, pending: Vec::new(), given: Vec::new(), done: Vec::new(), twin: None, dir })
     }
 
     /// The last command that `found` knows, of those for the next step and those before it.
@@ -172,6 +175,7 @@ impl Source for Live {
             }
         }
         self.driven.step(marks);
+        self.twin.iter_mut().for_each(|it| it.step(&mut Vec::new()));
         self.given.extend_from_slice(self.driven.world().commands());
         failed.map_or(Ok(()), Err)
     }
@@ -187,6 +191,7 @@ impl Source for Live {
 
     fn see(&self, wants: &Wants, snapshot: &mut Snapshot) {
         self.driven.see(wants, snapshot);
+        self.twin.iter().for_each(|it| ghosts::add(it, snapshot));
     }
 
     fn find(&self, id: i64) -> Option<[f64; 2]> {
@@ -219,6 +224,11 @@ impl Source for Live {
         })?;
         self.give(back)?;
         self.done[last].is_undone = true;
+        Ok(())
+    }
+
+    fn twin(&mut self, is_wanted: bool) -> Result<(), Fault> {
+        self.twin = is_wanted.then(|| self.driven.twin().map(Box::new)).transpose()?;
         Ok(())
     }
 

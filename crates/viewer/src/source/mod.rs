@@ -2,6 +2,7 @@
 
 mod driven;
 mod driver;
+mod ghosts;
 mod hands;
 mod lanes;
 mod live;
@@ -183,6 +184,13 @@ pub trait Source: Send {
     /// # Errors
     /// If there is none, or if it cannot be taken back.
     fn undo(&mut self) -> Result<(), Fault>;
+
+    /// Begins, or ends, to show the same traffic without what is done by hand from now on: an unchanged twin, as
+    /// ghosts.
+    ///
+    /// # Errors
+    /// If there can be none.
+    fn twin(&mut self, is_wanted: bool) -> Result<(), Fault>;
 
     /// What was done by hand so far.
     fn done(&self) -> Vec<Done>;

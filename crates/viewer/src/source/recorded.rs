@@ -137,7 +137,7 @@ impl Recorded {
             signals,
             is_external: false,
             is_recorded: true,
-            values: [0; 3],
+            values: [0; 4],
         }
     }
 
@@ -270,6 +270,10 @@ impl Source for Recorded {
 
     fn undo(&mut self) -> Result<(), Fault> {
         is_fixed("undo")
+    }
+
+    fn twin(&mut self, _: bool) -> Result<(), Fault> {
+        is_fixed("twin")
     }
 
     fn done(&self) -> Vec<Done> {

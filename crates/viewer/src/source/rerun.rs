@@ -175,6 +175,10 @@ impl Source for Rerun {
         is_over("undo")
     }
 
+    fn twin(&mut self, _: bool) -> Result<(), Fault> {
+        is_over("twin")
+    }
+
     fn done(&self) -> Vec<Done> {
         Vec::new()
     }
