@@ -25,38 +25,38 @@ pub struct Scene {
     driving_side: &'static str,
     /// Where its coordinates are 0 on the map [m].
     pub origin: [f64; 3],
-    bounds: [f64; 4],
-    lanelets: Vec<LaneletLines>,
-    markings: Vec<MarkingLine>,
-    crosswalks: Vec<Line>,
-    stop_lines: Vec<StopLine>,
+    pub(crate) bounds: [f64; 4],
+    pub(crate) lanelets: Vec<LaneletLines>,
+    pub(crate) markings: Vec<MarkingLine>,
+    pub(crate) crosswalks: Vec<Line>,
+    pub(crate) stop_lines: Vec<StopLine>,
     lights: Vec<LightPosts>,
     entrances: Vec<GateArrow>,
     exits: Vec<GateArrow>,
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct LaneletLines {
+pub(crate) struct LaneletLines {
     id: String,
-    left: Line,
-    right: Line,
+    pub(crate) left: Line,
+    pub(crate) right: Line,
     centre: Line,
     limit_kmh: f64,
     is_conflict: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct MarkingLine {
-    line: Line,
-    paint: &'static str,
-    is_thick: bool,
+pub(crate) struct MarkingLine {
+    pub(crate) line: Line,
+    pub(crate) paint: &'static str,
+    pub(crate) is_thick: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct StopLine {
-    line: Line,
+pub(crate) struct StopLine {
+    pub(crate) line: Line,
     kind: &'static str,
-    light: Option<usize>,
+    pub(crate) light: Option<usize>,
 }
 
 #[derive(Clone, Debug, Serialize)]

@@ -34,6 +34,16 @@ Examples:
   laneweave run maps/ramps.osm --duration 120
   laneweave view out";
 
+pub(super) const RENDER: &str =
+    "Pictures are PNG files, numbered from 0 on. Tools such as ffmpeg make a film of them.
+
+Examples:
+  laneweave run maps/ramps.osm --duration 120
+  # Two pictures a second of the whole map
+  laneweave render out --until 10
+  # A vehicle, ten times a second
+  laneweave render out --camera vehicle:20 --every 0.1 --from 40 --until 42 --out followed";
+
 pub(super) const EXPLAIN: &str =
     "The run is repeated; no log is needed. Vehicle ids and times are those of the tables.
 

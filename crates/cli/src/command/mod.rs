@@ -11,6 +11,7 @@ mod numbers;
 mod observe;
 mod progress;
 mod recording;
+mod render;
 mod replay;
 mod reproduce;
 mod resume;
@@ -18,6 +19,7 @@ mod routes;
 mod run;
 mod scenario;
 mod shell;
+mod shown;
 mod stop;
 mod styles;
 mod tips;
@@ -52,6 +54,9 @@ enum Command {
     /// Show traffic on its map in the browser, in 3-D, with the reasons of its drivers, and change it while it drives.
     #[command(after_help = examples::VIEW)]
     View(view::Arguments),
+    /// Make pictures of traffic from above, one after the other, without a display.
+    #[command(after_help = examples::RENDER)]
+    Render(render::Arguments),
     /// Explain why a driver of a run changed lanes, waited, or stayed in its lane.
     #[command(after_help = examples::EXPLAIN)]
     Explain(explain::Arguments),
@@ -112,6 +117,7 @@ impl Cli {
             }
             Some(Command::Run(arguments)) => return arguments.execute(started),
             Some(Command::View(arguments)) => arguments.execute(),
+            Some(Command::Render(arguments)) => arguments.execute(),
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(),
             Some(Command::Compare(arguments)) => arguments.execute(),

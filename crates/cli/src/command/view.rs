@@ -7,31 +7,18 @@ use std::time::Duration;
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::check::{extension, tracks};
 use laneweave::output::write_whole;
-use laneweave::record::SCENARIO;
-use laneweave::scenario::{Origin, open_map};
-use laneweave_viewer::{Live, Page, Recorded, Rerun, Server, Source, Token, export};
+use laneweave_viewer::{Page, Server, Source, Token, export};
 
-use super::check::Reading;
 use super::numbers::number;
 use super::say;
+use super::shown::Shown;
 use super::stop::Stop;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A scenario (.toml) or a map to simulate, the folder with the results of a run, or with --map a recording
-    /// (several that continue one another are joined) [default: the demo].
-    #[arg(value_name = "SCENARIO|MAP|OUT|RECORDING", value_hint = ValueHint::AnyPath)]
-    input: Vec<PathBuf>,
-    /// The map of the recording.
-    #[arg(long, value_name = "MAP", value_hint = ValueHint::FilePath, requires = "input")]
-    map: Option<PathBuf>,
-    /// A TOML file that says what the columns of the recording hold.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "map")]
-    columns: Option<PathBuf>,
     #[command(flatten)]
-    options: Reading,
+    shown: Shown,
     /// The port of the page [default: any free one].
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     port: u16,
@@ -62,7 +49,7 @@ impl Arguments {
             let remedy = format!("build the page with Node: {}; then build the program again", Page::COMMAND);
             Fault::new("view", what, remedy)
         })?;
-        let mut source = self.source()?;
+        let mut source = self.shown.source(&self.save)?;
         if let Some(path) = &self.export {
             return self.write(path, page, &mut *source);
         }
@@ -95,63 +82,4 @@ impl Arguments {
         let size = text.len() as f64 / 1e6;
         say(&format!("{}: {size:.1} MB, plays in any browser\n", path.display()))
     }
-
-    /// The traffic that is shown.
-    fn source(&self) -> Result<Box<dyn Source>, Fault> {
-        if let Some(map) = &self.map {
-            let options = self.options.options();
-            return Ok(Box::new(Recorded::open(&self.input, map, self.columns.as_deref(), &options)?));
-        }
-        let path = match &self.input[..] {
-            [] => {
-                let (scenario, origin) = Origin::demo()?;
-                return Ok(Box::new(Live::new(scenario, origin, self.save.clone())?));
-            }
-            [path] => path,
-            [_, second, ..] => {
-                let remedy = "add --map MAP if these are recordings, or give one of them";
-                return Err(Fault::new(second.display(), "one thing is shown at a time", remedy));
-            }
-        };
-        if path.is_dir() {
-            return run(path);
-        }
-        match extension(path).as_str() {
-            "csv" => {
-                Err(Fault::new(path.display(), "a recording needs the map of its location", "add --map MAP"))
-            }
-            "xml" => self.common_road(path),
-            _ => self.simulated(path),
-        }
-    }
-
-    /// A simulation that runs now.
-    fn simulated(&self, path: &Path) -> Result<Box<dyn Source>, Fault> {
-        let (mut scenario, origin) = Origin::open(path)?;
-        if extension(path) != "toml" {
-            scenario.map_options = self.options.options();
-        }
-        Ok(Box::new(Live::new(scenario, origin, self.save.clone())?))
-    }
-
-    /// A CommonRoad file may contain a recording beside its map.
-    fn common_road(&self, path: &Path) -> Result<Box<dyn Source>, Fault> {
-        let map = open_map(path, &self.options.options())?;
-        match tracks(path)? {
-            Some((recording, _)) => {
-                let title = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(Box::new(Recorded::new(title, &map, recording)?))
-            }
-            None => self.simulated(path),
-        }
-    }
-}
-
-/// A run that has ended.
-fn run(dir: &Path) -> Result<Box<dyn Source>, Fault> {
-    if !dir.join(SCENARIO).is_file() {
-        let what = "this folder has no results of a run";
-        return Err(Fault::new(dir.display(), what, "give the folder that laneweave run has written"));
-    }
-    Ok(Box::new(Rerun::open(dir)?))
 }

@@ -46,7 +46,7 @@ fn every_example_works() {
                 Some("fit") if !line.contains("--plan") => format!("{line} --plan"),
                 // For other commands the results are used.
                 Some("run")
-                    if ["explain", "branch", "observe", "recording join", "replay", "fit"]
+                    if ["explain", "branch", "render", "observe", "recording join", "replay", "fit"]
                         .contains(&command.as_str()) =>
                 {
                     line
