@@ -35,10 +35,11 @@ void main() {
 }
 `;
 
-/** Arrows that tell in which direction each lane is driven. */
+/** Arrows that tell in which direction lanes are driven; where lanes cross one could not read them. */
 export function arrowsMesh(scene: Scene): Mesh {
   const builder = new MeshBuilder({ position: 3 });
-  for (const { centre } of scene.lanelets) {
+  for (const { centre, is_conflict } of scene.lanelets) {
+    if (is_conflict) continue;
     const points = stations(centre);
     const length = points.at(-1)?.along ?? 0;
     const count = Math.max(Math.round(length / EVERY_M), 1);

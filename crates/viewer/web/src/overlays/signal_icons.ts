@@ -18,9 +18,11 @@ void main() {
   litLamp = lampOf(shown);
   vec4 seen = modelViewMatrix * vec4(spot, 1.0);
   float away = -seen.z;
-  float height = 11.0 * pixel * away;
-  // Near by, the signal itself is large enough; far away, signs would cover the map.
-  strength = smoothstep(0.75, 1.1, height) * (1.0 - smoothstep(7.0, 10.0, height));
+  float small = 11.0 * pixel * away;
+  float height = max(small, 0.8);
+  // Near by, one sees the lamps of the signal itself, unless from above; far away, signs would cover the map.
+  float fromAbove = smoothstep(0.65, 0.85, viewMatrix[2].z);
+  strength = max(smoothstep(0.5, 0.8, small), fromAbove) * (1.0 - smoothstep(7.0, 10.0, small));
   // In front of the signal itself.
   seen.xyz *= 1.0 - 0.6 / away;
   seen.xy += position.xy * vec2(0.5, 1.0) * height + vec2(0.0, height * 0.4);

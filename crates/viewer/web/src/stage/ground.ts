@@ -1,4 +1,4 @@
-import { GLSL3, Mesh, ShaderMaterial, type BufferGeometry } from 'three';
+import { DataTexture, GLSL3, LinearFilter, LinearMipmapLinearFilter, Mesh, RepeatWrapping, ShaderMaterial, type BufferGeometry } from 'three';
 import { MeshBuilder } from '../road/mesh_builder.ts';
 import type { Terrain } from '../road/terrain.ts';
 import { atmosphere, LIGHT_CHUNK } from './atmosphere.ts';
@@ -18,6 +18,7 @@ void main() {
 
 const FRAGMENT = /* glsl */ `
 ${LIGHT_CHUNK}
+uniform sampler2D noise;
 in vec2 place;
 in vec3 spot;
 in float depth;
@@ -31,22 +32,8 @@ float grid(float spacing) {
   return max(line.x, line.y) * fade;
 }
 
-float chance(vec2 at) {
-  return fract(sin(dot(at, vec2(127.1, 311.7))) * 43758.5453);
-}
-
-/** Soft blotches of about the size 1. */
-float blotch(vec2 at) {
-  vec2 cell = floor(at);
-  vec2 inside = fract(at);
-  inside = inside * inside * (3.0 - 2.0 * inside);
-  float low = mix(chance(cell), chance(cell + vec2(1.0, 0.0)), inside.x);
-  float high = mix(chance(cell + vec2(0.0, 1.0)), chance(cell + vec2(1.0, 1.0)), inside.x);
-  return mix(low, high, inside.y);
-}
-
 void main() {
-  float patches = 0.5 * blotch(place / 90.0) + 0.3 * blotch(place / 31.0) + 0.2 * blotch(place / 370.0);
+  float patches = 0.6 * texture(noise, place / 2900.0).r + 0.4 * texture(noise, place / 830.0).r;
   float seen = 1.0 - smoothstep(300.0, 3000.0, depth);
   vec3 day = mix(vec3(0.80, 0.845, 0.735), vec3(0.845, 0.865, 0.79), mix(0.5, patches, seen));
   vec3 base = mix(day, vec3(0.29, 0.33, 0.35) * (0.94 + 0.12 * mix(0.5, patches, seen)), night);
@@ -57,6 +44,7 @@ void main() {
 }
 `;
 
+const NOISE_SIZE = 32;
 /** How far the ground goes on beyond the grid, in rings of growing width. */
 const RINGS_M = [2000, 6000, 15_000, 30_000, 60_000];
 
@@ -66,7 +54,7 @@ export function groundMesh(terrain: Terrain): Mesh {
     glslVersion: GLSL3,
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    uniforms: { ...atmosphere },
+    uniforms: { ...atmosphere, noise: { value: noiseTexture() } },
     polygonOffset: true,
     polygonOffsetFactor: 2,
     polygonOffsetUnits: 8,
@@ -75,6 +63,24 @@ export function groundMesh(terrain: Terrain): Mesh {
   mesh.frustumCulled = false;
   mesh.renderOrder = -5;
   return mesh;
+}
+
+/** Grey values by chance, always the same ones. */
+function noiseTexture(): DataTexture {
+  const bytes = new Uint8Array(NOISE_SIZE * NOISE_SIZE * 4);
+  let state = 1;
+  for (let at = 0; at < bytes.length; at += 4) {
+    state = (state * 16_807) % 2_147_483_647;
+    bytes.fill(state & 255, at, at + 4);
+  }
+  const texture = new DataTexture(bytes, NOISE_SIZE, NOISE_SIZE);
+  texture.wrapS = RepeatWrapping;
+  texture.wrapT = RepeatWrapping;
+  texture.magFilter = LinearFilter;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 /** The grid, and around it rings with the heights of its rim. */

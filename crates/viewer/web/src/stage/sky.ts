@@ -35,12 +35,12 @@ export class Sky {
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       uniforms: { ...atmosphere, fromClip: { value: this.fromClip } },
-      depthTest: false,
       depthWrite: false,
     });
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = -10;
+    // Last of all that is opaque, so that it is drawn only where nothing covers it.
+    this.mesh.renderOrder = 20;
   }
 
   update(camera: PerspectiveCamera): void {
