@@ -174,6 +174,7 @@ export class TrafficView {
       this.state.select(id, isSecond);
       return;
     }
+    if (isSecond) return;
     this.state.choose([]);
     const signal = this.signals.find(({ head }) => Math.hypot(head[0] - point.x, head[1] - point.y) < SIGNAL_CLICK_M + reach);
     this.state.light.set(signal ? signal.light : null);

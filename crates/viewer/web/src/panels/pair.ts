@@ -2,25 +2,48 @@ import type { Driver } from '../protocol/messages.ts';
 import { fixed, withUnit } from './words.ts';
 
 const KMH_PER_MPS = 3.6;
+/** Vehicles that close in more slowly than this do not collide. */
+const LEAST_CLOSING_MPS = 0.05;
 
-/** Facts of two vehicles, the second one seen from the first. The gap is along the lane where both are on the same one. */
+interface Gap {
+  metres: number;
+  /** The vehicle behind and the one ahead on the same way; null if they are not on one. */
+  inOrder: [rear: Driver, front: Driver] | null;
+}
+
+/** Facts of two vehicles, the second one seen from the first. */
 export function pairFacts(first: Driver, second: Driver): [name: string, value: string][] {
-  const distance = Math.hypot(second.x - first.x, second.y - first.y);
-  const lengths = (first.length_m + second.length_m) / 2;
-  const isSameLane = first.lanelet !== null && first.lanelet === second.lanelet;
-  const known = isSameLane && first.position_m !== null && second.position_m !== null;
-  const ahead = known ? second.position_m! - first.position_m! : null;
-  const gap = Math.max((ahead === null ? distance : Math.abs(ahead)) - lengths, 0);
-  const rear = ahead === null || ahead >= 0 ? first : second;
-  const front = rear === first ? second : first;
-  const closing = (rear.speed_kmh - front.speed_kmh) / KMH_PER_MPS;
-  const collision = ahead === null ? 'not on the same lane' : closing > 0.05 ? withUnit(gap / closing, 1, 's') : 'none: they do not close in';
+  const { metres, inOrder } = gapBetween(first, second);
+  const where = inOrder === null ? 'in a straight line' : inOrder[0] === first ? 'ahead' : 'behind';
+  const faster = second.speed_kmh - first.speed_kmh;
   return [
-    ['distance of centres', withUnit(distance, 1, 'm')],
-    ['gap', `${fixed(gap, 1)} m ${ahead === null ? 'in a straight line' : `${ahead >= 0 ? 'ahead' : 'behind'} on the lane`}`],
-    ['time to collision', collision],
-    ['speed', `${fixed(second.speed_kmh, 1)} km/h, ${fixed(second.speed_kmh - first.speed_kmh, 1)} km/h more`],
+    ['distance of centres', withUnit(distance(first, second), 1, 'm')],
+    ['gap', `${fixed(metres, 1)} m ${where}`],
+    ['time to collision', timeToCollision(metres, inOrder)],
+    ['speed', `${fixed(second.speed_kmh, 1)} km/h, ${fixed(Math.abs(faster), 1)} km/h ${faster < 0 ? 'slower' : 'faster'}`],
     ['style', second.style ?? 'not known'],
     ['state', second.state ?? 'not known'],
   ];
 }
+
+/** Along the way where one follows the other or both are on the same lanelet, else in a straight line. */
+function gapBetween(first: Driver, second: Driver): Gap {
+  if (first.leader?.id === second.id) return { metres: first.leader.gap_m, inOrder: [first, second] };
+  if (second.leader?.id === first.id) return { metres: second.leader.gap_m, inOrder: [second, first] };
+  const lengths = (first.length_m + second.length_m) / 2;
+  const isSameLane = first.lanelet !== null && first.lanelet === second.lanelet;
+  if (!isSameLane || first.position_m === null || second.position_m === null) {
+    return { metres: Math.max(distance(first, second) - lengths, 0), inOrder: null };
+  }
+  const ahead = second.position_m - first.position_m;
+  return { metres: Math.max(Math.abs(ahead) - lengths, 0), inOrder: ahead >= 0 ? [first, second] : [second, first] };
+}
+
+function timeToCollision(gap_m: number, inOrder: Gap['inOrder']): string {
+  if (inOrder === null) return 'not on the same lane';
+  const [rear, front] = inOrder;
+  const closing = (rear.speed_kmh - front.speed_kmh) / KMH_PER_MPS;
+  return closing > LEAST_CLOSING_MPS ? withUnit(gap_m / closing, 1, 's') : 'none: they do not close in';
+}
+
+const distance = (first: Driver, second: Driver): number => Math.hypot(second.x - first.x, second.y - first.y);
