@@ -62,6 +62,7 @@ export class Hands {
 
 function about(hand: Hand): string[] {
   if ('set_parameter' in hand) return [hand.set_parameter.parameter, hand.set_parameter.style];
+  if ('set_share' in hand) return ['share', hand.set_share.style];
   if ('set_demand' in hand) return [`entrance ${hand.set_demand.origin} `];
   if ('close_lanelet' in hand) return [`lanelet ${hand.close_lanelet.lanelet}:`];
   if ('put' in hand) return [' on lanelet '];

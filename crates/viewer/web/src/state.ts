@@ -49,6 +49,8 @@ export class State {
   readonly trails = new Signal<Trails>('none');
   readonly showsChanges = new Signal(false);
   readonly showsArrows = new Signal(false);
+  /** Whether the traffic is shown, too, as it would be without what is done by hand. */
+  readonly hasTwin = new Signal(false);
   readonly isNight = new Signal(false);
   readonly camera = new Signal<CameraMode>('free');
 

@@ -12,7 +12,7 @@ export interface Scale {
   unit: string;
 }
 
-export type VehicleColour = 'style' | 'speed' | 'state' | 'desire' | 'delay' | 'since_change';
+export type VehicleColour = 'style' | 'speed' | 'state' | 'desire' | 'delay' | 'since_change' | 'difference';
 
 export type VehicleScale = Exclude<VehicleColour, 'style' | 'state'>;
 
@@ -22,6 +22,7 @@ export const VEHICLE_SCALES: Record<VehicleScale, Scale> = {
   speed: { colours: VIRIDIS, labels: ['0', '72', '144'], unit: 'km/h' },
   desire: { colours: BLUE_ORANGE, labels: ['against', '0', 'for a change'], unit: 'tanh(G/θ)' },
   delay: { colours: CIVIDIS, labels: ['0', '254', '508'], unit: 's lost on this trip' },
+  difference: { colours: VIRIDIS, labels: ['0', '63', '127 or no ghost'], unit: 'm to its ghost' },
   since_change: { colours: VIRIDIS.toReversed(), labels: ['0', '127', '254 or never'], unit: 's since the last change' },
 };
 

@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, GLSL3, LineSegments, ShaderMaterial } from 'three';
 import { rgb, styleColour } from '../colour/palette.ts';
-import { classOf, heightOf, RECORD_WORDS, styleOf } from '../protocol/frame.ts';
+import { classOf, heightOf, isGhost, RECORD_WORDS, styleOf } from '../protocol/frame.ts';
 import type { Point } from '../protocol/scene.ts';
 import type { Trails as Which } from '../state.ts';
 import type { Traffic } from '../traffic/traffic.ts';
@@ -100,7 +100,7 @@ export class TrailLines {
     const { next } = traffic.playback;
     if (!next || slot < 0 || slot >= next.slotCount) return;
     const at = slot * 3;
-    if (classOf(next.words, slot) === 0) {
+    if (classOf(next.words, slot) === 0 || isGhost(next.words, slot)) {
       this.last[at] = NaN;
       return;
     }

@@ -1,5 +1,5 @@
 import type { Hands } from '../hands.ts';
-import type { Demand, HandEntry, Hello, VehicleClass } from '../protocol/messages.ts';
+import type { Demand, HandEntry, Hello, Style, VehicleClass } from '../protocol/messages.ts';
 import type { State } from '../state.ts';
 import { button, choice, element } from './dom.ts';
 import { Slider } from './slider.ts';
@@ -8,11 +8,13 @@ import { clockTime } from './words.ts';
 
 export const CLASSES: readonly VehicleClass[] = ['car', 'truck', 'bus', 'motorcycle', 'other'];
 const MOST_DEMAND = 6000;
+const MOST_SHARE = 10;
 
 /** All that can be done by hand while the traffic runs. */
 export class HandsPanel {
   readonly root = element('section', { class: 'panel', 'data-test': 'panel-hands', 'aria-label': 'By hand' });
   private readonly styles = element('div');
+  private readonly shares = element('div', { class: 'sliders' });
   private readonly demand = element('div', { class: 'sliders' });
   private readonly done = element('ol', { class: 'done', 'data-test': 'hands' });
   private readonly saved = element('p', { class: 'soft', 'data-test': 'saved', role: 'status' });
@@ -31,8 +33,12 @@ export class HandsPanel {
       element('div', { class: 'buttons' }, ...CLASSES.map((form) => this.carrier(form, putInMiddle))),
       element('h3', {}, 'Driving styles'),
       this.styles,
+      element('h3', {}, 'Shares of the styles among those who arrive'),
+      this.shares,
       element('h3', {}, 'Demand of the entrances'),
       this.demand,
+      element('h3', {}, 'Compare'),
+      element('div', { class: 'buttons' }, this.twinButton()),
       element('h3', {}, 'Done so far'),
       this.done,
       element(
@@ -43,7 +49,11 @@ export class HandsPanel {
       ),
       this.saved,
     );
-    state.hello.watch((hello) => hello && this.begin(hello));
+    state.hello.watch((hello) => {
+      if (!hello) return;
+      this.begin(hello);
+      if (state.hasTwin.value) state.say({ twin: true });
+    });
     state.hands.watch((entries) => this.list(entries));
     state.saved.listen(({ scenario }) => this.saved.replaceChildren('Saved as ', element('code', {}, scenario)));
   }
@@ -72,7 +82,32 @@ export class HandsPanel {
     const names = hello.styles.map(({ name }) => [name, name] as const);
     this.styles.replaceChildren(choice('style', 'Which style', names, show), sliders);
     if (hello.styles[0]) show(hello.styles[0].name);
+    this.shares.replaceChildren(...hello.styles.map((style) => this.shareSlider(style)));
     this.demand.replaceChildren(...hello.demand.map((entrance) => this.demandSlider(entrance)));
+  }
+
+  private twinButton(): HTMLButtonElement {
+    const { state } = this;
+    const title = 'Show as ghosts how traffic would be without what is done by hand from now on';
+    const made = button('twin', 'Ghosts of the unchanged traffic', title, () => state.hasTwin.set(!state.hasTwin.value));
+    state.hasTwin.watch((hasTwin) => {
+      made.setAttribute('aria-pressed', String(hasTwin));
+      if (state.hello.value) state.say({ twin: hasTwin });
+    });
+    return made;
+  }
+
+  private shareSlider({ name, weight = 1 }: Style): Node {
+    const slider: Slider = new Slider({
+      label: name,
+      unit: '',
+      value: weight,
+      minimum: 0,
+      maximum: Math.max(MOST_SHARE, weight),
+      marks: { 'data-share': name },
+      choose: (chosen, before) => this.hands.do({ set_share: { style: name, weight: chosen } }, { revert: () => slider.show(before) }),
+    });
+    return slider.root;
   }
 
   private demandSlider({ origin, vehicles_per_hour: value }: Demand): Node {

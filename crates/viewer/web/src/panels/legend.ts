@@ -31,7 +31,7 @@ export class Legend {
     if (colour === 'state') {
       return list('State', PHASES.map((phase, index) => [roof(phase.colour, index), phase.name]));
     }
-    const titles = { speed: 'Speed', desire: 'Desire of the better side', delay: 'Delay', since_change: 'Time since the last change' };
+    const titles = { speed: 'Speed', desire: 'Desire of the better side', delay: 'Delay', since_change: 'Time since the last change', difference: 'Distance to its ghost' };
     return scaleBlock(titles[colour], VEHICLE_SCALES[colour]);
   }
 

@@ -10,6 +10,7 @@ const COLOURS: readonly (readonly [VehicleColour, string])[] = [
   ['desire', 'desire G'],
   ['delay', 'delay'],
   ['since_change', 'time since change'],
+  ['difference', 'distance to ghost'],
 ];
 /** The first ones need nothing but frames. */
 const COLOURS_OF_FRAMES = 3;

@@ -16,6 +16,8 @@ export const FLAG_SIGNALS_LEFT = 16;
 export const FLAG_SIGNALS_RIGHT = 32;
 export const FLAG_USER = 64;
 export const FLAG_RECORDED = 128;
+/** Both: a vehicle of the unchanged twin. */
+export const FLAGS_GHOST = FLAG_USER | FLAG_RECORDED;
 
 /** The vehicles in the view at one time. It reads the buffer of the message in place. */
 export interface Frame {
@@ -58,6 +60,8 @@ export function readFrame(buffer: ArrayBuffer): Frame {
 export const classOf = (words: Uint32Array, slot: number): number => (words[slot * RECORD_WORDS + 3] >>> 16) & 7;
 
 export const flagsOf = (words: Uint32Array, slot: number): number => (words[slot * RECORD_WORDS + 3] >>> 16) & 255;
+
+export const isGhost = (words: Uint32Array, slot: number): boolean => (flagsOf(words, slot) & FLAGS_GHOST) === FLAGS_GHOST;
 
 export const styleOf = (words: Uint32Array, slot: number): number => (words[slot * RECORD_WORDS + 3] >>> 8) & 63;
 

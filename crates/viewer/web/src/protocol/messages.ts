@@ -1,7 +1,7 @@
 /** The messages of the protocol of the viewer, version 1. */
 
 export type Side = 'left' | 'right';
-export type ColourBy = 'style' | 'desire' | 'delay' | 'since_change';
+export type ColourBy = 'style' | 'desire' | 'delay' | 'since_change' | 'difference';
 export type VehicleClass = 'car' | 'truck' | 'bus' | 'motorcycle' | 'other';
 export type LightShows = 'green' | 'yellow' | 'red';
 
@@ -16,6 +16,8 @@ export interface Parameter {
 export interface Style {
   name: string;
   description: string;
+  /** Its share among the drivers who arrive, against those of the others. */
+  weight?: number;
   parameters: Parameter[];
 }
 
@@ -154,6 +156,7 @@ export interface ServerMessage {
 export type Hand =
   | { set_parameter: { style: string; parameter: string; value: number } }
   | { set_demand: { origin: string; vehicles_per_hour: number } }
+  | { set_share: { style: string; weight: number } }
   | { set_light: { light: string; shows: LightShows | null } }
   | { close_lanelet: { lanelet: string; is_closed: boolean } }
   | { put: { x: number; y: number; class: VehicleClass } }
@@ -174,5 +177,6 @@ export type PageMessage =
   | { colour: ColourBy }
   | { lanes: boolean }
   | { hand: Hand }
+  | { twin: boolean }
   | { undo: true }
   | { save: true };

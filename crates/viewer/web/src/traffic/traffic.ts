@@ -1,4 +1,4 @@
-import { classOf, headingOf, heightOf, readFrame, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
+import { classOf, headingOf, heightOf, isGhost, readFrame, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
 import type { Point } from '../protocol/scene.ts';
 import { Playback } from './playback.ts';
 import { Slots } from './slots.ts';
@@ -48,7 +48,7 @@ export class Traffic {
   count(): number {
     const { next } = this.playback;
     let vehicles = 0;
-    for (let slot = 0; next && slot < next.slotCount; slot += 1) vehicles += classOf(next.words, slot) > 0 ? 1 : 0;
+    for (let slot = 0; next && slot < next.slotCount; slot += 1) vehicles += classOf(next.words, slot) > 0 && !isGhost(next.words, slot) ? 1 : 0;
     return vehicles;
   }
 
@@ -93,7 +93,7 @@ export class Traffic {
     for (let slot = 0; slot < next.slotCount; slot += 1) {
       const roughX = Math.abs(next.floats[slot * RECORD_WORDS] - cx);
       const roughY = Math.abs(next.floats[slot * RECORD_WORDS + 1] - cy);
-      if (roughX > furthest || roughY > furthest) continue;
+      if (roughX > furthest || roughY > furthest || isGhost(next.words, slot)) continue;
       const vehicle = this.placed(slot);
       if (!vehicle) continue;
       const distance = distanceTo(vehicle, x, y);

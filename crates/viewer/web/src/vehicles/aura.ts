@@ -46,6 +46,8 @@ flat out vec2 halfSize;
 flat out int what;
 
 bool isShown(int kind, uint flags) {
+  // A ghost has no light and no shadow.
+  if ((flags & 192u) == 192u) return false;
   if (kind == ${BEAM}) return night > 0.5;
   if (kind == ${BRAKES}) return (flags & 8u) != 0u;
   if (kind == ${LEFT}) return (flags & 16u) != 0u && blink > 0.5;

@@ -63,7 +63,7 @@ export class Fleet {
 
   /** Chooses what the colours of vehicles tell. */
   colourBy(what: VehicleColour): void {
-    const modes: Record<VehicleColour, number> = { style: 0, speed: 1, state: 2, desire: 3, delay: 3, since_change: 3 };
+    const modes: Record<VehicleColour, number> = { style: 0, speed: 1, state: 2, desire: 3, delay: 3, since_change: 3, difference: 3 };
     this.shared.colourBy.value = modes[what];
     if (what === 'style' || what === 'state') return;
     const old = this.shared.byteColours.value as DataTexture;

@@ -153,12 +153,21 @@ vec3 roofColour() {
   float side = has(16u) ? roofPlace.y : (has(32u) ? -roofPlace.y : 0.0);
   if (blink > 0.5 && side > 0.6 && abs(roofPlace.x) > 0.55) return vec3(1.0, 0.7, 0.1);
   bool isRim = max(abs(roofPlace.x), abs(roofPlace.y)) > 0.8;
+  if ((flags & 192u) == 192u) return tone;
   if (has(64u) && isRim) return vec3(1.0, 0.2, 0.75);
   if (has(128u) && isRim) return mix(tone, vec3(1.0), seen);
   return tone;
 }
 
+/** A ghost is pale, and every other pixel is missing. */
+bool isHole() {
+  ivec2 at = ivec2(gl_FragCoord.xy) / 2;
+  return ((at.x + at.y) & 1) == 0;
+}
+
 void main() {
+  bool isGhost = (flags & 192u) == 192u;
+  if (isGhost && isHole()) discard;
   vec3 facing = normalize(upright);
   vec3 tone = paint;
   float shines = 0.0;
@@ -182,6 +191,7 @@ void main() {
   // Colours tell things, so that they must be seen at night, too.
   bool isColoured = piece == ${PART.paint} || piece == ${PART.roof} || piece == ${PART.light};
   vec3 shaded = mix(lit(tone, facing), tone, max(shines, isColoured ? 0.35 * night : 0.0));
+  if (isGhost) shaded = mix(shaded, vec3(0.86, 0.9, 1.0), 0.7);
   colour = vec4(fogged(shaded, depth), 1.0);
 }
 `;
