@@ -10,10 +10,10 @@ use laneweave_study::PartialFile;
 ///
 /// # Errors
 /// If it cannot be written.
-pub fn write_whole(path: &Path, text: &str) -> Result<(), Fault> {
+pub fn write_whole(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Fault> {
     let write = || -> io::Result<()> {
         let (partial, mut file) = PartialFile::create(path)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(content.as_ref())?;
         partial.complete()
     };
     write().map_err(|error| Fault::refused(path, "written", &error))

@@ -25,6 +25,8 @@ struct Replay {
     scene: Scene,
     hello: Hello,
     frames: Frames,
+    /// What the lights show from a time on [s], a letter for each: at every change.
+    lights: Vec<(f64, String)>,
     marks: Marks,
     events: Vec<Mark>,
 }
@@ -53,13 +55,17 @@ pub fn export(
         return Err(Fault::new("export", "a simulation that runs now has no end", remedy));
     }
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::best());
-    let (mut slots, mut marks) = (Slots::default(), Marks::default());
+    let (mut slots, mut marks, mut lights) = (Slots::default(), Marks::default(), Vec::new());
     let every = (every_s / source.step_s()).round().max(1.0) as u32;
     let mut number = 0;
     loop {
         let mut snapshot = Snapshot { number, ..Snapshot::default() };
         source.see(&Wants::default(), &mut snapshot);
         look(snapshot.time_s);
+        let shown = snapshot.lights_in_letters();
+        if lights.last().is_none_or(|(_, before)| *before != shown) {
+            lights.push((snapshot.time_s, shown));
+        }
         let frame = slots.frame(&snapshot, scene.origin, View::ALL, Colour::Style);
         // Writing to memory never fails.
         let _ = packed.write_all(&(frame.len() as u32).to_le_bytes());
@@ -75,7 +81,7 @@ pub fn export(
     marks.until_s = source.time_s();
     let packed = packed.finish().map_err(|error| Fault::new("export", error, "report this as a bug"))?;
     let frames = Frames { encoding: "deflate-base64", data: STANDARD.encode(packed) };
-    let replay = Replay { scene, hello, frames, marks, events: Vec::new() };
+    let replay = Replay { scene, hello, frames, lights, marks, events: Vec::new() };
     let json = serde_json::to_string(&replay)
         .map_err(|error| Fault::new("export", error, "report this as a bug"))?;
     Ok(inlined(page, &json))

@@ -107,3 +107,15 @@ pub struct Snapshot {
     /// What is said of the lanes, if somebody wants it.
     pub lanes: Option<Arc<str>>,
 }
+
+impl Snapshot {
+    /// What the lights show, a letter for each: g, y or r.
+    pub fn lights_in_letters(&self) -> String {
+        let letter = |it: &LightState| match it {
+            LightState::Green => 'g',
+            LightState::Yellow => 'y',
+            LightState::Red => 'r',
+        };
+        self.lights.iter().map(letter).collect()
+    }
+}

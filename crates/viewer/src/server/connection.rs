@@ -5,7 +5,6 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use axum::extract::ws::{CloseFrame, Message, WebSocket, close_code};
-use laneweave::LightState;
 use serde::Serialize;
 use tokio::sync::mpsc;
 use tokio::time::{Instant, timeout};
@@ -193,7 +192,7 @@ impl Page {
             self.clock = Some((clock, Instant::now()));
             news.extend(serde_json::to_string(&clock).ok().map(|it| format!("{{\"clock\":{it}}}")));
         }
-        let lights: String = snapshot.lights.iter().map(letter).collect();
+        let lights = snapshot.lights_in_letters();
         if lights != self.lights {
             news.push(format!("{{\"lights\":\"{lights}\"}}"));
             self.lights = lights;
@@ -210,14 +209,6 @@ impl Page {
             self.lanes = Some(Arc::clone(lanes));
         }
         news
-    }
-}
-
-fn letter(light: &LightState) -> char {
-    match light {
-        LightState::Green => 'g',
-        LightState::Yellow => 'y',
-        LightState::Red => 'r',
     }
 }
 

@@ -151,6 +151,7 @@ impl Source for Live {
             kind: Kind::Live,
             title: self.driven.title(),
             step_s: self.step_s(),
+            time_s: self.time_s(),
             begin_s: 0.0,
             end_s: None,
             can: Abilities { hands: true, seek: false, explain: true },

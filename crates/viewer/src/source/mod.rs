@@ -48,6 +48,8 @@ pub struct Hello {
     pub title: String,
     /// Time between two instants [s].
     pub step_s: f64,
+    /// The present time [s].
+    pub time_s: f64,
     /// The first time [s].
     pub begin_s: f64,
     /// The last time, if there is one [s].

@@ -206,6 +206,7 @@ impl Source for Recorded {
             kind: Kind::Recording,
             title: self.title.clone(),
             step_s,
+            time_s: self.time_s(),
             begin_s,
             end_s: Some(end_s),
             can: Abilities { hands: false, seek: true, explain: false },

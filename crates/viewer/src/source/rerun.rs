@@ -111,6 +111,7 @@ impl Source for Rerun {
             kind: Kind::Run,
             title: self.driven.title(),
             step_s,
+            time_s: self.time_s(),
             begin_s: 0.0,
             end_s: Some(f64::from(self.last_step) * step_s),
             can: Abilities { hands: false, seek: true, explain: true },

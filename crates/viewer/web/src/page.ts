@@ -43,6 +43,7 @@ export class Page {
   private readonly timeline: Timeline;
   private view: TrafficView | null = null;
   private lastLook_ms = 0;
+  private hasBegun = false;
 
   constructor(private readonly feed: Feed) {
     this.state = new State(feed.hasServer, (message) => feed.say(message));
@@ -136,6 +137,9 @@ export class Page {
     this.view?.restart();
     state.hello.set(hello);
     if (state.selected.value.length > 0) state.say({ select: state.selected.value });
+    // What has not begun yet begins; what somebody has stopped stays as it is.
+    if (!this.hasBegun && hello.time_s <= hello.begin_s) state.say({ play: 1 });
+    this.hasBegun = true;
   }
 
   private wholeMap(): void {

@@ -25,6 +25,7 @@ export class FileFeed implements Feed {
   private sent = NOBODY;
   private told = 0;
   private selected: string[] = [];
+  private lights = '';
   private lastTick_ms = 0;
   private lastClock_ms = 0;
 
@@ -95,8 +96,10 @@ export class FileFeed implements Feed {
     const bytes = index === this.sent + 1 ? store.following(index) : store.alone(index);
     this.sent = index;
     this.isReady = false;
-    this.slots.take(readFrame(bytes));
+    const frame = readFrame(bytes);
+    this.slots.take(frame);
     listener.frame(bytes);
+    this.tellLights(frame.time_s);
     this.tellDrivers();
   }
 
@@ -141,6 +144,13 @@ export class FileFeed implements Feed {
     for (let slot = 0; frame && slot < frame.slotCount; slot += 1) vehicles += classOf(frame.words, slot) > 0 ? 1 : 0;
     const { time_s, isPlaying: is_playing, factor } = this;
     this.listener?.message({ clock: { time_s, is_playing, factor, vehicles, waiting: 0 } });
+  }
+
+  private tellLights(time_s: number): void {
+    const lights = this.file.lights?.findLast(([from_s]) => from_s <= time_s)?.[1];
+    if (lights === undefined || lights === this.lights) return;
+    this.lights = lights;
+    this.listener?.message({ lights });
   }
 
   private tellDrivers(): void {

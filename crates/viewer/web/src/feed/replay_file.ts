@@ -7,6 +7,8 @@ export interface ReplayFile {
   scene: Scene;
   hello: Hello;
   frames: { encoding: 'deflate-base64'; data: string };
+  /** What the lights show from a time on, a letter for each. */
+  lights?: [time_s: number, letters: string][];
   marks?: Marks | TrafficEvent[] | null;
   events?: TrafficEvent[] | null;
 }

@@ -26,6 +26,7 @@ export class Legend {
     const { value: colour } = this.state.colour;
     if (colour === 'style') {
       const names = this.state.hello.value?.styles.map(({ name }) => name) ?? [];
+      if (names.length === 0) return list('Vehicles', [[roof(styleColour(0), stylePattern(0)), 'as they were recorded']]);
       return list('Driving style', names.map((name, style) => [roof(styleColour(style), stylePattern(style)), name]));
     }
     if (colour === 'state') {

@@ -31,6 +31,7 @@ export interface Hello {
   kind: 'live' | 'run' | 'recording';
   title: string;
   step_s: number;
+  time_s: number;
   begin_s: number;
   end_s: number | null;
   can: { hands: boolean; seek: boolean; explain: boolean };
