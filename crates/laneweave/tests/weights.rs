@@ -1,72 +1,94 @@
-//! Each weight of a style moves what it should while drivers drive: the rate of lane changes of one kind, between no
-//! weight and ten times the weight, over ten simulated minutes with about 1,000 vehicles and five paired seeds.
+//! Each weight of a style moves what it should while drivers drive, between no weight and ten times the weight, over ten
+//! simulated minutes with about 1,000 vehicles and five paired seeds. The weights are changed as a user changes them,
+//! by commands.
 
-use laneweave::{Event, Kind, Parameter, Simulation, in_parallel};
+use laneweave::models::change::Mcdm;
+use laneweave::sim::{Event, Kind, LaneChange};
+use laneweave::{Parameter, Simulation, in_parallel};
 
 const SEEDS: u64 = 5;
-const MEASURED_S: f64 = 600.0;
+const DURATION_S: f64 = 600.0;
 /// About 1,000 vehicles in ten minutes.
 const VEHICLES_PER_HOUR: f64 = 6000.0;
+const STYLES: [&str; 2] = ["aggressive", "conservative"];
 
-/// Lane changes of a run by kind, and its vehicles.
-#[derive(Clone, Copy, Debug, Default)]
-struct Counted {
-    discretionary: usize,
-    route: usize,
-    keeping: usize,
-    missed: usize,
-    vehicles: usize,
-}
-
-/// Ten minutes of a motorway with ramps, after the user has multiplied a weight of all styles.
-fn run(parameter: Parameter, factor: f64, seed: u64) -> Counted {
+/// Lane changes per vehicle that `counts`, on a motorway with ramps, after a user has multiplied a weight of all styles.
+fn rate(parameter: Parameter, factor: f64, seed: u64, counts: impl Fn(&LaneChange) -> bool) -> f64 {
     let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/ramps.osm");
-    let mut simulation = Simulation::builder(map)
-        .vehicles_per_hour(VEHICLES_PER_HOUR)
-        .duration_s(MEASURED_S)
-        .seed(seed)
-        .threads(1)
-        .build()
-        .expect("a simulation");
+    let simulation = Simulation::builder(map).vehicles_per_hour(VEHICLES_PER_HOUR).seed(seed).threads(1);
+    let mut simulation = simulation.build().expect("a simulation");
     let drivers = simulation.world().driver_parameters().to_vec();
-    for style in ["aggressive", "conservative"] {
+    for style in STYLES {
         let mut typical = drivers.iter().find(|it| it.name == style).expect("a driver").clone();
         let weight = *parameter.place(&mut typical).expect("a weight");
         simulation.set_parameter(style, parameter, factor * weight).expect("a weight");
     }
-    let mut counted = Counted::default();
-    while simulation.time_s() < MEASURED_S {
-        for event in simulation.step() {
+    let (mut changes, mut vehicles) = (0, 0);
+    while simulation.time_s() < DURATION_S {
+        simulation.step();
+        for event in simulation.world().events() {
             match event {
-                Event::LaneChange(it) if it.is_completed => match it.kind {
-                    Kind::Discretionary => counted.discretionary += 1,
-                    Kind::Route => counted.route += 1,
-                    Kind::Keeping => counted.keeping += 1,
-                },
-                Event::MissedTurn(_) => counted.missed += 1,
-                Event::Entered(_) => counted.vehicles += 1,
+                Event::LaneChange(it) if it.is_completed && counts(it) => changes += 1,
+                Event::Entered(_) => vehicles += 1,
                 _ => {}
             }
         }
     }
-    counted
+    assert!(vehicles > 800, "{vehicles} vehicles");
+    f64::from(changes) / f64::from(vehicles)
+}
+
+/// The rates without the weight and with ten times the weight, for each seed.
+fn pairs(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) -> Vec<[f64; 2]> {
+    let seeds: Vec<u64> = (1..=SEEDS).collect();
+    let pair = |seed: &u64| Ok([0.0, 10.0].map(|factor| rate(parameter, factor, *seed, &counts)));
+    in_parallel(&seeds, 2, pair).expect("runs")
+}
+
+fn all_rise(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) {
+    let pairs = pairs(parameter, counts);
+    assert!(pairs.iter().all(|[none, ten]| ten > none), "{parameter:?}: {pairs:?}");
+}
+
+fn all_fall(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) {
+    let pairs = pairs(parameter, counts);
+    assert!(pairs.iter().all(|[none, ten]| ten < none), "{parameter:?}: {pairs:?}");
+}
+
+/// Whether an incentive spoke against a change when the desire for it came.
+fn was_against(change: &LaneChange, incentive: &str) -> bool {
+    let row = Mcdm::NAMES.iter().position(|it| *it == incentive).expect("an incentive");
+    change.appraisal.rows[row].earning < 0.0
 }
 
 #[test]
-fn probe() {
-    for parameter in [
-        Parameter::SpeedWeight,
-        Parameter::RouteWeight,
-        Parameter::ComfortWeight,
-        Parameter::CourtesyWeight,
-        Parameter::UrgencyWeight,
-        Parameter::KeepingWeight,
-    ] {
-        for factor in [0.0, 10.0] {
-            let tasks: Vec<u64> = (1..=SEEDS).collect();
-            for seed in tasks {
-                println!("{parameter:?} {factor} {:?}", run(parameter, factor, seed));
-            }
-        }
-    }
+fn drivers_who_want_speed_change_more_often() {
+    all_rise(Parameter::SpeedWeight, |_| true);
+}
+
+/// Those who do not mind it leave the lanes of their route, and have to come back.
+#[test]
+fn drivers_who_mind_their_route_make_fewer_changes_for_it() {
+    all_fall(Parameter::RouteWeight, |it| it.kind == Kind::Route);
+}
+
+#[test]
+fn drivers_who_want_comfort_make_fewer_changes_that_nobody_needs() {
+    all_fall(Parameter::ComfortWeight, |it| it.kind == Kind::Discretionary);
+}
+
+/// All changes together may even rise: the courteous make way.
+#[test]
+fn courteous_drivers_make_fewer_changes_at_the_cost_of_others() {
+    all_fall(Parameter::CourtesyWeight, |it| was_against(it, "courtesy"));
+}
+
+#[test]
+fn drivers_with_urgency_make_fewer_changes_away_from_their_route_near_its_last_place() {
+    all_fall(Parameter::UrgencyWeight, |it| was_against(it, "urgency"));
+}
+
+#[test]
+fn drivers_who_keep_to_the_slow_side_make_more_changes_for_that_alone() {
+    all_rise(Parameter::KeepingWeight, |it| it.kind == Kind::Keeping);
 }
