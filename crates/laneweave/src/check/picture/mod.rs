@@ -3,16 +3,15 @@
 
 mod explorer;
 mod panel;
-mod parts;
 
 use std::collections::HashSet;
 
 use laneweave_maps::{Map, Problem};
-use laneweave_study::{escaped, text_width};
+use laneweave_network::{Lanelet, Point};
+use laneweave_study::{Bounds, Space, escaped, panels, text_width};
 
 pub use explorer::explorer;
-use panel::Panel;
-use parts::parts;
+use panel::MapPanel;
 
 /// Width of the page [px].
 const WIDTH: f64 = 1400.0;
@@ -24,9 +23,6 @@ const HEAD: f64 = 50.0;
 const FOOT: f64 = 40.0;
 /// Maximum height of the panel of a page with one, and of those with several [px].
 const HEIGHTS: [f64; 2] = [1400.0, 700.0];
-/// Maximum of parts; with more, the map is drawn as one.
-const MOST_PANELS: usize = 8;
-
 /// The style sheet.
 mod colours {
     pub(super) const ROAD: &str = "#d9dce0";
@@ -56,29 +52,19 @@ pub fn picture(title: &str, map: &Map, problems: &[Problem]) -> String {
 }
 
 /// The panels with their positions, and the height of the page [px].
-fn laid_out(map: &Map) -> (Vec<Panel<'_>>, f64) {
-    let mut parts = parts(&map.network.lanelets);
-    if parts.len() > MOST_PANELS {
-        let all = parts.drain(..).reduce(|(around, mut members), (bounds, others)| {
-            members.extend(others);
-            (around.with(bounds), members)
-        });
-        parts.extend(all);
-    }
-    let columns = parts.len().min(2);
-    let width = (WIDTH - MARGIN * (1.0 + columns as f64)) / columns as f64;
-    let size = [width, HEIGHTS[columns - 1]];
-    let mut panels: Vec<Panel> = parts.into_iter().map(|part| Panel::new(map, part, size)).collect();
-    let mut top = HEAD;
-    for row in panels.chunks_mut(columns) {
-        let height = row.iter().map(Panel::height).fold(0.0, f64::max);
-        for (column, panel) in row.iter_mut().enumerate() {
-            panel.left = MARGIN + column as f64 * (width + MARGIN);
-            panel.top = top;
-        }
-        top += height + MARGIN;
-    }
-    (panels, top + FOOT)
+fn laid_out(map: &Map) -> (Vec<MapPanel<'_>>, f64) {
+    let around = |it: &Lanelet| {
+        Bounds::of(it.left_border.points().iter().chain(it.right_border.points()).map(in_plan))
+    };
+    let bounds: Vec<Bounds> = map.network.lanelets.iter().map(around).collect();
+    let space = Space { width: WIDTH, margin: MARGIN, top: HEAD, heights: HEIGHTS, least: 0.0 };
+    let (panels, bottom) = panels(&bounds, space);
+    (panels.into_iter().map(|panel| MapPanel { map, panel }).collect(), bottom + FOOT)
+}
+
+/// A point as it is seen from above [m].
+fn in_plan(point: &Point) -> [f64; 2] {
+    [point.x, point.y]
 }
 
 fn legend(y: f64) -> String {

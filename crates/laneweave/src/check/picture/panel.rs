@@ -5,46 +5,17 @@ use std::fmt::{Arguments, Write};
 
 use laneweave_maps::{Map, Rule, RuleKind};
 use laneweave_network::{Gate, Lanelet, Point, Polyline, Side};
+use laneweave_study::Panel;
 
-use super::colours;
-use super::parts::Bounds;
+use super::{colours, in_plan};
 
-/// Longest scale bar [px].
-const LONGEST_BAR: f64 = 160.0;
-/// Space below the map for the scale [px].
-const FOOT: f64 = 34.0;
-
-/// The position of a part of the map on the page.
-pub(super) struct Panel<'a> {
+/// A part of the map with its position on the page.
+pub(super) struct MapPanel<'a> {
     pub(super) map: &'a Map,
-    /// Indices of its lanelets in the network.
-    pub(super) lanelets: Vec<usize>,
-    pub(super) bounds: Bounds,
-    /// Upper left corner and width [px].
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) width: f64,
-    /// Pixels per metre.
-    scale: f64,
+    pub(super) panel: Panel,
 }
 
-impl<'a> Panel<'a> {
-    /// A panel `width` wide and at most `height` high.
-    pub(super) fn new(
-        map: &'a Map,
-        (bounds, lanelets): (Bounds, Vec<usize>),
-        [width, height]: [f64; 2],
-    ) -> Panel<'a> {
-        let [across, down] = bounds.size();
-        let scale = (width / across.max(1.0)).min(height / down.max(1.0));
-        Panel { map, lanelets, bounds, left: 0.0, top: 0.0, width, scale }
-    }
-
-    /// The height that it needs [px].
-    pub(super) fn height(&self) -> f64 {
-        self.scale * self.bounds.size()[1] + FOOT
-    }
-
+impl MapPanel<'_> {
     /// Draws all of it.
     pub(super) fn draw(&self, svg: &mut String, named: &HashSet<&str>) {
         self.crosswalks(svg);
@@ -54,41 +25,26 @@ impl<'a> Panel<'a> {
         self.gates(svg, &network.entrances, colours::ENTRANCE, true);
         self.gates(svg, &network.exits, colours::EXIT, false);
         self.problems(svg, named);
-        self.bar(svg);
+        svg.push_str(&self.panel.bar());
     }
 
     fn place(&self, point: &Point) -> (f64, f64) {
-        let [across, _] = self.bounds.size();
-        let left = self.left + (self.width - self.scale * across) / 2.0;
-        (
-            left + self.scale * (point.x - self.bounds.low[0]),
-            self.top + self.scale * (self.bounds.high[1] - point.y),
-        )
+        self.panel.place(in_plan(point))
     }
 
     /// The path along points as SVG, without invisible points.
     fn path<'p>(&self, points: impl IntoIterator<Item = &'p Point>) -> String {
-        /// A point is visible at this distance from the straight line between its neighbours [px].
-        const VISIBLE: f64 = 0.15;
-        let places: Vec<(f64, f64)> = points.into_iter().map(|it| self.place(it)).collect();
-        let mut path = String::new();
-        let mut last = None;
-        for (index, (x, y)) in places.iter().copied().enumerate() {
-            let straight = last.zip(places.get(index + 1)).map(|((x0, y0), (x1, y1)): ((f64, f64), _)| {
-                let (dx, dy) = (x1 - x0, y1 - y0);
-                (dx * (y - y0) - dy * (x - x0)).abs() < VISIBLE * dx.hypot(dy)
-            });
-            if straight != Some(true) {
-                let _ = write!(path, "{}{x:.1} {y:.1}", if path.is_empty() { "M" } else { "L" });
-                last = Some((x, y));
-            }
-        }
-        path
+        self.panel.path(points.into_iter().map(in_plan))
+    }
+
+    /// Whether `point` lies in the panel, or close to it.
+    fn is_near(&self, point: &Point) -> bool {
+        self.panel.bounds.is_near(in_plan(point))
     }
 
     fn crosswalks(&self, svg: &mut String) {
         for outline in &self.map.contents.crosswalks {
-            if outline.iter().all(|it| self.bounds.is_near(it)) {
+            if outline.iter().all(|it| self.is_near(it)) {
                 let (path, colour) = (self.path(outline), colours::CROSSWALK);
                 add(
                     svg,
@@ -101,9 +57,9 @@ impl<'a> Panel<'a> {
     }
 
     fn lanes(&self, svg: &mut String) {
-        self.lanelets.iter().for_each(|it| self.surface(svg, *it));
+        self.panel.members.iter().for_each(|it| self.surface(svg, *it));
         svg.push_str("<g pointer-events=\"none\">\n");
-        for lanelet in self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]) {
+        for lanelet in self.panel.members.iter().map(|it| &self.map.network.lanelets[*it]) {
             for (side, border) in Side::BOTH.into_iter().zip(borders(lanelet)) {
                 let dashes = if lanelet.beside(side).is_some() { " stroke-dasharray=\"4 5\"" } else { "" };
                 let (path, colour) = (self.path(border.points()), colours::MARKING);
@@ -148,7 +104,7 @@ impl<'a> Panel<'a> {
                 }
                 _ => continue,
             };
-            for line in self.stop_lines(rule).iter().filter(|it| it.iter().all(|p| self.bounds.is_near(p))) {
+            for line in self.stop_lines(rule).iter().filter(|it| it.iter().all(|p| self.is_near(p))) {
                 let path = self.path(line);
                 add(
                     svg,
@@ -158,7 +114,7 @@ impl<'a> Panel<'a> {
                 );
             }
             for sign in rule.signs.iter().filter_map(|it| it.first()) {
-                if self.bounds.is_near(sign) {
+                if self.is_near(sign) {
                     let (x, y) = self.place(sign);
                     add(svg, format_args!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>"));
                 }
@@ -175,7 +131,7 @@ impl<'a> Panel<'a> {
             RuleKind::RightOfWay { yielding, .. } => yielding,
             _ => &rule.lanelets,
         };
-        let own = self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]);
+        let own = self.panel.members.iter().map(|it| &self.map.network.lanelets[*it]);
         let ends = own
             .filter(|it| stopping.contains(&it.id))
             .map(|it| borders(it).into_iter().filter_map(|border| border.points().last()).copied().collect());
@@ -187,7 +143,7 @@ impl<'a> Panel<'a> {
         for chain in gates.iter().flat_map(|it| &it.chains).map(|it| self.map.network.chain(*it)) {
             let station = if is_entrance { 0.0 } else { chain.length };
             let at = chain.centre.at(station);
-            if !self.bounds.is_near(&at) {
+            if !self.is_near(&at) {
                 continue;
             }
             let (x, y) = self.place(&at);
@@ -206,10 +162,10 @@ impl<'a> Panel<'a> {
 
     /// A circle around the middle of each lanelet with a problem.
     fn problems(&self, svg: &mut String, named: &HashSet<&str>) {
-        for lanelet in self.lanelets.iter().map(|it| &self.map.network.lanelets[*it]) {
+        for lanelet in self.panel.members.iter().map(|it| &self.map.network.lanelets[*it]) {
             if named.contains(format!("lanelet {}", lanelet.id).as_str()) {
                 let (x, y) = self.place(&lanelet.centre.at(lanelet.length() / 2.0));
-                let radius = (0.4 * self.scale * lanelet.length()).clamp(2.5, 7.0);
+                let radius = (0.4 * self.panel.scale()[0] * lanelet.length()).clamp(2.5, 7.0);
                 add(
                     svg,
                     format_args!(
@@ -219,23 +175,6 @@ impl<'a> Panel<'a> {
                 );
             }
         }
-    }
-
-    /// A bar of round length.
-    fn bar(&self, svg: &mut String) {
-        let metres = [5000.0, 2000.0, 1000.0, 500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0];
-        let length = metres.into_iter().find(|it| it * self.scale <= LONGEST_BAR).unwrap_or(1.0);
-        let end = self.left + self.width;
-        let (x, y) = (end - length * self.scale, self.top + self.height() - 14.0);
-        add(
-            svg,
-            format_args!(
-                "<path d=\"M{x:.1} {0:.1}V{y:.1}H{end:.1}V{0:.1}\" fill=\"none\" stroke=\"black\"/>\
-             <text x=\"{end:.1}\" y=\"{1:.1}\" text-anchor=\"end\">{length} m</text>",
-                y - 5.0,
-                y + 14.0,
-            ),
-        );
     }
 }
 
