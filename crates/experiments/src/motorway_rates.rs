@@ -72,7 +72,7 @@ pub(crate) fn motorway_rates(effort: &Effort) -> Result<Finding, Fault> {
         .map(|(flow, (ours, mobil))| ratio_row(*flow, between(ours, mobil, ratio)))
         .collect();
     let labels = ["Flow [veh/h per lane]", "Discretionary lane changes [1/veh-km]"];
-    let figure = estimates(Sheet::Page, "Lane changes on three lanes of a motorway", labels, &series);
+    let figure = estimates(Sheet::Page, "Lane changes on three lanes of a motorway", labels, &series).svg;
     Ok(Finding {
         text: words(&rows, effort),
         tables: vec![("C1".into(), csv), ("C1_ratio".into(), csv_of(&rows))],

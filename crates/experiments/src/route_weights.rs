@@ -203,6 +203,7 @@ fn figure(cases: &[Case], reading: &str) -> String {
         labels,
         &series,
     )
+    .svg
 }
 
 fn csv(cases: &[Case]) -> String {

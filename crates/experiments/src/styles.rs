@@ -72,7 +72,7 @@ fn figure(names: &[String], values: &[Vec<Option<Estimate>>]) -> String {
         values: vec![estimated(&values[0])],
     };
     let rows: Vec<BarRow> = names.iter().zip(values).map(row).collect();
-    bars(Sheet::Page, ["Discretionary lane changes [1/veh-km]", "Style"], &["discretionary"], &rows)
+    bars(Sheet::Page, ["Discretionary lane changes [1/veh-km]", "Style"], &["discretionary"], &rows).svg
 }
 
 /// Who does most and least of what, in words.

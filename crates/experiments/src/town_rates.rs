@@ -176,7 +176,7 @@ pub(crate) fn town_rates(effort: &Effort) -> Result<Finding, Fault> {
     };
     let figure = |what: &str, all: bool| {
         let labels = ["Density [veh/km per lane]", "Lane changes [1/veh-km]"];
-        estimates(Sheet::Page, what, labels, &points(all))
+        estimates(Sheet::Page, what, labels, &points(all)).svg
     };
     Ok(Finding {
         text: words(&models, &rows, effort),

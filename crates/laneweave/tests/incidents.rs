@@ -179,3 +179,17 @@ fn the_report_names_the_first_place_and_lists_the_first_incidents() {
         assert!(report.contains(cell), "{cell}");
     }
 }
+
+#[test]
+fn the_report_has_a_map_with_the_place_of_each_collision() {
+    let run = Run::new();
+    run.until(f64::INFINITY).expect("it ends");
+    let (report, table) = (run.report(), run.table());
+    assert!(
+        report.contains("Collisions and overlaps on the map") && report.contains(">collision (1)</text>")
+    );
+    let cells: Vec<&str> = table.lines().nth(1).expect("a row").split(',').collect();
+    let [x, y] = [12, 13].map(|it| cells[it].parse::<f64>().expect("a number"));
+    let row = format!("%0Acollision,{},{x:.1},{y:.1},time%20%5Bs%5D,0%0A", cells[8]);
+    assert!(report.contains(&row), "{row}");
+}

@@ -21,7 +21,7 @@ mod step;
 mod view;
 
 pub use ask::account::{Account, Act, SideAccount, explain};
-pub use ask::queues::{EntryQueue, Held, entry_queues};
+pub use ask::queues::{EntryQueue, Held, entry_queue_lengths, entry_queues};
 pub use ask::standing::{JunctionHindrance, StandsFor, stands_for};
 pub use demand::assignment::{Assignment, Change, Part};
 pub use demand::error::WorldError;

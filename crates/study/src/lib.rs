@@ -17,8 +17,9 @@ pub mod units;
 pub use edie::{EdieError, EdieGrid, EdieRow, Window};
 #[cfg(feature = "figures")]
 pub use figures::{
-    BarRow, Bounds, Distributed, Estimated, Panel, Scattered, Sheet, Space, TimeLine, Upwards, bars,
-    distribution, escaped, estimates, over_time, panels, rate_density, scatter, text_width, time_space,
+    Area, BarRow, Bounds, Distributed, Drawn, Estimated, LaneInTime, MarkAt, Marks, OnTop, Panel, Scattered,
+    Shading, Sheet, Space, TimeLine, Upwards, bars, distribution, escaped, estimates, map, over_time, panels,
+    rate_density, scatter, text_width, time_space,
 };
 pub use histogram::Histogram;
 pub use rate::{RatePoint, RateSeries, rate_by_density};

@@ -1,7 +1,7 @@
 //! `laneweave branch`: the same traffic with one thing changed.
 
 use crate::program::Folder;
-use crate::report::{assert_needs_nothing, figures, has_units, texts};
+use crate::report::{assert_downloads, assert_needs_nothing, figures, has_units, texts};
 use crate::run::rows;
 
 #[test]
@@ -24,9 +24,10 @@ fn what_differs_is_told_and_lies_in_tables_and_on_a_page() {
 
     let page = folder.read("out/branch/report.html");
     assert_needs_nothing(&page);
+    assert_downloads(&page);
     texts(&page);
     let figures = figures(&page);
-    assert_eq!(figures.len(), 6);
+    assert_eq!(figures.len(), 5);
     assert!(figures.iter().all(|it| has_units(it)), "{figures:?}");
     let lines: Vec<(String, String)> = told
         .text()

@@ -1,7 +1,7 @@
 //! `laneweave compare`: lane-change models side by side.
 
 use crate::program::Folder;
-use crate::report::{assert_needs_nothing, figures, has_units, texts};
+use crate::report::{assert_downloads, assert_needs_nothing, figures, has_units, texts};
 
 /// The cells of a table, by row, without its header.
 fn rows(table: &str) -> Vec<Vec<&str>> {
@@ -47,6 +47,7 @@ fn the_report_shows_every_model_on_every_input_with_its_interval() {
     assert_eq!((told.code(), told.errors().as_str()), (0, ""));
     let page = folder.read("both/report.html");
     assert_needs_nothing(&page);
+    assert_downloads(&page);
     texts(&page);
     for text in
         ["<section id=\"input-1\">", "Models on town.osm", "<dt>Seeds</dt><dd>3 for each model: 1 to 3"]

@@ -1,5 +1,6 @@
 //! The report of twins: the effects of the change, in figures.
 
+use laneweave_results::output::Traces;
 use laneweave_results::report::{Align, Figure, Page, Section, Table, counted, time_and_space};
 use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{Distributed, Histogram, Sheet, TimeLine, Upwards, distribution, over_time};
@@ -23,9 +24,12 @@ pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &
     facts.extend(differences.facts(settings).into_iter().map(|(name, value)| (name.into(), value)));
     let mut figures = in_time(differences).to_vec();
     figures.extend(later(differences));
-    let lanes = ["base", "branch"].into_iter().zip(&twins.lanes);
-    let lanes = lanes
-        .filter_map(|(name, lane)| time_and_space(lane.as_ref()?, format!("Time–space diagram, {name}")));
+    let lanes: Vec<(String, &Traces)> = ["base", "branch"]
+        .into_iter()
+        .zip(&twins.lanes)
+        .filter_map(|(name, lane)| Some((name.into(), lane.as_ref()?)))
+        .collect();
+    let lanes: Vec<Figure> = time_and_space(&lanes).into_iter().collect();
     Page::new("Twins: the effect of one change", lead)
         .section(Section::new("what", "What differs").facts(facts))
         .section(
@@ -37,7 +41,7 @@ pub fn page(twins: &Twins, differences: &Differences, settings: &str, command: &
                 )
                 .figures(figures),
         )
-        .section(Section::new("roads", "Time and space").figures(lanes.collect()))
+        .section(Section::new("roads", "Time and space").figures(lanes))
         .section(Section::new("vehicles", "Vehicles that differ").table(vehicles(differences)))
 }
 
@@ -50,7 +54,7 @@ fn in_time(differences: &Differences) -> [Figure; 3] {
         [line("base", &|it| value(it)[0]), line("branch", &|it| value(it)[1])]
     };
     let figure = |label: &str, title: &str, caption: &str, lines: &[TimeLine]| Figure {
-        svg: over_time(Sheet::Column, label, lines),
+        drawn: over_time(Sheet::Column, label, lines),
         title: title.into(),
         caption: format!("{caption} n = {} seconds.", counted(differences.instants.len() as u64)),
     };
@@ -85,7 +89,7 @@ fn later(differences: &Differences) -> Option<Figure> {
     let (all, outside) = (histogram.total(), histogram.below(from) + histogram.beyond());
     let histogram = histogram.trimmed(&[]);
     (all > 0).then(|| Figure {
-        svg: distribution(
+        drawn: distribution(
             Sheet::Column,
             ["Completed later in the branch [s]", "Share of vehicles [% per s]"],
             Upwards::Linear,

@@ -70,7 +70,7 @@ fn rates(comparison: &Comparison) -> Figure {
         |it: &RateSeries| format!("{} {}", counted(it.points.iter().map(|it| it.changes).sum()), it.name);
     let counts: Vec<String> = series.iter().map(count).collect();
     Figure {
-        svg: rate_density(Sheet::Column, "", &series),
+        drawn: rate_density(Sheet::Column, "", &series),
         title: "Discretionary lane changes against density".into(),
         caption: format!(
             "Discretionary lane changes (both lanes are equally good for the route) per kilometre of lane and hour, in boxes of \
@@ -93,7 +93,7 @@ fn diagrams(comparison: &Comparison) -> [Figure; 2] {
         let groups: Vec<Scattered> = comparison.models.iter().map(group).collect();
         let boxes: usize = comparison.trials.iter().map(|it| it.boxes.len()).sum();
         Figure {
-            svg: scatter(Sheet::Column, ["Density [veh/km per lane]", label], &groups),
+            drawn: scatter(Sheet::Column, ["Density [veh/km per lane]", label], &groups),
             title: title.into(),
             caption: format!(
                 "Means over boxes of all seeds in classes of {CLASS} veh/km with at least {LEAST_BOXES} boxes, by Edie's \
@@ -125,7 +125,7 @@ fn measured(comparison: &Comparison, measure: &Measure) -> Option<Figure> {
     let (name, _) = measure.title.rsplit_once(" [").unwrap_or((measure.title, ""));
     let least = estimates.iter().map(|it| it.replications).min().unwrap_or(0);
     Some(Figure {
-        svg: bars(Sheet::Column, [&capitalized(measure.title), "Model"], &[name], &rows),
+        drawn: bars(Sheet::Column, [&capitalized(measure.title), "Model"], &[name], &rows),
         title: capitalized(name),
         caption: format!(
             "Means over the seeds{}. n = {}{} runs for each model.",

@@ -63,8 +63,8 @@ pub const FIGURES: [&str; 2] = ["prediction.svg", "world.svg"];
 
 /// The figures of the report by the names of their files; the second one only if the fit was judged.
 pub fn figures(report: &FitReport) -> Vec<(&'static str, String)> {
-    let mut figures = vec![(FIGURES[0], figure(report, Sheet::Page).svg)];
-    figures.extend(report.judged.as_ref().map(|it| (FIGURES[1], judge::figure(it, Sheet::Page).svg)));
+    let mut figures = vec![(FIGURES[0], figure(report, Sheet::Page).drawn.svg)];
+    figures.extend(report.judged.as_ref().map(|it| (FIGURES[1], judge::figure(it, Sheet::Page).drawn.svg)));
     figures
 }
 
@@ -176,7 +176,7 @@ fn figure(report: &FitReport, sheet: Sheet) -> Figure {
     let rows: Vec<BarRow> = report.held_out.iter().filter(|it| it.model != "constant").map(row).collect();
     let label = "Better than a constant chance [nats per lane change]";
     Figure {
-        svg: bars(sheet, [label, "Model"], &["held out"], &rows),
+        drawn: bars(sheet, [label, "Model"], &["held out"], &rows),
         title: "Prediction of held-out drivers".into(),
         caption: format!(
             "By how much models predict better than a constant chance, with 95 % intervals by a bootstrap over drivers. n = {} lane \

@@ -55,7 +55,7 @@ fn figure(report: &ReplayReport, label: &str, title: &str, of: fn(&PartedAfter) 
     let lines: Vec<TimeLine> = report.models.iter().map(line).collect();
     let drivers = report.models.first().map_or(0, |it| it.parting.drivers);
     Figure {
-        svg: over_time(Sheet::Column, label, &lines),
+        drawn: over_time(Sheet::Column, label, &lines),
         title: title.into(),
         caption: format!(
             "Means over the drivers and rollouts, against the time since they became drivers. n = {} drivers that were recorded for 5 s \

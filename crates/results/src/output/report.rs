@@ -57,7 +57,8 @@ impl Output for Report {
         let Report { path, rate, time_space, about, provenance, record } = *self;
         let end = world.clock().time();
         let (about, provenance, record, network) = (&about, &provenance, &record, world.network());
-        let report = RunReport { about, provenance, summary, record, network, end };
+        let aggregates = &world.lanelet_aggregates();
+        let report = RunReport { about, provenance, summary, record, network, aggregates, end };
         write_whole(&path, &report.page().to_html())?;
         write_whole(&rate, &record.rate_figure(end))?;
         write_whole(&time_space, &record.time_space_figure())?;

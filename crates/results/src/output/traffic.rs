@@ -99,11 +99,9 @@ impl Traffic {
         let duration = self.during[1] - self.during[0];
         let all = self.counts.iter().zip(&network.lanelets).enumerate();
         all.map(move |(place, (it, lanelet))| {
-            let size = lanelet.length() * duration;
-            let LaneletAggregate { time, way, .. } = it.stay;
-            let density = time / size * METRES_PER_KM;
-            let flow = way / size * SECONDS_PER_HOUR;
-            (place, [density, flow], (time > 0.0).then(|| way / time))
+            let density = it.stay.density(lanelet.length(), duration) * METRES_PER_KM;
+            let flow = it.stay.flow(lanelet.length(), duration) * SECONDS_PER_HOUR;
+            (place, [density, flow], it.stay.speed())
         })
     }
 }

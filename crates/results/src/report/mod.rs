@@ -1,9 +1,10 @@
 //! Reports as single HTML files: the parts of a page that all reports use, and the report of a run.
 //!
-//! A page needs no network, no script and no other file; its figures are inline SVG that takes its colours from the
-//! page.
+//! A page needs no network and no other file; its figures are inline SVG that takes its colours from the page. A short
+//! script saves them as files; without it the page can be read as well.
 
 pub mod classes;
+mod download;
 mod kept;
 mod page;
 mod roads;

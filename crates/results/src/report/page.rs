@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use laneweave_study::escaped;
+use laneweave_study::{Drawn, escaped};
 
+use super::download::{SCRIPT, links};
 use super::table::Table;
 
 const STYLE_SHEET: &str = include_str!("style.css");
@@ -50,8 +51,8 @@ pub struct Tile {
 /// A figure with its caption; the page numbers it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The drawing, a figure of `laneweave_study` for a column.
-    pub svg: String,
+    /// The drawing for a column, and its data.
+    pub drawn: Drawn,
     /// Its contents in a few words.
     pub title: String,
     /// What is counted and how, and the number of values.
@@ -91,7 +92,11 @@ impl Page {
         for section in &self.sections {
             section.write(&mut html, &mut figures);
         }
-        html + "</main>\n</body>\n</html>\n"
+        html += "</main>\n";
+        if figures > 0 {
+            let _ = write!(html, "<script>\n{SCRIPT}</script>\n");
+        }
+        html + "</body>\n</html>\n"
     }
 }
 
@@ -204,12 +209,13 @@ fn write_tiles(html: &mut String, tiles: &[Tile]) -> std::fmt::Result {
 
 fn write_figures(html: &mut String, figures: &[Figure], number: &mut usize) -> std::fmt::Result {
     *html += "<div class=\"figures\">\n";
-    for Figure { svg, title, caption } in figures {
+    for Figure { drawn, title, caption } in figures {
         *number += 1;
+        let (svg, links) = (&drawn.svg, links(*number, title, &drawn.csv));
         let [title, caption] = [title, caption].map(|it| escaped(it));
         write!(
             html,
-            "<figure>\n{svg}<figcaption><b>Figure {number}. {title}.</b> {caption}</figcaption>\n</figure>\n"
+            "<figure>\n{svg}<figcaption><b>Figure {number}. {title}.</b> {caption}</figcaption>\n{links}</figure>\n"
         )?;
     }
     *html += "</div>\n";
@@ -250,8 +256,9 @@ mod tests {
 
     #[test]
     fn figures_are_numbered_through_the_page() {
+        let drawn = Drawn { svg: "<svg/>".into(), csv: "a\n1\n".into() };
         let figure =
-            |title: &str| Figure { svg: "<svg/>".into(), title: title.into(), caption: "n = 3".into() };
+            |title: &str| Figure { drawn: drawn.clone(), title: title.into(), caption: "n = 3".into() };
         let one = Section::new("one", "One").figures(vec![figure("a"), figure("b")]);
         let two = Section::new("two", "Two").figures(vec![]).figures(vec![figure("c")]);
         let html = Page::new("t", "l").section(one).section(two).to_html();
@@ -259,5 +266,7 @@ mod tests {
             assert!(html.contains(text), "{text}");
         }
         assert_eq!(html.matches("<div class=\"figures\">").count(), 2);
+        assert_eq!(html.matches("charset=utf-8,a%0A1%0A\"").count(), 3);
+        assert_eq!(html.matches("<script>").count(), 1);
     }
 }

@@ -1,6 +1,6 @@
 //! The queues at the origins of the demand, and what blocks them.
 
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, Position};
 
 use crate::demand::source::{Queue, Start};
 use crate::driver::request_reservation::surveyed;
@@ -65,6 +65,12 @@ pub fn entry_queues(world: &World) -> impl Iterator<Item = EntryQueue> + '_ {
         waiting: queue.waiting.len(),
         held: held(world, queue),
     })
+}
+
+/// Where vehicles of each of these queues enter, and how many wait there.
+pub fn entry_queue_lengths(world: &World) -> impl Iterator<Item = (Position, usize)> + '_ {
+    let lanes = world.arrivals().sources().iter().flat_map(|it| it.lanes());
+    lanes.map(|it| (Position::new(it.chain, it.start.station()), it.waiting.len()))
 }
 
 /// What blocks the first vehicle of a queue.

@@ -36,6 +36,26 @@ impl LaneletAggregate {
         }
     }
 
+    /// Edie's density on a lanelet of this `length` [m] over this `duration` [s], in vehicles per metre.
+    pub fn density(&self, length: f64, duration: f64) -> f64 {
+        self.time / (length * duration)
+    }
+
+    /// The same of the vehicles that stood.
+    pub fn standing_density(&self, length: f64, duration: f64) -> f64 {
+        self.standing / (length * duration)
+    }
+
+    /// Edie's flow on it, in vehicles per second.
+    pub fn flow(&self, length: f64, duration: f64) -> f64 {
+        self.way / (length * duration)
+    }
+
+    /// Edie's speed [m/s], if there were vehicles.
+    pub fn speed(&self) -> Option<f64> {
+        (self.time > 0.0).then(|| self.way / self.time)
+    }
+
     /// The difference from an earlier state `before`.
     pub fn since(self, before: LaneletAggregate) -> LaneletAggregate {
         LaneletAggregate {

@@ -2,6 +2,7 @@
 
 use super::axes::Axis;
 use super::drawing::{Anchor, Around, Drawing};
+use super::drawn::{Drawn, Values, text, value};
 use super::series::{Estimated, colour, key, level_bar, marker};
 use super::sheet::Sheet;
 
@@ -25,7 +26,7 @@ pub struct BarRow {
 
 /// Draws rows of bars from zero, each with its interval, one below the other. `labels` are those of the values and of
 /// the rows.
-pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -> String {
+pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -> Drawn {
     /// Longer names are shortened.
     const LONGEST: usize = 20;
     let short = |it: &BarRow| -> String {
@@ -56,7 +57,8 @@ pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -
     };
     let mut drawing = Drawing::new(sheet, around);
     let plot = drawing.plot;
-    drawing.across_only(&x, String::new());
+    drawing.grid(Some(&x), None);
+    drawing.texts_across(&x);
     drawing.upright_text(layout.upright, labels[1]);
     let pitch = (plot.bottom - plot.top) / rows.len().max(1) as f64;
     for (number, (row, name)) in rows.iter().zip(&names).enumerate() {
@@ -68,7 +70,19 @@ pub fn bars(sheet: Sheet, labels: [&str; 2], series: &[&str], rows: &[BarRow]) -
         }
     }
     drawing.frame();
-    drawing.finish()
+    drawing.finish(values(labels, series, rows))
+}
+
+/// A row for each bar.
+fn values(labels: [&str; 2], series: &[&str], rows: &[BarRow]) -> Values {
+    let mut values = Values::of([labels[1], "series", labels[0], "lower", "upper"]);
+    for row in rows {
+        for (name, it) in series.iter().zip(&row.values).filter(|(_, it)| it.is_finite()) {
+            let numbers = [it.value, it.interval.lower, it.interval.upper].map(value);
+            values.row([text(&row.name), text(name)].into_iter().chain(numbers));
+        }
+    }
+    values
 }
 
 fn bar(it: &Estimated, index: usize, y: f64, across: impl Fn(f64) -> f64) -> String {
@@ -89,7 +103,7 @@ mod tests {
     use super::*;
     use crate::statistics::Interval;
 
-    const LABELS: [&str; 2] = ["lane changes [1/(veh km)]", "style [name]"];
+    const LABELS: [&str; 2] = ["lane changes [1/(veh km)]", "Style"];
 
     fn row(name: &str, value: f64) -> BarRow {
         let interval = Interval { lower: value - 1.0, upper: value + 1.0 };
@@ -100,8 +114,8 @@ mod tests {
     fn a_bar_ends_at_its_value_between_the_ends_of_its_interval() {
         // Names of 4 characters: the plot from 14 + 28 + 29.12 = 71.12 px to 466 px; 0 … 4; two rows of 75 px from 14
         // px on.
-        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a & b", 3.0), row("c", 1.0)]);
-        assert!(svg.contains(">a &amp; b</text>") && svg.contains(">style [name]</text>"), "{svg}");
+        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a & b", 3.0), row("c", 1.0)]).svg;
+        assert!(svg.contains(">a &amp; b</text>") && svg.contains(">Style</text>"), "{svg}");
         let rect = "<rect x=\"78.4\" y=\"47.0\" width=\"290.7\" height=\"9\"";
         assert!(svg.contains(rect), "{svg}");
         assert!(svg.contains("d=\"M272.2 51.5H466.0M272.2 47.5v8M466.0 47.5v8\""), "{svg}");
@@ -109,7 +123,7 @@ mod tests {
 
     #[test]
     fn a_bar_below_zero_reaches_to_the_left_within_the_frame() {
-        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a", 2.0), row("c", -1.0)]);
+        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a", 2.0), row("c", -1.0)]).svg;
         let ends: Vec<f64> = svg
             .match_indices("<rect x=\"")
             .filter_map(|(at, found)| svg[at + found.len()..].split('"').next()?.parse().ok())
@@ -120,7 +134,8 @@ mod tests {
 
     #[test]
     fn a_long_name_is_shortened_and_a_value_that_is_not_known_left_out() {
-        let svg = bars(Sheet::Column, LABELS, &["all"], &[row("a name that is by far too long", f64::NAN)]);
+        let svg =
+            bars(Sheet::Column, LABELS, &["all"], &[row("a name that is by far too long", f64::NAN)]).svg;
         assert!(svg.contains(">a name that is by f…</text>") && !svg.contains("class=\"bar\""), "{svg}");
     }
 }

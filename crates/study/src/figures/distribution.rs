@@ -2,6 +2,7 @@
 
 use super::axes::Axis;
 use super::drawing::{Around, Drawing};
+use super::drawn::{Drawn, Values, text, value};
 use super::series::{colour, dashes, line_key};
 use super::sheet::Sheet;
 use crate::histogram::Histogram;
@@ -29,7 +30,7 @@ const LEAST_SHARE: f64 = 0.001;
 
 /// Draws for each distribution the share of all its values [%] that lies in each bin. Values outside the bins count
 /// for the whole, but are not drawn. Histograms without a value are left out.
-pub fn distribution(sheet: Sheet, labels: [&str; 2], upwards: Upwards, all: &[Distributed]) -> String {
+pub fn distribution(sheet: Sheet, labels: [&str; 2], upwards: Upwards, all: &[Distributed]) -> Drawn {
     let all: Vec<&Distributed> = all.iter().filter(|it| it.histogram.total() > 0).collect();
     let ends = |it: &&Distributed| it.histogram.range();
     let from = all.iter().map(|it| ends(it)[0]).fold(f64::INFINITY, f64::min);
@@ -52,11 +53,15 @@ pub fn distribution(sheet: Sheet, labels: [&str; 2], upwards: Upwards, all: &[Di
     let mut drawing = Drawing::new(sheet, Around { keys, ..Around::default() });
     drawing.axes(&x, &y);
     let plot = drawing.plot;
+    let mut values = Values::of(["series", labels[0], "to", labels[1]]);
     for (index, it) in all.iter().enumerate() {
         let [mut at, _] = it.histogram.range();
         let mut path = format!("M{:.1} {:.1}", plot.across(&x, at), plot.bottom);
         for share in percent(it) {
+            let from = at;
             at += it.histogram.width();
+            let cells = [from, at, share].map(value);
+            values.row([text(it.name)].into_iter().chain(cells));
             path += &format!("V{:.1}H{:.1}", plot.down(&y, share), plot.across(&x, at));
         }
         path += &format!("V{:.1}", plot.bottom);
@@ -67,7 +72,7 @@ pub fn distribution(sheet: Sheet, labels: [&str; 2], upwards: Upwards, all: &[Di
         ));
     }
     drawing.frame();
-    drawing.finish()
+    drawing.finish(values)
 }
 
 #[cfg(test)]
@@ -86,7 +91,8 @@ mod tests {
             LABELS,
             Upwards::Linear,
             &[Distributed { name: "cars", histogram: &histogram }],
-        );
+        )
+        .svg;
         let expected = "d=\"M62.0 257.5V142.5H163.0V27.5H264.0V257.5H365.0V257.5H466.0V257.5\"";
         assert!(svg.contains(expected), "{svg}");
         for text in [LABELS[0], LABELS[1], "cars"] {
@@ -100,7 +106,7 @@ mod tests {
         let mut histogram = Histogram::new(0.0, 1.0, 4);
         [0.5, 1.5].into_iter().for_each(|it| histogram.add(it));
         let only = Distributed { name: "", histogram: &histogram };
-        let svg = distribution(Sheet::Column, LABELS, Upwards::Logarithmic, &[only]);
+        let svg = distribution(Sheet::Column, LABELS, Upwards::Logarithmic, &[only]).svg;
         assert!(
             svg.contains("d=\"M62.0 244.0V83.2H163.0V83.2H264.0V244.0H365.0V244.0H466.0V244.0\""),
             "{svg}"
@@ -114,9 +120,9 @@ mod tests {
         let [empty, full] =
             [("none", &empty), ("some", &full)].map(|(name, histogram)| Distributed { name, histogram });
         assert_eq!(
-            distribution(Sheet::Column, LABELS, Upwards::Linear, &[empty, full]),
-            distribution(Sheet::Column, LABELS, Upwards::Linear, &[full])
+            distribution(Sheet::Column, LABELS, Upwards::Linear, &[empty, full]).svg,
+            distribution(Sheet::Column, LABELS, Upwards::Linear, &[full]).svg
         );
-        assert!(distribution(Sheet::Column, LABELS, Upwards::Linear, &[]).contains("0.2</text>"));
+        assert!(distribution(Sheet::Column, LABELS, Upwards::Linear, &[]).svg.contains("0.2</text>"));
     }
 }

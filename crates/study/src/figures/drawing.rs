@@ -4,6 +4,7 @@
 //! can change the colours: `sheet`, `grid`, `frame`, and those of the parts that figures add.
 
 use super::axes::Axis;
+use super::drawn::{Drawn, Values};
 use super::sheet::{Layout, Sheet};
 
 /// Size of a title [px].
@@ -100,7 +101,7 @@ impl Drawing {
                 let longest = keys.iter().map(|it| text_width(&it.text) + 60.0).fold(0.0, f64::max);
                 (edge + right.max(longest), edge, beside(edge, &keys, layout))
             }
-            Sheet::Column => (whole + MARGIN, whole - right, above(whole, &keys, layout)),
+            Sheet::Column => (whole + MARGIN, whole - right, above([layout.left, whole], &keys, layout)),
         };
         let lines = match (sheet, places.last()) {
             (Sheet::Column, Some(last)) => last[1],
@@ -108,21 +109,8 @@ impl Drawing {
         };
         let top = layout.top + lines;
         let bottom = top + height.unwrap_or(layout.plot[1]);
-        let (height, size) = (bottom + layout.foot, layout.text);
-        // Within HTML an SVG element needs no namespace.
-        let namespace = match sheet {
-            Sheet::Page => " xmlns=\"http://www.w3.org/2000/svg\"",
-            Sheet::Column => " role=\"img\"",
-        };
-        let mut page = Drawing {
-            plot: Plot { left, top, right, bottom },
-            layout,
-            svg: format!(
-                "<svg{namespace} viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
-                 font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{size}\">\n\
-                 <rect width=\"100%\" height=\"100%\" fill=\"white\" class=\"sheet\"/>\n"
-            ),
-        };
+        let plot = Plot { left, top, right, bottom };
+        let mut page = Drawing::open(sheet, [width, bottom + layout.foot], plot);
         if sheet == Sheet::Page {
             // A long title is set smaller rather than cut off.
             let characters = title.chars().count().max(1) as f64;
@@ -130,40 +118,82 @@ impl Drawing {
             let text = escaped(title);
             page.add(&format!("<text x=\"{left}\" y=\"34\" font-size=\"{size:.1}\">{text}</text>"));
         }
-        for (Key { mark, text }, [x, y]) in keys.iter().zip(places) {
-            page.add(&format!("<g transform=\"translate({x:.1} {y:.1})\">{mark}</g>"));
-            page.text(x + MARK, y, Anchor::Start, text);
-        }
+        page.keys(&keys, &places);
         page
     }
 
-    /// Grid, frame, ticks and labels of both axes.
-    pub(super) fn axes(&mut self, x: &Axis, y: &Axis) {
-        let Plot { left, right, .. } = self.plot;
-        let mut grid = String::new();
-        for (value, _) in y.ticks() {
-            grid += &format!("M{left} {:.1}H{right}", self.plot.down(y, value));
-        }
-        self.across_only(x, grid);
-        for (value, text) in y.ticks() {
-            let at = self.plot.down(y, value);
-            self.text(left - 8.0, at, Anchor::End, &text);
-        }
-        self.upright_text(self.layout.upright, &y.label);
+    /// A column without axes.
+    pub(super) fn blank([width, height]: [f64; 2]) -> Drawing {
+        let plot = Plot { left: 0.0, top: 0.0, right: width, bottom: height };
+        Drawing::open(Sheet::Column, [width, height], plot)
     }
 
-    /// Grid, ticks and label of the axis across, and more of a grid.
-    pub(super) fn across_only(&mut self, x: &Axis, mut grid: String) {
+    /// An empty page of this size.
+    fn open(sheet: Sheet, [width, height]: [f64; 2], plot: Plot) -> Drawing {
+        let layout = sheet.layout();
+        let size = layout.text;
+        // Within HTML an SVG element needs no namespace.
+        let namespace = match sheet {
+            Sheet::Page => " xmlns=\"http://www.w3.org/2000/svg\"",
+            Sheet::Column => " role=\"img\"",
+        };
+        let svg = format!(
+            "<svg{namespace} viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
+             font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{size}\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"white\" class=\"sheet\"/>\n"
+        );
+        Drawing { plot, layout, svg }
+    }
+
+    /// The entries of a legend at their places.
+    pub(super) fn keys(&mut self, keys: &[Key], places: &[[f64; 2]]) {
+        for (Key { mark, text }, [x, y]) in keys.iter().zip(places) {
+            self.add(&format!("<g transform=\"translate({x:.1} {y:.1})\">{mark}</g>"));
+            self.text(x + MARK, *y, Anchor::Start, text);
+        }
+    }
+
+    /// Grid, ticks and labels of both axes.
+    pub(super) fn axes(&mut self, x: &Axis, y: &Axis) {
+        self.grid(Some(x), Some(y));
+        self.texts_across(x);
+        self.texts_upwards(y);
+    }
+
+    /// The grid of one or both axes.
+    pub(super) fn grid(&mut self, x: Option<&Axis>, y: Option<&Axis>) {
         let Plot { left, top, right, bottom } = self.plot;
-        for (value, _) in x.ticks() {
-            grid += &format!("M{:.1} {top}V{bottom}", self.plot.across(x, value));
+        let mut grid = String::new();
+        if let Some(y) = y {
+            for (value, _) in y.ticks() {
+                grid += &format!("M{left} {:.1}H{right}", self.plot.down(y, value));
+            }
+        }
+        if let Some(x) = x {
+            for (value, _) in x.ticks() {
+                grid += &format!("M{:.1} {top}V{bottom}", self.plot.across(x, value));
+            }
         }
         self.add(&format!("<path d=\"{grid}\" stroke=\"#e2e2e2\" fill=\"none\" class=\"grid\"/>"));
+    }
+
+    /// Ticks and label of the axis across.
+    pub(super) fn texts_across(&mut self, x: &Axis) {
+        let Plot { left, right, bottom, .. } = self.plot;
         let [ticks, label] = self.layout.below;
         for (value, text) in x.ticks() {
             self.text(self.plot.across(x, value), bottom + ticks, Anchor::Middle, &text);
         }
         self.text((left + right) / 2.0, bottom + label, Anchor::Middle, &x.label);
+    }
+
+    /// Ticks and label of the axis upwards.
+    pub(super) fn texts_upwards(&mut self, y: &Axis) {
+        for (value, text) in y.ticks() {
+            let at = self.plot.down(y, value);
+            self.text(self.plot.left - 8.0, at, Anchor::End, &text);
+        }
+        self.upright_text(self.layout.upright, &y.label);
     }
 
     /// The frame, to be drawn over the data.
@@ -201,10 +231,10 @@ impl Drawing {
         self.svg.push('\n');
     }
 
-    /// The SVG text.
-    pub(super) fn finish(mut self) -> String {
+    /// The figure, which shows these values.
+    pub(super) fn finish(mut self, values: Values) -> Drawn {
         self.svg += "</svg>\n";
-        self.svg
+        Drawn { svg: self.svg, csv: values.finish() }
     }
 }
 
@@ -213,9 +243,9 @@ fn beside(edge: f64, keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
     (0..keys.len()).map(|it| [edge + 24.0, layout.top + PITCH[0] * (it as f64 + 0.5)]).collect()
 }
 
-/// Places of the marks of a legend above a plot, from its usual left edge on in lines that end at `edge`.
-fn above(edge: f64, keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
-    let first = layout.left + 0.5 * MARK;
+/// Places of the marks of a legend above a plot, in lines from one edge to the other.
+pub(super) fn above([left, edge]: [f64; 2], keys: &[Key], layout: Layout) -> Vec<[f64; 2]> {
+    let first = left + 0.5 * MARK;
     let (mut x, mut y) = (first, 0.5 * PITCH[1] + 4.0);
     let place = |key: &Key| {
         let needed = MARK + width(&key.text, layout.text);
@@ -255,7 +285,7 @@ mod tests {
     #[test]
     fn no_title_breaks_the_markup() {
         let around = Around { title: "a < b & \u{0}c > d", right: 20.0, ..Around::default() };
-        let svg = Drawing::new(Sheet::Page, around).finish();
+        let svg = Drawing::new(Sheet::Page, around).finish(Values::of([])).svg;
         assert!(svg.contains(">a &lt; b &amp;  c &gt; d</text>"));
     }
 

@@ -2,6 +2,7 @@
 
 use super::axes::Axis;
 use super::drawing::{Around, Drawing};
+use super::drawn::{Drawn, Values, text, value};
 use super::series::{Estimated, curve, key};
 use super::sheet::Sheet;
 
@@ -15,7 +16,7 @@ pub fn estimates(
     title: &str,
     [across, upwards]: [&str; 2],
     series: &[(String, Vec<Estimated>)],
-) -> String {
+) -> Drawn {
     let finite = |(_, points): &(String, Vec<Estimated>)| {
         points.iter().copied().filter(Estimated::is_finite).collect::<Vec<Estimated>>()
     };
@@ -32,10 +33,15 @@ pub fn estimates(
     drawing.axes(&x, &y);
     drawing.frame();
     let plot = drawing.plot;
+    let mut values = Values::of(["series", across, upwards, "lower", "upper"]);
     for (index, points) in finite.iter().enumerate() {
         let shift = STAGGER * (index as f64 - 0.5 * (series.len() - 1) as f64);
         let place = |at: f64| plot.across(&x, at) + shift;
         drawing.add(&curve(points, index, place, |value| plot.down(&y, value)));
+        for Estimated { at, value: mean, interval } in points {
+            let numbers = [*at, *mean, interval.lower, interval.upper].map(value);
+            values.row([text(&series[index].0)].into_iter().chain(numbers));
+        }
     }
-    drawing.finish()
+    drawing.finish(values)
 }

@@ -2,6 +2,7 @@
 
 use super::axes::Axis;
 use super::drawing::{Around, Drawing};
+use super::drawn::{Drawn, Values, text, value};
 use super::series::{colour, dashes, line_key};
 use super::sheet::Sheet;
 
@@ -15,7 +16,7 @@ pub struct TimeLine {
 }
 
 /// Draws lines over time [s]; what is not finite is left out.
-pub fn over_time(sheet: Sheet, label: &str, lines: &[TimeLine]) -> String {
+pub fn over_time(sheet: Sheet, label: &str, lines: &[TimeLine]) -> Drawn {
     let finite = || lines.iter().flat_map(|it| &it.points).filter(|it| it.iter().all(|it| it.is_finite()));
     let from = finite().map(|it| it[0]).fold(f64::INFINITY, f64::min);
     let to = finite().map(|it| it[0]).fold(f64::NEG_INFINITY, f64::max);
@@ -27,11 +28,13 @@ pub fn over_time(sheet: Sheet, label: &str, lines: &[TimeLine]) -> String {
     let mut drawing = Drawing::new(sheet, Around { keys, ..Around::default() });
     drawing.axes(&x, &y);
     let plot = drawing.plot;
+    let mut values = Values::of(["series", "Time [s]", label]);
     for (index, line) in lines.iter().enumerate() {
         let mut path = String::new();
-        for [time, value] in line.points.iter().filter(|it| it.iter().all(|it| it.is_finite())) {
+        for [time, quantity] in line.points.iter().filter(|it| it.iter().all(|it| it.is_finite())) {
             let command = if path.is_empty() { 'M' } else { 'L' };
-            path += &format!("{command}{:.1} {:.1}", plot.across(&x, *time), plot.down(&y, *value));
+            path += &format!("{command}{:.1} {:.1}", plot.across(&x, *time), plot.down(&y, *quantity));
+            values.row([text(&line.name), value(*time), value(*quantity)]);
         }
         let ((colour, class), dashes) = (colour(index), dashes(index));
         drawing.add(&format!(
@@ -40,7 +43,7 @@ pub fn over_time(sheet: Sheet, label: &str, lines: &[TimeLine]) -> String {
         ));
     }
     drawing.frame();
-    drawing.finish()
+    drawing.finish(values)
 }
 
 #[cfg(test)]
@@ -52,9 +55,9 @@ mod tests {
         // The plot from (62, 27.5) to (466, 257.5) px; 100 … 200 s, 0 … 50 vehicles.
         let points = vec![[100.0, 0.0], [150.0, f64::NAN], [150.0, 25.0], [200.0, 50.0]];
         let svg =
-            over_time(Sheet::Column, "vehicles [1]", &[TimeLine { name: "on the road".into(), points }]);
+            over_time(Sheet::Column, "Vehicles", &[TimeLine { name: "on the road".into(), points }]).svg;
         assert!(svg.contains("d=\"M62.0 257.5L264.0 142.5L466.0 27.5\""), "{svg}");
-        for text in ["Time [s]", "vehicles [1]", "on the road"] {
+        for text in ["Time [s]", "Vehicles", "on the road"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::axes::Axis;
 use super::drawing::{Around, Drawing};
+use super::drawn::{Drawn, Values, text, value};
 use super::series::{Estimated, colour, curve, key};
 use super::sheet::Sheet;
 
@@ -25,7 +26,7 @@ pub struct Scattered {
 
 /// Draws the points of all groups, and over them the means. Points on the same pixel are one, which is the more
 /// opaque the more there are. Both axes begin at zero. Values that are not finite are left out.
-pub fn scatter(sheet: Sheet, labels: [&str; 2], groups: &[Scattered]) -> String {
+pub fn scatter(sheet: Sheet, labels: [&str; 2], groups: &[Scattered]) -> Drawn {
     let groups: Vec<Scattered> = groups.iter().map(finite).collect();
     let points = || groups.iter().flat_map(|it| &it.points);
     let means = || groups.iter().flat_map(|it| &it.means);
@@ -42,20 +43,31 @@ pub fn scatter(sheet: Sheet, labels: [&str; 2], groups: &[Scattered]) -> String 
     let mut drawing = Drawing::new(sheet, Around { keys, ..Around::default() });
     drawing.axes(&x, &y);
     let plot = drawing.plot;
+    let [across, upwards] = labels;
+    let mut values = Values::of(["series", "what", across, upwards, "lower", "upper", "observations"]);
     for (index, group) in groups.iter().enumerate() {
-        let place =
-            |[px, py]: &[f64; 2]| [plot.across(&x, *px), plot.down(&y, *py)].map(|it| it.round() as i64);
-        let dots = dots(group.points.iter().map(place));
+        let place = |[px, py]: [f64; 2]| [plot.across(&x, px), plot.down(&y, py)].map(|it| it.round() as i64);
+        let pixels = pixels(&group.points, place);
+        for pixel in pixels.values() {
+            let [x, y] = pixel.mean().map(value);
+            let [name, what] = [text(&group.name), "point".into()];
+            values.row([name, what, x, y, String::new(), String::new(), pixel.count.to_string()]);
+        }
         let (colour, class) = colour(index);
         drawing.add(&format!(
-            "<g fill=\"none\" stroke=\"{colour}\" stroke-width=\"{POINT}\" stroke-linecap=\"round\" class=\"{class}\">{dots}</g>"
+            "<g fill=\"none\" stroke=\"{colour}\" stroke-width=\"{POINT}\" stroke-linecap=\"round\" class=\"{class}\">{}</g>",
+            dots(&pixels)
         ));
     }
     drawing.frame();
     for (index, group) in groups.iter().enumerate().filter(|(_, it)| !it.means.is_empty()) {
         drawing.add(&curve(&group.means, index, |at| plot.across(&x, at), |value| plot.down(&y, value)));
+        for Estimated { at, value: mean, interval } in &group.means {
+            let [x, y, lower, upper] = [*at, *mean, interval.lower, interval.upper].map(value);
+            values.row([text(&group.name), "mean".into(), x, y, lower, upper, String::new()]);
+        }
     }
-    drawing.finish()
+    drawing.finish(values)
 }
 
 fn finite(group: &Scattered) -> Scattered {
@@ -67,14 +79,37 @@ fn finite(group: &Scattered) -> Scattered {
     }
 }
 
+/// The observations on a pixel.
+#[derive(Clone, Copy, Default)]
+struct Pixel {
+    count: usize,
+    sums: [f64; 2],
+}
+
+impl Pixel {
+    /// Their mean, which is the observation itself where there is one.
+    fn mean(&self) -> [f64; 2] {
+        self.sums.map(|it| it / self.count as f64)
+    }
+}
+
+/// Observations by the pixel at which they are drawn.
+fn pixels(points: &[[f64; 2]], place: impl Fn([f64; 2]) -> [i64; 2]) -> BTreeMap<[i64; 2], Pixel> {
+    let mut pixels: BTreeMap<[i64; 2], Pixel> = BTreeMap::new();
+    for point in points {
+        let pixel = pixels.entry(place(*point)).or_default();
+        pixel.count += 1;
+        pixel.sums.iter_mut().zip(point).for_each(|(sum, it)| *sum += it);
+    }
+    pixels
+}
+
 /// Points at pixels, as lines of no length, grouped by the number of observations at each.
-fn dots(places: impl Iterator<Item = [i64; 2]>) -> String {
-    let mut pixels: BTreeMap<[i64; 2], usize> = BTreeMap::new();
-    places.for_each(|it| *pixels.entry(it).or_default() += 1);
+fn dots(pixels: &BTreeMap<[i64; 2], Pixel>) -> String {
     let mut least = 1;
     let mut dots = String::new();
     for (most, opacity) in OPACITIES {
-        let of_class = pixels.iter().filter(|(_, count)| (least..=most).contains(*count));
+        let of_class = pixels.iter().filter(|(_, it)| (least..=most).contains(&it.count));
         let path: String = of_class.map(|([x, y], _)| format!("M{x} {y}h0")).collect();
         if !path.is_empty() {
             dots += &format!("<path d=\"{path}\" stroke-opacity=\"{opacity}\"/>");
@@ -99,7 +134,7 @@ mod tests {
     fn a_point_stands_where_its_values_are_and_several_on_a_pixel_are_one() {
         // The plot from (62, 14) to (466, 244) px; 0 … 40 veh/km, 0 … 2000 veh/h.
         let points = [[20.0, 990.0], [20.01, 990.2], [40.0, 2000.0], [f64::NAN, 3.0]];
-        let svg = scatter(Sheet::Column, LABELS, &[group(&points, &[])]);
+        let svg = scatter(Sheet::Column, LABELS, &[group(&points, &[])]).svg;
         assert!(svg.contains("<path d=\"M466 14h0\" stroke-opacity=\"0.4\"/>"), "{svg}");
         assert!(svg.contains("<path d=\"M264 130h0\" stroke-opacity=\"0.65\"/>"), "{svg}");
     }
@@ -108,7 +143,7 @@ mod tests {
     fn a_mean_stands_with_its_interval() {
         let interval = Interval { lower: 500.0, upper: 2000.0 };
         let mean = Estimated { at: 40.0, value: 1000.0, interval };
-        let svg = scatter(Sheet::Column, LABELS, &[group(&[[40.0, 1000.0]], &[mean])]);
+        let svg = scatter(Sheet::Column, LABELS, &[group(&[[40.0, 1000.0]], &[mean])]).svg;
         assert!(svg.contains("d=\"M466.0 186.5V14.0M"), "{svg}");
         assert!(LABELS.iter().all(|it| svg.contains(&format!(">{it}</text>"))));
     }
@@ -116,15 +151,15 @@ mod tests {
     #[test]
     fn groups_are_named_where_there_are_several() {
         let one = group(&[[1.0, 1.0]], &[]);
-        assert!(!scatter(Sheet::Column, LABELS, std::slice::from_ref(&one)).contains("a &amp; b"));
-        assert!(scatter(Sheet::Column, LABELS, &[one.clone(), one]).contains(">a &amp; b</text>"));
+        assert!(!scatter(Sheet::Column, LABELS, std::slice::from_ref(&one)).svg.contains("a &amp; b"));
+        assert!(scatter(Sheet::Column, LABELS, &[one.clone(), one]).svg.contains(">a &amp; b</text>"));
     }
 
     #[test]
     fn a_hundred_thousand_points_are_a_small_figure() {
         let place = |i: i32| [f64::from(i % 500), f64::from((i * 37) % 991)];
         let points: Vec<[f64; 2]> = (0..100_000).map(place).collect();
-        let bytes = scatter(Sheet::Column, LABELS, &[group(&points, &[])]).len();
+        let bytes = scatter(Sheet::Column, LABELS, &[group(&points, &[])]).svg.len();
         assert!((100_000..1_000_000).contains(&bytes), "{bytes}");
     }
 }

@@ -98,13 +98,24 @@ pub(super) fn dashes(index: usize) -> &'static str {
 
 /// Circle, square, diamond, triangle, triangle upside down or cross, in turn.
 pub(super) fn marker(x: f64, y: f64, index: usize) -> String {
-    let r = RADIUS;
+    marker_of(x, y, index, 1.0)
+}
+
+/// A marker of a size, as a multiple of the usual one.
+pub(super) fn marker_of(x: f64, y: f64, index: usize, size: f64) -> String {
+    let px = |it: f64| (it * size * 100.0).round() / 100.0;
+    let (r, d) = (px(RADIUS), px(2.0 * RADIUS));
     match index % 6 {
-        0 => format!("M{:.1} {y:.1}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", x - r, d = 2.0 * r),
-        1 => format!("M{:.1} {:.1}h{s}v{s}h-{s}z", x - 4.0, y - 4.0, s = 8),
-        2 => format!("M{x:.1} {:.1}l{h} {h}l-{h} {h}l-{h} -{h}z", y - 5.5, h = 5.5),
-        3 => format!("M{x:.1} {:.1}l{r} 8h-{d}z", y - 5.0, d = 2.0 * r),
-        4 => format!("M{x:.1} {:.1}l{r} -8h-{d}z", y + 5.0, d = 2.0 * r),
-        _ => format!("M{:.1} {:.1}h3v3h3v3h-3v3h-3v-3h-3v-3h3z", x - 1.5, y - 4.5),
+        0 => format!("M{:.1} {y:.1}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z", x - r),
+        1 => format!("M{:.1} {:.1}h{s}v{s}h-{s}z", x - px(4.0), y - px(4.0), s = px(8.0)),
+        2 => format!("M{x:.1} {:.1}l{h} {h}l-{h} {h}l-{h} -{h}z", y - px(5.5), h = px(5.5)),
+        3 => format!("M{x:.1} {:.1}l{r} {h}h-{d}z", y - px(5.0), h = px(8.0)),
+        4 => format!("M{x:.1} {:.1}l{r} -{h}h-{d}z", y + px(5.0), h = px(8.0)),
+        _ => format!(
+            "M{:.1} {:.1}h{a}v{a}h{a}v{a}h-{a}v{a}h-{a}v-{a}h-{a}v-{a}h{a}z",
+            x - px(1.5),
+            y - px(4.5),
+            a = px(3.0)
+        ),
     }
 }

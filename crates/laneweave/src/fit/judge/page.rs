@@ -52,7 +52,7 @@ pub(in crate::fit) fn figure(judged: &Judged, sheet: Sheet) -> Figure {
     let rows: Vec<BarRow> = SHOWN.iter().filter_map(row).collect();
     let models: Vec<&str> = judged.models.iter().map(|it| it.model).collect();
     Figure {
-        svg: bars(sheet, ["Simulated, as a share of recorded", "Measure"], &models, &rows),
+        drawn: bars(sheet, ["Simulated, as a share of recorded", "Measure"], &models, &rows),
         title: "Simulated beside recorded traffic".into(),
         caption: format!(
             "Medians of {} rollouts as shares of what was recorded, with the middle 95 % of the rollouts. 1 is as recorded.",

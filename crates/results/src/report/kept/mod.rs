@@ -2,18 +2,20 @@
 
 mod brakings;
 mod driving;
+mod places;
 mod reasons;
 mod trip_times;
 
 use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::{Event, Incident, Kind, World};
-use laneweave_study::{Mark, Sample, Sheet, rate_density, time_space};
+use laneweave_study::{LaneInTime, Sheet, rate_density, time_space};
 use serde::{Deserialize, Serialize};
 
 use crate::seen::{Boxes, Traces};
 
 pub(crate) use brakings::HardBrakings;
 pub use driving::{Driving, StyleDriving};
+pub(crate) use places::{Places, Sparse, Spotted, in_plan};
 pub use reasons::Reasons;
 pub use trip_times::{Crowd, TripTimes};
 
@@ -41,6 +43,8 @@ pub struct Record {
     pub(crate) brakings: HardBrakings,
     /// The first incidents.
     pub incidents: Vec<Incident>,
+    /// Where lane changes and incidents happened, and vehicles waited to enter.
+    pub(crate) places: Places,
 }
 
 impl Record {
@@ -57,12 +61,13 @@ impl Record {
             crowd: Crowd::default(),
             brakings: HardBrakings::default(),
             incidents: Vec::new(),
+            places: Places::new(world, begin),
         }
     }
 
     /// Observes the world after a step.
     pub(crate) fn observe(&mut self, world: &World) {
-        let Record { boxes, roads, driving, reasons, trips, crowd, brakings, incidents } = self;
+        let Record { boxes, roads, driving, reasons, trips, crowd, brakings, incidents, places } = self;
         boxes.observe(world);
         roads.iter_mut().for_each(|it| it.observe(world));
         driving.observe(world);
@@ -70,6 +75,7 @@ impl Record {
         trips.observe(world);
         crowd.observe(world);
         brakings.observe(world);
+        places.observe(world);
         let seen = world.events().iter().filter_map(|it| match it {
             Event::Incident(incident) => Some(*incident),
             _ => None,
@@ -81,18 +87,21 @@ impl Record {
     pub(crate) fn rate_figure(&self, end: f64) -> String {
         let all = self.boxes.series("all", end, |_| true);
         let discretionary = self.boxes.series("discretionary", end, |kind| kind == Kind::Discretionary);
-        rate_density(Sheet::Page, "Lane changes against density", &[all, discretionary])
+        rate_density(Sheet::Page, "Lane changes against density", &[all, discretionary]).svg
     }
 
     /// The time–space data of the lane with the largest distance driven.
     pub(crate) fn time_space_figure(&self) -> String {
         let traces = self.roads.first();
-        let all: Vec<&[Sample]> = traces.iter().flat_map(|it| it.trajectories()).collect();
-        let changes: &[Mark] = traces.map_or(&[], |it| &it.changes);
         let title = match traces {
             Some(it) => format!("The lane from lanelet {} on", it.lanelet),
             None => "No vehicle enters".into(),
         };
-        time_space(Sheet::Page, &title, &all, changes)
+        let lane = LaneInTime {
+            name: title.clone(),
+            trajectories: traces.iter().flat_map(|it| it.trajectories()).collect(),
+            changes: traces.map_or(Vec::new(), |it| it.changes.clone()),
+        };
+        time_space(Sheet::Page, &title, &[lane]).svg
     }
 }

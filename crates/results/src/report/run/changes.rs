@@ -12,7 +12,7 @@ use super::numbers::rate_per;
 use crate::report::kept::Reasons;
 use crate::report::{Align, Figure, Section, Table, counted, number};
 
-const KINDS: [(Kind, &str); Kind::ALL.len()] =
+pub(super) const KINDS: [(Kind, &str); Kind::ALL.len()] =
     [(Kind::Discretionary, "discretionary"), (Kind::Route, "route-driven"), (Kind::Keeping, "keeping")];
 /// Incentives are counted per this number of vehicle-kilometres.
 const MANY_KM: f64 = 100.0;
@@ -51,7 +51,7 @@ fn by_density(run: &RunReport) -> Figure {
         .map(|it| format!("{} {}", it.points.iter().map(|it| it.changes).sum::<u64>(), it.name))
         .collect();
     Figure {
-        svg: rate_density(Sheet::Column, "", &series),
+        drawn: rate_density(Sheet::Column, "", &series),
         title: "Lane changes against density".into(),
         caption: format!(
             "Lane changes per kilometre of lane and hour in boxes of about 500 m of all parallel lanes and 60 s; density by Edie's \
@@ -84,7 +84,7 @@ fn by_style(run: &RunReport) -> Figure {
     };
     let rows: Vec<BarRow> = reasons.styles.iter().enumerate().map(row).collect();
     Figure {
-        svg: bars(Sheet::Column, ["Lane changes [1/veh-km]", "Style"], &KINDS.map(|it| it.1), &rows),
+        drawn: bars(Sheet::Column, ["Lane changes [1/veh-km]", "Style"], &KINDS.map(|it| it.1), &rows),
         title: "Lane changes by style".into(),
         caption: format!(
             "Completed lane changes per vehicle-kilometre of the drivers of each style (speeds sampled every five seconds), with \
@@ -106,7 +106,7 @@ fn by_incentive(run: &RunReport) -> Figure {
     let rows: Vec<BarRow> = named.map(row).collect();
     let labels = ["Lane changes [1/(100 veh-km)]", "Leading incentive"];
     Figure {
-        svg: bars(Sheet::Column, labels, &KINDS.map(|it| it.1), &rows),
+        drawn: bars(Sheet::Column, labels, &KINDS.map(|it| it.1), &rows),
         title: "Lane changes by leading incentive".into(),
         caption: format!(
             "Completed lane changes per 100 vehicle-kilometres, by the incentive with the largest product μY of weight and yield \
@@ -125,7 +125,7 @@ fn gaps(reasons: &Reasons) -> Option<Figure> {
     let all = [("to the new leader", ahead), ("to the new follower", behind)];
     let all = all.map(|(name, histogram)| Distributed { name, histogram });
     Some(Figure {
-        svg: distribution(Sheet::Column, ["Gap [m]", "Share of gaps [% per 5 m]"], Upwards::Linear, &all),
+        drawn: distribution(Sheet::Column, ["Gap [m]", "Share of gaps [% per 5 m]"], Upwards::Linear, &all),
         title: "Accepted gaps".into(),
         caption: format!(
             "Net gaps in the target lane at the start of the lateral motion, for completed changes with a leader or a follower \
@@ -148,7 +148,7 @@ fn gains(reasons: &Reasons) -> Option<Figure> {
     let all: Vec<Distributed> = named.map(|((_, name), histogram)| Distributed { name, histogram }).collect();
     let labels = ["Speed gain [m/s]", "Share of lane changes [% per m/s]"];
     Some(Figure {
-        svg: distribution(Sheet::Column, labels, Upwards::Linear, &all),
+        drawn: distribution(Sheet::Column, labels, Upwards::Linear, &all),
         title: "Anticipated speed gain".into(),
         caption: format!(
             "Anticipated speed in the target lane minus that in the driver's own lane, when the desire began, of completed changes. \
@@ -169,7 +169,7 @@ fn times_to_collision(reasons: &Reasons) -> Option<Figure> {
     let all = [("with the new leader", ahead), ("of the new follower", behind)];
     let all = all.map(|(name, histogram)| Distributed { name, histogram });
     Some(Figure {
-        svg: distribution(
+        drawn: distribution(
             Sheet::Column,
             ["Time to collision [s]", "Share of closing pairs [% per s]"],
             Upwards::Linear,

@@ -24,8 +24,8 @@ pub(super) fn section(run: &RunReport) -> Section {
     let figure = |label: &str, title: &str, definition: &str, value: &dyn Fn(&EdieRow) -> f64| {
         let point = |it: &EdieRow| [it.density_veh_per_km, value(it)];
         let groups = grouped(rows.iter().map(|it| (KMH_PER_MPS * boxes.limit(it.section), point(it))));
-        let svg = scatter(Sheet::Column, ["Density [veh/km per lane]", label], &groups);
-        Figure { svg, title: title.into(), caption: caption(&groups, definition) }
+        let drawn = scatter(Sheet::Column, ["Density [veh/km per lane]", label], &groups);
+        Figure { drawn, title: title.into(), caption: caption(&groups, definition) }
     };
     section.figures(vec![
         figure(

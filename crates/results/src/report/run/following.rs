@@ -29,7 +29,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     };
     let sum = |count: fn(&StyleDriving) -> u64| drawn.iter().map(|it| count(it)).sum::<u64>();
     let mut figures = vec![Figure {
-        svg: of(|it| &it.speeds, Upwards::Linear, ["Speed [km/h]", "Share of samples [% per 5 km/h]"]),
+        drawn: of(|it| &it.speeds, Upwards::Linear, ["Speed [km/h]", "Share of samples [% per 5 km/h]"]),
         title: "Speeds".into(),
         caption: format!(
             "Speeds of all vehicles on all roads of the map; stopped vehicles are in the first bin. n = {} samples.",
@@ -38,7 +38,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     }];
     if sum(|it| it.time_gaps.total()) > 0 {
         figures.push(Figure {
-            svg: of(|it| &it.time_gaps, Upwards::Linear, ["Time gap to the leader [s]", "Share of samples [% per 0.25 s]"]),
+            drawn: of(|it| &it.time_gaps, Upwards::Linear, ["Time gap to the leader [s]", "Share of samples [% per 0.25 s]"]),
             title: "Time gaps".into(),
             caption: format!(
                 "Net gap to the leader divided by the vehicle's own speed, for vehicles faster than 2 m/s with a leader within 295 \
@@ -50,7 +50,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     }
     if sum(|it| it.times_to_collision.total()) > 0 {
         figures.push(Figure {
-            svg: of(|it| &it.times_to_collision, Upwards::Linear, ["Time to collision [s]", "Share of closing samples [% per 0.5 s]"]),
+            drawn: of(|it| &it.times_to_collision, Upwards::Linear, ["Time to collision [s]", "Share of closing samples [% per 0.5 s]"]),
             title: "Times to collision".into(),
             caption: format!(
                 "Gap divided by closing speed, for vehicles that approach a leader within 295 m. n = {} samples, {} of them beyond \
@@ -61,7 +61,7 @@ pub(super) fn section(run: &RunReport) -> Section {
         });
     }
     figures.push(Figure {
-        svg: of(|it| &it.accelerations, Upwards::Logarithmic, ["Acceleration [m/s²]", "Share of samples [% per 0.25 m/s²]"]),
+        drawn: of(|it| &it.accelerations, Upwards::Logarithmic, ["Acceleration [m/s²]", "Share of samples [% per 0.25 m/s²]"]),
         title: "Accelerations".into(),
         caption: format!(
             "Accelerations of all vehicles; negative values are braking, and stopped vehicles are at 0. The vertical axis is \

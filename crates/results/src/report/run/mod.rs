@@ -6,12 +6,14 @@ mod changes;
 mod flow;
 mod following;
 mod incidents;
+mod map;
 mod numbers;
 mod problems;
 mod roads;
 mod trips;
 
 use laneweave_network::Network;
+use laneweave_sim::LaneletAggregate;
 
 use super::Page;
 use crate::outcome::{About, Provenance, Summary};
@@ -30,6 +32,8 @@ pub struct RunReport<'a> {
     pub record: &'a Record,
     /// The roads.
     pub network: &'a Network,
+    /// The aggregates of its lanelets over the measured time.
+    pub aggregates: &'a [LaneletAggregate],
     /// Simulated time at its end [s].
     pub end: f64,
 }
@@ -45,6 +49,7 @@ impl RunReport<'_> {
         Page::new(format!("Traffic on {}", self.about.map), lead)
             .section(about::section(self))
             .section(numbers::section(self))
+            .section(map::section(self))
             .section(changes::section(self))
             .section(flow::section(self))
             .section(roads::section(self))

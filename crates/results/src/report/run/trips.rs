@@ -50,7 +50,7 @@ fn figure(histogram: &Histogram, label: &str, title: &str, what: &str) -> Figure
     let share = format!("Share of trips [% per {} s]", histogram.width());
     let all = [Distributed { name: "", histogram: &histogram }];
     Figure {
-        svg: distribution(Sheet::Column, [label, &share], Upwards::Linear, &all),
+        drawn: distribution(Sheet::Column, [label, &share], Upwards::Linear, &all),
         title: title.into(),
         caption: format!("{what}. n = {} trips.", counted(histogram.total())),
     }
@@ -71,7 +71,7 @@ fn by_style(trips: &TripTimes) -> Option<Figure> {
         rows.iter().map(|(count, row)| format!("{} {}", counted(*count as u64), row.name)).collect();
     let rows: Vec<BarRow> = rows.into_iter().map(|(_, row)| row).collect();
     Some(Figure {
-        svg: bars(Sheet::Column, ["Mean trip delay [s]", "Style"], &["delay"], &rows),
+        drawn: bars(Sheet::Column, ["Mean trip delay [s]", "Style"], &["delay"], &rows),
         title: "Delays by style".into(),
         caption: format!(
             "Mean delays with Student's 95 % intervals over trips, which assume that trips are independent. Delay is relative to \
@@ -89,7 +89,7 @@ fn crowd(run: &RunReport) -> Figure {
     };
     let lines = [line("on the road", |it| it.1), line("waiting to enter", |it| it.2)];
     Figure {
-        svg: over_time(Sheet::Column, "Vehicles", &lines),
+        drawn: over_time(Sheet::Column, "Vehicles", &lines),
         title: "Vehicles over time".into(),
         caption: format!(
             "Vehicles on the road, and vehicles waiting to enter (insertion backlog). While these numbers grow, the traffic is not \

@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use super::bounds::Bounds;
 use super::parts::parts;
 
-/// Longest scale bar [px].
+/// Longest scale bar, and longest upright one [px].
 const LONGEST_BAR: f64 = 160.0;
+const HIGHEST_BAR: f64 = 26.0;
 /// Space below a part for the scale [px].
 const FOOT: f64 = 34.0;
 /// Maximum of parts; with more, a plan is drawn as one.
@@ -126,9 +127,10 @@ impl Panel {
         path
     }
 
-    /// A bar of round length in the lower right corner as SVG, and an upright one where the scale differs.
+    /// A bar of round length below the right of the part as SVG; where the scales differ also an upright one below its
+    /// left.
     pub fn bar(&self) -> String {
-        let [length, upright] = self.scale.map(round_length);
+        let length = round_length(self.scale[0], LONGEST_BAR);
         let end = self.left + self.width;
         let (x, y) = (end - length * self.scale[0], self.top + self.height() - 14.0);
         let (tick, base) = (y - 5.0, y + 14.0);
@@ -140,6 +142,7 @@ impl Panel {
             return level;
         }
         let (left, low) = (self.left, self.top + self.height() - 2.0);
+        let upright = round_length(self.scale[1], HIGHEST_BAR);
         let high = low - upright * self.scale[1];
         let (cap, text, middle) = (left + 5.0, left + 10.0, (low + high) / 2.0 + 5.0);
         level
@@ -150,10 +153,10 @@ impl Panel {
     }
 }
 
-/// The longest round length of a bar [m] at this scale [px/m].
-fn round_length(scale: f64) -> f64 {
+/// The longest round length of a bar [m] at this scale [px/m] that is not longer than this [px].
+fn round_length(scale: f64, longest: f64) -> f64 {
     let metres = [5000.0, 2000.0, 1000.0, 500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0];
-    metres.into_iter().find(|it| it * scale <= LONGEST_BAR).unwrap_or(1.0)
+    metres.into_iter().find(|it| it * scale <= longest).unwrap_or(1.0)
 }
 
 #[cfg(test)]
@@ -182,7 +185,7 @@ mod tests {
     fn a_long_road_is_wider_than_to_scale_and_says_so_with_a_second_bar() {
         let (panel, _) = only([4520.0, 12.0], SPACE);
         assert_eq!(panel.scale(), [0.1, 5.0]);
-        assert!(panel.bar().contains(">1000 m<") && panel.bar().contains(">20 m<"), "{}", panel.bar());
+        assert!(panel.bar().contains(">1000 m<") && panel.bar().contains(">5 m<"), "{}", panel.bar());
         let (panel, _) = only([4520.0, 12.0], Space { least: 0.0, ..SPACE });
         assert_eq!(panel.scale(), [0.1, 0.1]);
         assert_eq!(panel.bar().matches("<text").count(), 1);
