@@ -207,7 +207,7 @@ fn the_maps_show_the_numbers_of_the_tables_and_their_data_hold_them() {
         assert!(all > 20 && (marks == all || all > 800 && marks.abs_diff(all / 2) <= 1), "{marks} of {all}");
     }
     let queued = data[3].lines().filter(|it| it.starts_with("waiting to enter,")).count();
-    assert!(queued > 0 && page.contains("waiting to enter: up to "), "{queued}");
+    assert!(queued > 0 && page.contains("waiting to enter (largest queue: "), "{queued}");
 }
 
 /// The number of completed lane changes of a kind.

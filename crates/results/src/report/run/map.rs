@@ -147,7 +147,7 @@ fn queues(run: &RunReport, areas: &[Area]) -> Figure {
     );
     let queues = Marks {
         kind: "waiting to enter".into(),
-        key: format!("waiting to enter: up to {} vehicles", counted(most as u64)),
+        key: format!("waiting to enter (largest queue: {})", counted(most as u64)),
         quantity: "largest queue [vehicles]".into(),
         series: QUEUE,
         marks: waiting,

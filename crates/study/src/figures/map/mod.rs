@@ -174,7 +174,8 @@ fn marked(marks: &Marks, panels: &[Panel]) -> String {
     let path = |(it, (x, y)): &(&MarkAt, (f64, f64))| marker_of(*x, *y, marks.series, it.size);
     let shapes: String = if marks.marks.len() > MOST_MARKS_NAMED {
         let all: String = placed.map(|it| path(&it)).collect();
-        format!("<path d=\"{all}\" class=\"dot\"/>")
+        // Without edges, which would cover the marks where many lie on each other.
+        format!("<path d=\"{all}\" stroke=\"none\" class=\"bar\"/>")
     } else {
         let named = placed.map(|it| {
             let (quantity, number) = (&marks.quantity, value(it.0.value));
