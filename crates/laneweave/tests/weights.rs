@@ -1,6 +1,6 @@
-//! Each weight of a style moves what it should while drivers drive, between no weight and ten times the weight, over ten
-//! simulated minutes with about 1,000 vehicles and five paired seeds. The weights are changed as a user changes them,
-//! by commands.
+//! Each weight of a style moves what it should while drivers drive, between no weight and ten times the weight, over
+//! ten simulated minutes with about 1,000 vehicles and five paired seeds. The weights are changed as a user changes
+//! them, by commands.
 
 use laneweave::models::change::Mcdm;
 use laneweave::sim::{Event, Kind, LaneChange};

@@ -181,7 +181,7 @@ mod tests {
         assert_eq!(bytes[16..24], 100.0f64.to_le_bytes());
         assert_eq!(bytes[48..52], 3.5f32.to_le_bytes());
         assert_eq!(bytes[52..56], 20.0f32.to_le_bytes());
-        // Three quarters of a turn; 1 m above −1638.4 m; 10 m/s; style 2 that wants; a car that brakes and signals left.
+        // Three quarters of a turn; 1 m above −1638.4 m; 10 m/s; style 2, wants; a car that brakes and signals left.
         assert_eq!(bytes[56..58], 49152u16.to_le_bytes());
         assert_eq!(bytes[58..60], 32788u16.to_le_bytes());
         assert_eq!(bytes[60..64], [40, 2 | 1 << 6, 1 | 1 << 3 | 1 << 4, 200]);

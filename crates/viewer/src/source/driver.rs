@@ -168,8 +168,8 @@ fn side(account: &Account, it: &SideAccount) -> SideFacts {
     }
 }
 
-/// The desire of the driver at a spot, as the byte of a frame: 128 + 127 tanh(G/θ) of the better side; 0 where no change
-/// is allowed.
+/// The desire of the driver at a spot, as the byte of a frame: 128 + 127 tanh(G/θ) of the better side; 0 where no
+/// change is allowed.
 pub(super) fn desire(world: &World, spot: Spot) -> u8 {
     /// A threshold that is smaller counts as this: G would have no scale.
     const LEAST_THRESHOLD: f64 = 1e-6;

@@ -19,13 +19,16 @@ const STATES: u32 = 60;
 /// Steps between two messages of the survey.
 const NEWS: u32 = 100;
 
+/// States by their steps, in order, which two threads share.
+type States = Arc<Mutex<Vec<(u32, Vec<u8>)>>>;
+
 /// A run that has ended.
 pub struct Rerun {
     driven: Driven,
     /// The step after which it has ended.
     last_step: u32,
     /// States of its world by their steps, in order.
-    states: Arc<Mutex<Vec<(u32, Vec<u8>)>>>,
+    states: States,
     marks: Arc<Mutex<Marks>>,
     /// Tells the survey that nobody waits for it any more.
     is_over: Arc<AtomicBool>,
@@ -67,7 +70,7 @@ impl Drop for Rerun {
     }
 }
 
-type Shared = (Arc<Mutex<Vec<(u32, Vec<u8>)>>>, Arc<Mutex<Marks>>, Arc<AtomicBool>);
+type Shared = (States, Arc<Mutex<Marks>>, Arc<AtomicBool>);
 
 /// Drives the run once, and keeps states and marks of it.
 fn look(mut survey: Driven, last_step: u32, (states, marks, is_over): &Shared) {

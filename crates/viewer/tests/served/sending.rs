@@ -59,7 +59,6 @@ fn ten_thousand_vehicles_at_ten_frames_a_second_cost_a_twentieth_of_a_core_and_2
     }
     let (share, rate) =
         ((sending_s(&server) - before) / MEASURED.as_secs_f64(), bytes as f64 / MEASURED.as_secs_f64());
-    println!("{frames} frames, {:.1} % of a core, {:.2} MB/s", 100.0 * share, rate / 1e6);
     assert!(frames >= 30, "{frames} frames in {MEASURED:?}");
     assert!(before > 0.0 && share < 0.05, "{:.1} % of a core", 100.0 * share);
     assert!(rate < 2e6, "{:.2} MB/s", rate / 1e6);

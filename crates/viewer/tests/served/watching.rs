@@ -56,7 +56,7 @@ fn no_camera_and_no_colour_changes_a_bit() {
             let colour = ["style", "desire", "delay", "since_change"][number as usize % 4];
             page.say(&format!("{{\"colour\":\"{colour}\"}}"));
             page.say(&format!("{{\"select\":[\"{}\"]}}", number % 200));
-            page.say(&format!("{{\"lanes\":{}}}", number % 2 == 0));
+            page.say(&format!("{{\"lanes\":{}}}", number.is_multiple_of(2)));
             page.frame();
         }
     });
