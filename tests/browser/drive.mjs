@@ -32,7 +32,7 @@ for (const [name, test] of Object.entries({ ...looks, ...hands, ...replays, ...m
     console.log(`ok    ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)${said ? `: ${said}` : ''}`);
   } catch (error) {
     failed += 1;
-    console.log(`WRONG ${name}: ${error.stack}`);
+    console.log(`WRONG ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s): ${error.stack}`);
   }
 }
 await browser.close();

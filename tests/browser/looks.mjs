@@ -2,16 +2,17 @@
 
 import assert from 'node:assert/strict';
 import path from 'node:path';
-import { hook, page, shoot, state, until, view } from './browser.mjs';
+import { hook, page, play, shoot, state, until, view } from './browser.mjs';
 
 /** Opens a page on what `laneweave view` serves with these arguments, and checks at the end that nothing went wrong. */
 async function shown({ browser, program, folder }, args, size, look) {
   const server = await view(program, args, folder);
   const { page: opened, wrong, asked, close } = await page(browser, size);
+  const ids = arrivals(opened);
   try {
     await opened.goto(server.url);
     await until(opened, 'it is ready', (it) => it.ready);
-    await look(opened);
+    await look(opened, ids);
     const own = new URL(server.url).origin.replace('http', '');
     assert.deepEqual([...asked].filter((it) => !it.includes(own) && !/^(data|blob):/.test(it)), [], 'other servers');
     assert.deepEqual(wrong, [], 'errors of the page');
@@ -24,7 +25,7 @@ async function shown({ browser, program, folder }, args, size, look) {
 /** Lets the simulation go on as fast as it goes until there are vehicles, and then as fast as reality. */
 async function fill(opened, vehicles) {
   await opened.selectOption(hook('factor'), { index: (await opened.locator(`${hook('factor')} option`).count()) - 1 });
-  await opened.click(hook('play'));
+  await play(opened);
   await until(opened, `there are ${vehicles} vehicles`, (it) => it.vehicles >= vehicles);
   await opened.selectOption(hook('factor'), '1');
 }
@@ -39,21 +40,33 @@ async function stands(opened) {
   }
 }
 
-/** Finds some vehicle that is on the road, and returns its id. */
-async function anybody(opened) {
-  for (let id = 1; id < 1000; id += 1) {
-    await opened.fill(hook('find'), String(id));
+/** The ids of the vehicles that came into view, the last one last, as the frames of the page name them. */
+function arrivals(opened) {
+  const ids = [];
+  opened.on('websocket', (socket) => socket.on('framereceived', ({ payload }) => {
+    if (typeof payload === 'string') return;
+    const [slots, entered] = [payload.readUInt32LE(40), payload.readUInt32LE(44)];
+    for (let n = 0; n < entered; n += 1) ids.push(String(payload.readBigInt64LE(48 + 16 * (slots + n) + 4)));
+  }));
+  return ids;
+}
+
+/** Finds a vehicle that came lately and has a lane beside it, and returns its id. */
+async function anybody(opened, ids) {
+  for (const id of ids.toReversed()) {
+    await opened.fill(hook('find'), id);
     await opened.press(hook('find'), 'Enter');
-    await opened.waitForTimeout(150);
+    await opened.waitForTimeout(1000);
     const { selected } = await state(opened);
-    if (selected[0] === String(id)) return selected[0];
+    const bars = await opened.locator('[data-name][data-side]').count();
+    if (selected[0] === id && bars > 0) return id;
   }
   throw new Error('no vehicle was found');
 }
 
 /** The demo: a driver with its bars, found, followed and seen through. */
 export async function the_demo_and_a_driver(around) {
-  await shown(around, [], {}, async (opened) => {
+  await shown(around, [], {}, async (opened, ids) => {
     await fill(opened, 60);
     await shoot(opened, around.shots, 'demo');
     const before = await state(opened);
@@ -64,7 +77,7 @@ export async function the_demo_and_a_driver(around) {
     await opened.click(hook('step'));
     await until(opened, 'a step is made', (it) => Math.abs(it.time_s - paused.time_s - 0.1) < 0.02);
     // A driver: its bars and words. It is found by its id, and then clicked.
-    const id = await anybody(opened);
+    const id = await anybody(opened, ids);
     await opened.keyboard.press('Escape');
     await until(opened, 'nobody is selected', (it) => it.selected.length === 0);
     await opened.waitForTimeout(1500);
@@ -78,7 +91,7 @@ export async function the_demo_and_a_driver(around) {
     await shoot(opened, around.shots, 'driver');
     await opened.click(hook('follow'));
     await until(opened, 'it follows', (it) => it.camera.mode === 'follow');
-    await opened.click(hook('play'));
+    await play(opened);
     await opened.click(hook('eye'));
     await until(opened, 'it looks through the eyes of the driver', (it) => it.camera.mode === 'eye');
     await shoot(opened, around.shots, 'eye');
@@ -139,7 +152,7 @@ export async function real_maps(around) {
   if (!around.data) return 'skipped: no data';
   for (const name of ['karlsruhe', 'town10', 'tianjin', 'four_track_highway']) {
     await shown(around, [path.join(around.data, `lanelet2/${name}.osm`)], {}, async (opened) => {
-      await fill(opened, 40);
+      await fill(opened, 5);
       await shoot(opened, around.shots, name);
       const { drawCalls } = await state(opened);
       assert.ok(drawCalls <= 30, `${drawCalls} draw calls on ${name}`);
