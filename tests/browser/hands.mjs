@@ -26,6 +26,7 @@ export async function by_hand_and_saved({ browser, program, home, folder, shots 
   const { page: opened, wrong, close } = await page(browser);
   await opened.goto(server.url);
   await until(opened, 'it is ready', (it) => it.ready);
+  await opened.keyboard.press('Home');
   await opened.selectOption(hook('factor'), { index: (await opened.locator(`${hook('factor')} option`).count()) - 1 });
   await play(opened);
   await until(opened, 'there are vehicles', (it) => it.vehicles >= 20);

@@ -22,8 +22,9 @@ async function shown({ browser, program, folder }, args, size, look) {
   }
 }
 
-/** Lets the simulation go on as fast as it goes until there are vehicles, and then as fast as reality. */
+/** Lets the simulation go on as fast as it goes until so many vehicles are on the whole map, and then as fast as reality. */
 async function fill(opened, vehicles) {
+  await opened.keyboard.press('Home');
   await opened.selectOption(hook('factor'), { index: (await opened.locator(`${hook('factor')} option`).count()) - 1 });
   await play(opened);
   await until(opened, `there are ${vehicles} vehicles`, (it) => it.vehicles >= vehicles);
@@ -69,6 +70,9 @@ export async function the_demo_and_a_driver(around) {
   await shown(around, [], {}, async (opened, ids) => {
     await fill(opened, 60);
     await shoot(opened, around.shots, 'demo');
+    await opened.keyboard.press('m');
+    await shoot(opened, around.shots, 'demo_map');
+    await opened.keyboard.press('m');
     const before = await state(opened);
     assert.ok(before.drawCalls <= 30, `${before.drawCalls} draw calls`);
     // Time stands, and goes on by steps.

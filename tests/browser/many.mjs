@@ -35,6 +35,7 @@ async function measured({ browser, program, home, folder, shots }, vehicles) {
   const { page: opened, wrong, close } = await page(browser);
   await opened.goto(server.url);
   await until(opened, 'it is ready', (it) => it.ready);
+  await opened.keyboard.press('Home');
   await play(opened);
   await until(opened, 'all are in view', (it) => it.vehicles >= 0.98 * vehicles);
   const { drawCalls, scriptMs, fps } = await measure(opened);

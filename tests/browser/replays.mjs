@@ -19,6 +19,7 @@ async function scrubbed(browser, server, look) {
   const { page: opened, wrong, close } = await page(browser);
   await opened.goto(server.url);
   await until(opened, 'it is ready', (it) => it.ready);
+  await opened.keyboard.press('Home');
   await look(opened);
   assert.deepEqual(wrong, []);
   await close();
@@ -66,6 +67,7 @@ export async function one_file({ browser, program, home, folder, shots }) {
   await opened.goto(pathToFileURL(file).href);
   await until(opened, 'the first frame is there', (it) => it.ready);
   const first_s = (Date.now() - begin) / 1000;
+  await opened.keyboard.press('Home');
   await play(opened);
   await until(opened, 'it plays', (it) => it.time_s > 0.5);
   await click(opened, 0.5);

@@ -10,6 +10,7 @@ import { paintMesh } from './road/paint.ts';
 import { signalPlaces, type SignalPlace } from './road/signal_places.ts';
 import { structuresMesh } from './road/structures.ts';
 import { terrainOf } from './road/terrain.ts';
+import { opening } from './road/opening.ts';
 import { RoadSurface } from './road/surface.ts';
 import { atmosphere, setNight } from './stage/atmosphere.ts';
 import { groundMesh } from './stage/ground.ts';
@@ -57,7 +58,7 @@ export class TrafficView {
     const road = new Group();
     road.add(groundMesh(terrainOf(scene)), this.surface.mesh, paintMesh(scene, this.lights.texture), structuresMesh(scene, this.index, this.signals, this.lights));
     stage.graph.add(road, this.fleet.group, this.selection.group, signalIcons(this.signals, this.lights));
-    stage.rig.frame(...scene.bounds);
+    stage.rig.frame(...opening(scene));
     stage.rig.settle();
     state.isNight.watch(setNight);
     state.colour.watch((colour) => this.fleet.colourBy(colour));

@@ -6,7 +6,7 @@ import { Slider } from './slider.ts';
 import { styleSliders } from './style_sliders.ts';
 import { clockTime } from './words.ts';
 
-export const CLASSES: readonly VehicleClass[] = ['car', 'truck', 'bus', 'motorcycle', 'other'];
+export const CLASSES: readonly VehicleClass[] = ['car', 'truck', 'bus', 'motorcycle'];
 const MOST_DEMAND = 6000;
 const MOST_SHARE = 10;
 
