@@ -12,7 +12,8 @@ const DURATION_S: f64 = 600.0;
 const VEHICLES_PER_HOUR: f64 = 6000.0;
 const STYLES: [&str; 2] = ["aggressive", "conservative"];
 
-/// Lane changes per vehicle that `counts`, on a motorway with ramps, after a user has multiplied a weight of all styles.
+/// Lane changes per vehicle that `counts`, on a motorway with ramps, after a user has multiplied a weight of all
+/// styles.
 fn rate(parameter: Parameter, factor: f64, seed: u64, counts: impl Fn(&LaneChange) -> bool) -> f64 {
     let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/ramps.osm");
     let simulation = Simulation::builder(map).vehicles_per_hour(VEHICLES_PER_HOUR).seed(seed).threads(1);

@@ -111,7 +111,7 @@ impl Stage {
     fn pause(&self) -> Duration {
         let Pace { is_playing, factor, from: (from_s, at) } = self.pace;
         match factor {
-            _ if !is_playing => PUBLISHES,
+            _ if !is_playing || self.pages.is_empty() => PUBLISHES,
             None => Duration::ZERO,
             Some(factor) => {
                 let next = self.source.time_s() + self.source.step_s() - from_s;
@@ -209,6 +209,10 @@ impl Stage {
 
     /// Lets time go on as far as it should.
     fn go_on(&mut self) {
+        if self.pages.is_empty() {
+            // Time stands while nobody watches.
+            return self.begin_anew();
+        }
         if !self.pace.is_playing {
             return;
         }

@@ -70,9 +70,9 @@ impl Arguments {
             ));
         }
         let mut source = shown.source(Path::new("saved"))?;
-        fs::create_dir_all(&out).map_err(|error| Fault::refused(&out, "made", &error))?;
         let asked = Pictures { camera, size, every_s: every, from_s: from, until_s: until };
         let count = render(&mut *source, asked, |number, _, picture| {
+            fs::create_dir_all(&out).map_err(|error| Fault::refused(&out, "made", &error))?;
             write_whole(&out.join(format!("frame_{number:05}.png")), picture)
         })?;
         if count == 0 {

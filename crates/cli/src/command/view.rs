@@ -44,12 +44,12 @@ pub(crate) struct Arguments {
 impl Arguments {
     /// Serves the page until the user stops it.
     pub(crate) fn execute(self) -> Result<(), Fault> {
+        let mut source = self.shown.source(&self.save)?;
         let page = Page::embedded().ok_or_else(|| {
             let what = "this program was built without the page of the viewer";
             let remedy = format!("build the page with Node: {}; then build the program again", Page::COMMAND);
             Fault::new("view", what, remedy)
         })?;
-        let mut source = self.shown.source(&self.save)?;
         if let Some(path) = &self.export {
             return self.write(path, page, &mut *source);
         }

@@ -57,3 +57,4 @@ mod standard_output;
 mod stop;
 #[cfg(test)]
 mod styles;
+mod view;

@@ -71,8 +71,8 @@ impl Simulation {
     /// proportion to their weights.
     ///
     /// # Errors
-    /// If no driver of the scenario has this style, if the weight is not between 0 and 1,000,000, if no style would have
-    /// a weight, or if the style has such a command in this step.
+    /// If no driver of the scenario has this style, if the weight is not between 0 and 1,000,000, if no style would
+    /// have a weight, or if the style has such a command in this step.
     pub fn set_share(&mut self, style: impl Into<String>, weight: f64) -> Result<(), Fault> {
         let style = style.into();
         let place = format!("set_share of style {style}");
