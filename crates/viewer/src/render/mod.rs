@@ -52,7 +52,8 @@ pub fn render(
         let picture = picture(&scene, &snapshot, asked)?;
         take(number, snapshot.time_s, &picture)?;
         number += 1;
-        if source.has_ended() {
+        let is_next_too_late = source.time_s() + f64::from(every) * source.step_s() > until_s + almost;
+        if is_next_too_late || source.has_ended() {
             break;
         }
         (0..every).try_for_each(|_| source.step(&mut Vec::new()))?;
