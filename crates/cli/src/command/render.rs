@@ -79,6 +79,7 @@ impl Arguments {
             let what = "no picture lies between --from and --until";
             return Err(Fault::new("render", what, "choose an earlier --from, or a later --until"));
         }
-        say(&format!("{count} pictures in {}\n", out.display()))
+        let pictures = if count == 1 { "picture" } else { "pictures" };
+        say(&format!("{count} {pictures} in {}\n", out.display()))
     }
 }

@@ -20,6 +20,8 @@ use crate::snapshot::{Body, Seen, Snapshot};
 /// A recorded vehicle is taken to signal this long before its centre crosses the line [s]. Ours: signals are not
 /// recorded.
 const SIGNALS_BEFORE: f64 = 2.0;
+/// The same for the time after it [s].
+const SIGNALS_AFTER: f64 = 1.0;
 /// A recorded vehicle is taken to brake below this acceleration [m/s²]. Ours.
 const BRAKES: f64 = -0.7;
 /// Accelerations are measured over this time before and after [s].
@@ -115,7 +117,7 @@ impl Recorded {
     fn signals(&self, track: &Track) -> Option<Side> {
         let now = self.time_s();
         let is_near = |it: &&LaneChange| {
-            it.vehicle == track.id && now >= it.time - SIGNALS_BEFORE && now <= it.time + 1.0
+            it.vehicle == track.id && now >= it.time - SIGNALS_BEFORE && now <= it.time + SIGNALS_AFTER
         };
         self.changes.iter().find(is_near).map(|it| it.side)
     }
@@ -125,7 +127,7 @@ impl Recorded {
         let signals = self.signals(track);
         Seen {
             id: track.id,
-            at: [x, y, self.height(x, y)],
+            at: [x, y, self.height()],
             heading,
             speed,
             length: track.length,
@@ -141,8 +143,8 @@ impl Recorded {
         }
     }
 
-    /// The height of the ground under a point: recordings are flat, their maps mostly, too [m].
-    fn height(&self, _x: f64, _y: f64) -> f64 {
+    /// The height at which road users are shown, that of the first lanelet: recordings have no heights [m].
+    fn height(&self) -> f64 {
         self.network.lanelets.first().and_then(|it| it.centre.points().first()).map_or(0.0, |it| it.z)
     }
 
