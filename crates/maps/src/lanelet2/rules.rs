@@ -208,6 +208,17 @@ mod tests {
     }
 
     #[test]
+    fn a_way_looks_as_its_type_and_subtype_say() {
+        let look = |kind, subtype| with_tags([("type", kind), ("subtype", subtype)], marking);
+        assert_eq!(look("line_thin", "dashed"), Some((MarkingPaint::Dashed, false)));
+        assert_eq!(look("line_thick", "solid_dashed"), Some((MarkingPaint::SolidDashed, true)));
+        assert_eq!(look("line_thin", "unknown"), Some((MarkingPaint::Solid, false)));
+        assert_eq!(look("curbstone", "high"), Some((MarkingPaint::Curb, false)));
+        assert_eq!(look("guard_rail", ""), Some((MarkingPaint::Barrier, false)));
+        assert_eq!([look("virtual", ""), look("stop_line", "")], [None; 2]);
+    }
+
+    #[test]
     fn the_painted_line_tells_who_may_cross() {
         let line = |kind, subtype| {
             let crossing = with_tags([("type", kind), ("subtype", subtype)], crossing);
