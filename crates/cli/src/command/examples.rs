@@ -22,8 +22,8 @@ Examples:
   laneweave run maps/ramps.osm --style egoistic=1 --style altruistic=3 --warmup 240 --json";
 
 pub(super) const VIEW: &str =
-    "The page is served on this machine only. Its address carries a token: whoever knows it can do what you
-can do there.
+    "The page is served on this machine only. Its address carries a token: whoever knows it can do
+what you can do there.
 
 Examples:
   # The demo
