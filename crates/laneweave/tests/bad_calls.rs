@@ -93,7 +93,7 @@ fn command(
     let id = numbers.one(&names.vehicles);
     let lanelet = numbers.one(&names.lanelets);
     let style = numbers.one(&["conservative", "aggressive", "nobody", ""]);
-    match numbers.below(11) {
+    match numbers.below(12) {
         0 => {
             let vehicle = NewVehicle {
                 lanelet,
@@ -119,7 +119,11 @@ fn command(
         }
         7 => ("close_lanelet", simulation.close_lanelet(lanelet, numbers.below(2) == 0)),
         8 => ("set_share", simulation.set_share(style, numbers.real())),
-        9 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),
+        9 => {
+            let offset_s = numbers.one(&[0.0, 40.0, numbers.real()]);
+            ("set_offset", simulation.set_offset(numbers.one(&names.lights), offset_s))
+        }
+        10 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),
         _ => ("control", simulation.control(id, numbers.control())),
     }
 }
@@ -172,6 +176,7 @@ fn a_hundred_thousand_random_calls_break_nothing_and_each_refusal_says_what_to_d
         "set_demand",
         "set_destination",
         "set_light",
+        "set_offset",
         "set_parameter",
         "set_share",
         "set_style",

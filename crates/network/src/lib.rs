@@ -29,9 +29,9 @@ pub use geometry::{Point, Polyline, Pose};
 pub use ground::{Footprint, Ground};
 pub use joints::onward;
 pub use junction::{
-    Crossing, Extension, Junctions, Light, LightConflict, LightIndex, LightState, Nearby, OnChain, Phase,
-    Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop, StopKind,
-    StopRule, Touch, Turn, Zone, ZoneIndex, ZoneKind,
+    Crossing, Extension, InPlan, Junctions, Light, LightConflict, LightIndex, LightState, Nearby, OnChain,
+    Phase, Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop,
+    StopKind, StopRule, Touch, Turn, Zone, ZoneIndex, ZoneKind,
 };
 pub use lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
 pub use polygon::Polygon;

@@ -88,6 +88,17 @@ impl Simulation {
         self.command(&format!("set_light of light {light}"), command).map(|_| ())
     }
 
+    /// Gives the signal plan of a light another offset: when its first phase begins, and every further cycle [s]. The
+    /// phases of the plan take a quarter longer until it is there, which is after at most five cycles.
+    ///
+    /// # Errors
+    /// If there is no such light, if it has no plan, if traffic extends the greens of the plan, if the offset is not
+    /// between 0 and 86,400 s, or if the plan of the light has such a command in this step.
+    pub fn set_offset(&mut self, light: i64, offset_s: f64) -> Result<(), Fault> {
+        self.command(&format!("set_offset of light {light}"), Command::SetOffset { light, offset_s })
+            .map(|_| ())
+    }
+
     /// Closes a lanelet to all vehicles, or opens it again. Vehicles on it drive off it. Drivers change to a lane
     /// beside it in time, as before the end of a lane.
     ///

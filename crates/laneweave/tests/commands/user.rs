@@ -9,12 +9,12 @@ use laneweave::{
 pub(crate) struct User {
     numbers: u64,
     /// Commands that were carried out, by their kind.
-    pub(crate) obeyed: [u32; 10],
+    pub(crate) obeyed: [u32; 11],
 }
 
 impl User {
     pub(crate) fn new() -> User {
-        User { numbers: 1, obeyed: [0; 10] }
+        User { numbers: 1, obeyed: [0; 11] }
     }
 
     fn below(&mut self, end: usize) -> usize {
@@ -95,6 +95,10 @@ impl User {
                 let lanelet = self.one(&simulation.lanelets()).ok_or_else(nobody)?;
                 let is_closed = self.below(2) == 0;
                 simulation.close_lanelet(lanelet, is_closed)
+            }
+            9 => {
+                let light = self.one(&simulation.lights()).ok_or_else(nobody)?;
+                simulation.set_offset(light.id, 60.0 * self.share())
             }
             _ => {
                 let lights: Vec<i64> = simulation.lights().iter().map(|it| it.id).collect();

@@ -22,6 +22,19 @@ pub struct Light {
     pub id: i64,
     /// Its program; of an actuated light, with the maximum greens.
     pub program: Program,
+    /// The plan from which it has its program, if it has one.
+    pub plan: Option<InPlan>,
+}
+
+/// The plan of a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InPlan {
+    /// The first light of the plan. Lights with the same first light share their plan.
+    pub first: LightIndex,
+    /// Offset of the plan: when its first phase begins [s].
+    pub offset: f64,
+    /// Traffic extends greens of the plan.
+    pub is_actuated: bool,
 }
 
 /// What a light shows.

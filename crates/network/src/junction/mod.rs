@@ -10,7 +10,7 @@ mod signals;
 mod turning;
 mod zone;
 
-pub use light::{Light, LightIndex, LightState, Phase, Program};
+pub use light::{InPlan, Light, LightIndex, LightState, Phase, Program};
 pub use nearby::Nearby;
 pub use on_chain::{Crossing, OnChain, Place, PlaceKind, Sign, Stop};
 pub use signals::{Extension, LightConflict, SignalPlan, Turn};
@@ -119,8 +119,11 @@ impl Junctions {
     /// Gives the lights of `plans` their programs.
     pub(crate) fn follow(&mut self, plans: &[SignalPlan]) {
         for plan in plans {
+            let Some(first) = plan.lights().min() else { continue };
+            let in_plan = InPlan { first, offset: plan.offset, is_actuated: plan.is_actuated() };
             for light in plan.lights() {
-                self.lights[light.at()].program = plan.program(light);
+                let Light { program, plan: of_light, .. } = &mut self.lights[light.at()];
+                (*program, *of_light) = (plan.program(light), Some(in_plan));
             }
         }
         self.actuated.extend(plans.iter().filter(|it| it.is_actuated()).cloned());
@@ -227,7 +230,7 @@ impl Junctions {
     fn place_stops(&mut self, network: &Network, regulations: &Regulations) {
         for (rules, number) in light::sharing(&regulations.stops).into_iter().zip(0..) {
             let id = rules.iter().map(|it| it.id).min().unwrap_or_default();
-            self.lights.push(Light { id, program: Program::ALWAYS_GREEN });
+            self.lights.push(Light { id, program: Program::ALWAYS_GREEN, plan: None });
             for rule in rules {
                 self.place(network, rule, Sign::Light(LightIndex(number)));
             }

@@ -112,7 +112,7 @@ impl Lanes<'_> {
         let Some(light) = light else {
             return (self.stream(limit), None);
         };
-        let Light { id, program } = &network.junctions.lights[light.at()];
+        let Light { id, program, .. } = &network.junctions.lights[light.at()];
         (self.through(light.at(), program, limit), Some(*id))
     }
 

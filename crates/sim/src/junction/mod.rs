@@ -2,6 +2,7 @@
 
 pub(crate) mod actuated_signals;
 pub(crate) mod need;
+pub(crate) mod offsets;
 pub(crate) mod reservations;
 pub(crate) mod roundabouts;
 pub(crate) mod signals;

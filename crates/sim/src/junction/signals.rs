@@ -1,9 +1,10 @@
 //! What the traffic lights show: fixed programs depend on the time, actuated ones on the traffic.
 
-use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Sign};
+use laneweave_network::{ChainIndex, InPlan, LightIndex, LightState, Network, Sign};
 use serde::{Deserialize, Serialize};
 
 use crate::junction::actuated_signals::Controller;
+use crate::junction::offsets::Offsets;
 use crate::state::clock::Clock;
 use crate::state::lane::Lane;
 
@@ -23,6 +24,8 @@ pub struct Signals {
     controllers: Vec<Controller>,
     /// For each light its detectors; empty where no program needs them.
     detectors: Vec<Vec<Detector>>,
+    /// The offsets that users set.
+    offsets: Offsets,
     /// The lights that users set, whatever their programs say.
     set: Vec<(LightIndex, LightState)>,
 }
@@ -62,19 +65,21 @@ impl Signals {
         }
         let shown = vec![LightState::Red; junctions.lights.len()];
         let was_green = vec![clock.step; junctions.lights.len()];
+        let (offsets, set) = (Offsets::default(), Vec::new());
         let mut signals =
-            Signals { shown, was_green, steady_until: 0.0, controllers, detectors, set: Vec::new() };
+            Signals { shown, was_green, steady_until: 0.0, controllers, detectors, offsets, set };
         signals.show(network, clock);
         signals
     }
 
     /// Whether they have the same network and programs as `other`, in any state.
     pub(crate) fn fits(&self, other: &Signals, clock: Clock) -> bool {
-        let Signals { shown, was_green, steady_until: _, controllers, detectors, set } = self;
+        let Signals { shown, was_green, steady_until: _, controllers, detectors, offsets, set } = self;
         shown.len() == other.shown.len()
             && was_green.len() == other.was_green.len()
             && was_green.iter().all(|it| *it <= clock.step)
             && detectors == &other.detectors
+            && offsets.fit(shown.len())
             && set.iter().all(|(light, _)| light.at() < shown.len())
             && controllers.len() == other.controllers.len()
             && controllers.iter().zip(&other.controllers).all(|(one, other)| one.fits(other, clock))
@@ -97,7 +102,7 @@ impl Signals {
     }
 
     fn show(&mut self, network: &Network, clock: Clock) {
-        let Signals { shown, was_green, steady_until, controllers, set, .. } = self;
+        let Signals { shown, was_green, steady_until, controllers, offsets, set, .. } = self;
         for (was_green, shown) in was_green.iter_mut().zip(&*shown) {
             if *shown == LightState::Green {
                 *was_green = clock.step.saturating_sub(1);
@@ -105,7 +110,9 @@ impl Signals {
         }
         shown.clear();
         shown.extend(network.junctions.show(clock.time()));
-        *steady_until = clock.time() + network.junctions.steady_for(clock.time());
+        let time = clock.time();
+        offsets.show(network, time, shown);
+        *steady_until = time + network.junctions.steady_for(time).min(offsets.steady_for(network, time));
         for controller in controllers {
             controller.lights().for_each(|it| shown[it.at()] = controller.shows(it));
         }
@@ -125,8 +132,16 @@ impl Signals {
         self.show(network, clock);
     }
 
+    /// Gives the plan of a light, with cycles of this length [s], another offset [s]. Its phases take longer until then.
+    pub(crate) fn set_offset(&mut self, plan: InPlan, cycle: f64, offset: f64) {
+        self.offsets.set(plan, cycle, offset);
+        // From the next step on its states may change.
+        self.steady_until = 0.0;
+    }
+
     /// Updates the lights at `clock`, by the vehicles that are detected on the `lanes`.
     pub(crate) fn switch(&mut self, network: &Network, lanes: &[Lane], clock: Clock) {
+        self.offsets.advance(clock.dt);
         let Signals { controllers, detectors, .. } = self;
         for controller in controllers {
             controller

@@ -1,6 +1,6 @@
 //! What controls the junctions at one instant.
 
-use laneweave_network::{LightIndex, LightState, Network};
+use laneweave_network::{InPlan, LightIndex, LightState, Network};
 use serde::{Deserialize, Serialize};
 
 use crate::junction::reservations::Reservations;
@@ -52,6 +52,11 @@ impl JunctionState {
         clock: Clock,
     ) {
         self.signals.set(network, light, shows, clock);
+    }
+
+    /// Gives the plan of a light, with cycles of this length [s], another offset [s].
+    pub(crate) fn set_offset(&mut self, plan: InPlan, cycle: f64, offset: f64) {
+        self.signals.set_offset(plan, cycle, offset);
     }
 
     /// Whether it has the same network and programs as `other`, at `clock`.

@@ -45,6 +45,13 @@ pub enum Command {
         /// What it shows.
         shows: Option<LightState>,
     },
+    /// Gives the signal plan of a light another offset. The phases of the plan take longer until it is there.
+    SetOffset {
+        /// The id of a light of the plan.
+        light: i64,
+        /// When the first phase of the plan begins, and of every further cycle [s].
+        offset_s: f64,
+    },
     /// Closes a lanelet to all vehicles, or opens it again. Those on it drive off it.
     CloseLanelet {
         /// The id of the lanelet.
@@ -101,6 +108,8 @@ pub enum Target {
     Origin(i64),
     /// A light, by its id.
     Light(i64),
+    /// The signal plan of a light, by the light's id.
+    Plan(i64),
     /// A parameter of a style, by the style's name.
     Parameter(String, Parameter),
     /// A style, by its name.
@@ -115,6 +124,7 @@ impl fmt::Display for Target {
             Target::Origin(id) => write!(f, "origin {id}"),
             Target::Lanelet(id) => write!(f, "lanelet {id}"),
             Target::Light(id) => write!(f, "light {id}"),
+            Target::Plan(id) => write!(f, "the plan of light {id}"),
             Target::Parameter(style, parameter) => write!(f, "style {style} with its {}", parameter.key()),
             Target::Style(style) => write!(f, "style {style}"),
             Target::Vehicle(id) => write!(f, "vehicle {id}"),
@@ -134,6 +144,7 @@ impl Command {
             Command::SetDemand { origin, .. } => Target::Origin(*origin),
             Command::SetShare { style, .. } => Target::Style(style.clone()),
             Command::SetLight { light, .. } => Target::Light(*light),
+            Command::SetOffset { light, .. } => Target::Plan(*light),
             Command::CloseLanelet { lanelet, .. } => Target::Lanelet(*lanelet),
             Command::SetParameter { style, parameter, .. } => Target::Parameter(style.clone(), *parameter),
         })
@@ -158,6 +169,7 @@ impl Command {
             | Command::SetDemand { .. }
             | Command::SetShare { .. }
             | Command::SetLight { .. }
+            | Command::SetOffset { .. }
             | Command::CloseLanelet { .. }
             | Command::SetParameter { .. } => None,
         }
@@ -174,6 +186,7 @@ impl Command {
             Command::SetDemand { .. }
             | Command::SetShare { .. }
             | Command::SetLight { .. }
+            | Command::SetOffset { .. }
             | Command::CloseLanelet { .. }
             | Command::SetParameter { .. } => 5,
         }

@@ -72,6 +72,11 @@ impl CarryingOut<'_> {
                     self.junctions.set_light(self.roads.network(), light, *shows, self.traffic.clock());
                 }
             }
+            Command::SetOffset { light, offset_s } => {
+                if let Some((plan, cycle)) = names::plan(self.roads.network(), *light) {
+                    self.junctions.set_offset(plan, cycle, *offset_s);
+                }
+            }
         }
     }
 

@@ -72,6 +72,14 @@ pub enum CommandError {
     /// No style would be left for the drivers who arrive.
     #[error("no style would have a weight, so nobody could arrive; give another style a weight first")]
     NoStyle,
+    /// The plan of a light has no offset.
+    #[error("light {light} has no offset: {why}; choose a light with a fixed plan")]
+    Offset {
+        /// The light.
+        light: i64,
+        /// Why not.
+        why: &'static str,
+    },
     /// A lanelet cannot be closed.
     #[error("lanelet {lanelet} cannot be closed: {why}")]
     Closing {
@@ -173,6 +181,7 @@ impl World {
             }
             Command::SetShare { style, weight } => self.check_share(style, *weight),
             Command::SetLight { light, .. } => self.light_with(*light).map(|_| ()),
+            Command::SetOffset { light, offset_s } => self.check_offset(*light, *offset_s),
             Command::CloseLanelet { lanelet, is_closed } => self.check_closing(*lanelet, *is_closed),
             Command::SetParameter { style, parameter, value } => {
                 self.check_parameter(style, *parameter, *value)
@@ -196,6 +205,20 @@ impl World {
         }
         set(style, weight);
         if weights.iter().sum::<f64>() > 0.0 { Ok(()) } else { Err(CommandError::NoStyle) }
+    }
+
+    /// Checks that the plan of a light can have this offset.
+    fn check_offset(&self, light: i64, offset_s: f64) -> Result<(), CommandError> {
+        /// A day [s].
+        const LONGEST: f64 = 86_400.0;
+        self.light_with(light)?;
+        in_range("an offset", offset_s, [0.0, LONGEST], "s")?;
+        let why = match names::plan(self.roads.network(), light) {
+            None => "it is always green",
+            Some((plan, _)) if plan.is_actuated => "traffic extends its greens",
+            Some(_) => return Ok(()),
+        };
+        Err(CommandError::Offset { light, why })
     }
 
     /// Checks that a vehicle that is to drive in lanes is in one.

@@ -1,6 +1,6 @@
 //! What the names in commands stand for.
 
-use laneweave_network::{LaneletIndex, LightIndex, Network};
+use laneweave_network::{InPlan, LaneletIndex, LightIndex, Network};
 
 use crate::demand::{Demand, Share};
 use crate::route::place::Place;
@@ -42,6 +42,12 @@ pub(super) fn origin(demand: &Demand, name: i64) -> Option<usize> {
 pub(super) fn light(network: &Network, name: i64) -> Option<LightIndex> {
     let lights = network.junctions.lights.iter().zip(0..);
     lights.into_iter().find(|(it, _)| it.id == name).map(|(_, index)| LightIndex(index))
+}
+
+/// The plan of the light with this name, if it has one, and the length of its cycle [s].
+pub(super) fn plan(network: &Network, name: i64) -> Option<(InPlan, f64)> {
+    let light = &network.junctions.lights[self::light(network, name)?.at()];
+    light.plan.map(|it| (it, light.program.cycle))
 }
 
 impl World {

@@ -174,6 +174,44 @@ fn a_light_shows_what_the_user_says() {
 }
 
 #[test]
+fn a_plan_comes_to_another_offset_by_longer_phases() {
+    let mut world = world("grid.osm", 0.0, 1, 1);
+    let lights = world.network().junctions.lights.clone();
+    let first = lights[0].plan.expect("it has a plan").first;
+    let of_plan = |it: &laneweave_network::Light| it.plan.is_some_and(|it| it.first == first);
+    let light = lights[0].id;
+    (0..73).for_each(|_| world.step());
+    world.command(Command::SetOffset { light, offset_s: 25.0 }).expect("it is possible");
+    assert!(matches!(
+        world.command(Command::SetOffset { light, offset_s: 5.0 }),
+        Err(CommandError::Twice(_))
+    ));
+    let cycle = lights[0].program.cycle;
+    // By 25 s at a fifth of a second a second.
+    let arrives = 7.3 + 25.0 / 0.2;
+    let shown = |world: &World, at| world.scene().light(laneweave_network::LightIndex(at as u32));
+    let mut lasted: Vec<_> = (0..lights.len()).map(|at| (shown(&world, at), f64::INFINITY)).collect();
+    while world.clock().time() < arrives + 2.0 * cycle {
+        world.step();
+        let time = world.clock().time();
+        for (at, light) in lights.iter().enumerate() {
+            let shows = shown(&world, at);
+            let expected = if of_plan(light) { time - 25.0 } else { time };
+            // Sums of steps are not exact where a light switches.
+            let is_near = [-0.11, 0.11].iter().any(|it| light.program.state(expected + it) == shows);
+            assert!(is_near || (of_plan(light) && time < arrives + 0.2), "{} at {time} s", light.id);
+            let (before, since) = &mut lasted[at];
+            if *before != shows {
+                assert!(*before != LightState::Green || shows == LightState::Yellow);
+                assert!(*before != LightState::Yellow || *since > 2.85, "yellow of {since} s");
+                (*before, *since) = (shows, 0.0);
+            }
+            *since += 0.1;
+        }
+    }
+}
+
+#[test]
 fn impossible_commands_are_refused_with_a_remedy_and_change_nothing() {
     let (mut world, id) = alone();
     let lanelet = world.network().lanelets[0].id;
@@ -200,6 +238,7 @@ fn impossible_commands_are_refused_with_a_remedy_and_change_nothing() {
         ),
         (Command::SetDestination(id, Some(-5)), "there is no destination -5; known are"),
         (Command::SetLight { light: 3, shows: None }, "there is no light 3; this world has no light"),
+        (Command::SetOffset { light: 3, offset_s: 1.0 }, "there is no light 3; this world has no light"),
         (Command::SetDemand { origin: -5, vehicles_per_hour: 3.0 }, "there is no origin -5; known are"),
         (insert(|it| it.lanelet = -7), "there is no lanelet -7"),
         (insert(|it| it.position_m = 1e6), "choose 0 to"),

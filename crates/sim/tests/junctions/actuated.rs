@@ -3,7 +3,7 @@
 use laneweave_maps::generate::{Grid, grid};
 use laneweave_maps::{Map, regulations};
 use laneweave_network::{ChainIndex, Extension, LightIndex, LightState, Network, Sign, SignalPlan, Turn};
-use laneweave_sim::{Rate, Setup, World};
+use laneweave_sim::{Command, Rate, Setup, World};
 
 use crate::drivers;
 use crate::town::{self, STEP, assert_sound};
@@ -155,4 +155,14 @@ fn actuated_lights_are_the_same_on_any_number_of_threads_and_in_any_order_of_sto
     let hash = town(1, false);
     assert_eq!(town(2, false), hash);
     assert_eq!(town(1, true), hash);
+}
+
+#[test]
+fn a_plan_that_traffic_extends_has_no_offset() {
+    let network = junction();
+    let (plan, light) = (actuated(&network), network.junctions.lights[0].id);
+    let mut world = world(network, &plan, [0.0; 2]);
+    let refused = world.command(Command::SetOffset { light, offset_s: 5.0 }).map_err(|it| it.to_string());
+    let said = refused.expect_err("traffic extends its greens");
+    assert!(said.contains("traffic extends its greens; choose a light with a fixed plan"), "{said}");
 }

@@ -9,8 +9,8 @@ use laneweave::scenario::Origin;
 use laneweave_viewer::{Live, Server, Source, Token};
 use tungstenite::{Message, WebSocket, client};
 
-/// Nothing takes longer than this.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// Nothing takes longer than this, on a machine that others use, too.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A map of the project.
 pub(crate) fn map(name: &str) -> PathBuf {
@@ -86,17 +86,22 @@ impl Page {
 
     /// The next text that has this key.
     pub(crate) fn hear_of(&mut self, key: &str) -> String {
+        self.hears(key).unwrap_or_else(|| panic!("nothing was said of {key}"))
+    }
+
+    /// The same; none if the connection ends before.
+    pub(crate) fn hears(&mut self, key: &str) -> Option<String> {
         let begin = Instant::now();
         while begin.elapsed() < PATIENCE {
             match self.hear() {
                 Some(Message::Text(text)) if text.starts_with(&format!("{{\"{key}\"")) => {
-                    return text.as_str().to_owned();
+                    return Some(text.as_str().to_owned());
                 }
                 Some(_) => {}
                 None => break,
             }
         }
-        panic!("nothing was said of {key}")
+        None
     }
 
     /// The next frame, for which it says that it is ready.
