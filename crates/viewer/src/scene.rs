@@ -4,7 +4,8 @@ use std::collections::HashSet;
 
 use laneweave::maps::{Contents, Map, Marking, MarkingPaint};
 use laneweave::network::{
-    Chain, ChainIndex, DrivingSide, Gate, Lanelet, LaneletIndex, Network, Point, Polyline, Sign,
+    Chain, ChainIndex, DrivingSide, Gate, InPlan, Lanelet, LaneletIndex, Light, Network, Point, Polyline,
+    Sign,
 };
 use laneweave::{Side, network};
 use serde::Serialize;
@@ -59,9 +60,26 @@ pub(crate) struct StopLine {
     pub(crate) light: Option<usize>,
 }
 
+/// The plan of a light: lights with the same first light share it.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct PlanFacts {
+    first: usize,
+    cycle_s: f64,
+    offset_s: f64,
+}
+
+impl PlanFacts {
+    fn of(light: &Light) -> Option<PlanFacts> {
+        let InPlan { first, offset, .. } = light.plan.filter(|it| !it.is_actuated)?;
+        Some(PlanFacts { first: first.at(), cycle_s: light.program.cycle, offset_s: offset })
+    }
+}
+
 #[derive(Clone, Debug, Serialize)]
 struct LightPosts {
     id: String,
+    /// None for a light that is always green, or whose greens traffic extends.
+    plan: Option<PlanFacts>,
     at: Vec<[f64; 3]>,
 }
 
@@ -175,9 +193,8 @@ fn extent(network: &Network) -> [[f64; 3]; 2] {
 
 /// Where drivers stop, and the lights for which they do.
 fn stops(network: &Network, frame: &Frame) -> (Vec<StopLine>, Vec<LightPosts>) {
-    let lights = network.junctions.lights.iter();
-    let mut lights: Vec<LightPosts> =
-        lights.map(|it| LightPosts { id: it.id.to_string(), at: Vec::new() }).collect();
+    let posts = |it: &Light| LightPosts { id: it.id.to_string(), plan: PlanFacts::of(it), at: Vec::new() };
+    let mut lights: Vec<LightPosts> = network.junctions.lights.iter().map(posts).collect();
     let mut lines = Vec::new();
     for (number, chain) in network.chains.iter().enumerate() {
         for stop in &network.junctions.on(ChainIndex(number as u32)).stops {

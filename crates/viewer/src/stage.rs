@@ -102,6 +102,7 @@ impl Stage {
                 Err(RecvTimeoutError::Timeout) => {}
             }
             self.go_on();
+            self.tell_hands();
             self.tell_marks();
             self.publish();
         }
@@ -143,7 +144,7 @@ impl Stage {
         let page = Page { says, selected: Vec::new(), wants_desire: false, wants_lanes: false };
         self.pages.insert(id, page);
         self.tell(id, &Message { hello: Some(self.source.hello()), ..Message::default() });
-        self.tell(id, &Message { hands: Some(self.source.done()), ..Message::default() });
+        self.tell(id, &Message { hands: Some(self.source.hands()), ..Message::default() });
         self.marks_told.1 = -1.0;
         self.is_new = true;
     }
@@ -167,13 +168,13 @@ impl Stage {
             }
             Asked::Find(vehicle) => self.find(id, vehicle),
             Asked::Hand(hand) => {
-                self.source.hand(&hand)?;
+                let put = self.source.hand(&hand)?.map(|it| it.to_string());
                 self.tell_hands();
+                if put.is_some() {
+                    self.tell(id, &Message { put, ..Message::default() });
+                }
             }
-            Asked::Undo(_) => {
-                self.source.undo()?;
-                self.tell_hands();
-            }
+            Asked::Undo(_) => self.source.undo()?,
             Asked::Twin(is_wanted) => self.source.twin(is_wanted)?,
             Asked::Save(_) => {
                 let saved = Some(self.source.save()?);
@@ -244,8 +245,11 @@ impl Stage {
         self.is_new = true;
     }
 
+    /// Tells what was done by hand, if that is new.
     fn tell_hands(&mut self) {
-        self.tell_all(&Message { hands: Some(self.source.done()), ..Message::default() });
+        if self.source.has_news_of_hands() {
+            self.tell_all(&Message { hands: Some(self.source.hands()), ..Message::default() });
+        }
     }
 
     /// Tells the marks that are known by now, as long as there are new ones.
@@ -310,7 +314,9 @@ struct Message<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     hello: Option<crate::source::Hello>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    hands: Option<Vec<crate::source::Done>>,
+    hands: Option<crate::source::Hands>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    put: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     saved: Option<crate::source::Saved>,
     #[serde(skip_serializing_if = "Option::is_none")]

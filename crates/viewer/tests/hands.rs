@@ -53,10 +53,11 @@ fn a_town_changed_by_hand_is_the_same_when_it_is_run_again() {
     live.hand(&Hand::SetShare { style: style.clone(), weight: 30.0 }).expect("more of them");
     steps(&mut live, 300);
     let light = scene(&live)["lights"][0]["id"].as_str().expect("a light").to_owned();
-    live.hand(&Hand::SetLight { light, shows: Some(LightState::Red) }).expect("a red light");
+    live.hand(&Hand::SetLight { light: light.clone(), shows: Some(LightState::Red) }).expect("a red light");
+    live.hand(&Hand::SetOffset { light, offset_s: 20.0 }).expect("another offset");
     let [x, y] = beside_an_entrance(&live);
-    live.hand(&Hand::Put { x, y, class: Class::Truck }).expect("a new vehicle");
-    let vehicle = live.done().last().and_then(|it| it.vehicle.clone()).expect("its id");
+    let put = live.hand(&Hand::Put { x, y, class: Class::Truck }).expect("a new vehicle");
+    let vehicle = put.expect("its id").to_string();
     steps(&mut live, 100);
     live.hand(&Hand::Drive { vehicle: vehicle.clone(), speed_kmh: Some(20.0), side: None }).expect("a drive");
     steps(&mut live, 100);
@@ -83,7 +84,9 @@ fn acts_on_one_thing_that_follow_each_other_are_one_and_are_taken_back_as_one() 
         live.hand(&Hand::SetParameter { style, parameter: Parameter::SpeedFactor, value }).expect("a number");
         steps(&mut live, 2);
     }
-    assert_eq!((live.done().len(), value(&live)), (1, 0.7));
+    assert_eq!((live.hands().done.len(), value(&live)), (1, 0.7));
+    let text = &live.hands().done[0].text;
+    assert!(text.contains(" from 1") && text.ends_with(" to 0.7"), "{text}");
     live.undo().expect("an act");
     steps(&mut live, 1);
     assert!((value(&live) - before).abs() < 1e-9);
@@ -95,11 +98,13 @@ fn acts_on_one_thing_that_follow_each_other_are_one_and_are_taken_back_as_one() 
         (demand(&live), |it| Hand::SetDemand { origin: origin.clone(), vehicles_per_hour: it });
     live.hand(&set(500.0)).expect("a demand");
     steps(&mut live, 20);
+    live.hand(&Hand::SetShare { style: style.clone(), weight: 3.0 }).expect("a share");
     live.hand(&set(700.0)).expect("a demand");
     steps(&mut live, 20);
     live.undo().expect("an act");
     assert_eq!(demand(&live), 500.0);
     steps(&mut live, 1);
+    live.undo().expect("an act");
     live.undo().expect("an act");
     assert_eq!(demand(&live), planned);
     let gone = Hand::Remove { vehicle: "999".into() };
@@ -153,4 +158,37 @@ fn beside_an_entrance(live: &Live) -> [f64; 2] {
     let heading = number(&gate["heading"]);
     let at = |axis: usize| number(&scene["origin"][axis]) + number(&gate["at"][axis]);
     [at(0) + IN * heading.cos(), at(1) + IN * heading.sin()]
+}
+
+#[test]
+fn what_is_set_is_known_as_it_is_now_whoever_set_it() {
+    let dir = folder("set");
+    let mut live = live("town.osm", &dir);
+    let light = scene(&live)["lights"][0]["id"].as_str().expect("a light").to_owned();
+    let offset = |offset_s| Hand::SetOffset { light: light.clone(), offset_s };
+    let red = |shows| Hand::SetLight { light: light.clone(), shows };
+    let planned = scene(&live)["lights"][0]["plan"]["offset_s"].as_f64().expect("the offset of its plan");
+    assert!(live.hands().set.is_empty() && !live.has_news_of_hands());
+    live.hand(&offset(20.0)).expect("another offset");
+    live.hand(&red(Some(LightState::Red))).expect("a red light");
+    assert!(live.has_news_of_hands() && !live.has_news_of_hands());
+    // Before the step and after it.
+    for _ in 0..2 {
+        let set = live.hands().set;
+        assert!(set.len() == 2 && set.contains(&offset(20.0)) && set.contains(&red(Some(LightState::Red))));
+        steps(&mut live, 1);
+    }
+    live.undo().expect("an act");
+    live.undo().expect("an act");
+    let set = live.hands().set;
+    assert!(set.len() == 2 && set.contains(&offset(planned)) && set.contains(&red(None)), "{set:?}");
+    // A scenario that was saved does the same by itself.
+    live.hand(&offset(30.0)).expect("another offset");
+    steps(&mut live, 2);
+    let saved = live.save().expect("a scenario").scenario;
+    let (scenario, origin) = Origin::open(&saved).expect("the saved scenario");
+    let mut again = Live::new(scenario, origin, dir.clone()).expect("a simulation");
+    steps(&mut again, 4);
+    assert!(again.has_news_of_hands() && again.hands().set.contains(&offset(30.0)));
+    let _ = std::fs::remove_dir_all(dir);
 }

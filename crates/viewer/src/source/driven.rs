@@ -10,6 +10,7 @@ use laneweave::{Class, Fault, Phase, Side, VehicleId};
 
 use super::driver::{DriverFacts, desire};
 use super::lanes::Lanes;
+use super::turns::Turns;
 use super::{DemandFacts, Mark, StyleFacts, Wants, marks};
 use crate::scene::{Scene, Surroundings};
 use crate::snapshot::{Body, Seen, Snapshot};
@@ -27,6 +28,7 @@ pub(super) struct Driven {
     title: String,
     around: Surroundings,
     lanes: Lanes,
+    turns: Turns,
     /// When each vehicle has last changed lanes [s].
     last_changes: HashMap<VehicleId, f64>,
     /// The index of the style of each set of driver parameters.
@@ -40,11 +42,21 @@ impl Driven {
         let around = Surroundings::of(&map);
         let prepared = prepare_on(map, &scenario, &origin)?;
         let lanes = Lanes::of(prepared.world.network());
+        let turns = Turns::of(prepared.world.network());
         let name = scenario.map.file_name().unwrap_or(scenario.map.as_os_str());
         let title = name.to_string_lossy().into_owned();
         let last_changes = HashMap::new();
-        let mut driven =
-            Driven { scenario, origin, prepared, title, around, lanes, last_changes, style_of: Vec::new() };
+        let mut driven = Driven {
+            scenario,
+            origin,
+            prepared,
+            title,
+            around,
+            lanes,
+            turns,
+            last_changes,
+            style_of: Vec::new(),
+        };
         driven.know_styles();
         Ok(driven)
     }
@@ -173,7 +185,7 @@ impl Driven {
             style: self.style_of.get(driver.parameters as usize).copied().unwrap_or_default(),
             phase: driver.phase as u8,
             is_braking: vehicle.motion.acceleration < BRAKES || vehicle.speed() < HOLDS,
-            signals: signals(driver, vehicle.lane_change),
+            signals: signals(driver, vehicle.lane_change).or_else(|| self.turns.side(self.world(), vehicle)),
             is_external: driver.is_external,
             is_recorded: false,
             values: [

@@ -1,21 +1,14 @@
 //! What a user does by hand, as commands of the library.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use laneweave::network::{LaneletIndex, Network, Point};
-use laneweave::record;
-use laneweave::scenario::{Origin, Scenario};
-use laneweave::sim::{Command, Commanded, World};
-use laneweave::study::{Format, TableWriter};
-use laneweave::{
-    COMMAND_COLUMNS, Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
-    Written,
-};
+use laneweave::sim::{Command, World};
+use laneweave::{Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side};
 use serde::{Deserialize, Serialize};
 
 /// Something that a user does by hand.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Hand {
     /// Changes a number of a style.
@@ -47,6 +40,13 @@ pub enum Hand {
         light: String,
         /// What it shows; none: what its program says.
         shows: Option<LightState>,
+    },
+    /// Gives the signal plan of a light another offset.
+    SetOffset {
+        /// A light of the plan, by its id.
+        light: String,
+        /// When its first phase begins [s].
+        offset_s: f64,
     },
     /// Closes a lanelet, or opens it.
     CloseLanelet {
@@ -88,7 +88,7 @@ pub enum Hand {
 }
 
 /// The side of a lane change by hand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DriveSide {
     /// To the left.
@@ -106,21 +106,52 @@ pub struct Done {
     pub time_s: f64,
     /// In words.
     pub text: String,
-    /// The vehicle that was put on the road.
-    pub vehicle: Option<String>,
     /// Whether it was taken back.
     pub is_undone: bool,
+    /// The first part of the text: what was done to what.
+    #[serde(skip)]
+    pub(super) to_what: String,
+    #[serde(skip)]
+    pub(super) command: Command,
+    /// The command that takes it back.
     #[serde(skip)]
     pub(super) back: Option<Command>,
+    /// When the user did it last, while a slider moves.
+    #[serde(skip)]
+    pub(super) at: Instant,
 }
 
-/// Where a scenario was saved.
-#[derive(Clone, Debug, Serialize)]
-pub struct Saved {
-    /// The folder.
-    pub folder: PathBuf,
-    /// The scenario in it.
-    pub scenario: PathBuf,
+/// What was done by hand, and what is set by it.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Hands {
+    /// All that was done, in order.
+    pub done: Vec<Done>,
+    /// All that is not as in the scenario, or was not for a while, as it is now.
+    pub set: Vec<Hand>,
+}
+
+impl Hand {
+    /// What a command sets, if it is something that stays until it is set again.
+    pub(super) fn setting(command: &Command) -> Option<Hand> {
+        Some(match command {
+            Command::SetParameter { style, parameter, value } => {
+                Hand::SetParameter { style: style.clone(), parameter: *parameter, value: *value }
+            }
+            Command::SetShare { style, weight } => Hand::SetShare { style: style.clone(), weight: *weight },
+            Command::SetDemand { origin, vehicles_per_hour } => {
+                let origin = origin.to_string();
+                Hand::SetDemand { origin, vehicles_per_hour: *vehicles_per_hour }
+            }
+            Command::SetLight { light, shows } => Hand::SetLight { light: light.to_string(), shows: *shows },
+            Command::SetOffset { light, offset_s } => {
+                Hand::SetOffset { light: light.to_string(), offset_s: *offset_s }
+            }
+            Command::CloseLanelet { lanelet, is_closed } => {
+                Hand::CloseLanelet { lanelet: lanelet.to_string(), is_closed: *is_closed }
+            }
+            _ => return None,
+        })
+    }
 }
 
 /// What can be changed, as it is after all that was done by hand.
@@ -133,13 +164,20 @@ pub(super) trait Present {
 
     /// The demand at an entrance [veh/h].
     fn demand(&self, origin: i64) -> Option<f64>;
+
+    /// What a user makes a light show.
+    fn light(&self, light: i64) -> Option<LightState>;
+
+    /// The offset of the plan of a light [s].
+    fn offset(&self, light: i64) -> Option<f64>;
 }
 
 /// The commands of something done by hand: what is done, what takes it back, and what it is called.
 pub(super) struct Deed {
     pub(super) command: Command,
     pub(super) back: Option<Command>,
-    pub(super) text: String,
+    /// What is done to what, and how it is from now on.
+    pub(super) text: [String; 2],
 }
 
 fn fault(what: impl ToString, remedy: &str) -> Fault {
@@ -160,21 +198,22 @@ impl Deed {
                     |value| Command::SetParameter { style: style.clone(), parameter: *parameter, value };
                 let old = now.parameter(style, *parameter);
                 let from = old.map_or_else(String::new, |it| format!(" from {}", short(it)));
-                let text = format!("{} of {style}{from} to {}", parameter.key(), short(*new));
+                let text = [format!("{} of {style}{from} to ", parameter.key()), short(*new)];
                 Deed { command: set(*new), back: old.map(set), text }
             }
             Hand::SetDemand { origin, vehicles_per_hour } => {
                 let origin = id(origin)?;
                 let set = |vehicles_per_hour| Command::SetDemand { origin, vehicles_per_hour };
                 let old = now.demand(origin);
-                let text = format!("demand at entrance {origin} to {} veh/h", short(*vehicles_per_hour));
+                let demand = format!("{} veh/h", short(*vehicles_per_hour));
+                let text = [format!("demand at entrance {origin} to "), demand];
                 Deed { command: set(*vehicles_per_hour), back: old.map(set), text }
             }
             Hand::SetShare { style, weight } => {
                 let set = |weight| Command::SetShare { style: style.clone(), weight };
                 let old = now.share(style);
                 let from = old.map_or_else(String::new, |it| format!(" from {}", short(it)));
-                let text = format!("share of {style}{from} to {}", short(*weight));
+                let text = [format!("share of {style}{from} to "), short(*weight)];
                 Deed { command: set(*weight), back: old.map(set), text }
             }
             Hand::SetLight { light, shows } => {
@@ -186,7 +225,14 @@ impl Deed {
                     Some(LightState::Red) => "red",
                     None => "as its program says",
                 };
-                Deed { command: set(*shows), back: Some(set(None)), text: format!("light {light}: {state}") }
+                let text = [format!("light {light}: "), state.to_owned()];
+                Deed { command: set(*shows), back: Some(set(now.light(light))), text }
+            }
+            Hand::SetOffset { light, offset_s } => {
+                let light = id(light)?;
+                let set = |offset_s| Command::SetOffset { light, offset_s };
+                let text = [format!("offset of light {light} to "), format!("{} s", short(*offset_s))];
+                Deed { command: set(*offset_s), back: now.offset(light).map(set), text }
             }
             Hand::CloseLanelet { lanelet, is_closed } => {
                 let lanelet = id(lanelet)?;
@@ -195,7 +241,7 @@ impl Deed {
                 Deed {
                     command: set(*is_closed),
                     back: Some(set(!is_closed)),
-                    text: format!("lanelet {lanelet}: {what}"),
+                    text: [format!("lanelet {lanelet}: "), what.to_owned()],
                 }
             }
             Hand::Put { x, y, class } => put(world, [*x, *y], *class)?,
@@ -216,6 +262,7 @@ impl Deed {
         let gone = || fault(format!("vehicle {named} is not on the road"), "choose one that is");
         let vehicle = named.parse().map_err(|_| gone())?;
         let now = world.vehicle(vehicle).ok_or_else(gone)?;
+        let text = |how: String| [format!("vehicle {vehicle}: "), how];
         Ok(match hand {
             Hand::Drive { speed_kmh, side, .. } => {
                 let lateral = match side {
@@ -225,26 +272,25 @@ impl Deed {
                 };
                 let drive = |it: f64| Control::Drive { longitudinal: Longitudinal::Speed(it / 3.6), lateral };
                 let control = speed_kmh.map_or(Control::DRIVER, drive);
-                let text = match (speed_kmh, lateral) {
-                    (None, _) => format!("vehicle {vehicle}: back to its driver"),
+                let how = match (speed_kmh, lateral) {
+                    (None, _) => "back to its driver".to_owned(),
                     (Some(speed), Lateral::Change(side)) => {
-                        let side = super::driver::side_name(side);
-                        format!("vehicle {vehicle}: {} km/h, to the {side}", short(*speed))
+                        format!("{} km/h, to the {}", short(*speed), super::driver::side_name(side))
                     }
-                    (Some(speed), _) => format!("vehicle {vehicle}: {} km/h", short(*speed)),
+                    (Some(speed), _) => format!("{} km/h", short(*speed)),
                 };
                 let back = Command::Control(vehicle, world.control_of(vehicle));
-                Deed { command: Command::Control(vehicle, control), back: Some(back), text }
+                Deed { command: Command::Control(vehicle, control), back: Some(back), text: text(how) }
             }
             Hand::SetStyle { style, .. } => Deed {
                 command: Command::SetStyle(vehicle, style.clone()),
                 back: Some(Command::SetStyle(vehicle, now.style().name.clone())),
-                text: format!("vehicle {vehicle}: style {style}"),
+                text: text(format!("style {style}")),
             },
             _ => Deed {
                 command: Command::Remove(vehicle),
                 back: None,
-                text: format!("vehicle {vehicle}: taken off the road"),
+                text: text("taken off the road".to_owned()),
             },
         })
     }
@@ -267,7 +313,7 @@ fn put(world: &World, [x, y]: [f64; 2], class: Class) -> Result<Deed, Fault> {
     let style = world.driver_parameters().first().map_or_else(String::new, |it| it.name.clone());
     let speed_mps = lanelet.speed_limit.min(ahead).min(class.body().top_speed);
     let vehicle = NewVehicle { lanelet: lanelet.id, position_m, speed_mps, class, style, destination: None };
-    let text = format!("a {} on lanelet {}", class.body().name, lanelet.id);
+    let text = [format!("a {} ", class.body().name), format!("on lanelet {}", lanelet.id)];
     Ok(Deed { command: Command::Insert(vehicle), back: None, text })
 }
 
@@ -302,44 +348,4 @@ fn short(value: f64) -> String {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
     }
-}
-
-/// Writes `scenario` with these commands into a new folder inside `dir`, so that a run of it repeats all that was
-/// done up to `until_s` [s].
-pub(super) fn save(
-    dir: &Path,
-    (scenario, origin): (&Scenario, &Origin),
-    commands: &[Commanded],
-    until_s: f64,
-) -> Result<Saved, Fault> {
-    let folder = new_folder(dir)?;
-    let path = folder.join("commands.csv");
-    let unwritten = |error: &dyn std::fmt::Display| {
-        Fault::new(path.display(), error.to_string(), "choose another folder with --save")
-    };
-    let mut table =
-        TableWriter::create(&path, Format::Csv, &COMMAND_COLUMNS).map_err(|error| unwritten(&error))?;
-    for command in commands {
-        table.row(&Written::of(command, scenario.run.step_s).cells()).map_err(|error| unwritten(&error))?;
-    }
-    table.finish().map_err(|error| unwritten(&error))?;
-    let mut saved = Scenario { commands: Some(path.clone()), external: Vec::new(), ..scenario.clone() };
-    saved.run.duration_s = (until_s - saved.run.warmup_s).max(saved.run.step_s);
-    saved.output.dir = folder.join("out");
-    record::keep(&saved, origin, &folder, "laneweave view: what was done by hand")?;
-    Ok(Saved { scenario: folder.join(record::SCENARIO), folder })
-}
-
-/// Makes a folder that was not there.
-fn new_folder(dir: &Path) -> Result<PathBuf, Fault> {
-    fs::create_dir_all(dir).map_err(|error| Fault::refused(dir, "made", &error))?;
-    for number in 1_u32.. {
-        let folder = dir.join(number.to_string());
-        match fs::create_dir(&folder) {
-            Ok(()) => return Ok(folder),
-            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(Fault::refused(&folder, "made", &error)),
-        }
-    }
-    Err(Fault::new(dir.display(), "it has too many folders", "choose another folder with --save"))
 }

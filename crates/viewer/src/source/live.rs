@@ -1,22 +1,25 @@
 //! A simulation that runs now, and that a user changes by hand.
 
+use std::collections::BTreeMap;
 use std::mem::discriminant;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 use laneweave::scenario::{Origin, Scenario};
 use laneweave::sim::{Command, Commanded};
-use laneweave::{Control, Fault, Lateral, Longitudinal, Parameter, refused};
+use laneweave::{Control, Fault, Lateral, LightState, Longitudinal, Parameter, VehicleId, refused};
 
 use super::driven::Driven;
 use super::ghosts;
-use super::hands::{Deed, Done, Hand, Present, Saved, save};
+use super::hands::{Deed, Done, Hand, Hands, Present};
+use super::saved::{Saved, save};
 use super::{Abilities, DemandFacts, Hello, Kind, Mark, Marks, Source, StyleFacts, Wants};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
-/// Acts on the same thing within this time are one [s]: a slider that moves.
-const ONE_ACT: f64 = 1.0;
+/// Acts on the same thing that follow each other within this time are one: a slider that moves.
+const ONE_ACT: Duration = Duration::from_secs(1);
 
 /// A simulation that runs now. It never ends.
 pub struct Live {
@@ -26,6 +29,8 @@ pub struct Live {
     /// All commands that were carried out.
     given: Vec<Commanded>,
     done: Vec<Done>,
+    /// What was done or set is not told yet.
+    has_news: bool,
     /// The unchanged twin, if somebody wants one.
     twin: Option<Box<Driven>>,
     /// Where scenarios are saved.
@@ -39,7 +44,8 @@ impl Live {
     /// If something is missing, not readable, or invalid.
     pub fn new(scenario: Scenario, origin: Origin, dir: PathBuf) -> Result<Live, Fault> {
         let driven = Driven::new(scenario, origin)?;
-        Ok(Live { driven, pending: Vec::new(), given: Vec::new(), done: Vec::new(), twin: None, dir })
+        let (pending, given, done) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Live { driven, pending, given, done, has_news: false, twin: None, dir })
     }
 
     /// The last command that `found` knows, of those for the next step and those before it.
@@ -72,34 +78,41 @@ impl Live {
     }
 
     /// Puts a vehicle on the road, and keeps its speed.
-    fn insert(&mut self, command: Command) -> Result<Command, Fault> {
-        let Command::Insert(vehicle) = &command else { return Ok(command) };
-        let longitudinal = Longitudinal::Speed(vehicle.speed_mps);
+    fn insert(&mut self, command: &Command) -> Result<VehicleId, Fault> {
         let inserted = self.driven.prepared.world.command(command.clone());
         let id = inserted.map_err(|error| refused("by hand", &error))?;
         let id =
             id.ok_or_else(|| Fault::new("by hand", "the new vehicle has no id", "report this as a bug"))?;
-        self.give(Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Keep }))?;
-        Ok(Command::Remove(id))
+        if let Command::Insert(vehicle) = command {
+            let longitudinal = Longitudinal::Speed(vehicle.speed_mps);
+            self.give(Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Keep }))?;
+        }
+        Ok(id)
     }
 
     /// Notes what was done. Acts on the same thing that follow each other soon are one.
-    fn note(&mut self, command: &Command, back: Option<Command>, text: String) {
-        let time_s = self.driven.time_s();
-        let vehicle = match (command, &back) {
-            (Command::Insert(_), Some(Command::Remove(id))) => Some(id.to_string()),
-            _ => None,
-        };
-        let same = |it: &&mut Done| {
-            let is_soon = time_s - it.time_s < ONE_ACT && !it.is_undone;
-            is_soon && it.vehicle.is_none() && it.back.as_ref().is_some_and(|it| is_same(it, command))
-        };
+    fn note(&mut self, command: Command, back: Option<Command>, [to_what, how]: [String; 2]) {
+        self.has_news = true;
+        let at = Instant::now();
+        let same = |it: &&mut Done| !it.is_undone && at - it.at < ONE_ACT && is_same(&it.command, &command);
         if let Some(last) = self.done.last_mut().filter(same) {
-            last.text = text;
+            (last.text, last.command, last.at) = (last.to_what.clone() + &how, command, at);
             return;
         }
-        let number = self.done.len() + 1;
-        self.done.push(Done { number, time_s, text, vehicle, is_undone: false, back });
+        let (number, time_s) = (self.done.len() + 1, self.driven.time_s());
+        let text = format!("{to_what}{how}");
+        self.done.push(Done { number, time_s, text, is_undone: false, to_what, command, back, at });
+    }
+
+    /// What is set by commands, as it is now.
+    fn set(&self) -> Vec<Hand> {
+        let mut set = BTreeMap::new();
+        for command in self.given.iter().map(|it| &it.command).chain(&self.pending) {
+            if let (Some(hand), Some(target)) = (Hand::setting(command), command.target()) {
+                set.insert(target, hand);
+            }
+        }
+        set.into_values().collect()
     }
 }
 
@@ -132,6 +145,26 @@ impl Present for Live {
         let name = origin.to_string();
         let planned = || self.driven.demand().into_iter().find(|it| it.origin == name);
         set.or_else(|| Some(planned()?.vehicles_per_hour))
+    }
+
+    fn light(&self, light: i64) -> Option<LightState> {
+        self.last(|it| match it {
+            Command::SetLight { light: of, shows } => (*of == light).then_some(*shows),
+            _ => None,
+        })?
+    }
+
+    fn offset(&self, light: i64) -> Option<f64> {
+        let lights = &self.driven.world().network().junctions.lights;
+        let plan = |id: i64| lights.iter().find(|it| it.id == id)?.plan;
+        let of_light = plan(light)?;
+        let set = self.last(|it| match it {
+            Command::SetOffset { light: of, offset_s } => {
+                plan(*of).is_some_and(|it| it.first == of_light.first).then_some(*offset_s)
+            }
+            _ => None,
+        });
+        Some(set.unwrap_or(of_light.offset))
     }
 }
 
@@ -177,7 +210,10 @@ impl Source for Live {
         }
         self.driven.step(marks);
         self.twin.iter_mut().for_each(|it| it.step(&mut Vec::new()));
-        self.given.extend_from_slice(self.driven.world().commands());
+        let given = self.driven.world().commands();
+        // The scenario may have commands of its own.
+        self.has_news |= failed.is_some() || given.iter().any(|it| Hand::setting(&it.command).is_some());
+        self.given.extend_from_slice(given);
         failed.map_or(Ok(()), Err)
     }
 
@@ -203,16 +239,16 @@ impl Source for Live {
         None
     }
 
-    fn hand(&mut self, hand: &Hand) -> Result<(), Fault> {
+    fn hand(&mut self, hand: &Hand) -> Result<Option<VehicleId>, Fault> {
         let Deed { command, back, text } = Deed::of(hand, self.driven.world(), self)?;
         if let Command::Insert(_) = command {
-            let back = self.insert(command.clone())?;
-            self.note(&command, Some(back), text);
-            return Ok(());
+            let id = self.insert(&command)?;
+            self.note(command, Some(Command::Remove(id)), text);
+            return Ok(Some(id));
         }
         self.give(command.clone())?;
-        self.note(&command, back, text);
-        Ok(())
+        self.note(command, back, text);
+        Ok(None)
     }
 
     fn undo(&mut self) -> Result<(), Fault> {
@@ -225,6 +261,7 @@ impl Source for Live {
         })?;
         self.give(back)?;
         self.done[last].is_undone = true;
+        self.has_news = true;
         Ok(())
     }
 
@@ -233,8 +270,12 @@ impl Source for Live {
         Ok(())
     }
 
-    fn done(&self) -> Vec<Done> {
-        self.done.clone()
+    fn hands(&self) -> Hands {
+        Hands { done: self.done.clone(), set: self.set() }
+    }
+
+    fn has_news_of_hands(&mut self) -> bool {
+        std::mem::take(&mut self.has_news)
     }
 
     fn save(&self) -> Result<Saved, Fault> {

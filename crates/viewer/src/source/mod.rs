@@ -9,17 +9,20 @@ mod live;
 mod marks;
 mod recorded;
 mod rerun;
+mod saved;
 mod styles;
+mod turns;
 
 use std::sync::{Arc, Mutex};
 
-use laneweave::Fault;
+use laneweave::{Fault, VehicleId};
 use serde::Serialize;
 
-pub use hands::{Done, Hand, Saved};
+pub use hands::{Done, Hand, Hands};
 pub use live::Live;
 pub use recorded::Recorded;
 pub use rerun::Rerun;
+pub use saved::Saved;
 pub use styles::StyleFacts;
 
 use crate::scene::Scene;
@@ -175,11 +178,11 @@ pub trait Source: Send {
     /// The marks of its whole time, which another thread may still be looking for.
     fn marks(&self) -> Option<Arc<Mutex<Marks>>>;
 
-    /// Does something by hand.
+    /// Does something by hand. Returns the vehicle that it put on the road.
     ///
     /// # Errors
     /// If it is not possible.
-    fn hand(&mut self, hand: &Hand) -> Result<(), Fault>;
+    fn hand(&mut self, hand: &Hand) -> Result<Option<VehicleId>, Fault>;
 
     /// Takes back the last thing done by hand that is not taken back yet.
     ///
@@ -194,8 +197,11 @@ pub trait Source: Send {
     /// If there can be none.
     fn twin(&mut self, is_wanted: bool) -> Result<(), Fault>;
 
-    /// What was done by hand so far.
-    fn done(&self) -> Vec<Done>;
+    /// What was done by hand so far, and what is set by it.
+    fn hands(&self) -> Hands;
+
+    /// Whether this has changed since the last call.
+    fn has_news_of_hands(&mut self) -> bool;
 
     /// Writes the scenario with all that was done by hand.
     ///

@@ -9,10 +9,11 @@ use laneweave::recordings::{
     Kind as ChangeKind, LaneChange, Matched, Recording, RoadUser, State, Track, clean, lane_changes,
 };
 use laneweave::scenario::{MapOptions, driven, open_map};
-use laneweave::{Fault, Side, open_recordings};
+use laneweave::{Fault, Side, VehicleId, open_recordings};
 
 use super::driver::{DriverFacts, side_name};
-use super::hands::{Done, Hand, Saved};
+use super::hands::{Hand, Hands};
+use super::saved::Saved;
 use super::{Abilities, Hello, Kind, Mark, MarkKind, Marks, Source, Wants};
 use crate::scene::{Scene, Surroundings};
 use crate::snapshot::{Body, Seen, Snapshot};
@@ -267,7 +268,7 @@ impl Source for Recorded {
         Some(Arc::clone(&self.marks))
     }
 
-    fn hand(&mut self, _: &Hand) -> Result<(), Fault> {
+    fn hand(&mut self, _: &Hand) -> Result<Option<VehicleId>, Fault> {
         is_fixed("by hand")
     }
 
@@ -279,8 +280,12 @@ impl Source for Recorded {
         is_fixed("twin")
     }
 
-    fn done(&self) -> Vec<Done> {
-        Vec::new()
+    fn hands(&self) -> Hands {
+        Hands::default()
+    }
+
+    fn has_news_of_hands(&mut self) -> bool {
+        false
     }
 
     fn save(&self) -> Result<Saved, Fault> {

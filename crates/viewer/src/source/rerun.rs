@@ -5,11 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-use laneweave::Fault;
 use laneweave::record::{End, Record};
+use laneweave::{Fault, VehicleId};
 
 use super::driven::Driven;
-use super::hands::{Done, Hand, Saved};
+use super::hands::{Hand, Hands};
+use super::saved::Saved;
 use super::{Abilities, Hello, Kind, Mark, Marks, Source, Wants};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
@@ -171,7 +172,7 @@ impl Source for Rerun {
         Some(Arc::clone(&self.marks))
     }
 
-    fn hand(&mut self, _: &Hand) -> Result<(), Fault> {
+    fn hand(&mut self, _: &Hand) -> Result<Option<VehicleId>, Fault> {
         is_over("by hand")
     }
 
@@ -183,8 +184,12 @@ impl Source for Rerun {
         is_over("twin")
     }
 
-    fn done(&self) -> Vec<Done> {
-        Vec::new()
+    fn hands(&self) -> Hands {
+        Hands::default()
+    }
+
+    fn has_news_of_hands(&mut self) -> bool {
+        false
     }
 
     fn save(&self) -> Result<Saved, Fault> {

@@ -1,5 +1,5 @@
 import type { Feed } from './feed/feed.ts';
-import { Hands } from './hands.ts';
+import { closedBy } from './settings.ts';
 import { listenToKeys } from './keys.ts';
 import { dress } from './overlays/dress.ts';
 import { Carry } from './panels/carry.ts';
@@ -38,7 +38,6 @@ export class Page {
   });
   private readonly side = element('aside', { class: 'side', 'aria-label': 'Details' });
   private readonly stage: Stage;
-  private readonly hands: Hands;
   private readonly time: TimeControls;
   private readonly timeline: Timeline;
   private view: TrafficView | null = null;
@@ -49,7 +48,6 @@ export class Page {
     this.state = new State(feed.hasServer, (message) => feed.say(message));
     document.body.append(element('main', {}, this.canvas));
     this.stage = new Stage(this.canvas);
-    this.hands = new Hands(this.state);
     this.time = new TimeControls(this.state);
     this.timeline = new Timeline(this.state);
     this.lay();
@@ -72,10 +70,10 @@ export class Page {
 
   /** Lays out all panels. */
   private lay(): void {
-    const { state, hands } = this;
-    const actions = new VehicleActions(state, hands);
-    const carry = new Carry(state, hands, actions, () => this.view);
-    const handsPanel = new HandsPanel(state, hands, (form) => carry.put(form, innerWidth / 2, innerHeight / 2));
+    const { state } = this;
+    const actions = new VehicleActions(state);
+    const carry = new Carry(state, actions, () => this.view);
+    const handsPanel = new HandsPanel(state, (form) => carry.put(form, innerWidth / 2, innerHeight / 2));
     const marks = new MarksPanel(state, (event) => this.goToEvent(event));
     const help = new Help();
     const toggle = (panel: HTMLElement) => () => {
@@ -90,7 +88,7 @@ export class Page {
       toggleHands: () => void toggleHands(),
       toggleMarks: toggle(marks.root),
       find: () => toolbar.focusFinder(),
-      undo: () => hands.undo(),
+      undo: () => state.say({ undo: true }),
       jump: (sign: 1 | -1) => this.timeline.jump(sign),
     };
     const toolbar = new Toolbar(state, acts);
@@ -112,7 +110,7 @@ export class Page {
     const view = new TrafficView(scene, this.stage, this.state);
     this.view = view;
     dress(view, this.state);
-    this.side.prepend(new LanePanel(this.state, scene, this.hands).root, new LightPanel(this.state, scene, this.hands).root);
+    this.side.prepend(new LanePanel(this.state, scene).root, new LightPanel(this.state, scene).root);
     document.title = `${scene.title} – laneweave`;
   }
 
@@ -125,10 +123,17 @@ export class Page {
     if (message.events) state.events.tell(message.events);
     if (message.marks) state.marks.set(message.marks);
     if (message.lanes) state.lanes.set(message.lanes);
-    if (message.hands) state.hands.set(message.hands);
+    if (message.hands) this.hearOfHands(message.hands);
+    if (message.put !== undefined) state.put.tell(message.put);
     if (message.found) state.found.tell(message.found);
     if (message.saved) state.saved.tell(message.saved);
     if (message.refused) state.refused.tell(message.refused);
+  }
+
+  private hearOfHands({ done, set }: NonNullable<ServerMessage['hands']>): void {
+    this.state.done.set(done);
+    this.state.set.set(set);
+    this.state.closed.set(closedBy(set));
   }
 
   /** Begins, or goes on after the connection was lost: the server does not know any more what the page wants. */

@@ -4,6 +4,7 @@ import type {
   Clock,
   Driver,
   Found,
+  Hand,
   HandEntry,
   Hello,
   LaneMeasure,
@@ -28,7 +29,12 @@ export class State {
   readonly drivers = new Signal<Driver[]>([]);
   readonly marks = new Signal<Marks | null>(null);
   readonly lanes = new Signal<LaneMeasure[]>([]);
-  readonly hands = new Signal<HandEntry[]>([]);
+  /** All that was done by hand. */
+  readonly done = new Signal<HandEntry[]>([]);
+  /** What is set by hand, as it is now. */
+  readonly set = new Signal<Hand[]>([]);
+  /** The vehicle that this page has put on the road. */
+  readonly put = new Happening<string>();
   readonly events = new Happening<TrafficEvent[]>();
   readonly found = new Happening<Found>();
   readonly refused = new Happening<Refused>();
@@ -37,7 +43,7 @@ export class State {
   readonly selected = new Signal<string[]>([]);
   readonly lane = new Signal<number | null>(null);
   readonly light = new Signal<number | null>(null);
-  /** The ids of the lanelets that the user has closed. */
+  /** The ids of the lanelets that are closed by hand. */
   readonly closed = new Signal<ReadonlySet<string>>(new Set());
   /** The vehicle that the keys drive. */
   readonly driven = new Signal<string | null>(null);

@@ -15,7 +15,15 @@ export interface Published {
   vehicles: number;
   time_s: number;
   selected: string[];
+  /** Where lights and lanelets are in the window [px]. */
+  places: (of: 'lights' | 'lanelets') => Place[];
   camera: { mode: string; x: number; y: number; distance: number; azimuth: number; tilt: number };
+}
+
+export interface Place {
+  id: string;
+  left: number;
+  top: number;
 }
 
 declare global {
@@ -58,7 +66,19 @@ export class Telemetry {
       vehicles: this.vehicles,
       time_s: view.traffic.playback.time_s,
       selected: state.selected.value,
+      places: (of) => (of === 'lights' ? lights(view) : lanelets(view)),
       camera: { mode: state.camera.value, x, y, distance, azimuth, tilt },
     };
   }
+}
+
+const lights = (view: TrafficView): Place[] =>
+  view.signals.map(({ light, head: [x, y] }) => ({ id: view.scene.lights[light].id, ...view.pixel(x, y) }));
+
+/** The middle of each lanelet. */
+function lanelets(view: TrafficView): Place[] {
+  return view.scene.lanelets.map(({ id, centre }) => {
+    const middle = 3 * Math.floor(centre.length / 6);
+    return { id, ...view.pixel(centre[middle], centre[middle + 1]) };
+  });
 }

@@ -1,5 +1,5 @@
 import { Group, Vector3 } from 'three';
-import { groundAt, groundRectangle } from './camera/ground_view.ts';
+import { groundAt, groundRectangle, windowAt } from './camera/ground_view.ts';
 import { listenToGestures } from './camera/gestures.ts';
 import { signalIcons } from './overlays/signal_icons.ts';
 import { Selection } from './overlays/selection.ts';
@@ -102,6 +102,14 @@ export class TrafficView {
     const { width, height, left, top } = this.stage.canvas.getBoundingClientRect();
     const { camera, now } = this.stage.rig;
     return groundAt(camera, ((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2, now.z);
+  }
+
+  /** Where a place of the road is in the window [px]: the inverse of `ground`. */
+  pixel(x: number, y: number): { left: number; top: number } {
+    const box = this.stage.canvas.getBoundingClientRect();
+    const { camera, now } = this.stage.rig;
+    const { across, up } = windowAt(camera, x, y, now.z);
+    return { left: box.left + ((across + 1) / 2) * box.width, top: box.top + ((1 - up) / 2) * box.height };
   }
 
   /** Where a vehicle is, even if it is out of view. */

@@ -18,6 +18,12 @@ export function groundAt(camera: PerspectiveCamera, across: number, up: number, 
   return { x: camera.position.x + way.x * share, y: camera.position.y + way.y * share };
 }
 
+/** Where a point is in the window, from -1 to 1. */
+export function windowAt(camera: PerspectiveCamera, x: number, y: number, z: number): { across: number; up: number } {
+  way.set(x, y, z).project(camera);
+  return { across: way.x, up: way.y };
+}
+
 /** The rectangle of the ground in the window, no further from the camera than `reach`. */
 export function groundRectangle(camera: PerspectiveCamera, height: number, reach: number): [number, number, number, number] {
   const { x: cx, y: cy } = camera.position;

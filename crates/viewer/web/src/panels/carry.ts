@@ -1,4 +1,3 @@
-import type { Hands } from '../hands.ts';
 import type { VehicleClass } from '../protocol/messages.ts';
 import type { State } from '../state.ts';
 import type { TrafficView } from '../traffic_view.ts';
@@ -11,11 +10,14 @@ export class Carry {
 
   constructor(
     private readonly state: State,
-    private readonly hands: Hands,
-    private readonly actions: VehicleActions,
+    actions: VehicleActions,
     private readonly view: () => TrafficView | null,
   ) {
     this.root.hidden = true;
+    state.put.listen((vehicle) => {
+      state.select(vehicle, false);
+      actions.take(vehicle);
+    });
     window.addEventListener('pointermove', (event) => this.move(event.clientX, event.clientY));
     window.addEventListener('pointerup', (event) => this.drop(event));
     window.addEventListener('pointercancel', () => state.carried.set(null));
@@ -31,11 +33,7 @@ export class Carry {
     const point = view?.ground(x, y);
     if (!view || !point) return;
     const [ox, oy] = view.scene.origin;
-    const hasPut = (vehicle: string) => {
-      this.state.select(vehicle, false);
-      this.actions.take(vehicle);
-    };
-    this.hands.do({ put: { x: point.x + ox, y: point.y + oy, class: form } }, { hasPut });
+    this.state.say({ hand: { put: { x: point.x + ox, y: point.y + oy, class: form } } });
   }
 
   private move(x: number, y: number): void {

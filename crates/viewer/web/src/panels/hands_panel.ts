@@ -1,8 +1,7 @@
-import type { Hands } from '../hands.ts';
 import type { Demand, HandEntry, Hello, Style, VehicleClass } from '../protocol/messages.ts';
 import type { State } from '../state.ts';
 import { button, choice, element } from './dom.ts';
-import { Slider } from './slider.ts';
+import { SettingSliders } from './setting_sliders.ts';
 import { styleSliders } from './style_sliders.ts';
 import { clockTime } from './words.ts';
 
@@ -13,6 +12,7 @@ const MOST_SHARE = 10;
 /** All that can be done by hand while the traffic runs. */
 export class HandsPanel {
   readonly root = element('section', { class: 'panel', 'data-test': 'panel-hands', 'aria-label': 'By hand' });
+  private readonly sliders: SettingSliders;
   private readonly styles = element('div');
   private readonly shares = element('div', { class: 'sliders' });
   private readonly demand = element('div', { class: 'sliders' });
@@ -22,9 +22,9 @@ export class HandsPanel {
   /** `putInMiddle` puts a vehicle on the road in the middle of the window, for those who cannot drag. */
   constructor(
     private readonly state: State,
-    private readonly hands: Hands,
     putInMiddle: (form: VehicleClass) => void,
   ) {
+    this.sliders = new SettingSliders(state);
     this.root.hidden = true;
     this.root.append(
       element('h2', {}, 'By hand'),
@@ -44,7 +44,7 @@ export class HandsPanel {
       element(
         'div',
         { class: 'buttons' },
-        button('undo', 'Undo', 'Take back the last one (Ctrl+Z)', () => hands.undo()),
+        button('undo', 'Undo', 'Take back the last one (Ctrl+Z)', () => state.say({ undo: true })),
         button('save', 'Save what I did', 'Write a scenario with all that was done by hand', () => state.say({ save: true })),
       ),
       this.saved,
@@ -54,7 +54,7 @@ export class HandsPanel {
       this.begin(hello);
       if (state.hasTwin.value) state.say({ twin: true });
     });
-    state.hands.watch((entries) => this.list(entries));
+    state.done.watch((entries) => this.list(entries));
     state.saved.listen(({ scenario }) => this.saved.replaceChildren('Saved as ', element('code', {}, scenario)));
   }
 
@@ -76,7 +76,7 @@ export class HandsPanel {
   private begin(hello: Hello): void {
     const show = (name: string) => {
       const style = hello.styles.find((one) => one.name === name);
-      sliders.replaceChildren(...(style ? [styleSliders(style, this.hands)] : []));
+      sliders.replaceChildren(...(style ? [styleSliders(style, this.sliders)] : []));
     };
     const sliders = element('div');
     const names = hello.styles.map(({ name }) => [name, name] as const);
@@ -97,31 +97,16 @@ export class HandsPanel {
     return made;
   }
 
-  private shareSlider({ name, weight = 1 }: Style): Node {
-    const slider: Slider = new Slider({
-      label: name,
-      unit: '',
-      value: weight,
-      minimum: 0,
-      maximum: Math.max(MOST_SHARE, weight),
-      marks: { 'data-share': name },
-      choose: (chosen, before) => this.hands.do({ set_share: { style: name, weight: chosen } }, { revert: () => slider.show(before) }),
-    });
-    return slider.root;
+  private shareSlider({ name, weight: value = 1 }: Style): Node {
+    const marks = { 'data-share': name };
+    const options = { label: name, unit: '', value, minimum: 0, maximum: Math.max(MOST_SHARE, value), marks };
+    return this.sliders.add(options, (weight) => ({ set_share: { style: name, weight } }));
   }
 
   private demandSlider({ origin, vehicles_per_hour: value }: Demand): Node {
-    const slider: Slider = new Slider({
-      label: `entrance ${origin}`,
-      unit: 'veh/h',
-      value,
-      minimum: 0,
-      maximum: Math.max(MOST_DEMAND, value),
-      marks: { 'data-origin': origin },
-      choose: (vehicles_per_hour, before) =>
-        this.hands.do({ set_demand: { origin, vehicles_per_hour } }, { revert: () => slider.show(before) }),
-    });
-    return slider.root;
+    const marks = { 'data-origin': origin };
+    const options = { label: `entrance ${origin}`, unit: 'veh/h', value, minimum: 0, maximum: Math.max(MOST_DEMAND, value), marks };
+    return this.sliders.add(options, (vehicles_per_hour) => ({ set_demand: { origin, vehicles_per_hour } }));
   }
 
   private list(entries: HandEntry[]): void {

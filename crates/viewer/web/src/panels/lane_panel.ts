@@ -1,4 +1,3 @@
-import type { Hands } from '../hands.ts';
 import type { Scene } from '../protocol/scene.ts';
 import type { State } from '../state.ts';
 import { button, element, say } from './dom.ts';
@@ -15,7 +14,6 @@ export class LanePanel {
   constructor(
     private readonly state: State,
     private readonly scene: Scene,
-    private readonly hands: Hands,
   ) {
     this.block = button('block-lane', 'Block lane', 'Nobody may enter this lane', () => this.close(true));
     this.open = button('open-lane', 'Open', 'Vehicles may enter this lane again', () => this.close(false));
@@ -51,15 +49,6 @@ export class LanePanel {
   private close(isClosed: boolean): void {
     const { value: index } = this.state.lane;
     if (index === null) return;
-    const lanelet = this.scene.lanelets[index].id;
-    this.note(lanelet, isClosed);
-    this.hands.do({ close_lanelet: { lanelet, is_closed: isClosed } }, { revert: () => this.note(lanelet, !isClosed) });
-  }
-
-  private note(lanelet: string, isClosed: boolean): void {
-    const closed = new Set(this.state.closed.value);
-    if (isClosed) closed.add(lanelet);
-    else closed.delete(lanelet);
-    this.state.closed.set(closed);
+    this.state.say({ hand: { close_lanelet: { lanelet: this.scene.lanelets[index].id, is_closed: isClosed } } });
   }
 }

@@ -1,7 +1,6 @@
-import type { Hands } from '../hands.ts';
 import type { Parameter, Style } from '../protocol/messages.ts';
 import { element } from './dom.ts';
-import { Slider } from './slider.ts';
+import type { SettingSliders } from './setting_sliders.ts';
 
 interface Table {
   name: string;
@@ -26,26 +25,11 @@ function tables(parameters: Parameter[]): Table[] {
 }
 
 /** Sliders for all numbers of a style: the weights of its incentives, then the other tables, folded. */
-export function styleSliders(style: Style, hands: Hands): HTMLElement {
-  const slider = (parameter: Parameter, label: string): Node => {
-    const { key, unit, value, minimum, maximum } = parameter;
-    const made: Slider = new Slider({
-      label,
-      unit,
-      value,
-      minimum,
-      maximum,
-      marks: { 'data-style': style.name, 'data-key': key },
-      choose: (chosen, before) => {
-        parameter.value = chosen;
-        const revert = () => {
-          parameter.value = before;
-          made.show(before);
-        };
-        hands.do({ set_parameter: { style: style.name, parameter: key, value: chosen } }, { revert });
-      },
-    });
-    return made.root;
+export function styleSliders(style: Style, sliders: SettingSliders): HTMLElement {
+  const slider = ({ key, unit, value, minimum, maximum }: Parameter, label: string): Node => {
+    const marks = { 'data-style': style.name, 'data-key': key };
+    const set = (chosen: number) => ({ set_parameter: { style: style.name, parameter: key, value: chosen } });
+    return sliders.add({ label, unit, value, minimum, maximum, marks }, set);
   };
   const weights = style.parameters.filter(isIncentive);
   const others = tables(style.parameters.filter((parameter) => !isIncentive(parameter)));

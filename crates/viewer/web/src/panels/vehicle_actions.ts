@@ -1,4 +1,3 @@
-import type { Hands } from '../hands.ts';
 import type { Side } from '../protocol/messages.ts';
 import { isForField } from '../keys.ts';
 import type { State } from '../state.ts';
@@ -15,10 +14,7 @@ export class VehicleActions {
   private readonly wanted = element('output', { 'data-test': 'held-speed' });
   private held_kmh: number | null = null;
 
-  constructor(
-    private readonly state: State,
-    private readonly hands: Hands,
-  ) {
+  constructor(private readonly state: State) {
     this.drive = button('drive', 'Drive it', 'Drive this vehicle with the arrow keys', () => this.toggle());
     const remove = button('remove', 'Remove', 'Remove this vehicle', () => this.remove());
     this.wheel.append(
@@ -50,7 +46,7 @@ export class VehicleActions {
 
   private remove(): void {
     this.state.driven.set(null);
-    this.withSelected((vehicle) => this.hands.do({ remove: { vehicle } }));
+    this.withSelected((vehicle) => this.state.say({ hand: { remove: { vehicle } } }));
     this.state.choose([]);
   }
 
@@ -69,7 +65,7 @@ export class VehicleActions {
     const { value: vehicle } = this.state.driven;
     if (vehicle === null) return;
     this.state.driven.set(null);
-    this.hands.do({ drive: { vehicle, speed_kmh: null, side: null } });
+    this.state.say({ hand: { drive: { vehicle, speed_kmh: null, side: null } } });
   }
 
   private faster(sign: 1 | -1): void {
@@ -89,7 +85,7 @@ export class VehicleActions {
     if (vehicle === null) return;
     const speed_kmh = this.held();
     say(this.wanted, `holds ${speed_kmh} km/h`);
-    this.hands.do({ drive: { vehicle, speed_kmh, side } });
+    this.state.say({ hand: { drive: { vehicle, speed_kmh, side } } });
   }
 
   private key(event: KeyboardEvent): void {
@@ -111,7 +107,7 @@ export class VehicleActions {
   private styleChoice(names: string[]): HTMLSelectElement {
     const options = [['', 'another style …'] as const, ...names.map((name) => [name, name] as const)];
     const made = choice('set-style', 'Give this vehicle another style', options, (style) => {
-      if (style !== '') this.withSelected((vehicle) => this.hands.do({ set_style: { vehicle, style } }));
+      if (style !== '') this.withSelected((vehicle) => this.state.say({ hand: { set_style: { vehicle, style } } }));
       made.value = '';
     });
     return made;

@@ -118,8 +118,6 @@ export interface HandEntry {
   number: number;
   time_s: number;
   text: string;
-  /** The vehicle that was put on the road, once it is there. */
-  vehicle?: string | null;
   is_undone: boolean;
 }
 
@@ -149,7 +147,8 @@ export interface ServerMessage {
   events?: TrafficEvent[];
   marks?: Marks;
   lanes?: LaneMeasure[];
-  hands?: HandEntry[];
+  hands?: { done: HandEntry[]; set: Hand[] };
+  put?: string;
   saved?: Saved;
   refused?: Refused;
 }
@@ -159,6 +158,7 @@ export type Hand =
   | { set_demand: { origin: string; vehicles_per_hour: number } }
   | { set_share: { style: string; weight: number } }
   | { set_light: { light: string; shows: LightShows | null } }
+  | { set_offset: { light: string; offset_s: number } }
   | { close_lanelet: { lanelet: string; is_closed: boolean } }
   | { put: { x: number; y: number; class: VehicleClass } }
   | { drive: { vehicle: string; speed_kmh: number | null; side: Side | null } }

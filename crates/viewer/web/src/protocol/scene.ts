@@ -38,8 +38,17 @@ export interface StopLine {
   light: number | null;
 }
 
+export interface Plan {
+  /** The first light of the plan: lights with the same one share it. */
+  first: number;
+  cycle_s: number;
+  offset_s: number;
+}
+
 export interface Light {
   id: string;
+  /** Null for a light that is always green, or whose greens traffic extends. */
+  plan: Plan | null;
   at: Point[];
 }
 
