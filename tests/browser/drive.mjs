@@ -13,6 +13,7 @@ import * as many from './many.mjs';
 import * as hands from './hands.mjs';
 import * as looks from './looks.mjs';
 import * as replays from './replays.mjs';
+import * as reports from './reports.mjs';
 import * as road from './road.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
@@ -25,7 +26,7 @@ const browser = await open();
 const folder = mkdtempSync(path.join(os.tmpdir(), 'laneweave-view-'));
 const around = { browser, program: path.resolve(program), home, folder, shots: path.join(here, 'shots'), data: existsSync(data) ? data : null };
 let failed = 0;
-for (const [name, test] of Object.entries({ ...looks, ...hands, ...road, ...replays, ...many })) {
+for (const [name, test] of Object.entries({ ...looks, ...hands, ...road, ...replays, ...reports, ...many })) {
   if (names.length > 0 && !names.includes(name)) continue;
   const begin = Date.now();
   try {

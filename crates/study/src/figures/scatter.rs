@@ -9,9 +9,9 @@ use super::series::{Estimated, colour, curve, key};
 use super::sheet::Sheet;
 
 /// Size of a point [px].
-const POINT: f64 = 3.2;
+const POINT: f64 = 3.6;
 /// Observations on the same pixel are one point; up to each number of them, the point has this opacity.
-const OPACITIES: [(usize, f64); 3] = [(1, 0.4), (4, 0.65), (usize::MAX, 0.9)];
+const OPACITIES: [(usize, f64); 3] = [(1, 0.55), (4, 0.75), (usize::MAX, 0.95)];
 
 /// A group of observations.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,8 +135,8 @@ mod tests {
         // The plot from (62, 14) to (466, 244) px; 0 … 40 veh/km, 0 … 2000 veh/h.
         let points = [[20.0, 990.0], [20.01, 990.2], [40.0, 2000.0], [f64::NAN, 3.0]];
         let svg = scatter(Sheet::Column, LABELS, &[group(&points, &[])]).svg;
-        assert!(svg.contains("<path d=\"M466 14h0\" stroke-opacity=\"0.4\"/>"), "{svg}");
-        assert!(svg.contains("<path d=\"M264 130h0\" stroke-opacity=\"0.65\"/>"), "{svg}");
+        assert!(svg.contains("<path d=\"M466 14h0\" stroke-opacity=\"0.55\"/>"), "{svg}");
+        assert!(svg.contains("<path d=\"M264 130h0\" stroke-opacity=\"0.75\"/>"), "{svg}");
     }
 
     #[test]

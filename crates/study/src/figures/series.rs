@@ -101,6 +101,16 @@ pub(super) fn marker(x: f64, y: f64, index: usize) -> String {
     marker_of(x, y, index, 1.0)
 }
 
+/// The larger one of width and height of a marker of the usual size [px].
+pub(super) fn extent(index: usize) -> f64 {
+    match index % 6 {
+        1 => 8.0,
+        2 => 11.0,
+        3 | 4 => 10.0,
+        _ => 2.0 * RADIUS,
+    }
+}
+
 /// A marker of a size, as a multiple of the usual one.
 pub(super) fn marker_of(x: f64, y: f64, index: usize, size: f64) -> String {
     let px = |it: f64| (it * size * 100.0).round() / 100.0;

@@ -17,6 +17,13 @@ function show(next) {
   const width = Math.min(Math.max(next.width, least), 1.5 * all.width);
   view = { x: next.x, y: next.y, width, height: (width * next.height) / next.width };
   svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${view.height}`);
+  scaled();
+}
+
+/** Tells the style sheet how large a pixel is. */
+function scaled() {
+  const { width, height } = main.getBoundingClientRect();
+  svg.style.setProperty("--units-per-px", Math.max(view.width / width, height > 0 ? view.height / height : 0));
 }
 
 function enlarge(factor, at) {
@@ -134,6 +141,8 @@ if (facts.problems.length === 0) lists.append("none");
 if (facts.problems.length > MOST) lists.append(`and ${facts.problems.length - MOST} more`);
 
 /* Hands */
+
+new ResizeObserver(scaled).observe(main);
 
 document.getElementById("search").addEventListener("submit", (event) => {
   event.preventDefault();

@@ -7,7 +7,7 @@ use laneweave_network::{Gate, LaneletIndex};
 use laneweave_study::escaped;
 use serde::Serialize;
 
-use super::picture;
+use super::{LEGEND, bare};
 use crate::check::{Opening, Report};
 
 const PAGE: &str = include_str!("explorer.html");
@@ -20,10 +20,15 @@ pub fn explorer(title: &str, map: &Map, report: &Report) -> String {
     let facts = Facts::of(map, report);
     // "<" would end the script early.
     let facts = serde_json::to_string(&facts).unwrap_or_default().replace('<', "\\u003c");
+    let key = |(text, colour): &(&str, &str)| {
+        format!("<li><svg viewBox=\"0 0 1 1\"><path d=\"M0 0h1v1H0z\" fill=\"{colour}\"/></svg>{text}</li>\n")
+    };
     let parts = [
         ("{{title}}", escaped(title)),
         ("{{style}}", STYLE.to_owned()),
-        ("{{map}}", picture(title, map, &report.problems)),
+        ("{{heading}}", escaped(title)),
+        ("{{legend}}", LEGEND.iter().map(key).collect()),
+        ("{{map}}", bare(map, &report.problems)),
         ("{{facts}}", facts),
         ("{{script}}", SCRIPT.to_owned()),
     ];

@@ -1,4 +1,4 @@
-//! One part of a map, drawn to scale.
+//! One part of a map: to scale, but for long roads without bends, which are wider.
 
 use std::collections::HashSet;
 use std::fmt::{Arguments, Write};
@@ -147,7 +147,9 @@ impl MapPanel<'_> {
                 continue;
             }
             let (x, y) = self.place(&at);
-            let degrees = -chain.centre.heading(station).to_degrees();
+            // The arrow has the direction that the road has on the page.
+            let (heading, [across, upwards]) = (chain.centre.heading(station), self.panel.scale());
+            let degrees = -(upwards * heading.sin()).atan2(across * heading.cos()).to_degrees();
             // The arrow of an entrance ends where the road begins; that of an exit begins where the road ends.
             let tip = if is_entrance { 0.0 } else { 14.0 };
             add(

@@ -63,7 +63,7 @@ fn caption(groups: &[Scattered], definition: &str) -> String {
     };
     format!(
         "Edie's definitions in boxes of about 500 m of all parallel lanes and 60 s: {definition}; vehicles are sampled once a \
-         second. Small points are the boxes that are not empty, darker where several coincide: n = {}. Large points are means over \
+         second. Small points are the boxes that are not empty, stronger where several coincide: n = {}. Large points are means over \
          classes of {CLASS} veh/km with at least {LEAST_BOXES} boxes, with Student's 95 % intervals over boxes. Neighbouring boxes \
          are correlated, so the intervals are somewhat too narrow.",
         boxes.join(", ")

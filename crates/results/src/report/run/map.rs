@@ -10,10 +10,11 @@ use super::{NOBODY, RunReport};
 use crate::report::kept::{Sparse, Spotted, in_plan};
 use crate::report::{Figure, Section, counted};
 
-/// Size of the marks of lane changes, of a queue of one vehicle, and at most, as multiples of the usual one.
-const CHANGE: f64 = 0.6;
-const QUEUE_OF_ONE: f64 = 0.6;
+/// The largest sizes of marks of events and of queues, as multiples of the usual one.
+const LARGEST: f64 = 1.0;
 const LARGEST_QUEUE: f64 = 2.6;
+const TOGETHER: &str = "Places so close together that their marks would lie on each other have one mark of each kind: the larger it \
+                        is, the more it stands for.";
 /// Numbers of the colours and shapes of queues, collisions and overlaps; lane changes have the first three.
 const QUEUE: usize = 1;
 const COLLISION: usize = 1;
@@ -55,7 +56,7 @@ fn values(run: &RunReport, of: impl Fn(&LaneletAggregate, f64) -> Option<f64>) -
 
 fn driven(values: &[Option<f64>]) -> String {
     format!(
-        "n = {} lanelets with vehicles of {}",
+        "Lanelets with vehicles: n = {} of {}",
         counted(values.iter().flatten().count() as u64),
         counted(values.len() as u64)
     )
@@ -88,13 +89,14 @@ fn densities(run: &RunReport, areas: &[Area]) -> Figure {
 }
 
 /// Marks for places of a kind.
-fn marks(kind: &str, series: usize, size: f64, places: &Sparse) -> Marks {
-    let mark = |it: &Spotted| MarkAt { area: it.lanelet.to_string(), at: it.at, value: it.time, size };
+fn marks(kind: &str, series: usize, places: &Sparse) -> Marks {
+    let mark = |it: &Spotted| MarkAt { area: it.lanelet.to_string(), at: it.at, value: it.time, weight: 1.0 };
     Marks {
         kind: kind.into(),
         key: format!("{kind} ({})", counted(places.total)),
         quantity: "time [s]".into(),
         series,
+        largest: LARGEST,
         marks: places.kept.iter().map(mark).collect(),
     }
 }
@@ -106,15 +108,14 @@ fn drawn_share(kind: &str, places: &Sparse) -> Option<String> {
 
 fn changes(run: &RunReport, areas: &[Area]) -> Figure {
     let places = KINDS.map(|(kind, name)| (name, run.record.places.changes(kind)));
-    let all: Vec<Marks> =
-        (0..).zip(places).map(|(series, (name, it))| marks(name, series, CHANGE, it)).collect();
+    let all: Vec<Marks> = (0..).zip(places).map(|(series, (name, it))| marks(name, series, it)).collect();
     let shares: String = places.iter().filter_map(|(name, it)| drawn_share(name, it)).collect();
     let total = places.iter().map(|(_, it)| it.total).sum();
     Figure {
         drawn: map(areas, None, &all),
         title: "Lane changes on the map".into(),
         caption: format!(
-            "Where the centres of vehicles crossed the line between two lanes, by kind. n = {} completed lane changes.{shares}",
+            "Where the centres of vehicles crossed the line between two lanes, by kind. {TOGETHER} n = {} completed lane changes.{shares}",
             counted(total)
         ),
     }
@@ -127,29 +128,30 @@ fn queues(run: &RunReport, areas: &[Area]) -> Figure {
     });
     let entrances = &run.record.places.entrances;
     let most = entrances.iter().map(|it| it.most_waiting).max().unwrap_or(0);
-    // The area of a mark grows with the queue.
-    let size = |waiting: usize| (QUEUE_OF_ONE * (waiting as f64).sqrt()).min(LARGEST_QUEUE);
     let queued = entrances.iter().filter(|it| it.most_waiting > 0);
     let waiting: Vec<MarkAt> = queued
         .map(|it| MarkAt {
             area: it.lanelet.to_string(),
             at: it.at,
             value: it.most_waiting as f64,
-            size: size(it.most_waiting),
+            weight: it.most_waiting as f64,
         })
         .collect();
     let caption = format!(
         "Standing vehicles (slower than 0.1 m/s) per kilometre of lane, in the mean of the measured time, and the largest number of \
-         vehicles that waited to enter at a lane of an entrance: the larger the square, the longer the queue. n = {} lanelets on which \
-         vehicles stood; {} lanes of entrances with queues.",
+         vehicles that waited to enter at a lane of an entrance: the larger the square, the longer the queue; lanes that lie close \
+         together have one square. Lanelets on which vehicles stood: n = {} of {}; lanes of entrances with queues: n = {} of {}.",
         counted(values.iter().flatten().count() as u64),
-        counted(waiting.len() as u64)
+        counted(values.len() as u64),
+        counted(waiting.len() as u64),
+        counted(entrances.len() as u64)
     );
     let queues = Marks {
         kind: "waiting to enter".into(),
         key: format!("waiting to enter (largest queue: {})", counted(most as u64)),
         quantity: "largest queue [vehicles]".into(),
         series: QUEUE,
+        largest: LARGEST_QUEUE,
         marks: waiting,
     };
     let queues: Vec<Marks> = if most > 0 { vec![queues] } else { Vec::new() };
@@ -164,13 +166,13 @@ fn incidents(run: &RunReport, areas: &[Area]) -> Option<Figure> {
     let places = kinds.map(|(kind, series)| (kind.name(), series, run.record.places.incidents(kind)));
     let total: u64 = places.iter().map(|(_, _, it)| it.total).sum();
     let found = places.iter().filter(|(_, _, it)| it.total > 0);
-    let all: Vec<Marks> = found.map(|(name, series, it)| marks(name, *series, 1.0, it)).collect();
+    let all: Vec<Marks> = found.map(|(name, series, it)| marks(name, *series, it)).collect();
     let shares: String = places.iter().filter_map(|(name, _, it)| drawn_share(name, it)).collect();
     (total > 0).then(|| Figure {
         drawn: map(areas, None, &all),
         title: "Collisions and overlaps on the map".into(),
         caption: format!(
-            "Where vehicles began to touch each other; the table incidents lists them. n = {} incidents.{shares}",
+            "Where vehicles began to touch each other; the table incidents lists them. {TOGETHER} n = {} incidents.{shares}",
             counted(total)
         ),
     })

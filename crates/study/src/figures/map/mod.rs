@@ -1,16 +1,17 @@
 //! A map: areas such as lanelets in the colours of a quantity, and marks where something happened.
 
+mod groups;
 mod shading;
 
-use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use super::drawing::{Drawing, Key, above};
 use super::drawn::{Drawn, Values, text, value};
 use super::lines::{UNITS_PER_PX, append, in_px};
 use super::plan::{Bounds, Panel, Space, panels};
-use super::series::{colour, marker_of};
+use super::series::{colour, marker, marker_of};
 use super::sheet::Sheet;
+use groups::{Group, groups};
 
 pub use shading::{OnTop, Shading};
 
@@ -28,8 +29,6 @@ const THICKEST: f64 = 0.4;
 const THINNEST: f64 = 0.12;
 /// With more areas than this none says its name when it is pointed at: the page would be too large.
 const MOST_NAMED: usize = 2500;
-/// With more marks than this none says what it is.
-const MOST_MARKS_NAMED: usize = 100;
 
 /// An area of a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +50,8 @@ pub struct Marks {
     pub quantity: String,
     /// Number of its colour and its shape.
     pub series: usize,
+    /// The largest size of a mark, as a multiple of the usual one.
+    pub largest: f64,
     /// The places.
     pub marks: Vec<MarkAt>,
 }
@@ -64,21 +65,21 @@ pub struct MarkAt {
     pub at: [f64; 2],
     /// The value of its quantity.
     pub value: f64,
-    /// Its size, as a multiple of the usual one.
-    pub size: f64,
+    /// How many it stands for: the area of the mark grows with it.
+    pub weight: f64,
 }
 
 /// Draws a map for a column: areas in the colours of a `shading`, if there is one, and marks over them. Parts that lie
-/// far from each other have panels of their own.
+/// far from each other have panels of their own. Marks that would lie on each other become one of each kind.
 pub fn map(areas: &[Area], shading: Option<&Shading>, marks: &[Marks]) -> Drawn {
     let layout = Sheet::Column.layout();
     let width = layout.left + layout.plot[0] + MARGIN;
     let keys: Vec<Key> = marks
         .iter()
-        .map(|it| Key { mark: dots(it.series, &mark(0.0, 0.0, it.series, 1.0)), text: it.key.clone() })
+        .map(|it| Key { mark: dots(it.series, &dot(&marker(0.0, 0.0, it.series), "")), text: it.key.clone() })
         .collect();
     let mut places = above([MARGIN, width - MARGIN], &keys, layout);
-    let legend = shading.map_or(0.0, |_| shading::HEIGHT);
+    let legend = shading.map_or(0.0, Shading::height);
     places.iter_mut().for_each(|it| it[1] += legend);
     let top = places.last().map_or(legend, |it| it[1] + 0.5 * LINE) + ABOVE;
     let bounds: Vec<Bounds> = areas.iter().map(|it| Bounds::of(it.outline.iter().copied())).collect();
@@ -98,10 +99,11 @@ pub fn map(areas: &[Area], shading: Option<&Shading>, marks: &[Marks]) -> Drawn 
         }
         drawing.add(&format!("<g class=\"scale\">{}</g>", panel.bar()));
     }
-    // Rare kinds lie on top.
-    let mut in_turn: Vec<&Marks> = marks.iter().collect();
-    in_turn.sort_by_key(|it| Reverse(it.marks.len()));
-    in_turn.iter().for_each(|it| drawing.add(&marked(it, &panels)));
+    let groups = groups(marks, |at| {
+        let panel = panels.iter().find(|panel| panel.bounds.is_near(at))?;
+        Some(panel.place(at))
+    });
+    (0..marks.len()).for_each(|kind| drawing.add(&marked(&marks[kind], kind, &groups)));
     marks.iter().for_each(|it| it.list(&mut values));
     drawing.finish(values)
 }
@@ -154,9 +156,12 @@ fn shaded(drawing: &mut Drawing, panel: &Panel, areas: &[Area], shading: &Shadin
     }
 }
 
-/// The shape of a mark.
-fn mark(x: f64, y: f64, series: usize, size: f64) -> String {
-    format!("<path d=\"{}\" class=\"dot\"/>", marker_of(x, y, series, size))
+/// A mark of this shape, which says what it is when it is pointed at.
+fn dot(shape: &str, title: &str) -> String {
+    match title {
+        "" => format!("<path d=\"{shape}\" class=\"dot\"/>"),
+        _ => format!("<path d=\"{shape}\" class=\"dot\"><title>{title}</title></path>"),
+    }
 }
 
 /// Marks in the colour of their series.
@@ -165,26 +170,22 @@ fn dots(series: usize, marks: &str) -> String {
     format!("<g fill=\"{colour}\" stroke=\"white\" stroke-width=\"0.4\" class=\"{class}\">{marks}</g>")
 }
 
-/// The marks of a kind, on the panels in which they lie.
-fn marked(marks: &Marks, panels: &[Panel]) -> String {
-    let placed = marks.marks.iter().filter_map(|it| {
-        let panel = panels.iter().find(|panel| panel.bounds.is_near(it.at))?;
-        Some((it, panel.place(it.at)))
-    });
-    let path = |(it, (x, y)): &(&MarkAt, (f64, f64))| marker_of(*x, *y, marks.series, it.size);
-    let shapes: String = if marks.marks.len() > MOST_MARKS_NAMED {
-        let all: String = placed.map(|it| path(&it)).collect();
-        // Without edges, which would cover the marks where many lie on each other.
-        format!("<path d=\"{all}\" stroke=\"none\" class=\"bar\"/>")
-    } else {
-        let named = placed.map(|it| {
-            let (quantity, number) = (&marks.quantity, value(it.0.value));
-            let title =
-                super::escaped(&format!("{}, lanelet {}: {quantity} {number}", marks.kind, it.0.area));
-            format!("<path d=\"{}\" class=\"dot\"><title>{title}</title></path>", path(&it))
-        });
-        named.collect()
-    };
+/// The marks of a kind in all groups.
+fn marked(marks: &Marks, kind: usize, groups: &[Group]) -> String {
+    let of_kind = groups.iter().flat_map(Group::members).filter(|it| it.kind == kind);
+    let shapes: String = of_kind
+        .map(|it| {
+            let (x, y) = it.at;
+            let title = match it.number {
+                1 => {
+                    let (area, quantity, number) = (&it.first.area, &marks.quantity, value(it.first.value));
+                    format!("{}, lanelet {area}: {quantity} {number}", marks.kind)
+                }
+                _ => format!("{}: {}", marks.kind, value(it.weight)),
+            };
+            dot(&marker_of(x, y, marks.series, it.size), &super::escaped(&title))
+        })
+        .collect();
     dots(marks.series, &shapes)
 }
 

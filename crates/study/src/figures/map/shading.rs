@@ -9,13 +9,15 @@ use super::Area;
 
 /// The colour of an area without a value.
 pub(super) const NONE: &str = "#cdd2d8";
-/// Height of the legend; the position and the size of its bar, and the place of its numbers [px].
-pub(super) const HEIGHT: f64 = 62.0;
+/// Height of the legend with and without numbers; position and size of its bar; place of its numbers [px].
+const HEIGHTS: [f64; 2] = [62.0, 44.0];
 const BAR: [f64; 2] = [28.0, 12.0];
 const WIDTH: f64 = 300.0;
 const NUMBERS: f64 = 52.0;
-/// As many numbers fit below the bar.
+/// Maximum of numbers below the bar; width of a digit, and the least space between two numbers [px].
 const MOST_NUMBERS: usize = 7;
+const DIGIT: f64 = 7.3;
+const BETWEEN: f64 = 3.0;
 /// The scale reaches up to the value that this share of the ground does not exceed: a few short lanelets with extreme
 /// values would else leave one colour to all others. Ours.
 const SHARE: f64 = 0.98;
@@ -127,9 +129,18 @@ impl Shading {
         }
     }
 
+    fn has_values(&self) -> bool {
+        (0..self.values.len()).any(|it| self.value(it).is_some())
+    }
+
+    /// The height of the legend [px].
+    pub(super) fn height(&self) -> f64 {
+        HEIGHTS[usize::from(!self.has_values())]
+    }
+
     /// The legend, from `left` on.
     pub(super) fn draw_key(&self, drawing: &mut Drawing, left: f64) {
-        let has_values = (0..self.values.len()).any(|it| self.value(it).is_some());
+        let has_values = self.has_values();
         let has_none = (0..self.values.len()).any(|it| self.value(it).is_none());
         let classes = classes(&self.scale);
         let [top, height] = BAR;
@@ -142,9 +153,12 @@ impl Shading {
                     "<rect x=\"{x:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{height}\" fill=\"{fill}\" class=\"area {name}\"/>"
                 ));
             }
-            // With many classes every second or third one has its number, and always the last one.
-            let every = (1..=classes).find(|it| classes.is_multiple_of(*it) && classes / it <= MOST_NUMBERS);
+            // With many classes every second or third one has its number, and always the last one. The first number
+            // stands half its width to the right.
             let ticks = self.scale.ticks();
+            let widest = ticks.iter().map(|it| it.1.len()).max().unwrap_or(0) as f64 * DIGIT;
+            let most = MOST_NUMBERS.min((WIDTH / (1.5 * widest + BETWEEN)) as usize);
+            let every = (1..=classes).find(|it| classes.is_multiple_of(*it) && classes / it <= most);
             for (number, (at, text)) in ticks.iter().enumerate().step_by(every.unwrap_or(classes)) {
                 let x = left + WIDTH * self.scale.share(*at);
                 let is_last = number + 1 == ticks.len();

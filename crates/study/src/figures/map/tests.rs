@@ -16,12 +16,13 @@ fn speeds(on_top: OnTop) -> Shading {
 }
 
 fn marks(number: usize) -> Marks {
-    let mark = MarkAt { area: "1".into(), at: [113.0, 2.0], value: 12.5, size: 1.0 };
+    let mark = MarkAt { area: "1".into(), at: [113.0, 2.0], value: 12.5, weight: 1.0 };
     Marks {
         kind: "route-driven".into(),
         key: format!("route-driven ({number})"),
         quantity: "time [s]".into(),
         series: 1,
+        largest: 1.0,
         marks: vec![mark; number],
     }
 }
@@ -96,11 +97,13 @@ fn a_short_lanelet_with_an_extreme_value_does_not_take_the_scale() {
 fn marks_lie_at_their_places_in_the_shape_and_the_colour_of_their_kind() {
     let svg = map(&three(), None, &[marks(1)]).svg;
     // Half way across: (240, 70) px.
-    let mark = "class=\"series s1\"><path d=\"M236.0 66.0h8v8h-8z\" class=\"dot\"><title>route-driven, lanelet 1: \
+    let mark = "class=\"series s1\"><path d=\"M237.6 67.6h4.8v4.8h-4.8z\" class=\"dot\"><title>route-driven, lanelet 1: \
                 time [s] 12.5</title></path></g>";
     assert!(svg.contains(mark) && svg.contains(">route-driven (1)</text>"), "{svg}");
+    // The legend's mark, and one for all: none lies on another one.
     let many = map(&three(), None, &[marks(101)]).svg;
-    assert_eq!((many.matches("h8v8h-8z").count(), many.matches("<title>").count()), (102, 0));
+    assert_eq!((many.matches("h8v8h-8z").count(), many.matches("<title>").count()), (2, 1), "{many}");
+    assert!(many.contains("<title>route-driven: 101</title>"), "{many}");
 }
 
 #[test]
