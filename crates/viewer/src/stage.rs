@@ -144,6 +144,7 @@ impl Stage {
         self.pages.insert(id, page);
         self.tell(id, &Message { hello: Some(self.source.hello()), ..Message::default() });
         self.tell(id, &Message { hands: Some(self.source.done()), ..Message::default() });
+        self.tell(id, &Message { twin: Some(self.source.twin_facts()), ..Message::default() });
         self.marks_told.1 = -1.0;
         self.is_new = true;
     }
@@ -174,7 +175,10 @@ impl Stage {
                 self.source.undo()?;
                 self.tell_hands();
             }
-            Asked::Twin(is_wanted) => self.source.twin(is_wanted)?,
+            Asked::Twin(is_wanted) => {
+                self.source.twin(is_wanted)?;
+                self.tell_all(&Message { twin: Some(self.source.twin_facts()), ..Message::default() });
+            }
             Asked::Save(_) => {
                 let saved = Some(self.source.save()?);
                 self.tell(id, &Message { saved, ..Message::default() });
@@ -313,6 +317,9 @@ struct Message<'a> {
     hands: Option<Vec<crate::source::Done>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     saved: Option<crate::source::Saved>,
+    /// Nothing in it: no twin is shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    twin: Option<Option<crate::source::TwinFacts>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     found: Option<Found>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -16,8 +16,8 @@ use laneweave_sim::World;
 pub use differences::{Differences, Instant, Vehicle};
 #[cfg(feature = "reports")]
 pub use page::page;
-use parting::last_step;
 pub use parting::Parting;
+use parting::last_step;
 pub use setting::Setting;
 
 /// Two worlds that were one up to the branch time.
@@ -52,8 +52,10 @@ impl Twins {
             Traces::most_driven(1, &base.world, &base.origins, begin, duration).pop()
         };
         let lanes = [lane(), lane()];
-        let [Prepared { world: base, script: of_base, .. }, Prepared { world: branch, script: of_branch, .. }] =
-            [base, branch];
+        let [
+            Prepared { world: base, script: of_base, .. },
+            Prepared { world: branch, script: of_branch, .. },
+        ] = [base, branch];
         Ok(Twins { base, branch, lanes, scripts: [of_base, of_branch], steps_left })
     }
 

@@ -48,7 +48,7 @@ impl Parting {
     /// Makes `twin` what `base` is now, and gives it the settings.
     ///
     /// # Errors
-    /// None, as long as both are of the run, and `base` has made as many steps as there are before the parting.
+    /// None, as long as both are of the run.
     pub fn part(&self, base: &Prepared, twin: &mut Prepared) -> Result<(), Fault> {
         let bug = |error: &dyn Display| Fault::new("branch", error, "report this as a bug");
         let saved = base.world.save().map_err(|error| bug(&error))?;

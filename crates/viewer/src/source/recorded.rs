@@ -13,7 +13,7 @@ use laneweave::{Fault, Side, open_recordings};
 
 use super::driver::{DriverFacts, side_name};
 use super::hands::{Done, Hand, Saved};
-use super::{Abilities, Hello, Kind, Mark, MarkKind, Marks, Source, Wants};
+use super::{Abilities, Hello, Kind, Mark, MarkKind, Marks, Source, TwinFacts, Wants};
 use crate::scene::{Scene, Surroundings};
 use crate::snapshot::{Body, Seen, Snapshot};
 
@@ -211,7 +211,7 @@ impl Source for Recorded {
             time_s: self.time_s(),
             begin_s,
             end_s: Some(end_s),
-            can: Abilities { hands: false, seek: true, explain: false },
+            can: Abilities { hands: false, seek: true, explain: false, twin: false },
             styles: Vec::new(),
             demand: Vec::new(),
         }
@@ -277,6 +277,10 @@ impl Source for Recorded {
 
     fn twin(&mut self, _: bool) -> Result<(), Fault> {
         is_fixed("twin")
+    }
+
+    fn twin_facts(&self) -> Option<TwinFacts> {
+        None
     }
 
     fn done(&self) -> Vec<Done> {
