@@ -42,7 +42,7 @@ fn differences(source: &dyn Source) -> [BTreeMap<i64, u8>; 2] {
 fn before_the_parting_both_are_the_same_and_after_it_the_twin_is_that_of_branch() {
     let dir = results("twins");
     let record = Record::open(&dir).expect("its record");
-    let settings = settings(&["style.speed.weight=4", "aggressive.follow.time_gap=2"]);
+    let settings = settings(&["style.speed.weight=4", "aggressive.follow.jam_gap=4"]);
     let mut twins = Twins::part(&record, AT, &settings).expect("twins");
     assert!(!twins.drive().are_none());
     let ends = [&twins.base, &twins.branch].map(|it| it.state_hash());

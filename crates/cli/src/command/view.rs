@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", allow_negative_numbers = true, conflicts_with = "export")]
     at: Option<f64>,
     /// What is different in the twin: a key of all styles (style.speed.weight=2), or of one style
-    /// (aggressive.follow.time_gap=0.9); or other commands of users (commands=FILE, or commands=none); may be repeated.
+    /// (aggressive.follow.jam_gap=3); or other commands of users (commands=FILE, or commands=none); may be repeated.
     #[arg(long = "set", value_name = "STYLE.KEY=VALUE|commands=FILE", requires = "at")]
     settings: Vec<Setting>,
     /// The port of the page [default: any free one].

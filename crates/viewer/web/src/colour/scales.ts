@@ -24,7 +24,7 @@ export const VEHICLE_SCALES: Record<VehicleScale, Scale> = {
   speed: { colours: VIRIDIS, labels: ['0', '72', '144'], unit: 'km/h' },
   desire: { colours: BLUE_ORANGE, labels: ['against', '0', 'for a change'], unit: 'tanh(G/θ)' },
   delay: { colours: CIVIDIS, labels: ['0', '254', '508'], unit: 's lost on this trip' },
-  difference: { colours: YELLOW_PURPLE, labels: ['0.5 or less', '63', '127 or no twin'], unit: 'm to its twin; grey: both are the same' },
+  difference: { colours: YELLOW_PURPLE, labels: ['0.5 or less', '63', '127 or no twin'], unit: 'm; grey: at the same place' },
   since_change: { colours: VIRIDIS.toReversed(), labels: ['0', '127', '254 or never'], unit: 's since the last change' },
 };
 

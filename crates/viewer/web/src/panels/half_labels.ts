@@ -35,11 +35,11 @@ export class HalfLabels {
       style.top = `${free.y}px`;
       style.maxWidth = `calc(${free.width}px - 1rem)`;
     });
-    const [{ picture: first }, { picture: second }] = halves;
+    const [{ free: first }, { free: second, picture }] = halves;
     const isSideBySide = second.x > first.x;
     Object.assign(this.line.style, {
-      left: `${second.x}px`,
-      top: `${second.y}px`,
+      left: `${picture.x}px`,
+      top: isSideBySide ? `${second.y}px` : `${picture.y}px`,
       width: isSideBySide ? '0' : `${second.width}px`,
       height: isSideBySide ? `${second.height}px` : '0',
     });

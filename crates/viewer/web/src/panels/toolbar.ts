@@ -9,14 +9,14 @@ const COLOURS: readonly (readonly [VehicleColour, string])[] = [
   ['state', 'state'],
   ['desire', 'desire G'],
   ['delay', 'delay'],
-  ['since_change', 'time since change'],
-  ['difference', 'distance to twin'],
+  ['since_change', 'since change'],
+  ['difference', 'difference'],
 ];
 /** The first ones need nothing but frames. */
 const COLOURS_OF_FRAMES = 3;
 const HEATS: readonly (readonly [Heat, string])[] = [
   ['none', 'plain'],
-  ['changes', 'lane changes'],
+  ['changes', 'changes'],
   ['speed', 'speed'],
   ['density', 'density'],
 ];
