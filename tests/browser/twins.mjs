@@ -114,8 +114,8 @@ export async function a_run_and_its_twin({ browser, program, home, folder, shots
     await until(shown, 'its twin is beside it', (it) => it.twin.view === 'side' && it.colour === 'difference');
     const texts = await labels(shown);
     assert.ok(texts[1].includes('style.speed.weight=10') && texts[1].includes('01:00'), texts.join(' | '));
+    await shown.click(hook('pause'));
     await shown.keyboard.press('Home');
-    await shown.waitForTimeout(1500);
     await scrub(shown, 0.2, 48);
     await until(shown, 'both are the same', (it) => it.vehicles > 10 && it.twin.vehicles === it.vehicles && it.twin.differ === 0);
     await scrub(shown, 0.9, 216);
