@@ -1,4 +1,5 @@
-//! Twins as ghosts: the vehicles of the twin beside those of the traffic, and how far each is from its own in the other.
+//! Twins as ghosts: the vehicles of the twin beside those of the traffic, and how far each is from its own in the
+//! other.
 
 use std::collections::HashMap;
 
