@@ -40,7 +40,7 @@ pub enum Asked {
     Lanes(bool),
     /// Something done by hand.
     Hand(Hand),
-    /// Whether the traffic is shown, too, as it would be without what is done by hand from now on.
+    /// Whether the twin of the traffic is shown, too.
     Twin(bool),
     /// The last thing done by hand is taken back.
     Undo(bool),

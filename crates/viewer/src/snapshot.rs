@@ -55,6 +55,13 @@ pub struct Seen {
     pub values: [u8; 4],
 }
 
+impl Seen {
+    /// Whether it is a ghost: a vehicle of the twin.
+    pub fn is_ghost(&self) -> bool {
+        self.is_external && self.is_recorded
+    }
+}
+
 /// What the colour of a vehicle may show beside what is always sent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -68,7 +75,7 @@ pub enum Colour {
     Delay,
     /// Time since its last lane change.
     SinceChange,
-    /// How far it is from where it is in the unchanged twin.
+    /// How far it is from where it is in the twin.
     Difference,
 }
 
@@ -96,6 +103,8 @@ pub struct Snapshot {
     pub vehicles: Vec<Seen>,
     /// What the lights show, in the order of the scene.
     pub lights: Vec<LightState>,
+    /// What the lights of the twin show, if it is shown.
+    pub twin_lights: Vec<LightState>,
     /// Vehicles that wait to enter.
     pub waiting: usize,
     /// Whether time goes on by itself.
@@ -111,11 +120,20 @@ pub struct Snapshot {
 impl Snapshot {
     /// What the lights show, a letter for each: g, y or r.
     pub fn lights_in_letters(&self) -> String {
-        let letter = |it: &LightState| match it {
-            LightState::Green => 'g',
-            LightState::Yellow => 'y',
-            LightState::Red => 'r',
-        };
-        self.lights.iter().map(letter).collect()
+        in_letters(&self.lights)
     }
+
+    /// The same of the lights of the twin.
+    pub fn twin_lights_in_letters(&self) -> String {
+        in_letters(&self.twin_lights)
+    }
+}
+
+fn in_letters(lights: &[LightState]) -> String {
+    let letter = |it: &LightState| match it {
+        LightState::Green => 'g',
+        LightState::Yellow => 'y',
+        LightState::Red => 'r',
+    };
+    lights.iter().map(letter).collect()
 }

@@ -145,6 +145,7 @@ impl Stage {
         self.pages.insert(id, page);
         self.tell(id, &Message { hello: Some(self.source.hello()), ..Message::default() });
         self.tell(id, &Message { hands: Some(self.source.hands()), ..Message::default() });
+        self.tell(id, &Message { twin: Some(self.source.twin_facts()), ..Message::default() });
         self.marks_told.1 = -1.0;
         self.is_new = true;
     }
@@ -175,7 +176,10 @@ impl Stage {
                 }
             }
             Asked::Undo(_) => self.source.undo()?,
-            Asked::Twin(is_wanted) => self.source.twin(is_wanted)?,
+            Asked::Twin(is_wanted) => {
+                self.source.twin(is_wanted)?;
+                self.tell_all(&Message { twin: Some(self.source.twin_facts()), ..Message::default() });
+            }
             Asked::Save(_) => {
                 let saved = Some(self.source.save()?);
                 self.tell(id, &Message { saved, ..Message::default() });
@@ -319,6 +323,9 @@ struct Message<'a> {
     put: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     saved: Option<crate::source::Saved>,
+    /// Nothing in it: no twin is shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    twin: Option<Option<crate::source::TwinFacts>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     found: Option<Found>,
     #[serde(skip_serializing_if = "Option::is_none")]

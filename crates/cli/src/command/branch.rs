@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     /// The time from which on the change holds, in seconds as in the tables.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     at: f64,
-    /// The change: a key of all styles (style.speed.weight=2), or of one style (aggressive.follow.time_gap=0.9); or
+    /// The change: a key of all styles (style.speed.weight=2), or of one style (aggressive.follow.jam_gap=3); or
     /// other commands of users (commands=FILE, or commands=none); may be repeated.
     #[arg(long = "set", value_name = "STYLE.KEY=VALUE|commands=FILE")]
     settings: Vec<Setting>,

@@ -30,9 +30,9 @@ Examples:
   laneweave view
   # A map of your own; scenarios with what was done by hand are saved in mine/
   laneweave view maps/ramps.osm --save mine
-  # A run that has ended, to be looked at again
+  # A run that has ended, and beside it its twin: from one minute on, speed has more weight
   laneweave run maps/ramps.osm --duration 120
-  laneweave view out";
+  laneweave view out --at 60 --set style.speed.weight=2";
 
 pub(super) const RENDER: &str =
     "Pictures are PNG files, numbered from 0 on. Tools such as ffmpeg make a film of them.

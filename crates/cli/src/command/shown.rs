@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
+use laneweave::branch::Setting;
 use laneweave::check::{extension, tracks};
 use laneweave::record::SCENARIO;
 use laneweave::scenario::{Origin, open_map};
@@ -61,6 +62,24 @@ impl Shown {
         }
     }
 
+    /// The run that has ended, and its twin, which has the `settings` from the time `at` on [s].
+    ///
+    /// # Errors
+    /// If it is no such run, if something is missing, not readable, or invalid, or if a setting does not fit.
+    pub(super) fn twins(&self, at: f64, settings: &[Setting]) -> Result<Box<dyn Source>, Fault> {
+        match &self.input[..] {
+            [dir] if self.map.is_none() && dir.is_dir() => {
+                check_results(dir)?;
+                Ok(Box::new(Rerun::with_twin(dir, at, settings)?))
+            }
+            _ => {
+                let what = "only a run that has ended has a twin with other settings";
+                let remedy = "give the folder that laneweave run has written, or leave out --at and --set";
+                Err(Fault::new("--at", what, remedy))
+            }
+        }
+    }
+
     /// A simulation that runs now.
     fn simulated(&self, path: &Path, saved: &Path) -> Result<Box<dyn Source>, Fault> {
         let (mut scenario, origin) = Origin::open(path)?;
@@ -85,9 +104,15 @@ impl Shown {
 
 /// A run that has ended.
 fn run(dir: &Path) -> Result<Box<dyn Source>, Fault> {
-    if !dir.join(SCENARIO).is_file() {
-        let what = "this folder has no results of a run";
-        return Err(Fault::new(dir.display(), what, "give the folder that laneweave run has written"));
-    }
+    check_results(dir)?;
     Ok(Box::new(Rerun::open(dir)?))
+}
+
+/// Checks that a folder has the results of a run.
+fn check_results(dir: &Path) -> Result<(), Fault> {
+    if dir.join(SCENARIO).is_file() {
+        return Ok(());
+    }
+    let what = "this folder has no results of a run";
+    Err(Fault::new(dir.display(), what, "give the folder that laneweave run has written"))
 }

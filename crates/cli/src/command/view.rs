@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
+use laneweave::branch::Setting;
 use laneweave::output::write_whole;
 use laneweave_viewer::{Page, Server, Source, Token, export};
 
@@ -19,6 +20,14 @@ use super::stop::Stop;
 pub(crate) struct Arguments {
     #[command(flatten)]
     shown: Shown,
+    /// Show beside a run that has ended its twin: the time from which on the twin has other settings, in seconds as in
+    /// the tables.
+    #[arg(long, value_name = "S", allow_negative_numbers = true, conflicts_with = "export")]
+    at: Option<f64>,
+    /// What is different in the twin: a key of all styles (style.speed.weight=2), or of one style
+    /// (aggressive.follow.jam_gap=3); or other commands of users (commands=FILE, or commands=none); may be repeated.
+    #[arg(long = "set", value_name = "STYLE.KEY=VALUE|commands=FILE", requires = "at")]
+    settings: Vec<Setting>,
     /// The port of the page [default: any free one].
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     port: u16,
@@ -44,7 +53,10 @@ pub(crate) struct Arguments {
 impl Arguments {
     /// Serves the page until the user stops it.
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let mut source = self.shown.source(&self.save)?;
+        let mut source = match self.at {
+            Some(at) => self.shown.twins(at, &self.settings)?,
+            None => self.shown.source(&self.save)?,
+        };
         let page = Page::embedded().ok_or_else(|| {
             let what = "this program was built without the page of the viewer";
             let remedy = format!("build the page with Node: {}; then build the program again", Page::COMMAND);

@@ -4,19 +4,20 @@
 mod differences;
 #[cfg(feature = "reports")]
 mod page;
+mod parting;
 mod setting;
 
-use laneweave_models::Style;
 use laneweave_results::output::Traces;
-use laneweave_results::record::{End, Record};
-use laneweave_scenario::scenario::{Prepared, driving, mixture, prepare};
-use laneweave_scenario::style::Population;
+use laneweave_results::record::Record;
+use laneweave_scenario::scenario::{Prepared, prepare};
 use laneweave_scenario::{Fault, Script};
 use laneweave_sim::World;
 
 pub use differences::{Differences, Instant, Vehicle};
 #[cfg(feature = "reports")]
 pub use page::page;
+pub use parting::Parting;
+use parting::last_step;
 pub use setting::Setting;
 
 /// Two worlds that were one up to the branch time.
@@ -39,30 +40,23 @@ impl Twins {
     /// # Errors
     /// If there is no such time in the run, or a setting does not fit.
     pub fn part(record: &Record, at: f64, settings: &[Setting]) -> Result<Twins, Fault> {
-        let Record { scenario, origin, end: End { duration_s, warmup_s, .. } } = record;
-        let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
-        let [all, before] = [duration_s + warmup_s, at].map(steps);
-        if at.is_nan() || at < 0.0 || before >= all {
-            let what = format!("the time {at} s");
-            let remedy =
-                format!("the run lasted from 0 to {} s: choose a time before its end", duration_s + warmup_s);
-            return Err(Fault::new("--at", what, remedy));
-        }
-        let driver_parameters = changed(record, settings)?;
-        let Prepared { world: mut base, script: mut done, origins, .. } = prepare(scenario, origin)?;
-        let mut branch = prepare(scenario, origin)?.world;
-        let commands = settings.iter().rev().find_map(Setting::commands);
-        let other = commands.map(|it| Script::of_file(it, &branch)).transpose()?;
-        (0..before).for_each(|_| done.step(&mut base));
-        let other = other.map_or_else(|| done.clone(), |it| it.after(&done));
-        let bug = |error: &dyn std::fmt::Display| Fault::new("branch", error, "report this as a bug");
-        let saved = base.save().map_err(|error| bug(&error))?;
-        branch.restore(&saved).map_err(|error| bug(&error))?;
-        branch.change_driver_parameters(driver_parameters).map_err(|error| bug(&error))?;
-        let duration = f64::from(all - before) * scenario.run.step_s;
-        let lane = || Traces::most_driven(1, &base, &origins, base.clock().time(), duration).pop();
+        let Record { scenario, origin, .. } = record;
+        let [mut base, mut branch] = [prepare(scenario, origin)?, prepare(scenario, origin)?];
+        let parting = Parting::of(record, at, settings, &branch.world)?;
+        (0..parting.step()).for_each(|_| base.step());
+        parting.part(&base, &mut branch)?;
+        let steps_left = last_step(record) - parting.step();
+        let duration = f64::from(steps_left) * scenario.run.step_s;
+        let lane = || {
+            let begin = base.world.clock().time();
+            Traces::most_driven(1, &base.world, &base.origins, begin, duration).pop()
+        };
         let lanes = [lane(), lane()];
-        Ok(Twins { base, branch, lanes, scripts: [done, other], steps_left: all - before })
+        let [
+            Prepared { world: base, script: of_base, .. },
+            Prepared { world: branch, script: of_branch, .. },
+        ] = [base, branch];
+        Ok(Twins { base, branch, lanes, scripts: [of_base, of_branch], steps_left })
     }
 
     /// The commands of the branch that were not possible, in a line each.
@@ -85,15 +79,4 @@ impl Twins {
         differences.complete(&self.base, &self.branch);
         differences
     }
-}
-
-/// The drivers of `record` with `settings`.
-fn changed(record: &Record, settings: &[Setting]) -> Result<Vec<Style>, Fault> {
-    let Record { scenario, origin, .. } = record;
-    let mut mixture = mixture(scenario, origin)?;
-    let population = Population::draw(&mixture, scenario.run.seed)?;
-    for setting in settings {
-        setting.apply(&mut mixture)?;
-    }
-    Ok(driving(scenario, population.redrawn(&mixture, scenario.run.seed)?))
 }

@@ -79,6 +79,7 @@ struct Page {
     is_ready: bool,
     /// What it was told last.
     lights: String,
+    twin_lights: String,
     clock: Option<(Clock, Instant)>,
     lanes: Option<Arc<str>>,
     allowance: Allowance,
@@ -94,6 +95,7 @@ impl Default for Page {
             selected: Vec::new(),
             is_ready: false,
             lights: String::new(),
+            twin_lights: String::new(),
             clock: None,
             lanes: None,
             allowance: Allowance { left: BURST, at: Instant::now() },
@@ -181,7 +183,7 @@ impl Page {
             time_s: snapshot.time_s,
             is_playing: snapshot.is_playing,
             factor: snapshot.factor,
-            vehicles: snapshot.vehicles.len(),
+            vehicles: snapshot.vehicles.iter().filter(|it| !it.is_ghost()).count(),
             waiting: snapshot.waiting,
         };
         let is_old = self.clock.is_none_or(|(told, at)| {
@@ -192,10 +194,14 @@ impl Page {
             self.clock = Some((clock, Instant::now()));
             news.extend(serde_json::to_string(&clock).ok().map(|it| format!("{{\"clock\":{it}}}")));
         }
-        let lights = snapshot.lights_in_letters();
-        if lights != self.lights {
-            news.push(format!("{{\"lights\":\"{lights}\"}}"));
-            self.lights = lights;
+        for (name, lights, told) in [
+            ("lights", snapshot.lights_in_letters(), &mut self.lights),
+            ("twin_lights", snapshot.twin_lights_in_letters(), &mut self.twin_lights),
+        ] {
+            if lights != *told {
+                news.push(format!("{{\"{name}\":\"{lights}\"}}"));
+                *told = lights;
+            }
         }
         if !self.selected.is_empty() {
             let drivers: Vec<&str> =

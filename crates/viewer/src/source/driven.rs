@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use laneweave::branch::Parting;
 use laneweave::network::LightIndex;
 use laneweave::scenario::{Origin, Prepared, Scenario, prepare_on, read_map};
 use laneweave::sim::{DriverState, Event, LaneChangeState, Vehicle, World};
@@ -83,8 +84,21 @@ impl Driven {
         let mut twin = Driven::new(self.scenario.clone(), self.origin.clone())?;
         let saved = self.prepared.save().map_err(|error| bug(&error))?;
         twin.prepared.restore(&saved).map_err(|error| bug(&error))?;
-        twin.know_styles();
+        twin.follow(self);
         Ok(twin)
+    }
+
+    /// Becomes what `base` is now, and the twin of it.
+    pub(super) fn part(&mut self, base: &Driven, parting: &Parting) -> Result<(), Fault> {
+        parting.part(&base.prepared, &mut self.prepared)?;
+        self.follow(base);
+        Ok(())
+    }
+
+    /// Knows what was noted of `other`, which has the same state.
+    fn follow(&mut self, other: &Driven) {
+        self.last_changes.clone_from(&other.last_changes);
+        self.know_styles();
     }
 
     /// Finds the style of each set of driver parameters.

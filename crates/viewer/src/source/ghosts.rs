@@ -1,4 +1,5 @@
-//! The unchanged twin of a simulation: the same traffic without what is done by hand since the twin began.
+//! Twins as ghosts: the vehicles of the twin beside those of the traffic, and how far each is from its own in the
+//! other.
 
 use std::collections::HashMap;
 
@@ -8,24 +9,40 @@ use crate::snapshot::{Seen, Snapshot};
 
 /// Distances are told in steps of this [m].
 const STEP: f64 = 0.5;
+/// The byte of a frame for a vehicle that is where its twin is, and the one for the largest distance.
+const SAME: u8 = 1;
+const LARGEST: f64 = 254.0;
 
-/// Adds the vehicles of `twin` to a snapshot as ghosts, and how far each vehicle is from its ghost.
-pub(super) fn add(twin: &Driven, snapshot: &mut Snapshot) {
+/// Where vehicles are, by their ids [m].
+type Places = HashMap<i64, [f64; 3]>;
+
+/// Adds the vehicles of `twin` to a snapshot as ghosts, and how far each vehicle is from its own in the other traffic.
+pub(super) fn add(twin: &Driven, wants: &Wants, snapshot: &mut Snapshot) {
     let mut of_twin = Snapshot::default();
-    twin.see(&Wants::default(), &mut of_twin);
-    let places: HashMap<i64, [f64; 3]> = of_twin.vehicles.iter().map(|it| (it.id, it.at)).collect();
-    for vehicle in &mut snapshot.vehicles {
-        vehicle.values[3] = places.get(&vehicle.id).map_or(u8::MAX, |it| difference(vehicle.at, *it));
-    }
-    snapshot.vehicles.extend(of_twin.vehicles.into_iter().map(ghost));
+    twin.see(&Wants { desire: wants.desire, ..Wants::default() }, &mut of_twin);
+    let [here, there] = [&*snapshot, &of_twin].map(places);
+    snapshot.vehicles.iter_mut().for_each(|it| it.values[3] = difference(it, &there));
+    let ghosts = of_twin.vehicles.into_iter().map(|it| ghost(it, &here));
+    snapshot.vehicles.extend(ghosts);
+    snapshot.twin_lights = of_twin.lights;
+}
+
+fn places(snapshot: &Snapshot) -> Places {
+    snapshot.vehicles.iter().map(|it| (it.id, it.at)).collect()
 }
 
 /// A vehicle of the twin. Its id is that of no vehicle.
-fn ghost(it: Seen) -> Seen {
+fn ghost(mut it: Seen, here: &Places) -> Seen {
+    it.values[3] = difference(&it, here);
     Seen { id: -1 - it.id, is_external: true, is_recorded: true, ..it }
 }
 
-/// A distance as the byte of a frame: 1 for none, 254 for the largest; 255 stands for a vehicle without a ghost.
-fn difference([x, y, _]: [f64; 3], [other_x, other_y, _]: [f64; 3]) -> u8 {
-    1 + ((x - other_x).hypot(y - other_y) / STEP).round().min(253.0) as u8
+/// The distance of a vehicle from its own in the other traffic, as the byte of a frame; the largest byte stands for a
+/// vehicle that is not there.
+fn difference(it: &Seen, others: &Places) -> u8 {
+    let [x, y, _] = it.at;
+    others.get(&it.id).map_or(u8::MAX, |[other_x, other_y, _]| match (x - other_x).hypot(y - other_y) {
+        0.0 => SAME,
+        distance => (1.0 + (distance / STEP).round()).clamp(f64::from(SAME) + 1.0, LARGEST) as u8,
+    })
 }

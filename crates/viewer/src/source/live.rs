@@ -14,7 +14,7 @@ use super::driven::Driven;
 use super::ghosts;
 use super::hands::{Deed, Done, Hand, Hands, Present};
 use super::saved::{Saved, save};
-use super::{Abilities, DemandFacts, Hello, Kind, Mark, Marks, Source, StyleFacts, Wants};
+use super::{Abilities, DemandFacts, Hello, Kind, Mark, Marks, Source, StyleFacts, TwinFacts, Wants};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
@@ -31,8 +31,8 @@ pub struct Live {
     done: Vec<Done>,
     /// What was done or set is not told yet.
     has_news: bool,
-    /// The unchanged twin, if somebody wants one.
-    twin: Option<Box<Driven>>,
+    /// The unchanged twin and its begin [s], if somebody wants one.
+    twin: Option<(f64, Box<Driven>)>,
     /// Where scenarios are saved.
     dir: PathBuf,
 }
@@ -187,7 +187,7 @@ impl Source for Live {
             time_s: self.time_s(),
             begin_s: 0.0,
             end_s: None,
-            can: Abilities { hands: true, seek: false, explain: true },
+            can: Abilities { hands: true, seek: false, explain: true, twin: true },
             styles: self.driven.styles(),
             demand: self.demand_now(),
         }
@@ -209,7 +209,7 @@ impl Source for Live {
             }
         }
         self.driven.step(marks);
-        self.twin.iter_mut().for_each(|it| it.step(&mut Vec::new()));
+        self.twin.iter_mut().for_each(|(_, it)| it.step(&mut Vec::new()));
         let given = self.driven.world().commands();
         // The scenario may have commands of its own.
         self.has_news |= failed.is_some() || given.iter().any(|it| Hand::setting(&it.command).is_some());
@@ -228,7 +228,7 @@ impl Source for Live {
 
     fn see(&self, wants: &Wants, snapshot: &mut Snapshot) {
         self.driven.see(wants, snapshot);
-        self.twin.iter().for_each(|it| ghosts::add(it, snapshot));
+        self.twin.iter().for_each(|(_, it)| ghosts::add(it, wants, snapshot));
     }
 
     fn find(&self, id: i64) -> Option<[f64; 2]> {
@@ -266,8 +266,13 @@ impl Source for Live {
     }
 
     fn twin(&mut self, is_wanted: bool) -> Result<(), Fault> {
-        self.twin = is_wanted.then(|| self.driven.twin().map(Box::new)).transpose()?;
+        let begun = || self.driven.twin().map(|it| (self.driven.time_s(), Box::new(it)));
+        self.twin = is_wanted.then(begun).transpose()?;
         Ok(())
+    }
+
+    fn twin_facts(&self) -> Option<TwinFacts> {
+        self.twin.as_ref().map(|(since_s, _)| TwinFacts { since_s: *since_s, settings: Vec::new() })
     }
 
     fn hands(&self) -> Hands {

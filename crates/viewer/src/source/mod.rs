@@ -7,6 +7,7 @@ mod hands;
 mod lanes;
 mod live;
 mod marks;
+mod pair;
 mod recorded;
 mod rerun;
 mod saved;
@@ -74,6 +75,17 @@ pub struct Abilities {
     pub seek: bool,
     /// Its drivers can be explained.
     pub explain: bool,
+    /// A twin can be shown beside it.
+    pub twin: bool,
+}
+
+/// The twin that is shown beside the traffic.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TwinFacts {
+    /// The time from which on the two may differ [s].
+    pub since_s: f64,
+    /// What the twin has that the traffic has not, as it was given; nothing where only the traffic is changed, by hand.
+    pub settings: Vec<String>,
 }
 
 /// The demand of an entrance.
@@ -190,12 +202,15 @@ pub trait Source: Send {
     /// If there is none, or if it cannot be taken back.
     fn undo(&mut self) -> Result<(), Fault>;
 
-    /// Begins, or ends, to show the same traffic without what is done by hand from now on: an unchanged twin, as
-    /// ghosts.
+    /// Begins, or ends, to show the twin of the traffic, as ghosts: of a simulation that runs now the same traffic
+    /// without what is done by hand from now on, of a run the one with other settings.
     ///
     /// # Errors
     /// If there can be none.
     fn twin(&mut self, is_wanted: bool) -> Result<(), Fault>;
+
+    /// The twin that is shown, if one is.
+    fn twin_facts(&self) -> Option<TwinFacts>;
 
     /// What was done by hand so far, and what is set by it.
     fn hands(&self) -> Hands;

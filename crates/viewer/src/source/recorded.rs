@@ -14,7 +14,7 @@ use laneweave::{Fault, Side, VehicleId, open_recordings};
 use super::driver::{DriverFacts, side_name};
 use super::hands::{Hand, Hands};
 use super::saved::Saved;
-use super::{Abilities, Hello, Kind, Mark, MarkKind, Marks, Source, Wants};
+use super::{Abilities, Hello, Kind, Mark, MarkKind, Marks, Source, TwinFacts, Wants};
 use crate::scene::{Scene, Surroundings};
 use crate::snapshot::{Body, Seen, Snapshot};
 
@@ -212,7 +212,7 @@ impl Source for Recorded {
             time_s: self.time_s(),
             begin_s,
             end_s: Some(end_s),
-            can: Abilities { hands: false, seek: true, explain: false },
+            can: Abilities { hands: false, seek: true, explain: false, twin: false },
             styles: Vec::new(),
             demand: Vec::new(),
         }
@@ -278,6 +278,10 @@ impl Source for Recorded {
 
     fn twin(&mut self, _: bool) -> Result<(), Fault> {
         is_fixed("twin")
+    }
+
+    fn twin_facts(&self) -> Option<TwinFacts> {
+        None
     }
 
     fn hands(&self) -> Hands {

@@ -1,17 +1,19 @@
-//! A run that has ended. No frames were kept of it: it is driven again, bit for bit, from states that a survey keeps.
+//! A run that has ended, and its twin. No frames were kept of it: it is driven again, bit for bit, from states that a
+//! survey keeps.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
+use laneweave::branch::Setting;
 use laneweave::record::{End, Record};
 use laneweave::{Fault, VehicleId};
 
-use super::driven::Driven;
 use super::hands::{Hand, Hands};
+use super::pair::{Change, Pair, State};
 use super::saved::Saved;
-use super::{Abilities, Hello, Kind, Mark, Marks, Source, Wants};
+use super::{Abilities, Hello, Kind, Mark, Marks, Source, TwinFacts, Wants};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
@@ -20,15 +22,16 @@ const STATES: u32 = 60;
 /// Steps between two messages of the survey.
 const NEWS: u32 = 100;
 
-/// States by their steps, in order, which two threads share.
-type States = Arc<Mutex<Vec<(u32, Vec<u8>)>>>;
+/// States in the order of their steps, which two threads share.
+type States = Arc<Mutex<Vec<State>>>;
 
 /// A run that has ended.
 pub struct Rerun {
-    driven: Driven,
+    pair: Pair,
+    /// Time between two steps [s].
+    step_s: f64,
     /// The step after which it has ended.
     last_step: u32,
-    /// States of its world by their steps, in order.
     states: States,
     marks: Arc<Mutex<Marks>>,
     /// Tells the survey that nobody waits for it any more.
@@ -41,12 +44,26 @@ impl Rerun {
     /// # Errors
     /// If there is none, or if something is missing, not readable, or invalid.
     pub fn open(dir: &Path) -> Result<Rerun, Fault> {
-        let Record { scenario, origin, end: End { duration_s, warmup_s, .. } } = Record::open(dir)?;
-        let last_step = ((duration_s + warmup_s) / scenario.run.step_s).round() as u32;
-        let driven = Driven::new(scenario.clone(), origin.clone())?;
-        let survey = Driven::new(scenario, origin)?;
+        Rerun::new(&Record::open(dir)?, None)
+    }
+
+    /// The same run, and beside it its twin, which has the `settings` from the time `at` on [s].
+    ///
+    /// # Errors
+    /// As for [`Rerun::open`], or if there is no such time in the run, or a setting does not fit.
+    pub fn with_twin(dir: &Path, at: f64, settings: &[Setting]) -> Result<Rerun, Fault> {
+        Rerun::new(&Record::open(dir)?, Some(&Change { at, settings: settings.to_vec() }))
+    }
+
+    fn new(record: &Record, change: Option<&Change>) -> Result<Rerun, Fault> {
+        let Record { scenario, end: End { duration_s, warmup_s, .. }, .. } = record;
+        let step_s = scenario.run.step_s;
+        let last_step = ((duration_s + warmup_s) / step_s).round() as u32;
+        let pair = Pair::new(record, change)?;
+        let survey = Pair::new(record, change)?;
         let rerun = Rerun {
-            driven,
+            pair,
+            step_s,
             last_step,
             states: Arc::default(),
             marks: Arc::default(),
@@ -58,10 +75,15 @@ impl Rerun {
     }
 
     /// The last kept state that is not after `step`.
-    fn state_before(&self, step: u32) -> Option<(u32, Vec<u8>)> {
+    fn state_before(&self, step: u32) -> Option<State> {
         let states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
-        let after = states.partition_point(|it| it.0 <= step);
+        let after = states.partition_point(|it| it.step <= step);
         after.checked_sub(1).map(|it| states[it].clone())
+    }
+
+    /// The hash of all vehicles of the twin, if there is one.
+    pub fn twin_hash(&self) -> Option<u64> {
+        self.pair.twin_hash()
     }
 }
 
@@ -73,26 +95,25 @@ impl Drop for Rerun {
 
 type Shared = (States, Arc<Mutex<Marks>>, Arc<AtomicBool>);
 
-/// Drives the run once, and keeps states and marks of it.
-fn look(mut survey: Driven, last_step: u32, (states, marks, is_over): &Shared) {
+/// Drives the run and its twin once, and keeps states of both, and marks of the run.
+fn look(mut survey: Pair, last_step: u32, (states, marks, is_over): &Shared) {
     let every = last_step.div_ceil(STATES).max(1);
     let mut found = Vec::new();
     for step in 0..=last_step {
         if is_over.load(Ordering::Relaxed) {
             return;
         }
-        if step.is_multiple_of(every)
-            && let Ok(state) = survey.prepared.save()
-        {
-            states.lock().unwrap_or_else(PoisonError::into_inner).push((step, state));
+        if step.is_multiple_of(every) {
+            states.lock().unwrap_or_else(PoisonError::into_inner).extend(survey.save());
         }
         if step == last_step || step.is_multiple_of(NEWS) {
             let mut marks = marks.lock().unwrap_or_else(PoisonError::into_inner);
             marks.marks.append(&mut found);
-            marks.until_s = survey.time_s();
+            marks.until_s = survey.base.time_s();
         }
-        if step < last_step {
-            survey.step(&mut found);
+        if step < last_step && survey.step(&mut found).is_err() {
+            // Who looks at this time is told why.
+            return;
         }
     }
 }
@@ -105,7 +126,7 @@ fn is_over<T>(what: &str) -> Result<T, Fault> {
 
 impl Source for Rerun {
     fn scene(&self) -> Scene {
-        self.driven.scene()
+        self.pair.base.scene()
     }
 
     fn hello(&self) -> Hello {
@@ -113,59 +134,53 @@ impl Source for Rerun {
         Hello {
             version: 1,
             kind: Kind::Run,
-            title: self.driven.title(),
+            title: self.pair.base.title(),
             step_s,
             time_s: self.time_s(),
             begin_s: 0.0,
             end_s: Some(f64::from(self.last_step) * step_s),
-            can: Abilities { hands: false, seek: true, explain: true },
-            styles: self.driven.styles(),
-            demand: self.driven.demand(),
+            can: Abilities { hands: false, seek: true, explain: true, twin: self.pair.has_twin() },
+            styles: self.pair.base.styles(),
+            demand: self.pair.base.demand(),
         }
     }
 
     fn step_s(&self) -> f64 {
-        self.driven.scenario.run.step_s
+        self.step_s
     }
 
     fn time_s(&self) -> f64 {
-        self.driven.time_s()
+        self.pair.base.time_s()
     }
 
     fn step(&mut self, marks: &mut Vec<Mark>) -> Result<(), Fault> {
-        if !self.has_ended() {
-            self.driven.step(marks);
-        }
-        Ok(())
+        if self.has_ended() { Ok(()) } else { self.pair.step(marks) }
     }
 
     fn has_ended(&self) -> bool {
-        self.driven.world().clock().step >= self.last_step
+        self.pair.steps() >= self.last_step
     }
 
     fn seek(&mut self, time_s: f64) -> Result<(), Fault> {
-        let step =
-            (time_s / self.driven.scenario.run.step_s).round().clamp(0.0, f64::from(self.last_step)) as u32;
-        let now = self.driven.world().clock().step;
-        let kept = self.state_before(step).filter(|(at, _)| step < now || *at > now);
-        if let Some((_, state)) = kept {
-            let restored = self.driven.prepared.restore(&state);
-            restored.map_err(|error| Fault::new("seek", error, "report this as a bug"))?;
-            self.driven.forget();
+        let step = (time_s / self.step_s).round().clamp(0.0, f64::from(self.last_step)) as u32;
+        let now = self.pair.steps();
+        let kept = self.state_before(step).filter(|it| step < now || it.step > now);
+        if let Some(state) = kept {
+            self.pair.restore(&state)?;
         }
         let mut passed = Vec::new();
-        while self.driven.world().clock().step < step {
-            self.driven.step(&mut passed);
+        while self.pair.steps() < step {
+            self.pair.step(&mut passed)?;
         }
         Ok(())
     }
 
     fn see(&self, wants: &Wants, snapshot: &mut Snapshot) {
-        self.driven.see(wants, snapshot);
+        self.pair.see(wants, snapshot);
     }
 
     fn find(&self, id: i64) -> Option<[f64; 2]> {
-        self.driven.find(id)
+        self.pair.base.find(id)
     }
 
     fn marks(&self) -> Option<Arc<Mutex<Marks>>> {
@@ -180,8 +195,16 @@ impl Source for Rerun {
         is_over("undo")
     }
 
-    fn twin(&mut self, _: bool) -> Result<(), Fault> {
-        is_over("twin")
+    fn twin(&mut self, is_wanted: bool) -> Result<(), Fault> {
+        if self.pair.show(is_wanted) || !is_wanted {
+            return Ok(());
+        }
+        let remedy = "view it with --at and --set, which say what is different in its twin";
+        Err(Fault::new("twin", "this run is viewed without a twin", remedy))
+    }
+
+    fn twin_facts(&self) -> Option<TwinFacts> {
+        self.pair.facts()
     }
 
     fn hands(&self) -> Hands {
@@ -197,6 +220,6 @@ impl Source for Rerun {
     }
 
     fn state_hash(&self) -> u64 {
-        self.driven.world().state_hash()
+        self.pair.base.world().state_hash()
     }
 }

@@ -16,6 +16,8 @@ export interface KeyActs {
   help: () => void;
   find: () => void;
   undo: () => void;
+  /** Shows the twin in the next way. */
+  nextTwin: () => void;
   /** Goes to the next mark, or the one before. */
   jump: (sign: 1 | -1) => void;
 }
@@ -52,6 +54,7 @@ export function listenToKeys(state: State, rig: Rig, time: TimeControls, acts: K
     Home: acts.wholeMap,
     m: acts.toggleMap,
     h: acts.toggleHands,
+    g: acts.nextTwin,
     '?': acts.help,
     '/': acts.find,
     ',': () => acts.jump(-1),

@@ -5,6 +5,7 @@ import { dress } from './overlays/dress.ts';
 import { Carry } from './panels/carry.ts';
 import { element } from './panels/dom.ts';
 import { DriverPanel } from './panels/driver_panel.ts';
+import { HalfLabels } from './panels/half_labels.ts';
 import { HandsPanel } from './panels/hands_panel.ts';
 import { Help } from './panels/help.ts';
 import { LanePanel } from './panels/lane_panel.ts';
@@ -15,6 +16,7 @@ import { TimeControls } from './panels/time_controls.ts';
 import { Timeline } from './panels/timeline.ts';
 import { Toasts } from './panels/toasts.ts';
 import { Toolbar } from './panels/toolbar.ts';
+import { TwinChoice } from './panels/twin_choice.ts';
 import { VehicleActions } from './panels/vehicle_actions.ts';
 import type { Found, ServerMessage, TrafficEvent } from './protocol/messages.ts';
 import type { Scene } from './protocol/scene.ts';
@@ -40,6 +42,7 @@ export class Page {
   private readonly stage: Stage;
   private readonly time: TimeControls;
   private readonly timeline: Timeline;
+  private readonly halfLabels: HalfLabels;
   private view: TrafficView | null = null;
   private lastLook_ms = 0;
   private hasBegun = false;
@@ -50,6 +53,7 @@ export class Page {
     this.stage = new Stage(this.canvas);
     this.time = new TimeControls(this.state);
     this.timeline = new Timeline(this.state);
+    this.halfLabels = new HalfLabels(this.state);
     this.lay();
     const dark = matchMedia('(prefers-color-scheme: dark)');
     this.state.isNight.set(dark.matches);
@@ -73,9 +77,10 @@ export class Page {
     const { state } = this;
     const actions = new VehicleActions(state);
     const carry = new Carry(state, actions, () => this.view);
-    const handsPanel = new HandsPanel(state, (form) => carry.put(form, innerWidth / 2, innerHeight / 2));
+    const handsPanel = new HandsPanel(state, (form) => carry.put(form, ...this.stage.middle()));
     const marks = new MarksPanel(state, (event) => this.goToEvent(event));
     const help = new Help();
+    const twin = new TwinChoice(state);
     const toggle = (panel: HTMLElement) => () => {
       panel.hidden = !panel.hidden;
       if (!panel.hidden) panel.scrollIntoView({ block: 'nearest' });
@@ -89,11 +94,13 @@ export class Page {
       toggleMarks: toggle(marks.root),
       find: () => toolbar.focusFinder(),
       undo: () => state.say({ undo: true }),
+      nextTwin: () => twin.next(),
       jump: (sign: 1 | -1) => this.timeline.jump(sign),
     };
-    const toolbar = new Toolbar(state, acts);
+    const toolbar = new Toolbar(state, acts, twin.root);
     this.side.append(new DriverPanel(state, actions.root).root, handsPanel.root, marks.root);
     document.querySelector('main')?.append(
+      this.halfLabels.root,
       element('header', { class: 'bar top' }, toolbar.root),
       new Legend(state).root,
       this.side,
@@ -119,6 +126,8 @@ export class Page {
     if (message.hello) this.begin(message.hello);
     if (message.clock) state.clock.set(message.clock);
     if (message.lights !== undefined) state.lights.set(message.lights);
+    if (message.twin_lights !== undefined) state.twinLights.set(message.twin_lights);
+    if (message.twin !== undefined) state.twin.set(message.twin);
     if (message.drivers) state.drivers.set(message.drivers);
     if (message.events) state.events.tell(message.events);
     if (message.marks) state.marks.set(message.marks);
@@ -173,14 +182,17 @@ export class Page {
     Object.assign(goal, { x: x - ox, y: y - oy, distance: Math.min(goal.distance, CLOSE_M) });
   }
 
-  /** Tells the stage what panels cover: a column at the right, or a sheet at the bottom of a narrow window. */
+  /** Tells the stage what is covered: by bars above and below, by a column at the right, or by a sheet at the bottom of a narrow window. */
   private leaveFree(now_ms: number): void {
     if (now_ms - this.lastLook_ms < LOOK_EVERY_MS) return;
     this.lastLook_ms = now_ms;
     const { left, top, width } = this.side.getBoundingClientRect();
+    const edge = (bar: string): DOMRect | undefined => document.querySelector(bar)?.getBoundingClientRect();
+    const [above, below] = [edge('.bar.top')?.bottom ?? 0, innerHeight - (edge('.bar.bottom')?.top ?? innerHeight)];
     const isShown = [...this.side.children].some((panel) => !(panel as HTMLElement).hidden);
     const isSheet = width > innerWidth * 0.7;
-    this.stage.leaveFree(isShown && !isSheet ? 1 - left / innerWidth : 0, isShown && isSheet ? 1 - top / innerHeight : 0);
+    const sheet = isShown && isSheet ? innerHeight - top : 0;
+    this.stage.leaveFree({ top: above, right: isShown && !isSheet ? innerWidth - left : 0, bottom: Math.max(below, sheet), sheet });
   }
 
   private picture(now_ms: number, last_ms: number): void {
@@ -191,6 +203,7 @@ export class Page {
       const { time_s } = this.view.traffic.playback;
       this.time.showTime(time_s);
       this.timeline.show(time_s);
+      this.halfLabels.show(this.stage.halves);
       this.telemetry.note(performance.now() - began, now_ms - last_ms, this.stage.renderer.info.render.calls);
       this.telemetry.publish(this.view, this.state);
     }

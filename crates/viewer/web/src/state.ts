@@ -13,11 +13,13 @@ import type {
   Refused,
   Saved,
   TrafficEvent,
+  Twin,
   VehicleClass,
 } from './protocol/messages.ts';
 import { Happening, Signal } from './signal.ts';
 
 export type CameraMode = 'free' | 'follow' | 'eye';
+export type TwinView = 'none' | 'ghosts' | 'side';
 export type Trails = 'none' | 'selected' | 'all';
 
 /** What the page knows and shows. Panels and the picture watch it; they do not know each other. */
@@ -26,6 +28,9 @@ export class State {
   readonly clock = new Signal<Clock | null>(null);
   readonly connection = new Signal<Connection>({ state: 'connecting' });
   readonly lights = new Signal('');
+  readonly twinLights = new Signal('');
+  /** The twin that the server shows. */
+  readonly twin = new Signal<Twin | null>(null);
   readonly drivers = new Signal<Driver[]>([]);
   readonly marks = new Signal<Marks | null>(null);
   readonly lanes = new Signal<LaneMeasure[]>([]);
@@ -55,8 +60,8 @@ export class State {
   readonly trails = new Signal<Trails>('none');
   readonly showsChanges = new Signal(false);
   readonly showsArrows = new Signal(false);
-  /** Whether the traffic is shown, too, as it would be without what is done by hand. */
-  readonly hasTwin = new Signal(false);
+  /** How the twin is shown: not at all, as ghosts, or side by side with the traffic. */
+  readonly twinView = new Signal<TwinView>('none');
   readonly isNight = new Signal(false);
   readonly camera = new Signal<CameraMode>('free');
 

@@ -13,6 +13,9 @@ export interface Published {
   scriptMsWorst: number;
   fps: number;
   vehicles: number;
+  /** How the twin is shown, its vehicles in view, and those in view, of both, that differ; null where their colours tell something else. */
+  twin: { view: string; vehicles: number; differ: number | null };
+  colour: string;
   time_s: number;
   selected: string[];
   /** Where lights and lanelets are in the window [px]. */
@@ -53,7 +56,7 @@ export class Telemetry {
       if (window.laneweave) window.laneweave.time_s = view.traffic.playback.time_s;
       return;
     }
-    this.vehicles = view.traffic.count();
+    this.vehicles = view.traffic.count(false);
     this.sorted.set(this.script);
     const known = this.sorted.subarray(0, Math.min(this.noted, FRAMES)).sort();
     const { x, y, distance, azimuth, tilt } = view.stage.rig.now;
@@ -64,6 +67,12 @@ export class Telemetry {
       scriptMsWorst: known[known.length - 1],
       fps: this.fps,
       vehicles: this.vehicles,
+      twin: {
+        view: state.twinView.value,
+        vehicles: view.traffic.count(true),
+        differ: state.colour.value === 'difference' ? view.traffic.countDifferent() : null,
+      },
+      colour: state.colour.value,
       time_s: view.traffic.playback.time_s,
       selected: state.selected.value,
       places: (of) => (of === 'lights' ? lights(view) : lanelets(view)),

@@ -3,6 +3,7 @@ import { groundAt, groundRectangle, windowAt } from './camera/ground_view.ts';
 import { listenToGestures } from './camera/gestures.ts';
 import { signalIcons } from './overlays/signal_icons.ts';
 import { Selection } from './overlays/selection.ts';
+import { twinOf } from './protocol/frame.ts';
 import type { Scene } from './protocol/scene.ts';
 import { LaneletIndex } from './road/lanelet_index.ts';
 import { LightStates } from './road/light_states.ts';
@@ -18,6 +19,7 @@ import type { Stage } from './stage/stage.ts';
 import type { State } from './state.ts';
 import { Traffic, type Placed } from './traffic/traffic.ts';
 import { Fleet } from './vehicles/fleet.ts';
+import { show, type Shown } from './vehicles/shown.ts';
 
 const BLINK_PERIOD_S = 0.8;
 const VIEW_EVERY_S = 0.25;
@@ -62,7 +64,6 @@ export class TrafficView {
     stage.rig.settle();
     state.isNight.watch(setNight);
     state.colour.watch((colour) => this.fleet.colourBy(colour));
-    state.lights.watch((letters) => this.lights.show(letters));
     this.listen();
   }
 
@@ -77,7 +78,7 @@ export class TrafficView {
   draw(wall_s: number, elapsed_s: number, fps: number): void {
     const { rig } = this.stage;
     const frame = this.traffic.advance(wall_s);
-    this.stage.shiftMiddle(elapsed_s);
+    this.stage.lay(elapsed_s, this.state.twinView.value === 'side');
     this.moveCamera(elapsed_s);
     this.sendView(wall_s);
     if (frame || wall_s - this.lastSort_s > SORT_EVERY_S) {
@@ -91,17 +92,26 @@ export class TrafficView {
     this.anchor.set(Math.round(rig.now.x), Math.round(rig.now.y), Math.round(rig.now.z));
     this.fleet.place(this.traffic.playback, this.anchor, this.scene.origin);
     atmosphere.blink.value = (wall_s / BLINK_PERIOD_S) % 1 < 0.55 ? 1 : 0;
-    const isInside = this.state.camera.value === 'eye';
-    this.selection.update(isInside ? [] : this.state.selected.value.map((id) => this.traffic.locate(id)), rig.now.distance);
     for (const update of this.onPicture) update();
-    this.stage.draw();
+    this.stage.draw((which) => this.prepare(which));
+  }
+
+  /** Gets ready to draw a picture of all, of the traffic, or of its twin. */
+  private prepare(which: Shown): void {
+    const { state, traffic } = this;
+    show(which);
+    const isTwin = which === 'twin';
+    this.lights.show(isTwin ? state.twinLights.value : state.lights.value);
+    const isInside = state.camera.value === 'eye';
+    const chosen = isInside ? [] : state.selected.value.map((id) => traffic.locate(isTwin ? twinOf(id) : id));
+    this.selection.update(chosen, this.stage.rig.now.distance);
   }
 
   /** Where a place of the window is on the road. */
   ground(x: number, y: number): { x: number; y: number } | null {
-    const { width, height, left, top } = this.stage.canvas.getBoundingClientRect();
     const { camera, now } = this.stage.rig;
-    return groundAt(camera, ((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2, now.z);
+    const [across, up] = this.stage.placeInPicture(x, y);
+    return groundAt(camera, across, up, now.z);
   }
 
   /** Where a place of the road is in the window [px]: the inverse of `ground`. */
@@ -114,10 +124,15 @@ export class TrafficView {
 
   /** Where a vehicle is, even if it is out of view. */
   whereIs(id: string): { x: number; y: number } | null {
-    const placed = this.traffic.locate(id);
+    const placed = this.placeOf(id);
     if (placed) return placed;
     const driver = this.state.drivers.value.find((one) => one.id === id);
     return driver ? { x: driver.x - this.scene.origin[0], y: driver.y - this.scene.origin[1] } : null;
+  }
+
+  /** A vehicle in view, in the traffic or else in its twin. */
+  private placeOf(id: string): Placed | null {
+    return this.traffic.locate(id) ?? (this.state.twinView.value === 'none' ? null : this.traffic.locate(twinOf(id)));
   }
 
   private moveCamera(elapsed_s: number): void {
@@ -126,7 +141,7 @@ export class TrafficView {
     const [id] = this.state.selected.value;
     const isBound = mode !== 'free' && id !== undefined;
     const place = isBound ? this.whereIs(id) : null;
-    const vehicle = isBound ? this.traffic.locate(id) : null;
+    const vehicle = isBound ? this.placeOf(id) : null;
     if (place) {
       rig.goal.x = place.x;
       rig.goal.y = place.y;
@@ -147,7 +162,7 @@ export class TrafficView {
     if (wall_s - this.lastView_s < VIEW_EVERY_S) return;
     const { camera, now } = this.stage.rig;
     const sight = Math.max(now.distance * SIGHT_BY_DISTANCE, LEAST_SIGHT_M);
-    const [x0, y0, x1, y1] = groundRectangle(camera, now.z, sight);
+    const [x0, y0, x1, y1] = this.stage.eachPicture(() => groundRectangle(camera, now.z, sight)).reduce(around);
     const [ox, oy] = this.scene.origin;
     const view = [x0 + ox, y0 + oy, x1 + ox, y1 + oy].map((value) => Math.round(value)) as [number, number, number, number];
     const text = view.join(' ');
@@ -177,8 +192,9 @@ export class TrafficView {
   private click(x: number, y: number, isSecond: boolean): void {
     const point = this.ground(x, y);
     if (!point) return;
+    const isInTwin = this.stage.isInTwin(x, y);
     const reach = CLICK_PIXELS * this.stage.pixel * this.stage.rig.now.distance;
-    const id = this.traffic.pick(point.x, point.y, reach);
+    const id = this.traffic.pick(point.x, point.y, reach, isInTwin);
     if (id !== null) {
       this.state.select(id, isSecond);
       return;
@@ -190,6 +206,10 @@ export class TrafficView {
     this.state.lane.set(signal ? null : this.index.at(point.x, point.y));
   }
 }
+
+type Bounds = [x0: number, y0: number, x1: number, y1: number];
+
+const around = (a: Bounds, b: Bounds): Bounds => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
 
 /** Where the eyes of drivers are: from the centre ahead, and above the road. */
 const EYES: Record<number, { ahead: (length: number) => number; up: number }> = {

@@ -15,7 +15,7 @@ test('no two of the 64 styles look the same', () => {
 });
 
 test('sequential scales get lighter or darker all the way', () => {
-  for (const name of ['speed', 'delay', 'since_change'] as const) {
+  for (const name of ['speed', 'delay', 'since_change', 'difference'] as const) {
     const light = [0, 0.2, 0.4, 0.6, 0.8, 1].map((share) => {
       const [red, green, blue] = colourAt(VEHICLE_SCALES[name].colours, share);
       return red * 0.3 + green * 0.59 + blue * 0.11;
@@ -30,6 +30,12 @@ test('the byte 0 is unknown, and 128 is no desire', () => {
   const bytes = byteColours('desire');
   assert.deepEqual([...bytes.slice(0, 3)], [0x8d, 0x93, 0x9b]);
   assert.ok(bytes[128 * 4] > 210 && bytes[128 * 4 + 2] > 210);
+});
+
+test('who does not differ from its twin is grey, and who differs by little is not', () => {
+  const bytes = byteColours('difference');
+  assert.deepEqual([...bytes.slice(4, 7)], [0x8d, 0x93, 0x9b]);
+  assert.ok(bytes[8] > 240 && bytes[10] < 120);
 });
 
 test('a slider gives back the value that it shows', () => {

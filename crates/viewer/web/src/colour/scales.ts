@@ -1,8 +1,10 @@
+import { SAME } from '../protocol/frame.ts';
 import { rgb, UNKNOWN_COLOUR, type Rgb } from './palette.ts';
 
 /** Colours from low to high. Their lightness grows or falls all the way, so that they read in grey, too. */
 const CIVIDIS = ['#00224e', '#123570', '#3b496c', '#575d6d', '#707173', '#8a8678', '#a59c74', '#c3b369', '#e1cc55', '#fee838'];
 const VIRIDIS = ['#440154', '#482878', '#3e4989', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b', '#fde725'];
+const YELLOW_PURPLE = ['#ffdf5a', '#ffb03b', '#f5793a', '#d0354f', '#8c1a6a', '#4a0d55'];
 const BLUE_ORANGE = ['#1f5fa8', '#5b8fc4', '#a3bfdc', '#dfe3e8', '#f0c68f', '#e2933a', '#b95f0a'];
 
 export interface Scale {
@@ -22,7 +24,7 @@ export const VEHICLE_SCALES: Record<VehicleScale, Scale> = {
   speed: { colours: VIRIDIS, labels: ['0', '72', '144'], unit: 'km/h' },
   desire: { colours: BLUE_ORANGE, labels: ['against', '0', 'for a change'], unit: 'tanh(G/θ)' },
   delay: { colours: CIVIDIS, labels: ['0', '254', '508'], unit: 's lost on this trip' },
-  difference: { colours: VIRIDIS, labels: ['0', '63', '127 or no ghost'], unit: 'm to its ghost' },
+  difference: { colours: YELLOW_PURPLE, labels: ['0.5 or less', '63', '127 or no twin'], unit: 'm; grey: at the same place' },
   since_change: { colours: VIRIDIS.toReversed(), labels: ['0', '127', '254 or never'], unit: 's since the last change' },
 };
 
@@ -49,11 +51,14 @@ export function colourAt(colours: readonly string[], share: number): Rgb {
   return [from[0] + (to[0] - from[0]) * part, from[1] + (to[1] - from[1]) * part, from[2] + (to[2] - from[2]) * part];
 }
 
-/** The 256 colours of the values of a byte, as the bytes of a picture. Value 0 is unknown where the scale has such a value. */
+/**
+ * The 256 colours of the values of a byte, as the bytes of a picture. Value 0 is unknown where the scale has such a value. Vehicles that do
+ * not differ from their twins are grey.
+ */
 export function byteColours(scale: VehicleScale): Uint8Array {
   const bytes = new Uint8Array(256 * 4);
   for (let value = 0; value < 256; value += 1) {
-    const isUnknown = value === 0 && scale !== 'speed';
+    const isUnknown = (value === 0 && scale !== 'speed') || (value === SAME && scale === 'difference');
     const share = scale === 'speed' ? value / 4 / FASTEST_COLOUR_MPS : (value - 1) / 254;
     const colour = isUnknown ? rgb(UNKNOWN_COLOUR) : colourAt(VEHICLE_SCALES[scale].colours, share);
     for (let part = 0; part < 3; part += 1) bytes[value * 4 + part] = Math.round(colour[part] * 255);

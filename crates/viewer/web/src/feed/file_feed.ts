@@ -57,7 +57,7 @@ export class FileFeed implements Feed {
     const { scene, hello, frames } = this.file;
     listener.scene(scene);
     this.store = new FrameStore(await unpack(frames.data));
-    const can = { hands: false, seek: true, explain: false };
+    const can = { hands: false, seek: true, explain: false, twin: false };
     const end_s = hello.end_s ?? this.store.times[this.store.count - 1];
     listener.connection({ state: 'open' });
     listener.message({ hello: { ...hello, can, end_s } });

@@ -4,6 +4,7 @@ import { rgb } from '../colour/palette.ts';
 import type { TrafficEvent } from '../protocol/messages.ts';
 import type { Point } from '../protocol/scene.ts';
 import { atmosphere } from '../stage/atmosphere.ts';
+import { shown, SHOWN_CHUNK } from '../vehicles/shown.ts';
 
 const CAPACITY = 4096;
 export const SHOWN_FOR_S = 60;
@@ -11,6 +12,7 @@ const IMPORTANT_SIZE = 1.6;
 const LIFT_M = 1.2;
 
 const VERTEX = /* glsl */ `
+${SHOWN_CHUNK}
 uniform float pixel;
 uniform float now;
 in vec3 spot;
@@ -30,7 +32,8 @@ void main() {
   place = position.xy * 1.3;
   paint = tone;
   shape = int(mark.x + 0.5);
-  gl_Position = strength > 0.0 ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
+  // What happens in the twin is not told.
+  gl_Position = strength > 0.0 && !isLeftOut(false) ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
 }
 `;
 
@@ -87,7 +90,7 @@ export class EventMarks {
       glslVersion: GLSL3,
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: { ...atmosphere, now: { value: 0 } },
+      uniforms: { ...atmosphere, ...shown, now: { value: 0 } },
       transparent: true,
       depthTest: false,
       depthWrite: false,

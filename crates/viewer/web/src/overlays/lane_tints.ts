@@ -10,6 +10,8 @@ const CLOSED = rgb('#ff5a3c');
 
 /** Colours lanes: the heat map, the lane that is selected, and those that are closed. */
 export function tintLanes(state: State, surface: RoadSurface, index: LaneletIndex): void {
+  /** Lanelets that were closed when the twin began. */
+  let closedBefore: ReadonlySet<string> = new Set();
   const update = () => {
     surface.clear();
     const { value: heat } = state.heat;
@@ -17,7 +19,7 @@ export function tintLanes(state: State, surface: RoadSurface, index: LaneletInde
     if (state.lane.value !== null) surface.mark(state.lane.value, SELECTED);
     for (const id of state.closed.value) {
       const lanelet = index.index(id);
-      if (lanelet !== undefined) surface.close(lanelet, CLOSED);
+      if (lanelet !== undefined) surface.close(lanelet, CLOSED, closedBefore.has(id));
     }
   };
   let wants = false;
@@ -31,6 +33,10 @@ export function tintLanes(state: State, surface: RoadSurface, index: LaneletInde
   state.lane.watch(ask);
   state.lanes.watch(() => state.heat.value !== 'none' && update());
   state.closed.watch(update);
+  state.twin.watch(() => {
+    closedBefore = state.closed.value;
+    update();
+  });
   state.hello.watch(() => wants && state.say({ lanes: true }));
 }
 

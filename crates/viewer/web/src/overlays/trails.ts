@@ -1,9 +1,10 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, GLSL3, LineSegments, ShaderMaterial } from 'three';
 import { rgb, styleColour } from '../colour/palette.ts';
-import { classOf, heightOf, isGhost, RECORD_WORDS, styleOf } from '../protocol/frame.ts';
+import { classOf, heightOf, isGhost, RECORD_WORDS, styleOf, twinOf } from '../protocol/frame.ts';
 import type { Point } from '../protocol/scene.ts';
 import type { Trails as Which } from '../state.ts';
 import type { Traffic } from '../traffic/traffic.ts';
+import { AS_GHOSTS, shown, SHOWN_CHUNK } from '../vehicles/shown.ts';
 
 const CAPACITY = 120_000;
 const SHOWN_FOR_S = 40;
@@ -14,16 +15,20 @@ const VALUES = 4;
 const LIFT_M = 0.25;
 
 const VERTEX = /* glsl */ `
+${SHOWN_CHUNK}
 uniform float now;
 /** x, y, z, time */
 in vec4 spot;
-in vec3 tone;
+/** red, green, blue, and 1 for a vehicle of the twin */
+in vec4 tone;
 out vec3 paint;
 out float strength;
 void main() {
   float age = now - spot.w;
-  strength = age < 0.0 ? 0.0 : 1.0 - age / ${SHOWN_FOR_S}.0;
-  paint = tone;
+  bool isOfTwin = tone.a > 0.5;
+  bool isHidden = age < 0.0 || isLeftOut(isOfTwin) || (isOfTwin && ${AS_GHOSTS});
+  strength = isHidden ? 0.0 : 1.0 - age / ${SHOWN_FOR_S}.0;
+  paint = tone.rgb;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(spot.xyz, 1.0);
 }
 `;
@@ -42,7 +47,7 @@ void main() {
 export class TrailLines {
   readonly mesh: LineSegments<BufferGeometry, ShaderMaterial>;
   private readonly spots = new BufferAttribute(new Float32Array(CAPACITY * 2 * VALUES), VALUES);
-  private readonly tones = new BufferAttribute(new Float32Array(CAPACITY * 2 * 3), 3);
+  private readonly tones = new BufferAttribute(new Float32Array(CAPACITY * 2 * VALUES), VALUES);
   private readonly palette = Array.from({ length: 64 }, (_, style) => rgb(styleColour(style)));
   private last = new Float64Array(0);
   private written = 0;
@@ -59,7 +64,7 @@ export class TrailLines {
       glslVersion: GLSL3,
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: { now: { value: 0 } },
+      uniforms: { ...shown, now: { value: 0 } },
       transparent: true,
       depthWrite: false,
     });
@@ -88,7 +93,7 @@ export class TrailLines {
     const from = this.written;
     const one = (slot: number) => this.extend(traffic, slot, zero);
     if (which === 'all') for (let slot = 0; slot < next.slotCount; slot += 1) one(slot);
-    else for (const id of chosen) one(traffic.slots.find(id, -1));
+    else for (const id of chosen) [id, twinOf(id)].forEach((either) => one(traffic.slots.find(either, -1)));
     this.send(from);
   }
 
@@ -100,7 +105,7 @@ export class TrailLines {
     const { next } = traffic.playback;
     if (!next || slot < 0 || slot >= next.slotCount) return;
     const at = slot * 3;
-    if (classOf(next.words, slot) === 0 || isGhost(next.words, slot)) {
+    if (classOf(next.words, slot) === 0) {
       this.last[at] = NaN;
       return;
     }
@@ -116,8 +121,9 @@ export class TrailLines {
     const vertex = (this.written % CAPACITY) * 2;
     this.spots.setXYZW(vertex, lx, ly, lz, next.time_s - EVERY_S);
     this.spots.setXYZW(vertex + 1, x, y, z, next.time_s);
-    this.tones.setXYZ(vertex, red, green, blue);
-    this.tones.setXYZ(vertex + 1, red, green, blue);
+    const isOfTwin = isGhost(next.words, slot) ? 1 : 0;
+    this.tones.setXYZW(vertex, red, green, blue, isOfTwin);
+    this.tones.setXYZW(vertex + 1, red, green, blue, isOfTwin);
     this.written += 1;
   }
 

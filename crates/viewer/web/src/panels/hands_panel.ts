@@ -37,8 +37,6 @@ export class HandsPanel {
       this.shares,
       element('h3', {}, 'Demand of the entrances'),
       this.demand,
-      element('h3', {}, 'Compare'),
-      element('div', { class: 'buttons' }, this.twinButton()),
       element('h3', {}, 'Done so far'),
       this.done,
       element(
@@ -49,11 +47,7 @@ export class HandsPanel {
       ),
       this.saved,
     );
-    state.hello.watch((hello) => {
-      if (!hello) return;
-      this.begin(hello);
-      if (state.hasTwin.value) state.say({ twin: true });
-    });
+    state.hello.watch((hello) => hello && this.begin(hello));
     state.done.watch((entries) => this.list(entries));
     state.saved.listen(({ scenario }) => this.saved.replaceChildren('Saved as ', element('code', {}, scenario)));
   }
@@ -84,17 +78,6 @@ export class HandsPanel {
     if (hello.styles[0]) show(hello.styles[0].name);
     this.shares.replaceChildren(...hello.styles.map((style) => this.shareSlider(style)));
     this.demand.replaceChildren(...hello.demand.map((entrance) => this.demandSlider(entrance)));
-  }
-
-  private twinButton(): HTMLButtonElement {
-    const { state } = this;
-    const title = 'Show as ghosts how traffic would be without what is done by hand from now on';
-    const made = button('twin', 'Ghosts of the unchanged traffic', title, () => state.hasTwin.set(!state.hasTwin.value));
-    state.hasTwin.watch((hasTwin) => {
-      made.setAttribute('aria-pressed', String(hasTwin));
-      if (state.hello.value) state.say({ twin: hasTwin });
-    });
-    return made;
   }
 
   private shareSlider({ name, weight: value = 1 }: Style): Node {

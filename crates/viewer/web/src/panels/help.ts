@@ -13,6 +13,7 @@ const GROUPS: readonly (readonly [title: string, keys: readonly Key[]])[] = [
       ['M', 'straight down, or aslant'],
       ['Home', 'the whole map'],
       ['N', 'day or night'],
+      ['G', 'the twin of the traffic: as ghosts, side by side, not at all'],
     ],
   ],
   [

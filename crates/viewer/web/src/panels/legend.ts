@@ -32,7 +32,7 @@ export class Legend {
     if (colour === 'state') {
       return list('State', PHASES.map((phase, index) => [roof(phase.colour, index), phase.name]));
     }
-    const titles = { speed: 'Speed', desire: 'Desire of the better side', delay: 'Delay', since_change: 'Time since the last change', difference: 'Distance to its ghost' };
+    const titles = { speed: 'Speed', desire: 'Desire of the better side', delay: 'Delay', since_change: 'Time since the last change', difference: 'Distance to its twin' };
     return scaleBlock(titles[colour], VEHICLE_SCALES[colour]);
   }
 

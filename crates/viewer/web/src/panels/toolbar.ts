@@ -9,14 +9,14 @@ const COLOURS: readonly (readonly [VehicleColour, string])[] = [
   ['state', 'state'],
   ['desire', 'desire G'],
   ['delay', 'delay'],
-  ['since_change', 'time since change'],
-  ['difference', 'distance to ghost'],
+  ['since_change', 'since change'],
+  ['difference', 'difference'],
 ];
 /** The first ones need nothing but frames. */
 const COLOURS_OF_FRAMES = 3;
 const HEATS: readonly (readonly [Heat, string])[] = [
   ['none', 'plain'],
-  ['changes', 'lane changes'],
+  ['changes', 'changes'],
   ['speed', 'speed'],
   ['density', 'density'],
 ];
@@ -45,7 +45,8 @@ export class Toolbar {
     'aria-label': 'Find a vehicle by its id (/)',
   });
 
-  constructor(state: State, acts: ToolbarActs) {
+  /** `twin` is the choice of how the twin is shown. */
+  constructor(state: State, acts: ToolbarActs, twin: HTMLElement) {
     const more = element('div', { class: 'more', id: 'more-tools' });
     const menu = button('menu', '☰', 'More tools', () => {
       const isOpen = this.root.classList.toggle('is-open');
@@ -63,6 +64,7 @@ export class Toolbar {
       labelled('colour', this.colours(state)),
       ...(state.hasServer ? [labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat)))] : []),
       labelled('trails', choice('trails', 'Which vehicles have trails', TRAILS, (which) => state.trails.set(which))),
+      twin,
       toggleButton('changes', 'Changes', 'Lane changes and other events of the last minute, on the road', state.showsChanges),
       toggleButton('arrows', 'Arrows', 'Arrows in the direction of the lanes', state.showsArrows),
       button('marks', 'Marks', 'List of collisions, emergency brakings and missed turns', acts.toggleMarks),
@@ -100,10 +102,12 @@ export class Toolbar {
   private colours(state: State): HTMLSelectElement {
     state.hello.watch(() => askForColour(state));
     const colours = state.hasServer ? COLOURS : COLOURS.slice(0, COLOURS_OF_FRAMES);
-    return choice('colour', 'What the colours of vehicles tell', colours, (value) => {
-      state.colour.set(value);
+    const list = choice('colour', 'What the colours of vehicles tell', colours, (value) => state.colour.set(value));
+    state.colour.watch((value) => {
+      list.value = value;
       askForColour(state);
     });
+    return list;
   }
 }
 

@@ -16,7 +16,7 @@ export const FLAG_SIGNALS_LEFT = 16;
 export const FLAG_SIGNALS_RIGHT = 32;
 export const FLAG_USER = 64;
 export const FLAG_RECORDED = 128;
-/** Both: a vehicle of the unchanged twin. */
+/** Both: a vehicle of the twin. */
 export const FLAGS_GHOST = FLAG_USER | FLAG_RECORDED;
 
 /** The vehicles in the view at one time. It reads the buffer of the message in place. */
@@ -62,6 +62,15 @@ export const classOf = (words: Uint32Array, slot: number): number => (words[slot
 export const flagsOf = (words: Uint32Array, slot: number): number => (words[slot * RECORD_WORDS + 3] >>> 16) & 255;
 
 export const isGhost = (words: Uint32Array, slot: number): boolean => (flagsOf(words, slot) & FLAGS_GHOST) === FLAGS_GHOST;
+
+/** The id that the vehicle of the twin has for the one with this id. */
+export const twinOf = (id: string): string => (-1n - BigInt(id)).toString();
+
+/** What the server was asked for with `colour`. */
+export const valueOf = (words: Uint32Array, slot: number): number => words[slot * RECORD_WORDS + 3] >>> 24;
+
+/** The value of a vehicle that is where its twin is. */
+export const SAME = 1;
 
 export const styleOf = (words: Uint32Array, slot: number): number => (words[slot * RECORD_WORDS + 3] >>> 8) & 63;
 

@@ -34,7 +34,7 @@ export interface Hello {
   time_s: number;
   begin_s: number;
   end_s: number | null;
-  can: { hands: boolean; seek: boolean; explain: boolean };
+  can: { hands: boolean; seek: boolean; explain: boolean; twin: boolean };
   styles: Style[];
   demand: Demand[];
 }
@@ -121,6 +121,13 @@ export interface HandEntry {
   is_undone: boolean;
 }
 
+/** The twin that is shown beside the traffic. */
+export interface Twin {
+  since_s: number;
+  /** What the twin has that the traffic has not; nothing where only the traffic is changed, by hand. */
+  settings: string[];
+}
+
 export interface Saved {
   folder: string;
   scenario: string;
@@ -142,6 +149,7 @@ export interface ServerMessage {
   hello?: Hello;
   clock?: Clock;
   lights?: string;
+  twin_lights?: string;
   drivers?: Driver[];
   found?: Found;
   events?: TrafficEvent[];
@@ -150,6 +158,7 @@ export interface ServerMessage {
   hands?: { done: HandEntry[]; set: Hand[] };
   put?: string;
   saved?: Saved;
+  twin?: Twin | null;
   refused?: Refused;
 }
 

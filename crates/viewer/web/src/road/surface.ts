@@ -2,6 +2,7 @@ import { DataTexture, GLSL3, Mesh, NearestFilter, ShaderMaterial } from 'three';
 import type { Scene } from '../protocol/scene.ts';
 import type { Rgb } from '../colour/palette.ts';
 import { atmosphere, LIGHT_CHUNK } from '../stage/atmosphere.ts';
+import { shown, SHOWN_CHUNK } from '../vehicles/shown.ts';
 import { MeshBuilder } from './mesh_builder.ts';
 import { pairs, stations } from './ribbon.ts';
 
@@ -14,8 +15,11 @@ const NO_LANE = -1;
 const TINT_OPACITY = 190;
 const MARKED_OPACITY = 110;
 const CLOSED_OPACITY = 255;
+/** The same where the twin does not have it. */
+const CLOSED_IN_TRAFFIC_OPACITY = 245;
 
 const VERTEX = /* glsl */ `
+${SHOWN_CHUNK}
 uniform sampler2D laneColours;
 in float lane;
 out vec2 place;
@@ -26,6 +30,9 @@ void main() {
   int index = int(lane + 0.5);
   isShoulder = lane < 0.0 ? 1.0 : 0.0;
   tint = lane < 0.0 ? vec4(0.0) : texelFetch(laneColours, ivec2(index % ${TEXTURE_WIDTH}, index / ${TEXTURE_WIDTH}), 0);
+  int opacity = int(tint.a * 255.0 + 0.5);
+  bool isOfTraffic = opacity == ${TINT_OPACITY} || opacity == ${CLOSED_IN_TRAFFIC_OPACITY};
+  if (isOfTraffic && isLeftOut(false)) tint.a = 0.0;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
   place = position.xy;
   depth = -seen.z;
@@ -77,7 +84,7 @@ export class RoadSurface {
       glslVersion: GLSL3,
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: { ...atmosphere, laneColours: { value: this.texture } },
+      uniforms: { ...atmosphere, ...shown, laneColours: { value: this.texture } },
       polygonOffset: true,
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 4,
@@ -100,8 +107,8 @@ export class RoadSurface {
     this.write(lanelet, colour, MARKED_OPACITY);
   }
 
-  close(lanelet: number, colour: Rgb): void {
-    this.write(lanelet, colour, CLOSED_OPACITY);
+  close(lanelet: number, colour: Rgb, isClosedInTwin: boolean): void {
+    this.write(lanelet, colour, isClosedInTwin ? CLOSED_OPACITY : CLOSED_IN_TRAFFIC_OPACITY);
   }
 
   private write(lanelet: number, colour: Rgb, opacity: number): void {

@@ -1,4 +1,4 @@
-import { classOf, headingOf, heightOf, isGhost, readFrame, RECORD_WORDS, type Frame } from '../protocol/frame.ts';
+import { classOf, headingOf, heightOf, isGhost, readFrame, RECORD_WORDS, SAME, twinOf, valueOf, type Frame } from '../protocol/frame.ts';
 import type { Point } from '../protocol/scene.ts';
 import { Playback } from './playback.ts';
 import { Slots } from './slots.ts';
@@ -45,10 +45,20 @@ export class Traffic {
     this.guesses.clear();
   }
 
-  count(): number {
+  /** How many vehicles of the traffic or of its twin are in view. */
+  count(isInTwin: boolean): number {
+    return this.countWhere((words, slot) => isGhost(words, slot) === isInTwin);
+  }
+
+  /** How many vehicles in view, of both, are not where their twins are. Their colours must tell it. */
+  countDifferent(): number {
+    return this.countWhere((words, slot) => valueOf(words, slot) > SAME);
+  }
+
+  private countWhere(test: (words: Uint32Array, slot: number) => boolean): number {
     const { next } = this.playback;
     let vehicles = 0;
-    for (let slot = 0; next && slot < next.slotCount; slot += 1) vehicles += classOf(next.words, slot) > 0 && !isGhost(next.words, slot) ? 1 : 0;
+    for (let slot = 0; next && slot < next.slotCount; slot += 1) vehicles += classOf(next.words, slot) > 0 && test(next.words, slot) ? 1 : 0;
     return vehicles;
   }
 
@@ -83,8 +93,8 @@ export class Traffic {
     };
   }
 
-  /** The id of the vehicle at a point of the road, or of the nearest one within a reach. */
-  pick(x: number, y: number, reach: number): string | null {
+  /** The id of the vehicle of the traffic or of its twin at a point of the road, or of the nearest one within a reach. */
+  pick(x: number, y: number, reach: number, isInTwin: boolean): string | null {
     const { next } = this.playback;
     if (!next) return null;
     let best = { slot: -1, distance: Infinity };
@@ -93,13 +103,16 @@ export class Traffic {
     for (let slot = 0; slot < next.slotCount; slot += 1) {
       const roughX = Math.abs(next.floats[slot * RECORD_WORDS] - cx);
       const roughY = Math.abs(next.floats[slot * RECORD_WORDS + 1] - cy);
-      if (roughX > furthest || roughY > furthest || isGhost(next.words, slot)) continue;
+      if (roughX > furthest || roughY > furthest || isGhost(next.words, slot) !== isInTwin) continue;
       const vehicle = this.placed(slot);
       if (!vehicle) continue;
       const distance = distanceTo(vehicle, x, y);
       if (distance < best.distance) best = { slot, distance };
     }
-    return best.distance <= Math.max(reach, CLICK_MARGIN_M) ? this.slots.id(best.slot) : null;
+    if (best.distance > Math.max(reach, CLICK_MARGIN_M)) return null;
+    // A vehicle has the same id in both.
+    const id = this.slots.id(best.slot);
+    return isInTwin ? twinOf(id) : id;
   }
 }
 

@@ -67,7 +67,7 @@ void main() {
   vec3 point = centreNow() + vec3(ahead * local.x + vec2(-ahead.y, ahead.x) * local.y, position.z);
   vec4 seen = modelViewMatrix * vec4(point, 1.0);
   depth = -seen.z;
-  gl_Position = isShown(what, flagsNow()) ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_Position = isShown(what, flagsNow()) && !isLeftOut(isOfTwin()) ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
 }
 `;
 

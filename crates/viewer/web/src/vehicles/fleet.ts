@@ -10,6 +10,7 @@ import { AURA_FRAGMENT, AURA_VERTEX, auraForm } from './aura.ts';
 import { Batch } from './batch.ts';
 import { busBody, carBody, flatBody, motorcycleBody, otherBody, truckBody } from './bodies.ts';
 import { BODY_FRAGMENT, BODY_VERTEX } from './shader.ts';
+import { shown } from './shown.ts';
 
 /** A vehicle that is shown shorter than this, in pixels, becomes a rectangle. */
 const LEAST_BODY_PIXELS = 9;
@@ -26,6 +27,7 @@ export class Fleet {
   readonly group = new Group();
   private readonly shared: Record<string, IUniform> = {
     ...atmosphere,
+    ...shown,
     beforeShift: { value: new Vector3() },
     afterShift: { value: new Vector3() },
     mixing: { value: 1 },

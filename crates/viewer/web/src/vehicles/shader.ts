@@ -1,9 +1,11 @@
 import { PATTERNS } from '../colour/palette.ts';
 import { LIGHT_CHUNK } from '../stage/atmosphere.ts';
 import { PART } from './bodies.ts';
+import { AS_GHOSTS, SHOWN_CHUNK } from './shown.ts';
 
 /** Reads the two records of an instance: where it is now, and what its flags say. */
 export const RECORD_CHUNK = /* glsl */ `
+${SHOWN_CHUNK}
 in uvec4 before;
 in uvec4 after;
 in uint size;
@@ -35,8 +37,14 @@ vec2 sizeNow() {
   return vec2(float(size & 65535u), float(size >> 16u)) / 100.0;
 }
 
+bool isOfTwin() {
+  return (after.w & 0xc00000u) == 0xc00000u;
+}
+
+/** The vehicles of the twin are ghosts, or else usual ones, which nobody records or drives. */
 uint flagsNow() {
-  return (after.w >> 16u) & 255u;
+  uint flags = (after.w >> 16u) & 255u;
+  return isOfTwin() && !(${AS_GHOSTS}) ? flags & 63u : flags;
 }
 `;
 
@@ -100,7 +108,7 @@ void main() {
   flags = flagsNow();
   vec4 seen = modelViewMatrix * vec4(place, 1.0);
   depth = -seen.z;
-  gl_Position = projectionMatrix * seen;
+  gl_Position = isLeftOut(isOfTwin()) ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * seen;
 }
 `;
 
