@@ -42,9 +42,10 @@ export async function lights_by_hand(around) {
     const offset = opened.locator(`${hook('panel-light')} input[type=number]`);
     await offset.fill('20');
     await offset.press('Enter');
+    await opened.mouse.move(light.left, light.top);
+    await shoot(opened, around.shots, 'light');
     await opened.click(hook('hands'));
     await said(opened, /offset of light .* to 20 s/);
-    await shoot(opened, around.shots, 'light');
     const other = await page(around.browser);
     await other.page.goto(server.url);
     await until(other.page, 'it is ready', (it) => it.ready);
@@ -64,7 +65,9 @@ export async function lanes_by_hand(around) {
     await opened.waitForSelector(`${hook('panel-lane')}:visible`);
     await opened.click(hook('block-lane'));
     await opened.waitForSelector(`${hook('open-lane')}:visible`);
-    await opened.waitForTimeout(1500);
+    await opened.mouse.move(left, top);
+    for (let turn = 0; turn < 5; turn += 1) await opened.mouse.wheel(0, -500);
+    await opened.waitForTimeout(2500);
     await shoot(opened, around.shots, 'closed_lane');
     await opened.click(hook('open-lane'));
     await opened.waitForSelector(`${hook('block-lane')}:visible`);
@@ -106,11 +109,11 @@ export async function a_share_by_slider(around) {
     const { x, y, width, height } = await slider.boundingBox();
     await opened.mouse.move(x + width * 0.2, y + height / 2);
     await opened.mouse.down();
-    await said(opened, /share of aggressive/);
     for (let part = 0.2; part <= 0.8; part += 0.1) {
       await opened.mouse.move(x + width * part, y + height / 2);
       await opened.waitForTimeout(150);
     }
+    await said(opened, /share of aggressive/);
     await opened.mouse.up();
     await opened.waitForTimeout(500);
     const entries = await opened.locator(`${hook('hands')} li`).allTextContents();

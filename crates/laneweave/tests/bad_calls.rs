@@ -120,7 +120,8 @@ fn command(
         7 => ("close_lanelet", simulation.close_lanelet(lanelet, numbers.below(2) == 0)),
         8 => ("set_share", simulation.set_share(style, numbers.real())),
         9 => {
-            let offset_s = numbers.one(&[0.0, 40.0, numbers.real()]);
+            let anything = numbers.real();
+            let offset_s = numbers.one(&[0.0, 40.0, anything]);
             ("set_offset", simulation.set_offset(numbers.one(&names.lights), offset_s))
         }
         10 => ("vehicles_on", simulation.vehicles_on(lanelet).map(|_| ())),

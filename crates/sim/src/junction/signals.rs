@@ -132,7 +132,8 @@ impl Signals {
         self.show(network, clock);
     }
 
-    /// Gives the plan of a light, with cycles of this length [s], another offset [s]. Its phases take longer until then.
+    /// Gives the plan of a light, with cycles of this length [s], another offset [s]. Its phases take longer until it
+    /// is there.
     pub(crate) fn set_offset(&mut self, plan: InPlan, cycle: f64, offset: f64) {
         self.offsets.set(plan, cycle, offset);
         // From the next step on its states may change.

@@ -84,7 +84,11 @@ export class Toolbar {
 
   private title(state: State): HTMLElement {
     const title = element('h1', { class: 'title' }, 'laneweave');
-    state.hello.watch((hello) => hello && say(title, hello.title));
+    state.hello.watch((hello) => {
+      if (!hello) return;
+      say(title, hello.title);
+      title.title = hello.title;
+    });
     return title;
   }
 
