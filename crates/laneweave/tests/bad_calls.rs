@@ -144,6 +144,8 @@ fn a_hundred_thousand_random_calls_break_nothing_and_each_refusal_says_what_to_d
         let mut simulation = simulation(name, demand);
         let mut names = Names::of(&simulation);
         let mut columns = Columns::with_poses();
+        // Commands may empty the road for a while.
+        let mut steps_with_vehicles = 0;
         for call in 0..50_000 {
             let (kind, result) = command(&mut simulation, &mut numbers, &names);
             match result {
@@ -160,6 +162,7 @@ fn a_hundred_thousand_random_calls_break_nothing_and_each_refusal_says_what_to_d
                 assert_eq!(simulation.intention(id).is_some(), is_there);
                 assert_eq!(simulation.explain(id).is_some(), is_there);
                 simulation.columns(&mut columns);
+                steps_with_vehicles += u32::from(!columns.is_empty());
                 // Dead vehicles stay among the names for a while.
                 if call % 1000 == 0 {
                     names.vehicles =
@@ -167,7 +170,7 @@ fn a_hundred_thousand_random_calls_break_nothing_and_each_refusal_says_what_to_d
                 }
             }
         }
-        assert!(!columns.is_empty());
+        assert!(steps_with_vehicles > 1000, "{name}: {steps_with_vehicles} of 2000 steps");
     }
     let kinds = [
         "close_lanelet",

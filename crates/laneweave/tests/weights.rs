@@ -1,23 +1,53 @@
 //! Each weight of a style moves what it should while drivers drive, between no weight and ten times the weight, over
 //! ten simulated minutes with about 1,000 vehicles and five paired seeds. The weights are changed as a user changes
-//! them, by commands. The weight of urgency is not among them: it moves where route-driven changes are made, not how
-//! many there are.
+//! them, by commands.
 
+use laneweave::maps::generate::large_town;
+use laneweave::network::DrivingSide;
 use laneweave::sim::{Event, Kind, LaneChange};
 use laneweave::{Parameter, Simulation, in_parallel};
 
 const SEEDS: u64 = 5;
 const DURATION_S: f64 = 600.0;
-/// About 1,000 vehicles in ten minutes.
-const VEHICLES_PER_HOUR: f64 = 6000.0;
+/// Streets in each direction of the town.
+const STREETS: usize = 6;
 const STYLES: [&str; 2] = ["aggressive", "conservative"];
 
-/// Lane changes per vehicle that `counts`, on a motorway with ramps, after a user has multiplied a weight of all
-/// styles.
-fn rate(parameter: Parameter, factor: f64, seed: u64, counts: impl Fn(&LaneChange) -> bool) -> f64 {
-    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/ramps.osm");
-    let simulation = Simulation::builder(map).vehicles_per_hour(VEHICLES_PER_HOUR).seed(seed).threads(1);
-    let mut simulation = simulation.build().expect("a simulation");
+/// Where drivers drive.
+#[derive(Clone, Copy)]
+enum Road {
+    /// A motorway with ramps.
+    Motorway,
+    /// A town with junctions of all kinds, where every second trip needs another lane before a turn.
+    Town,
+}
+
+impl Road {
+    /// A simulation with about 1,000 vehicles in ten minutes.
+    fn simulation(self, seed: u64) -> Simulation {
+        let builder = match self {
+            Road::Motorway => {
+                let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/ramps.osm");
+                Simulation::builder(map).vehicles_per_hour(6000.0)
+            }
+            Road::Town => {
+                let drawing = large_town(STREETS, DrivingSide::Right).expect("a drawing");
+                Simulation::builder(drawing.build().expect("a town")).vehicles_per_hour(9000.0)
+            }
+        };
+        builder.seed(seed).threads(1).build().expect("a simulation")
+    }
+}
+
+/// Lane changes per vehicle that `counts`, after a user has multiplied a weight of all styles.
+fn rate(
+    road: Road,
+    parameter: Parameter,
+    factor: f64,
+    seed: u64,
+    counts: impl Fn(&LaneChange) -> bool,
+) -> f64 {
+    let mut simulation = road.simulation(seed);
     let drivers = simulation.world().driver_parameters().to_vec();
     for style in STYLES {
         let mut typical = drivers.iter().find(|it| it.name == style).expect("a driver").clone();
@@ -40,19 +70,19 @@ fn rate(parameter: Parameter, factor: f64, seed: u64, counts: impl Fn(&LaneChang
 }
 
 /// The rates without the weight and with ten times the weight, for each seed.
-fn pairs(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) -> Vec<[f64; 2]> {
+fn pairs(road: Road, parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) -> Vec<[f64; 2]> {
     let seeds: Vec<u64> = (1..=SEEDS).collect();
-    let pair = |seed: &u64| Ok([0.0, 10.0].map(|factor| rate(parameter, factor, *seed, &counts)));
+    let pair = |seed: &u64| Ok([0.0, 10.0].map(|factor| rate(road, parameter, factor, *seed, &counts)));
     in_parallel(&seeds, 2, pair).expect("runs")
 }
 
 fn all_rise(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) {
-    let pairs = pairs(parameter, counts);
+    let pairs = pairs(Road::Motorway, parameter, counts);
     assert!(pairs.iter().all(|[none, ten]| ten > none), "{parameter:?}: {pairs:?}");
 }
 
 fn all_fall(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) {
-    let pairs = pairs(parameter, counts);
+    let pairs = pairs(Road::Motorway, parameter, counts);
     assert!(pairs.iter().all(|[none, ten]| ten < none), "{parameter:?}: {pairs:?}");
 }
 
@@ -82,4 +112,11 @@ fn courteous_drivers_make_fewer_changes_for_the_slow_side_alone() {
 #[test]
 fn drivers_who_keep_to_the_slow_side_make_more_changes_for_that_alone() {
     all_rise(Parameter::KeepingWeight, |it| it.kind == Kind::Keeping);
+}
+
+/// Those who feel no urgency leave the lane of their route as they come near its last place, and have to come back.
+#[test]
+fn drivers_who_feel_urgency_make_fewer_changes_for_their_route_in_a_town() {
+    let pairs = pairs(Road::Town, Parameter::UrgencyWeight, |it| it.kind == Kind::Route);
+    assert!(pairs.iter().all(|[none, ten]| *ten < 0.7 * none), "{pairs:?}");
 }

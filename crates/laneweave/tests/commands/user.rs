@@ -35,7 +35,7 @@ impl User {
     /// Gives commands, most of which are obeyed.
     pub(crate) fn act(&mut self, simulation: &mut Simulation) -> Result<(), Fault> {
         let vehicles: Vec<VehicleId> = simulation.vehicles().iter().map(|it| it.id).collect();
-        for _ in 0..self.below(4) {
+        for _ in 0..self.below(5) {
             let kind = self.below(self.obeyed.len());
             if self.give(kind, simulation, &vehicles).is_ok() {
                 self.obeyed[kind] += 1;
