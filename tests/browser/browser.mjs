@@ -87,21 +87,28 @@ export async function shoot(opened, folder, name) {
   await opened.screenshot({ path: path.join(folder, `${name}.png`) });
 }
 
-/** On a machine that others use, too, times may be so many times as long as on one of its own. */
-export const SHARED = 3;
-
-/** The most draw calls of a picture, and medians of its script time and of pictures a second, over some seconds. */
+/**
+ * The most draw calls of a picture, the script that it costs [ms of CPU], and pictures a second: medians over some seconds.
+ * Script is all that runs in the page, such as what reads frames. Time in which other programs have the core is not counted.
+ */
 export async function measure(opened, seconds = 10) {
-  const calls = [];
-  const scripts = [];
-  const rates = [];
-  for (let n = 0; n < seconds * 4; n += 1) {
-    await opened.waitForTimeout(250);
-    const { drawCalls, scriptMs, fps } = await state(opened);
-    calls.push(drawCalls);
-    scripts.push(scriptMs);
-    rates.push(fps);
+  const devtools = await opened.context().newCDPSession(opened);
+  await devtools.send('Performance.enable', { timeDomain: 'threadTicks' });
+  const look = async () => {
+    const { metrics } = await devtools.send('Performance.getMetrics');
+    const { drawCalls, pictures } = await state(opened);
+    return { at: Date.now(), drawCalls, pictures, script_s: metrics.find(({ name }) => name === 'ScriptDuration').value };
+  };
+  const looks = [await look()];
+  for (let n = 0; n < seconds; n += 1) {
+    await opened.waitForTimeout(1000);
+    looks.push(await look());
   }
-  const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
-  return { drawCalls: Math.max(...calls), scriptMs: median(scripts), fps: median(rates) };
+  await devtools.detach();
+  const median = (of) => looks.slice(1).map((it, n) => of(it, looks[n])).sort((a, b) => a - b)[seconds >> 1];
+  return {
+    drawCalls: Math.max(...looks.map((it) => it.drawCalls)),
+    scriptMs: median((it, before) => (1000 * (it.script_s - before.script_s)) / (it.pictures - before.pictures)),
+    fps: median((it, before) => (1000 * (it.pictures - before.pictures)) / (it.at - before.at)),
+  };
 }

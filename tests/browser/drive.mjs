@@ -16,6 +16,7 @@ import * as replays from './replays.mjs';
 import * as reports from './reports.mjs';
 import * as road from './road.mjs';
 import * as twins from './twins.mjs';
+import * as visits from './visits.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const home = path.join(here, '../..');
@@ -27,7 +28,7 @@ const browser = await open();
 const folder = mkdtempSync(path.join(os.tmpdir(), 'laneweave-view-'));
 const around = { browser, program: path.resolve(program), home, folder, shots: path.join(here, 'shots'), data: existsSync(data) ? data : null };
 let failed = 0;
-for (const [name, test] of Object.entries({ ...looks, ...hands, ...road, ...replays, ...twins, ...reports, ...many })) {
+for (const [name, test] of Object.entries({ ...looks, ...hands, ...road, ...replays, ...twins, ...visits, ...reports, ...many })) {
   if (names.length > 0 && !names.includes(name)) continue;
   const begin = Date.now();
   try {

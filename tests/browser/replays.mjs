@@ -5,7 +5,10 @@ import { execFileSync } from 'node:child_process';
 import { statSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { SHARED, hook, page, play, shoot, until, view } from './browser.mjs';
+import { hook, page, play, shoot, until, view } from './browser.mjs';
+
+/** On a machine that others use, too, the first frame may need so many times as long as on one of its own. */
+const SHARED = 3;
 
 const run = (program, folder, ...args) => execFileSync(program, args, { cwd: folder, stdio: 'ignore' });
 
@@ -37,7 +40,17 @@ export async function a_run_that_has_ended({ browser, program, home, folder, sho
     const early = await until(opened, 'one minute is reached', (it) => Math.abs(it.time_s - 60) < 8);
     // The next mark.
     await opened.keyboard.press(';');
-    await until(opened, 'the next mark is reached', (it) => it.time_s > early.time_s && it.time_s < early.time_s + 60);
+    const next = await until(opened, 'the next mark is reached', (it) => it.time_s > early.time_s && it.time_s < early.time_s + 60);
+    await opened.keyboard.press(',');
+    await until(opened, 'the mark before is reached', (it) => it.time_s < next.time_s);
+    // The list of important ones: a click goes there, and chooses the vehicle.
+    await opened.click(hook('marks'));
+    const last = opened.locator(`${hook('panel-marks')} button`).last();
+    const [, minutes, seconds, vehicle] = (await last.textContent()).match(/(\d+):(\d+)\.\d\D+(\d+)/);
+    await last.click();
+    const there = 60 * Number(minutes) + Number(seconds);
+    await until(opened, 'it is there', (it) => Math.abs(it.time_s - there) < 2 && it.selected[0] === vehicle);
+    await shoot(opened, shots, 'marks');
   });
 }
 

@@ -103,6 +103,28 @@ export async function reports_of_all_maps(around) {
   });
 }
 
+/** The number of the values in each line of a table; values with a comma stand in quotation marks. */
+const widths = (csv) => csv.trimEnd().split('\n').map((line) => line.replace(/"[^"]*"/g, '').split(',').length);
+
+/** Every figure of a report, as a drawing and as a table. */
+export async function figures_to_take_along(around) {
+  const report = reported(around, path.join(around.home, 'maps/ramps.osm'), path.join(around.folder, 'taken'), ['--duration', '120']);
+  const { page: opened, wrong, close } = await page(around.browser, { offline: true });
+  await opened.goto(pathToFileURL(report).href);
+  const links = await opened.locator('figure .downloads > *').all();
+  for (const link of links) {
+    const [download] = await Promise.all([opened.waitForEvent('download'), link.click()]);
+    const name = download.suggestedFilename();
+    const text = readFileSync(await download.path(), 'utf8');
+    if (name.endsWith('.svg')) assert.match(text, /^<svg [^]*xmlns="http:\/\/www.w3.org\/2000\/svg"[^]*<\/svg>$/, name);
+    else assert.ok(name.endsWith('.csv') && new Set(widths(text)).size === 1 && widths(text).length > 1, name);
+  }
+  assert.deepEqual(wrong, []);
+  await close();
+  assert.ok(links.length >= 20, `${links.length} downloads`);
+  return `${links.length} downloads`;
+}
+
 /** Busy roads, where marks of lane changes would lie on each other. */
 export async function marks_of_busy_roads(around) {
   const reports = ['motorway_4_lanes', 'weaving'].map((name) => {

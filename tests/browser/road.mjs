@@ -125,6 +125,57 @@ export async function a_share_by_slider(around) {
   });
 }
 
+/** Traffic that stands, so near that single vehicles can be told apart. One of them is clicked: it is returned. */
+async function clicked(opened) {
+  await opened.selectOption(hook('factor'), { index: (await opened.locator(`${hook('factor')} option`).count()) - 1 });
+  await play(opened);
+  await until(opened, 'there are vehicles', (it) => it.vehicles >= 60);
+  await opened.click(hook('pause'));
+  const some = await place(opened, 'vehicles');
+  await opened.mouse.move(some.left, some.top);
+  for (let turn = 0; turn < 4; turn += 1) await opened.mouse.wheel(0, -500);
+  await opened.waitForTimeout(3000);
+  const one = await place(opened, 'vehicles');
+  await opened.mouse.click(one.left, one.top);
+  await until(opened, 'one is selected', (it) => it.selected[0] === one.id);
+  await opened.waitForTimeout(1500);
+  return one;
+}
+
+/** A driver gets another style, and is sent to another lane. */
+export async function another_style(around) {
+  await opened_on(around, path.join(around.home, 'maps/ramps.osm'), async (opened) => {
+    const { id } = await clicked(opened);
+    const shows = opened.locator(`${hook('panel-driver')} dl dd`).first();
+    const style = (await shows.textContent()) === 'conservative' ? 'aggressive' : 'conservative';
+    await opened.click(hook('hands'));
+    await opened.selectOption(hook('set-style'), style);
+    await said(opened, new RegExp(`${id}.*${style}`));
+    await opened.click(hook('step'));
+    await shows.filter({ hasText: style }).waitFor();
+    await opened.click(hook('drive'));
+    await opened.click(hook('faster'));
+    await opened.waitForSelector(`${hook('held-speed')} >> text=/holds \\d+ km/`);
+    await opened.click(hook('to-right'));
+    await said(opened, /km\/h, to the right/);
+  });
+}
+
+/** Two vehicles are clicked, the second one with the shift key: the gap between them, and the time to collision. */
+export async function two_vehicles(around) {
+  await opened_on(around, path.join(around.home, 'maps/ramps.osm'), async (opened) => {
+    const first = await clicked(opened);
+    const second = await place(opened, 'vehicles', ({ id }) => id !== first.id);
+    await opened.keyboard.down('Shift');
+    await opened.mouse.click(second.left, second.top);
+    await opened.keyboard.up('Shift');
+    await until(opened, 'two are selected', (it) => it.selected.join() === [first.id, second.id].join());
+    await opened.waitForSelector(`${hook('pair')} >> text=/time to collision/`);
+    assert.match(await opened.textContent(hook('pair')), /gap[\d.,\s]+ m/);
+    await shoot(opened, around.shots, 'two_vehicles');
+  });
+}
+
 /** Fingers: one selects, one drags the road, two zoom. */
 export async function fingers({ browser, program, folder, home, shots }) {
   const server = await view(program, [path.join(home, 'maps/town.osm')], folder);

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use laneweave::{LightState, Side};
 use serde::Deserialize;
 
+use crate::recent::Recent;
+
 /// The class of a road user, as a number of the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -107,6 +109,8 @@ pub struct Snapshot {
     pub twin_lights: Vec<LightState>,
     /// Vehicles that wait to enter.
     pub waiting: usize,
+    /// What has happened in the last minute.
+    pub recent: Recent,
     /// Whether time goes on by itself.
     pub is_playing: bool,
     /// How many times as fast as reality; none: as fast as it goes.

@@ -11,13 +11,16 @@ use serde::Serialize;
 use tokio::sync::{mpsc, watch};
 
 use crate::asked::Asked;
+use crate::recent::Recent;
 use crate::snapshot::{Colour, Snapshot};
-use crate::source::{Mark, Source, Wants};
+use crate::source::{Source, Wants};
 
 /// Time between two snapshots at least.
 const PUBLISHES: Duration = Duration::from_millis(50);
 /// Time for steps between two looks at what pages ask for.
 const WORKS: Duration = Duration::from_millis(25);
+/// Requests that are taken before time goes on.
+const AT_ONCE: usize = 64;
 /// If the simulation is behind by more than this, it does not try to catch up.
 const LATE: Duration = Duration::from_millis(300);
 /// Time between two messages about marks that are still being looked for.
@@ -65,6 +68,7 @@ pub struct Stage {
     snapshots: watch::Sender<Arc<Snapshot>>,
     pages: BTreeMap<PageId, Page>,
     pace: Pace,
+    recent: Recent,
     /// Number of the last snapshot, and when it was published.
     published: (u32, Instant),
     /// Whether something has changed since.
@@ -87,6 +91,7 @@ impl Stage {
             snapshots,
             pages: BTreeMap::new(),
             pace: Pace { is_playing: false, factor: Some(1.0), from: (0.0, now) },
+            recent: Recent::default(),
             published: (0, now - PUBLISHES),
             is_new: true,
             marks_told: (now, -1.0),
@@ -95,17 +100,26 @@ impl Stage {
 
     /// Runs until the program ends.
     pub fn run(mut self) {
-        loop {
-            match self.requests.recv_timeout(self.pause()) {
-                Ok(Request::End) | Err(RecvTimeoutError::Disconnected) => return,
-                Ok(request) => self.take(request),
-                Err(RecvTimeoutError::Timeout) => {}
-            }
+        while self.take_all() {
             self.go_on();
             self.tell_hands();
             self.tell_marks();
             self.publish();
         }
+    }
+
+    /// Takes what waits, so that no queue grows however fast time goes. Returns whether the program goes on.
+    fn take_all(&mut self) -> bool {
+        let mut wait = self.pause();
+        for _ in 0..AT_ONCE {
+            match self.requests.recv_timeout(wait) {
+                Ok(Request::End) | Err(RecvTimeoutError::Disconnected) => return false,
+                Ok(request) => self.take(request),
+                Err(RecvTimeoutError::Timeout) => break,
+            }
+            wait = Duration::ZERO;
+        }
+        true
     }
 
     /// How long nothing has to be done, unless somebody asks for something.
@@ -165,6 +179,7 @@ impl Stage {
             }
             Asked::Seek(time_s) => {
                 self.source.seek(time_s)?;
+                self.recent.clear();
                 self.begin_anew();
             }
             Asked::Find(vehicle) => self.find(id, vehicle),
@@ -243,9 +258,7 @@ impl Stage {
         if let Err(fault) = self.source.step(&mut marks) {
             self.tell_all(&Message::refused(&fault));
         }
-        if !marks.is_empty() {
-            self.tell_all(&Message { events: Some(marks), ..Message::default() });
-        }
+        self.recent.add(marks, self.source.time_s());
         self.is_new = true;
     }
 
@@ -285,8 +298,8 @@ impl Stage {
             selected,
         };
         let Pace { is_playing, factor, .. } = self.pace;
-        let mut snapshot =
-            Snapshot { number: number.wrapping_add(1), is_playing, factor, ..Snapshot::default() };
+        let (number, recent) = (number.wrapping_add(1), self.recent.clone());
+        let mut snapshot = Snapshot { number, recent, is_playing, factor, ..Snapshot::default() };
         self.source.see(&wants, &mut snapshot);
         self.published = (snapshot.number, Instant::now());
         self.is_new = false;
@@ -328,8 +341,6 @@ struct Message<'a> {
     twin: Option<Option<crate::source::TwinFacts>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     found: Option<Found>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    events: Option<Vec<Mark>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<&'a crate::source::Marks>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -81,6 +81,8 @@ struct Page {
     lights: String,
     twin_lights: String,
     clock: Option<(Clock, Instant)>,
+    /// How many events it knows, or has missed.
+    events: u64,
     lanes: Option<Arc<str>>,
     allowance: Allowance,
 }
@@ -97,6 +99,7 @@ impl Default for Page {
             lights: String::new(),
             twin_lights: String::new(),
             clock: None,
+            events: 0,
             lanes: None,
             allowance: Allowance { left: BURST, at: Instant::now() },
         }
@@ -208,6 +211,11 @@ impl Page {
                 self.selected.iter().filter_map(|it| snapshot.drivers.get(it)).map(|it| &**it).collect();
             news.push(format!("{{\"drivers\":[{}]}}", drivers.join(",")));
         }
+        let (events, count) = snapshot.recent.since(self.events);
+        if !events.is_empty() {
+            news.extend(serde_json::to_string(&events).ok().map(|it| format!("{{\"events\":{it}}}")));
+        }
+        self.events = count;
         if let Some(lanes) = snapshot.lanes.as_ref().filter(|_| self.wants_lanes)
             && self.lanes.as_ref() != Some(lanes)
         {

@@ -140,13 +140,27 @@ fn more_pages_than_there_is_room_for_are_turned_away_until_one_leaves() {
 }
 
 #[test]
-fn a_page_that_draws_nothing_is_sent_no_frames() {
+fn a_page_that_draws_nothing_is_told_nothing_and_stays() {
     let (server, token) = server(live("ramps.osm"));
     let mut page = Page::of(&server, &token);
-    page.hear_of("hands");
+    page.hear_of("twin");
     server.ask(Asked::Play(None));
-    // It has not said that it is ready: it hears events, but no frames.
-    for _ in 0..5 {
-        assert!(!matches!(page.hear(), Some(Message::Binary(_))));
-    }
+    let wait = |time_s: f64| while server.state().expect("a stage").0 < time_s {};
+    wait(300.0);
+    // Nothing of these five minutes waits for it, and it is still connected.
+    page.say("{\"find\":\"4000000000\"}");
+    let Some(Message::Text(next)) = page.hear() else { panic!("a text") };
+    assert_eq!(next.as_str(), "{\"found\":{\"id\":\"4000000000\"}}");
+    // It is ready: what it is told of is a minute old at most, and it is told once.
+    page.say("{\"ready\":0}");
+    let times = |text: &str| -> Vec<f64> {
+        let after = text.split("\"time_s\":").skip(1).filter_map(|it| it.split(',').next());
+        after.map(|it| it.parse().expect("a time")).collect()
+    };
+    let first = times(&page.hear_of("events"));
+    let (oldest, newest) = (first[0], first[first.len() - 1]);
+    assert!(oldest > 60.0 && newest - oldest <= 60.0 + 1e-9, "{first:?}");
+    wait(newest + 120.0);
+    page.say("{\"ready\":0}");
+    assert!(times(&page.hear_of("events"))[0] > newest);
 }

@@ -98,7 +98,7 @@ export class Page {
       jump: (sign: 1 | -1) => this.timeline.jump(sign),
     };
     const toolbar = new Toolbar(state, acts, twin.root);
-    this.side.append(new DriverPanel(state, actions.root).root, handsPanel.root, marks.root);
+    this.side.append(marks.root, new DriverPanel(state, actions.root).root, handsPanel.root);
     document.querySelector('main')?.append(
       this.halfLabels.root,
       element('header', { class: 'bar top' }, toolbar.root),
@@ -196,7 +196,6 @@ export class Page {
   }
 
   private picture(now_ms: number, last_ms: number): void {
-    const began = performance.now();
     if (this.view && this.state.hello.value) {
       this.leaveFree(now_ms);
       this.view.draw(now_ms / 1000, Math.min((now_ms - last_ms) / 1000, 0.25), this.telemetry.fps);
@@ -204,7 +203,7 @@ export class Page {
       this.time.showTime(time_s);
       this.timeline.show(time_s);
       this.halfLabels.show(this.stage.halves);
-      this.telemetry.note(performance.now() - began, now_ms - last_ms, this.stage.renderer.info.render.calls);
+      this.telemetry.note(now_ms - last_ms, this.stage.renderer.info.render.calls);
       this.telemetry.publish(this.view, this.state);
     }
     requestAnimationFrame((next) => this.picture(next, now_ms));

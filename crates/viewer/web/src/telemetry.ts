@@ -1,16 +1,14 @@
 import type { State } from './state.ts';
 import type { TrafficView } from './traffic_view.ts';
 
-const FRAMES = 120;
 const VEHICLES_EVERY = 10;
 
 /** What tests and the curious read from `window.laneweave`. */
 export interface Published {
   ready: boolean;
   drawCalls: number;
-  /** The median of the last pictures. */
-  scriptMs: number;
-  scriptMsWorst: number;
+  /** How many pictures were drawn, and how many are a second. */
+  pictures: number;
   fps: number;
   vehicles: number;
   /** How the twin is shown, its vehicles in view, and those in view, of both, that differ; null where their colours tell something else. */
@@ -18,8 +16,8 @@ export interface Published {
   colour: string;
   time_s: number;
   selected: string[];
-  /** Where lights and lanelets are in the window [px]. */
-  places: (of: 'lights' | 'lanelets') => Place[];
+  /** Where lights, lanelets and vehicles are in the window [px], as long as it shows one picture. */
+  places: (of: keyof typeof PLACES) => Place[];
   camera: { mode: string; x: number; y: number; distance: number; azimuth: number; tilt: number };
 }
 
@@ -35,36 +33,30 @@ declare global {
   }
 }
 
-/** Measures how long pictures take. */
+/** Counts pictures, and what they draw. */
 export class Telemetry {
   fps = 60;
-  private readonly script = new Float64Array(FRAMES);
-  private readonly sorted = new Float64Array(FRAMES);
-  private noted = 0;
+  private pictures = 0;
   private drawCalls = 0;
   private vehicles = 0;
 
-  note(script_ms: number, whole_ms: number, drawCalls: number): void {
-    this.script[this.noted % FRAMES] = script_ms;
-    this.noted += 1;
+  note(whole_ms: number, drawCalls: number): void {
+    this.pictures += 1;
     this.drawCalls = drawCalls;
     if (whole_ms > 0) this.fps += (1000 / whole_ms - this.fps) * 0.05;
   }
 
   publish(view: TrafficView, state: State): void {
-    if (this.noted % VEHICLES_EVERY !== 1) {
-      if (window.laneweave) window.laneweave.time_s = view.traffic.playback.time_s;
+    if (this.pictures % VEHICLES_EVERY !== 1) {
+      if (window.laneweave) Object.assign(window.laneweave, { pictures: this.pictures, time_s: view.traffic.playback.time_s });
       return;
     }
     this.vehicles = view.traffic.count(false);
-    this.sorted.set(this.script);
-    const known = this.sorted.subarray(0, Math.min(this.noted, FRAMES)).sort();
     const { x, y, distance, azimuth, tilt } = view.stage.rig.now;
     window.laneweave = {
       ready: view.traffic.playback.next !== null,
       drawCalls: this.drawCalls,
-      scriptMs: known[known.length >> 1],
-      scriptMsWorst: known[known.length - 1],
+      pictures: this.pictures,
       fps: this.fps,
       vehicles: this.vehicles,
       twin: {
@@ -75,11 +67,13 @@ export class Telemetry {
       colour: state.colour.value,
       time_s: view.traffic.playback.time_s,
       selected: state.selected.value,
-      places: (of) => (of === 'lights' ? lights(view) : lanelets(view)),
+      places: (of) => PLACES[of](view),
       camera: { mode: state.camera.value, x, y, distance, azimuth, tilt },
     };
   }
 }
+
+const vehicles = (view: TrafficView): Place[] => view.traffic.all().map(({ id, x, y }) => ({ id, ...view.pixel(x, y) }));
 
 const lights = (view: TrafficView): Place[] =>
   view.signals.map(({ light, head: [x, y] }) => ({ id: view.scene.lights[light].id, ...view.pixel(x, y) }));
@@ -91,3 +85,5 @@ function lanelets(view: TrafficView): Place[] {
     return { id, ...view.pixel(centre[middle], centre[middle + 1]) };
   });
 }
+
+const PLACES = { lights, lanelets, vehicles };

@@ -114,7 +114,7 @@ export class TrafficView {
     return groundAt(camera, across, up, now.z);
   }
 
-  /** Where a place of the road is in the window [px]: the inverse of `ground`. */
+  /** Where a place of the road is in a window that shows one picture [px]: the inverse of `ground`. */
   pixel(x: number, y: number): { left: number; top: number } {
     const box = this.stage.canvas.getBoundingClientRect();
     const { camera, now } = this.stage.rig;

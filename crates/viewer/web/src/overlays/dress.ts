@@ -35,9 +35,9 @@ export function dress(view: TrafficView, state: State): void {
   view.onPicture.push(() => {
     const { time_s } = traffic.playback;
     if (Math.abs(time_s - last_s) > JUMP_S) {
-      marks.clear();
-      const known = state.marks.value?.marks ?? [];
-      marks.add(known.filter((mark) => mark.time_s <= time_s && mark.time_s > time_s - SHOWN_FOR_S), scene.origin, heightAt);
+      const known = state.marks.value?.marks;
+      if (known || time_s < last_s) marks.clear();
+      if (known) marks.add(known.filter((mark) => mark.time_s <= time_s && mark.time_s > time_s - SHOWN_FOR_S), scene.origin, heightAt);
     }
     last_s = time_s;
     trails.add(traffic, scene.origin, state.trails.value, state.selected.value);

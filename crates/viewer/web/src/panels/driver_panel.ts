@@ -35,7 +35,7 @@ export class DriverPanel {
       button('eye', 'Driver’s eye', 'See what the driver sees (V)', () => toggle(state, 'eye')),
       button('deselect', 'Close', 'Select nothing (Esc)', () => state.choose([])),
     );
-    this.root.append(this.title, this.act, views, this.facts, this.charts, this.gap, this.whole, this.second, actions);
+    this.root.append(this.title, this.act, views, this.second, this.facts, this.charts, this.gap, this.whole, actions);
     this.second.hidden = true;
     state.camera.watch((mode) => {
       for (const one of ['follow', 'eye']) views.querySelector(`[data-test=${one}]`)?.setAttribute('aria-pressed', String(mode === one));

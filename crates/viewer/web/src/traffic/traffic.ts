@@ -93,6 +93,12 @@ export class Traffic {
     };
   }
 
+  /** All vehicles in view, with their places. */
+  all(): { id: string; x: number; y: number }[] {
+    const slots = Array.from({ length: this.playback.next?.slotCount ?? 0 }, (_, slot) => this.placed(slot));
+    return slots.flatMap((it) => (it ? [{ id: this.slots.id(it.slot), x: it.x, y: it.y }] : []));
+  }
+
   /** The id of the vehicle of the traffic or of its twin at a point of the road, or of the nearest one within a reach. */
   pick(x: number, y: number, reach: number, isInTwin: boolean): string | null {
     const { next } = this.playback;
