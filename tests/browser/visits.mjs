@@ -29,5 +29,9 @@ export async function a_page_that_reloads({ browser, program, home, folder, shot
   await opened.waitForSelector(`${hook('connection')} >> text=/connection to laneweave is lost/`);
   await opened.keyboard.press('Home');
   await shoot(opened, shots, 'connection_lost');
+  // Another server is at its address now.
+  const another = await view(program, [path.join(home, 'maps/town.osm'), '--port', new URL(server.url).port], folder);
+  await opened.waitForSelector(`${hook('connection')} >> text=Open the address that laneweave view prints`);
   await close();
+  await another.end();
 }

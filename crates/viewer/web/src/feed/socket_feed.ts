@@ -12,6 +12,8 @@ export class SocketFeed implements Feed {
   private listener: FeedListener | null = null;
   private retry_s = FIRST_RETRY_S;
   private hasScene = false;
+  /** Whether the last connection was open; if not, another server may be there now. */
+  private wasOpen = true;
   private readonly token = new URLSearchParams(location.search).get('token') ?? '';
 
   start(listener: FeedListener): void {
@@ -29,8 +31,10 @@ export class SocketFeed implements Feed {
     listener.connection({ state: 'connecting' });
     try {
       if (!this.hasScene) {
-        listener.scene(await this.loadScene());
+        listener.scene((await (await this.ask('GET')).json()) as Scene);
         this.hasScene = true;
+      } else if (!this.wasOpen) {
+        await this.ask('HEAD');
       }
     } catch (error) {
       if (error instanceof Forbidden) listener.connection({ state: 'refused', what: error.message });
@@ -40,13 +44,14 @@ export class SocketFeed implements Feed {
     this.open(listener);
   }
 
-  private async loadScene(): Promise<Scene> {
-    const answer = await fetch(`/scene.json?token=${encodeURIComponent(this.token)}`);
+  /** Asks for the scene, or only whether there is one. */
+  private async ask(method: 'GET' | 'HEAD'): Promise<Response> {
+    const answer = await fetch(`/scene.json?token=${encodeURIComponent(this.token)}`, { method });
     if (answer.status === 401 || answer.status === 403) {
       throw new Forbidden('The server does not know this address. Open the address that laneweave view prints.');
     }
     if (!answer.ok) throw new Error(answer.statusText);
-    return (await answer.json()) as Scene;
+    return answer;
   }
 
   private open(listener: FeedListener): void {
@@ -54,7 +59,9 @@ export class SocketFeed implements Feed {
     const socket = new WebSocket(`${scheme}://${location.host}/live?token=${encodeURIComponent(this.token)}`);
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
+    this.wasOpen = false;
     socket.onopen = () => {
+      this.wasOpen = true;
       this.retry_s = FIRST_RETRY_S;
       listener.connection({ state: 'open' });
     };
