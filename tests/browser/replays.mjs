@@ -51,6 +51,18 @@ export async function a_run_that_has_ended({ browser, program, home, folder, sho
     const there = 60 * Number(minutes) + Number(seconds);
     await until(opened, 'it is there', (it) => Math.abs(it.time_s - there) < 2 && it.selected[0] === vehicle);
     await shoot(opened, shots, 'marks');
+    // Before it came there was nothing to say of it.
+    await click(opened, 0.02);
+    await opened.waitForSelector(`${hook('act')} >> text=is not on the road now`);
+    assert.equal(await opened.locator(`${hook('panel-driver')} dl.facts:visible dd`).count(), 0);
+    // Who plays a run at its end sees it from its beginning.
+    await click(opened, 0.999);
+    await opened.click(hook('pause'));
+    await until(opened, 'it is near its end', (it) => it.time_s > 290);
+    for (let step = 0; step < 40; step += 1) await opened.keyboard.press('.');
+    await until(opened, 'it has ended', (it) => Math.abs(it.time_s - 300) < 0.05);
+    await opened.click(hook('play'));
+    await until(opened, 'it has begun again', (it) => it.time_s > 0 && it.time_s < 60);
   });
 }
 

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import path from 'node:path';
-import { hook, page, play, shoot, until, view } from './browser.mjs';
+import { hook, page, play, shoot, state, until, view } from './browser.mjs';
 
 /** A place of this kind that is well inside the free part of the window. */
 async function place(opened, kind, isFine = () => true) {
@@ -173,6 +173,32 @@ export async function two_vehicles(around) {
     await opened.waitForSelector(`${hook('pair')} >> text=/time to collision/`);
     assert.match(await opened.textContent(hook('pair')), /gap[\d.,\s]+ m/);
     await shoot(opened, around.shots, 'two_vehicles');
+  });
+}
+
+/** By keyboard alone: a vehicle in the middle is selected, and then a second one. While time stands, all can be seen. */
+export async function by_keyboard(around) {
+  await opened_on(around, path.join(around.home, 'maps/ramps.osm'), async (opened) => {
+    const { id } = await clicked(opened);
+    await opened.keyboard.press('Home');
+    await until(opened, 'all are seen', (it) => it.vehicles >= 60);
+    await opened.keyboard.press('/');
+    await opened.keyboard.type(id);
+    await opened.keyboard.press('Enter');
+    await until(opened, 'it is followed', (it) => it.selected[0] === id && it.camera.mode === 'follow');
+    await opened.locator(hook('picture')).focus();
+    await opened.waitForTimeout(2500);
+    await opened.keyboard.press('Escape');
+    await until(opened, 'nobody is selected', (it) => it.selected.length === 0);
+    await opened.keyboard.press('Enter');
+    await until(opened, 'it is selected', (it) => it.selected[0] === id);
+    for (let turn = 0; turn < 60 && (await state(opened)).selected.length < 2; turn += 1) {
+      await opened.keyboard.press('ArrowRight');
+      await opened.waitForTimeout(400);
+      await opened.keyboard.press('Shift+Enter');
+    }
+    await until(opened, 'a second one is selected', (it) => it.selected.length === 2 && it.selected[0] === id);
+    await opened.waitForSelector(`${hook('pair')} >> text=/gap/`);
   });
 }
 

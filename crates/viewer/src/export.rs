@@ -90,8 +90,9 @@ pub fn export(
 /// The page with its parts and the replay in one file.
 fn inlined(page: Page, replay: &str) -> String {
     let Page { html, script, style } = page;
-    // This would end the element early. In JSON and in texts of scripts, "<\/" is the same.
+    // This would end the element early. In texts of scripts, "<\/" is the same, and in JSON "\u003c" is "<".
     let escaped = |text: &str| text.replace("</script", "<\\/script");
+    let replay = replay.replace('<', "\\u003c");
     let mut file = String::with_capacity(html.len() + script.len() + style.len() + replay.len());
     for line in html.lines() {
         if line.contains("page.css") {
@@ -100,8 +101,7 @@ fn inlined(page: Page, replay: &str) -> String {
         } else if !line.contains("page.js") {
             if line.contains("</body>") {
                 let before = line.replace("</body>", "");
-                let data =
-                    format!("<script id=\"replay\" type=\"application/json\">{}</script>", escaped(replay));
+                let data = format!("<script id=\"replay\" type=\"application/json\">{replay}</script>");
                 file += &format!("{before}{data}\n<script type=\"module\">{}</script>\n", escaped(script));
                 file += "</body>\n";
             } else {
@@ -124,12 +124,12 @@ mod tests {
             script: "say('</script>')",
             style: "p { color: red }",
         };
-        let file = inlined(page, "{\"title\":\"</script>\"}");
+        let file = inlined(page, "{\"title\":\"</SCRIPT><!--<script>\"}");
         let file = file.replace(POLICY, "…");
         assert_eq!(
             file,
             "<!doctype html>\n<meta http-equiv=\"Content-Security-Policy\" content=\"…\">\n<style>p { color: red }</style>\n<body>\n<p>traffic</p>\n\
-             <script id=\"replay\" type=\"application/json\">{\"title\":\"<\\/script>\"}</script>\n\
+             <script id=\"replay\" type=\"application/json\">{\"title\":\"\\u003c/SCRIPT>\\u003c!--\\u003cscript>\"}</script>\n\
              <script type=\"module\">say('<\\/script>')</script>\n</body>\n"
         );
     }

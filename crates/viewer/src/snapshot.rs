@@ -109,7 +109,7 @@ pub struct Snapshot {
     pub twin_lights: Vec<LightState>,
     /// Vehicles that wait to enter.
     pub waiting: usize,
-    /// What has happened in the last minute.
+    /// What has happened a short while ago.
     pub recent: Recent,
     /// Whether time goes on by itself.
     pub is_playing: bool,

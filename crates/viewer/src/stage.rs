@@ -168,6 +168,7 @@ impl Stage {
         self.is_new = true;
         match asked {
             Asked::Play(factor) => {
+                self.begin_again()?;
                 self.pace.is_playing = true;
                 self.pace.factor = factor;
                 self.begin_anew();
@@ -192,16 +193,35 @@ impl Stage {
             }
             Asked::Undo(_) => self.source.undo()?,
             Asked::Twin(is_wanted) => {
+                self.carry_out();
                 self.source.twin(is_wanted)?;
                 self.tell_all(&Message { twin: Some(self.source.twin_facts()), ..Message::default() });
             }
             Asked::Save(_) => {
+                self.carry_out();
                 let saved = Some(self.source.save()?);
                 self.tell(id, &Message { saved, ..Message::default() });
             }
             of_page => self.note(id, of_page),
         }
         Ok(())
+    }
+
+    /// What has come to its end, and can be at any time, begins again.
+    fn begin_again(&mut self) -> Result<(), Fault> {
+        let hello = self.source.hello();
+        if self.source.has_ended() && hello.can.seek {
+            self.source.seek(hello.begin_s)?;
+            self.recent.clear();
+        }
+        Ok(())
+    }
+
+    /// What was done by hand while time stood acts in a step: it is made, so that nothing is missing.
+    fn carry_out(&mut self) {
+        if self.source.waits() {
+            self.step();
+        }
     }
 
     /// Notes what a page wants to see.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use laneweave::scenario::Origin;
 use laneweave::{Class, LightState, Parameter, Simulation};
-use laneweave_viewer::source::Wants;
+use laneweave_viewer::source::{DriveSide, Wants};
 use laneweave_viewer::{Hand, Live, Seen, Snapshot, Source};
 
 fn map(name: &str) -> PathBuf {
@@ -190,5 +190,62 @@ fn what_is_set_is_known_as_it_is_now_whoever_set_it() {
     let mut again = Live::new(scenario, origin, dir.clone()).expect("a simulation");
     steps(&mut again, 4);
     assert!(again.has_news_of_hands() && again.hands().set.contains(&offset(30.0)));
+    let _ = std::fs::remove_dir_all(dir);
+}
+
+#[test]
+fn what_was_taken_off_the_road_does_not_keep_the_rest_from_being_taken_back() {
+    let dir = folder("removed");
+    let mut live = live("ramps.osm", &dir);
+    let style = live.hello().styles[0].name.clone();
+    live.hand(&Hand::SetShare { style, weight: 3.0 }).expect("a share");
+    let [x, y] = beside_an_entrance(&live);
+    let vehicle = live.hand(&Hand::Put { x, y, class: Class::Car }).expect("a car").expect("its id");
+    live.hand(&Hand::Remove { vehicle: vehicle.to_string() }).expect("it leaves");
+    // It does nothing else before it has gone.
+    let drive = Hand::Drive { vehicle: vehicle.to_string(), speed_kmh: Some(20.0), side: None };
+    assert!(live.hand(&drive).expect_err("it leaves").what.contains("off the road"));
+    steps(&mut live, 1);
+    assert!(live.find(i64::from(vehicle)).is_none());
+    live.undo().expect("the share");
+    assert_eq!(live.hands().done.iter().map(|it| it.is_undone).collect::<Vec<_>>(), [true, false, false]);
+    assert!(live.undo().expect_err("it has gone").what.contains("taken off the road"));
+    let _ = std::fs::remove_dir_all(dir);
+}
+
+#[test]
+fn a_car_that_is_put_and_taken_back_while_time_stands_was_never_there() {
+    let dir = folder("stands");
+    let [mut live, mut untouched] = ["ramps.osm"; 2].map(|it| live(it, &dir));
+    steps(&mut live, 300);
+    steps(&mut untouched, 301);
+    let [x, y] = beside_an_entrance(&live);
+    let vehicle = live.hand(&Hand::Put { x, y, class: Class::Car }).expect("a car").expect("its id");
+    assert!(live.waits());
+    live.undo().expect("the car");
+    steps(&mut live, 1);
+    assert!(!live.waits() && live.find(i64::from(vehicle)).is_none());
+    assert!(live.hands().done[0].is_undone);
+    assert_eq!(run_again(&live), live.state_hash());
+    let _ = std::fs::remove_dir_all(dir);
+}
+
+#[test]
+fn a_lane_change_that_was_asked_for_goes_on_at_another_speed() {
+    let dir = folder("speeds");
+    let mut live = live("motorway_3_lanes.osm", &dir);
+    let [x, y] = beside_an_entrance(&live);
+    let vehicle = live.hand(&Hand::Put { x, y, class: Class::Car }).expect("a car").expect("its id");
+    let drive =
+        |speed_kmh, side| Hand::Drive { vehicle: vehicle.to_string(), speed_kmh: Some(speed_kmh), side };
+    steps(&mut live, 1);
+    let begin = live.find(i64::from(vehicle)).expect("it is there");
+    live.hand(&drive(60.0, Some(DriveSide::Left))).expect("to the left");
+    live.hand(&drive(65.0, None)).expect("faster");
+    steps(&mut live, 20);
+    live.hand(&drive(70.0, None)).expect("faster still");
+    steps(&mut live, 150);
+    let end = live.find(i64::from(vehicle)).expect("it is there");
+    assert!((end[1] - begin[1]).abs() > 3.0, "{begin:?} {end:?}");
     let _ = std::fs::remove_dir_all(dir);
 }

@@ -5,7 +5,10 @@ use std::time::{Duration, Instant};
 
 use laneweave::Simulation;
 use laneweave::record::Record;
+use laneweave_viewer::source::Wants;
 use laneweave_viewer::{Rerun, Snapshot, Source};
+
+const PATIENCE: Duration = Duration::from_secs(60);
 
 #[test]
 fn every_time_of_a_run_is_as_it_was_in_whatever_order_they_are_looked_at() {
@@ -27,6 +30,22 @@ fn every_time_of_a_run_is_as_it_was_in_whatever_order_they_are_looked_at() {
         run.seek(f64::from(tens) * 10.0).expect("a time");
         assert_eq!(run.state_hash(), hashes[tens as usize], "at {tens}0 s");
     }
+    // What a page is told of the minute before does not depend on how a time was reached.
+    let mut straight = Rerun::open(&dir).expect("a run");
+    (0..1000).for_each(|_| straight.step(&mut Vec::new()).expect("a step"));
+    let look = |run: &Rerun| {
+        let mut snapshot = Snapshot::default();
+        run.see(&Wants { lanes: true, ..Wants::default() }, &mut snapshot);
+        (snapshot.vehicles, snapshot.lanes)
+    };
+    let begin = Instant::now();
+    while run.marks().expect("marks").lock().expect("marks").until_s < 100.0 && begin.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    run.seek(20.0).expect("a time");
+    run.seek(100.0).expect("a time");
+    assert!(look(&run).1.is_some_and(|it| it.len() > 100));
+    assert_eq!(look(&run), look(&straight));
     run.seek(1e9).expect("a time");
     assert!(run.has_ended() && run.state_hash() == hashes[12]);
     let kept = Record::open(&dir).expect("its record").end.state_hash;
@@ -35,7 +54,7 @@ fn every_time_of_a_run_is_as_it_was_in_whatever_order_they_are_looked_at() {
     // The survey finds the lane changes of the whole run.
     let marks = run.marks().expect("marks");
     let begin = Instant::now();
-    while marks.lock().expect("marks").until_s < 120.0 && begin.elapsed() < Duration::from_secs(60) {
+    while marks.lock().expect("marks").until_s < 120.0 && begin.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(20));
     }
     let marks = marks.lock().expect("marks");

@@ -12,6 +12,7 @@ use tokio::time::{Instant, timeout};
 use super::Shared;
 use crate::asked::Asked;
 use crate::frame::{Slots, View};
+use crate::recent::Heard;
 use crate::snapshot::{Colour, Snapshot};
 use crate::stage::{PageId, Request};
 
@@ -36,7 +37,14 @@ pub(super) async fn serve(mut socket: WebSocket, shared: &Arc<Shared>) {
         let can_draw = page.is_ready;
         let goes_on = tokio::select! {
             received = socket.recv() => match received {
-                Some(Ok(message)) => page.take(message, id, shared, &mut socket).await,
+                Some(Ok(message)) => {
+                    let goes_on = page.take(message, id, shared, &mut socket).await;
+                    if std::mem::take(&mut page.has_moved) {
+                        // It sees more of what is there, also while time stands.
+                        snapshots.mark_changed();
+                    }
+                    goes_on
+                }
                 _ => false,
             },
             text = said.recv() => match text {
@@ -77,12 +85,14 @@ struct Page {
     selected: Vec<i64>,
     /// It can draw another frame.
     is_ready: bool,
+    /// It shows another part of the map than the last frame has.
+    has_moved: bool,
     /// What it was told last.
     lights: String,
     twin_lights: String,
     clock: Option<(Clock, Instant)>,
-    /// How many events it knows, or has missed.
-    events: u64,
+    /// The events that it knows, or has missed.
+    events: Heard,
     lanes: Option<Arc<str>>,
     allowance: Allowance,
 }
@@ -96,10 +106,11 @@ impl Default for Page {
             wants_lanes: false,
             selected: Vec::new(),
             is_ready: false,
+            has_moved: false,
             lights: String::new(),
             twin_lights: String::new(),
             clock: None,
-            events: 0,
+            events: Heard::default(),
             lanes: None,
             allowance: Allowance { left: BURST, at: Instant::now() },
         }
@@ -157,7 +168,11 @@ impl Page {
     fn note(&mut self, asked: &Asked) {
         match asked {
             Asked::Ready(_) => self.is_ready = true,
-            Asked::View(view) => self.view = View(*view),
+            Asked::View(view) => {
+                // Before its first frame there is nothing to show again.
+                self.has_moved = self.view != View(*view) && self.clock.is_some();
+                self.view = View(*view);
+            }
             Asked::Colour(colour) => self.colour = *colour,
             Asked::Lanes(wants) => self.wants_lanes = *wants,
             Asked::Select(ids) => self.selected = ids.iter().filter_map(|it| it.parse().ok()).collect(),
@@ -211,11 +226,10 @@ impl Page {
                 self.selected.iter().filter_map(|it| snapshot.drivers.get(it)).map(|it| &**it).collect();
             news.push(format!("{{\"drivers\":[{}]}}", drivers.join(",")));
         }
-        let (events, count) = snapshot.recent.since(self.events);
+        let events = snapshot.recent.since(&mut self.events);
         if !events.is_empty() {
             news.extend(serde_json::to_string(&events).ok().map(|it| format!("{{\"events\":{it}}}")));
         }
-        self.events = count;
         if let Some(lanes) = snapshot.lanes.as_ref().filter(|_| self.wants_lanes)
             && self.lanes.as_ref() != Some(lanes)
         {

@@ -94,7 +94,8 @@ pub(super) fn refused() -> Response {
 
 /// Lets only requests pass that a page of this server, or no page, has made.
 pub(super) async fn check(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
-    let may = request.method() == Method::GET && is_own(&shared.address, request.headers());
+    let is_read = matches!(*request.method(), Method::GET | Method::HEAD);
+    let may = is_read && is_own(&shared.address, request.headers());
     let mut response = if may { next.run(request).await } else { refused() };
     let headers = response.headers_mut();
     for (name, value) in [

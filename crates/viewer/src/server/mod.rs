@@ -42,6 +42,8 @@ const NO_PAGE: PageId = 0;
 const REQUESTS: usize = 4096;
 /// A client that needs longer for the head of a request is cut off.
 const HEAD: Duration = Duration::from_secs(5);
+/// A connection that is not one of a page after this time is ended, so that nobody holds it by reading nothing.
+const VISIT: Duration = Duration::from_secs(60);
 
 /// A server that runs.
 pub struct Server {
@@ -169,13 +171,13 @@ async fn serve(stream: TcpStream, app: Router) {
     // Frames go out at once.
     let _ = stream.set_nodelay(true);
     let service = TowerToHyperService::new(app);
-    let _ = http1::Builder::new()
+    let connection = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(HEAD)
         .max_buf_size(16 * 1024)
         .serve_connection(TokioIo::new(stream), service)
-        .with_upgrades()
-        .await;
+        .with_upgrades();
+    let _ = tokio::time::timeout(VISIT, connection).await;
 }
 
 fn router(shared: &Arc<Shared>) -> Router {

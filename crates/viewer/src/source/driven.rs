@@ -28,12 +28,18 @@ pub(super) struct Driven {
     pub(super) prepared: Prepared,
     title: String,
     around: Surroundings,
-    lanes: Lanes,
     turns: Turns,
-    /// When each vehicle has last changed lanes [s].
-    last_changes: HashMap<VehicleId, f64>,
+    noted: Noted,
     /// The index of the style of each set of driver parameters.
     style_of: Vec<u8>,
+}
+
+/// What was noted of the past of a world.
+#[derive(Clone, Debug)]
+pub(super) struct Noted {
+    lanes: Lanes,
+    /// When each vehicle has last changed lanes [s].
+    last_changes: HashMap<VehicleId, f64>,
 }
 
 impl Driven {
@@ -42,22 +48,12 @@ impl Driven {
         let map = read_map(&scenario, &origin)?;
         let around = Surroundings::of(&map);
         let prepared = prepare_on(map, &scenario, &origin)?;
-        let lanes = Lanes::of(prepared.world.network());
+        let noted = Noted { lanes: Lanes::of(prepared.world.network()), last_changes: HashMap::new() };
         let turns = Turns::of(prepared.world.network());
         let name = scenario.map.file_name().unwrap_or(scenario.map.as_os_str());
         let title = name.to_string_lossy().into_owned();
-        let last_changes = HashMap::new();
-        let mut driven = Driven {
-            scenario,
-            origin,
-            prepared,
-            title,
-            around,
-            lanes,
-            turns,
-            last_changes,
-            style_of: Vec::new(),
-        };
+        let style_of = Vec::new();
+        let mut driven = Driven { scenario, origin, prepared, title, around, turns, noted, style_of };
         driven.know_styles();
         Ok(driven)
     }
@@ -97,7 +93,7 @@ impl Driven {
 
     /// Knows what was noted of `other`, which has the same state.
     fn follow(&mut self, other: &Driven) {
-        self.last_changes.clone_from(&other.last_changes);
+        self.noted.clone_from(&other.noted);
         self.know_styles();
     }
 
@@ -136,7 +132,7 @@ impl Driven {
             self.prepared.world.reset_counts();
         }
         self.prepared.step();
-        let Driven { prepared: Prepared { world, .. }, lanes, last_changes, .. } = self;
+        let Driven { prepared: Prepared { world, .. }, noted: Noted { lanes, last_changes }, .. } = self;
         for event in world.events() {
             match event {
                 Event::LaneChange(it) if it.is_completed => {
@@ -160,10 +156,14 @@ impl Driven {
         }
     }
 
-    /// Forgets what was noted: time has jumped.
-    pub(super) fn forget(&mut self) {
-        self.last_changes.clear();
-        self.lanes.clear();
+    /// What was noted until now.
+    pub(super) fn noted(&self) -> Noted {
+        self.noted.clone()
+    }
+
+    /// Time has jumped to where this was noted.
+    pub(super) fn know(&mut self, noted: &Noted) {
+        self.noted.clone_from(noted);
     }
 
     /// Adds what can be seen now.
@@ -177,17 +177,28 @@ impl Driven {
         snapshot.vehicles = world.vehicles().map(|it| self.seen(&it, wants)).collect();
         for id in &wants.selected {
             let vehicle = VehicleId::try_from(*id).ok().and_then(|it| world.vehicle(it));
-            let facts = vehicle.and_then(|it| serde_json::to_string(&DriverFacts::of(world, &it)).ok());
+            let facts = vehicle.and_then(|it| serde_json::to_string(&self.facts(&it)).ok());
             snapshot.drivers.extend(facts.map(|it| (*id, Arc::from(it))));
         }
         if wants.lanes {
-            snapshot.lanes = serde_json::to_string(&self.lanes.rows()).ok().map(Arc::from);
+            snapshot.lanes = serde_json::to_string(&self.noted.lanes.rows()).ok().map(Arc::from);
         }
+    }
+
+    /// Whether a vehicle of a replay moves as it was recorded.
+    fn is_recorded(&self, vehicle: &Vehicle) -> bool {
+        self.scenario.replay.is_asked() && vehicle.is_on_its_own_path()
+    }
+
+    fn facts(&self, vehicle: &Vehicle) -> DriverFacts {
+        let facts = DriverFacts::of(self.world(), vehicle);
+        if self.is_recorded(vehicle) { facts.of_recorded() } else { facts }
     }
 
     fn seen(&self, vehicle: &Vehicle, wants: &Wants) -> Seen {
         let (pose, [length, width], driver) = (vehicle.pose(), vehicle.size(), vehicle.driver);
         let is_desire_wanted = wants.desire && vehicle.is_in_lane();
+        let is_recorded = self.is_recorded(vehicle);
         Seen {
             id: i64::from(vehicle.id()),
             at: [pose.at.x, pose.at.y, pose.at.z],
@@ -200,8 +211,8 @@ impl Driven {
             phase: driver.phase as u8,
             is_braking: vehicle.motion.acceleration < BRAKES || vehicle.speed() < HOLDS,
             signals: signals(driver, vehicle.lane_change).or_else(|| self.turns.side(self.world(), vehicle)),
-            is_external: driver.is_external,
-            is_recorded: false,
+            is_external: driver.is_external && !is_recorded,
+            is_recorded,
             values: [
                 if is_desire_wanted { desire(self.world(), vehicle.spot) } else { 0 },
                 self.delay(vehicle),
@@ -222,7 +233,7 @@ impl Driven {
 
     /// Time since the last lane change of a vehicle, as the byte of a frame.
     fn since_change(&self, vehicle: VehicleId) -> u8 {
-        let since = self.last_changes.get(&vehicle).map(|it| self.time_s() - it);
+        let since = self.noted.last_changes.get(&vehicle).map(|it| self.time_s() - it);
         since.map_or(u8::MAX, |it| 1 + it.round().clamp(0.0, 253.0) as u8)
     }
 

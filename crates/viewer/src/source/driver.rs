@@ -104,6 +104,15 @@ impl DriverFacts {
             story,
         }
     }
+
+    /// The same of a vehicle that moves as it was recorded: nobody knows its driver.
+    pub(super) fn of_recorded(self) -> DriverFacts {
+        let DriverFacts {
+            id, class, speed_kmh, acceleration_mps2, x, y, length_m, lanelet, position_m, ..
+        } = self;
+        let known = DriverFacts::default();
+        DriverFacts { id, class, speed_kmh, acceleration_mps2, x, y, length_m, lanelet, position_m, ..known }
+    }
 }
 
 fn state(phase: Phase) -> &'static str {

@@ -4,7 +4,9 @@ use std::time::Instant;
 
 use laneweave::network::{LaneletIndex, Network, Point};
 use laneweave::sim::{Command, World};
-use laneweave::{Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side};
+use laneweave::{
+    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, VehicleId,
+};
 use serde::{Deserialize, Serialize};
 
 /// Something that a user does by hand.
@@ -159,6 +161,9 @@ pub(super) trait Present {
     /// The value of a number of a style.
     fn parameter(&self, style: &str, parameter: Parameter) -> Option<f64>;
 
+    /// What a user lets a vehicle do.
+    fn control(&self, vehicle: VehicleId) -> Control;
+
     /// The weight of a style.
     fn share(&self, style: &str) -> Option<f64>;
 
@@ -246,13 +251,13 @@ impl Deed {
             }
             Hand::Put { x, y, class } => put(world, [*x, *y], *class)?,
             Hand::Drive { .. } | Hand::SetStyle { .. } | Hand::Remove { .. } => {
-                Deed::of_vehicle(hand, world)?
+                Deed::of_vehicle(hand, world, now)?
             }
         })
     }
 
     /// The same for something done to one vehicle.
-    fn of_vehicle(hand: &Hand, world: &World) -> Result<Deed, Fault> {
+    fn of_vehicle(hand: &Hand, world: &World, now: &impl Present) -> Result<Deed, Fault> {
         let named = match hand {
             Hand::Drive { vehicle, .. } | Hand::SetStyle { vehicle, .. } | Hand::Remove { vehicle } => {
                 vehicle
@@ -261,30 +266,35 @@ impl Deed {
         };
         let gone = || fault(format!("vehicle {named} is not on the road"), "choose one that is");
         let vehicle = named.parse().map_err(|_| gone())?;
-        let now = world.vehicle(vehicle).ok_or_else(gone)?;
+        let present = world.vehicle(vehicle).ok_or_else(gone)?;
         let text = |how: String| [format!("vehicle {vehicle}: "), how];
         Ok(match hand {
             Hand::Drive { speed_kmh, side, .. } => {
-                let lateral = match side {
-                    Some(DriveSide::Left) => Lateral::Change(Side::Left),
-                    Some(DriveSide::Right) => Lateral::Change(Side::Right),
-                    None => Lateral::Keep,
+                let side = side.map(|it| match it {
+                    DriveSide::Left => Side::Left,
+                    DriveSide::Right => Side::Right,
+                });
+                let lateral = match (side, now.control(vehicle)) {
+                    (Some(side), _) => Lateral::Change(side),
+                    // A change that was asked for goes on at another speed.
+                    (None, Control::Drive { lateral: asked @ Lateral::Change(_), .. }) => asked,
+                    _ => Lateral::Keep,
                 };
                 let drive = |it: f64| Control::Drive { longitudinal: Longitudinal::Speed(it / 3.6), lateral };
                 let control = speed_kmh.map_or(Control::DRIVER, drive);
-                let how = match (speed_kmh, lateral) {
+                let how = match (speed_kmh, side) {
                     (None, _) => "back to its driver".to_owned(),
-                    (Some(speed), Lateral::Change(side)) => {
+                    (Some(speed), Some(side)) => {
                         format!("{} km/h, to the {}", short(*speed), super::driver::side_name(side))
                     }
-                    (Some(speed), _) => format!("{} km/h", short(*speed)),
+                    (Some(speed), None) => format!("{} km/h", short(*speed)),
                 };
-                let back = Command::Control(vehicle, world.control_of(vehicle));
+                let back = Command::Control(vehicle, now.control(vehicle));
                 Deed { command: Command::Control(vehicle, control), back: Some(back), text: text(how) }
             }
             Hand::SetStyle { style, .. } => Deed {
                 command: Command::SetStyle(vehicle, style.clone()),
-                back: Some(Command::SetStyle(vehicle, now.style().name.clone())),
+                back: Some(Command::SetStyle(vehicle, present.style().name.clone())),
                 text: text(format!("style {style}")),
             },
             _ => Deed {

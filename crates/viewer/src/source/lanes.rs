@@ -39,12 +39,6 @@ impl Lanes {
         Lanes { lengths, sums, time: 0.0, columns: Columns::default() }
     }
 
-    /// Forgets what was seen.
-    pub(super) fn clear(&mut self) {
-        self.sums.fill(Sums::default());
-        self.time = 0.0;
-    }
-
     /// Looks at the world once a second.
     pub(super) fn look(&mut self, world: &World) {
         if !world.clock().begins_a_second() {

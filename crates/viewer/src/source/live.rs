@@ -26,6 +26,8 @@ pub struct Live {
     driven: Driven,
     /// Commands for the next step, at most one of a kind for a thing.
     pending: Vec<Command>,
+    /// Something was done by hand since the last step.
+    waits: bool,
     /// All commands that were carried out.
     given: Vec<Commanded>,
     done: Vec<Done>,
@@ -45,7 +47,7 @@ impl Live {
     pub fn new(scenario: Scenario, origin: Origin, dir: PathBuf) -> Result<Live, Fault> {
         let driven = Driven::new(scenario, origin)?;
         let (pending, given, done) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Live { driven, pending, given, done, has_news: false, twin: None, dir })
+        Ok(Live { driven, pending, waits: false, given, done, has_news: false, twin: None, dir })
     }
 
     /// The last command that `found` knows, of those for the next step and those before it.
@@ -68,13 +70,33 @@ impl Live {
         facts
     }
 
-    /// Gives a command before the next step, in place of one of the same kind for the same thing.
+    /// Gives a command before the next step, in place of one of the same kind for the same thing. A vehicle that is
+    /// taken off the road does nothing else.
     fn give(&mut self, command: Command) -> Result<(), Fault> {
         let checked = self.driven.world().check_content(&command);
         checked.map_err(|error| refused("by hand", &error))?;
-        self.pending.retain(|it| !is_same(it, &command));
+        if !self.is_possible(&command) {
+            return Err(Fault::new("by hand", "it is being taken off the road", "choose another vehicle"));
+        }
+        let leaves = matches!(command, Command::Remove(_));
+        self.pending.retain(|it| !(is_same(it, &command) || leaves && it.target() == command.target()));
         self.pending.push(command);
+        self.waits = true;
         Ok(())
+    }
+
+    /// Whether the vehicle that a command concerns, if it concerns one, is there and stays there.
+    fn is_possible(&self, command: &Command) -> bool {
+        let Some(id) = command.vehicle() else { return true };
+        self.driven.world().vehicle(id).is_some() && !self.pending.contains(&Command::Remove(id))
+    }
+
+    /// A command was refused when it should have been carried out: it was not done, or what it should take back stays.
+    fn was_refused(&mut self, command: &Command) {
+        let concerns = |it: &&mut Done| {
+            if it.is_undone { it.back.as_ref() == Some(command) } else { it.command == *command }
+        };
+        self.done.iter_mut().rev().find(concerns).into_iter().for_each(|it| it.is_undone = !it.is_undone);
     }
 
     /// Puts a vehicle on the road, and keeps its speed.
@@ -147,6 +169,14 @@ impl Present for Live {
         set.or_else(|| Some(planned()?.vehicles_per_hour))
     }
 
+    fn control(&self, vehicle: VehicleId) -> Control {
+        let waiting = self.pending.iter().find_map(|it| match it {
+            Command::Control(of, control) => (*of == vehicle).then_some(*control),
+            _ => None,
+        });
+        waiting.unwrap_or_else(|| self.driven.world().control_of(vehicle))
+    }
+
     fn light(&self, light: i64) -> Option<LightState> {
         self.last(|it| match it {
             Command::SetLight { light: of, shows } => (*of == light).then_some(*shows),
@@ -202,9 +232,11 @@ impl Source for Live {
     }
 
     fn step(&mut self, marks: &mut Vec<Mark>) -> Result<(), Fault> {
+        self.waits = false;
         let mut failed = None;
         for command in std::mem::take(&mut self.pending) {
-            if let Err(error) = self.driven.prepared.world.command(command) {
+            if let Err(error) = self.driven.prepared.world.command(command.clone()) {
+                self.was_refused(&command);
                 failed = Some(refused("by hand", &error));
             }
         }
@@ -251,16 +283,24 @@ impl Source for Live {
         Ok(None)
     }
 
+    fn waits(&self) -> bool {
+        self.waits
+    }
+
     fn undo(&mut self) -> Result<(), Fault> {
-        let Some(last) = self.done.iter().rposition(|it| !it.is_undone) else {
-            return Err(Fault::new("undo", "nothing was done by hand", "do something first"));
+        let can = |it: &Done| it.back.clone().filter(|back| !it.is_undone && self.is_possible(back));
+        let last = self.done.iter().enumerate().rev().find_map(|(index, it)| Some((index, can(it)?)));
+        let Some((index, back)) = last else {
+            return Err(match self.done.iter().rfind(|it| !it.is_undone) {
+                None => Fault::new("undo", "nothing was done by hand", "do something first"),
+                Some(it) => {
+                    let what = format!("{}: this cannot be taken back", it.text);
+                    Fault::new("undo", what, "put another vehicle on the road")
+                }
+            });
         };
-        let back = self.done[last].back.clone().ok_or_else(|| {
-            let what = format!("{}: this cannot be taken back", self.done[last].text);
-            Fault::new("undo", what, "put another vehicle on the road")
-        })?;
         self.give(back)?;
-        self.done[last].is_undone = true;
+        self.done[index].is_undone = true;
         self.has_news = true;
         Ok(())
     }

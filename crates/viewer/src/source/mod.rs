@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex};
 use laneweave::{Fault, VehicleId};
 use serde::Serialize;
 
-pub use hands::{Done, Hand, Hands};
+pub use hands::{Done, DriveSide, Hand, Hands};
 pub use live::Live;
 pub use recorded::Recorded;
 pub use rerun::Rerun;
@@ -196,10 +196,15 @@ pub trait Source: Send {
     /// If it is not possible.
     fn hand(&mut self, hand: &Hand) -> Result<Option<VehicleId>, Fault>;
 
-    /// Takes back the last thing done by hand that is not taken back yet.
+    /// Whether something that was done by hand waits for the next step.
+    fn waits(&self) -> bool {
+        false
+    }
+
+    /// Takes back the last thing done by hand that can be taken back and is not yet.
     ///
     /// # Errors
-    /// If there is none, or if it cannot be taken back.
+    /// If there is none.
     fn undo(&mut self) -> Result<(), Fault>;
 
     /// Begins, or ends, to show the twin of the traffic, as ghosts: of a simulation that runs now the same traffic

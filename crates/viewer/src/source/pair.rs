@@ -4,7 +4,7 @@ use laneweave::Fault;
 use laneweave::branch::{Parting, Setting};
 use laneweave::record::Record;
 
-use super::driven::Driven;
+use super::driven::{Driven, Noted};
 use super::{Mark, TwinFacts, Wants, ghosts};
 use crate::snapshot::Snapshot;
 
@@ -20,9 +20,29 @@ pub(super) struct Change {
 #[derive(Clone, Debug)]
 pub(super) struct State {
     pub(super) step: u32,
-    base: Vec<u8>,
+    base: Kept,
     /// None before they part.
-    twin: Option<Vec<u8>>,
+    twin: Option<Kept>,
+}
+
+/// The state of one of them, and what was noted of it until then.
+#[derive(Clone, Debug)]
+struct Kept {
+    world: Vec<u8>,
+    noted: Noted,
+}
+
+impl Kept {
+    fn of(driven: &Driven) -> Option<Kept> {
+        Some(Kept { world: driven.prepared.save().ok()?, noted: driven.noted() })
+    }
+
+    fn restore(&self, driven: &mut Driven) -> Result<(), Fault> {
+        let restored = driven.prepared.restore(&self.world);
+        restored.map_err(|error| Fault::new("seek", error, "report this as a bug"))?;
+        driven.know(&self.noted);
+        Ok(())
+    }
 }
 
 /// A run, and its twin.
@@ -86,10 +106,10 @@ impl Pair {
     pub(super) fn save(&self) -> Option<State> {
         let of_twin = self.twin.as_ref().filter(|it| self.steps() > it.parting.step());
         let twin = match of_twin {
-            Some(it) => Some(it.driven.prepared.save().ok()?),
+            Some(it) => Some(Kept::of(&it.driven)?),
             None => None,
         };
-        Some(State { step: self.steps(), base: self.base.prepared.save().ok()?, twin })
+        Some(State { step: self.steps(), base: Kept::of(&self.base)?, twin })
     }
 
     /// Goes to a state of the same run and twin.
@@ -97,9 +117,9 @@ impl Pair {
     /// # Errors
     /// If it is none.
     pub(super) fn restore(&mut self, state: &State) -> Result<(), Fault> {
-        restore(&mut self.base, &state.base)?;
+        state.base.restore(&mut self.base)?;
         if let (Some(twin), Some(saved)) = (&mut self.twin, &state.twin) {
-            restore(&mut twin.driven, saved)?;
+            saved.restore(&mut twin.driven)?;
         }
         Ok(())
     }
@@ -137,11 +157,4 @@ impl Pair {
     pub(super) fn facts(&self) -> Option<TwinFacts> {
         self.twin.as_ref().filter(|it| it.is_shown).map(|it| it.facts.clone())
     }
-}
-
-fn restore(driven: &mut Driven, saved: &[u8]) -> Result<(), Fault> {
-    let restored = driven.prepared.restore(saved);
-    restored.map_err(|error| Fault::new("seek", error, "report this as a bug"))?;
-    driven.forget();
-    Ok(())
 }

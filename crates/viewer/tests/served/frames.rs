@@ -1,6 +1,10 @@
 //! Frames and texts, as a page gets them.
 
-use crate::client::{Page, live, server};
+use laneweave::Simulation;
+use laneweave::scenario::Origin;
+use laneweave_viewer::Live;
+
+use crate::client::{Page, live, map, server};
 
 fn word(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
@@ -51,4 +55,46 @@ fn what_is_done_by_hand_is_told_and_what_is_not_possible_refused() {
     assert!(refused.contains("77") && refused.contains("\"remedy\":"), "{refused}");
     page.say("{\"seek\":10}");
     assert!(page.hear_of("refused").contains("no other times"));
+}
+
+#[test]
+fn while_time_stands_a_page_that_looks_elsewhere_sees_what_is_there() {
+    let (server, token) = server(live("ramps.osm"));
+    let mut page = Page::of(&server, &token);
+    (0..4).for_each(|_| assert!(page.say("{\"step\":100}")));
+    page.say("{\"view\":[1000000,1000000,1000001,1000001]}");
+    while server.state().expect("a stage").0 < 39.9 {}
+    let vehicles = |page: &mut Page| word(&page.frame().expect("a frame"), 40);
+    assert_eq!(vehicles(&mut page), 0);
+    page.say("{\"view\":[-100000,-100000,100000,100000]}");
+    let mut seen = vehicles(&mut page);
+    // The last snapshot may still have been on its way.
+    while seen == 0 {
+        page.say("{\"view\":[-99999,-100000,100000,100000]}");
+        seen = vehicles(&mut page);
+    }
+    assert!(seen > 3);
+}
+
+#[test]
+fn what_is_done_while_time_stands_is_saved() {
+    let dir = std::env::temp_dir().join(format!("laneweave-served-{}", std::process::id()));
+    let (scenario, origin) = Origin::open(&map("ramps.osm")).expect("a map");
+    let (server, token) = server(Live::new(scenario, origin, dir.clone()).expect("a simulation"));
+    let mut page = Page::of(&server, &token);
+    page.hear_of("twin");
+    page.say("{\"step\":100}");
+    page.say(r#"{"hand":{"set_parameter":{"style":"aggressive","parameter":"speed_factor","value":0.5}}}"#);
+    page.hear_of("hands");
+    page.say("{\"save\":true}");
+    let saved = page.hear_of("saved");
+    let folder: serde_json::Value = serde_json::from_str(&saved).expect("JSON");
+    let file = folder["saved"]["scenario"].as_str().expect("a file").to_owned();
+    let mut again = Simulation::from_file(&file).expect("the saved scenario");
+    again.run(again.end_s(), &mut []).expect("a run");
+    let (time_s, hash) = server.state().expect("a stage");
+    assert!((again.end_s() - time_s).abs() < 1e-6 && (time_s - 10.1).abs() < 1e-6);
+    assert_eq!(again.state_hash(), hash);
+    assert!(std::fs::read_to_string(dir.join("1/commands.csv")).expect("commands").contains("aggressive"));
+    let _ = std::fs::remove_dir_all(dir);
 }

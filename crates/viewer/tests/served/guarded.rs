@@ -43,6 +43,8 @@ fn strangers_get_nothing() {
     ] {
         assert_eq!(status(&ask(line, &own, "")), "404", "{line}");
     }
+    assert_eq!(status(&ask(&scene.replace("GET", "HEAD"), &own, "")), "200");
+    assert_eq!(status(&ask("HEAD /scene.json?token=wrong", &own, "")), "403");
     assert_eq!(status(&ask(&scene.replace("GET", "POST"), &own, "Content-Length: 0\r\n")), "403");
     assert!(Page::try_of(&server, "wrong").is_none());
 }

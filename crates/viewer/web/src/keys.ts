@@ -7,7 +7,7 @@ const PAN = 0.12;
 const ZOOM = 1.25;
 const TURN = 0.2;
 
-type Moves = Record<string, () => void>;
+type Moves = Record<string, (event: KeyboardEvent) => void>;
 
 export interface KeyActs {
   wholeMap: () => void;
@@ -18,6 +18,8 @@ export interface KeyActs {
   undo: () => void;
   /** Shows the twin in the next way. */
   nextTwin: () => void;
+  /** Selects what is in the middle of the picture; the second vehicle beside the first. */
+  selectInMiddle: (isSecond: boolean) => void;
   /** Goes to the next mark, or the one before. */
   jump: (sign: 1 | -1) => void;
 }
@@ -55,6 +57,7 @@ export function listenToKeys(state: State, rig: Rig, time: TimeControls, acts: K
     m: acts.toggleMap,
     h: acts.toggleHands,
     g: acts.nextTwin,
+    Enter: (event) => acts.selectInMiddle(event.shiftKey),
     '?': acts.help,
     '/': acts.find,
     ',': () => acts.jump(-1),
@@ -86,6 +89,6 @@ export function listenToKeys(state: State, rig: Rig, time: TimeControls, acts: K
     const move = moves[key];
     if (!move) return;
     event.preventDefault();
-    move();
+    move(event);
   });
 }

@@ -95,6 +95,7 @@ export class Page {
       find: () => toolbar.focusFinder(),
       undo: () => state.say({ undo: true }),
       nextTwin: () => twin.next(),
+      selectInMiddle: (isSecond: boolean) => this.view?.selectInMiddle(isSecond),
       jump: (sign: 1 | -1) => this.timeline.jump(sign),
     };
     const toolbar = new Toolbar(state, acts, twin.root);

@@ -28,6 +28,7 @@ const SORT_EVERY_S = 0.2;
 const LEAST_SIGHT_M = 900;
 const SIGHT_BY_DISTANCE = 5;
 const CLICK_PIXELS = 6;
+const MIDDLE_PIXELS = 30;
 const SIGNAL_CLICK_M = 4;
 
 /** The moving picture of one scene: roads, signals and vehicles, and what a click on it means. */
@@ -192,8 +193,17 @@ export class TrafficView {
   private click(x: number, y: number, isSecond: boolean): void {
     const point = this.ground(x, y);
     if (!point) return;
-    const isInTwin = this.stage.isInTwin(x, y);
-    const reach = CLICK_PIXELS * this.stage.pixel * this.stage.rig.now.distance;
+    this.select(point, CLICK_PIXELS, this.stage.isInTwin(x, y), isSecond);
+  }
+
+  /** Selects what is in the middle of the picture: a vehicle if there is one near it. */
+  selectInMiddle(isSecond: boolean): void {
+    this.select(this.stage.rig.now, MIDDLE_PIXELS, false, isSecond);
+  }
+
+  /** Selects what is within some pixels of a point of the road. */
+  private select(point: { x: number; y: number }, pixels: number, isInTwin: boolean, isSecond: boolean): void {
+    const reach = pixels * this.stage.pixel * this.stage.rig.now.distance;
     const id = this.traffic.pick(point.x, point.y, reach, isInTwin);
     if (id !== null) {
       this.state.select(id, isSecond);

@@ -6,6 +6,7 @@ import { pairFacts } from './pair.ts';
 import { fixed, short, withUnit } from './words.ts';
 
 const EVERY_MS = 120;
+const GONE = 'is not on the road now';
 const GONE_AFTER_MS = 2500;
 
 type Fact = [name: string, value: string];
@@ -22,6 +23,7 @@ export class DriverPanel {
   private readonly whole = element('details', {}, element('summary', {}, 'The whole account'), this.story);
   private readonly second = element('div', { class: 'pair', 'data-test': 'pair' });
   private shown_ms = 0;
+  private hasFacts = false;
   private asked_ms = 0;
 
   constructor(
@@ -54,19 +56,22 @@ export class DriverPanel {
     if (this.title.dataset.id === id) return;
     this.title.dataset.id = id;
     say(this.title, `Vehicle ${id}`);
-    say(this.act, '');
-    say(this.gap, '');
-    say(this.story, '');
-    this.facts.replaceChildren();
-    this.charts.replaceChildren();
+    this.clear();
+  }
+
+  private clear(): void {
+    this.hasFacts = false;
+    for (const text of [this.act, this.gap, this.story]) say(text, '');
+    for (const list of [this.facts, this.charts]) list.replaceChildren();
     this.whole.hidden = true;
+    this.second.hidden = true;
   }
 
   /** Says so when nothing has been heard of the driver for a while: it has left the road. */
   private notice(): void {
     const [id] = this.state.selected.value;
     if (id === undefined || performance.now() - Math.max(this.shown_ms, this.asked_ms) < GONE_AFTER_MS) return;
-    say(this.act, 'is not on the road now');
+    say(this.act, GONE);
     if (this.state.driven.value === id) this.state.driven.set(null);
   }
 
@@ -75,7 +80,12 @@ export class DriverPanel {
     const driver = drivers.find((one) => one.id === id);
     const second = drivers.find((one) => one.id === secondId);
     const now = performance.now();
+    if (!driver && this.hasFacts) {
+      this.clear();
+      say(this.act, GONE);
+    }
     if (!driver || now - this.shown_ms < EVERY_MS) return;
+    this.hasFacts = true;
     this.shown_ms = now;
     say(this.title, `${name(driver)} ${driver.id}`);
     say(this.act, driver.act ?? '');

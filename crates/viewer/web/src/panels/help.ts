@@ -29,7 +29,8 @@ const GROUPS: readonly (readonly [title: string, keys: readonly Key[]])[] = [
     'Vehicles',
     [
       ['Click', 'select a vehicle, a lane or a signal'],
-      ['Shift and click', 'compare with a second vehicle'],
+      ['Enter', 'select what is in the middle'],
+      ['Shift and click or Enter', 'compare with a second vehicle'],
       ['/', 'find a vehicle by its id'],
       ['F', 'follow the selected vehicle'],
       ['V', 'see what its driver sees'],

@@ -1,7 +1,7 @@
 import { EVENT_LOOKS, isImportant, lookOf, SHAPE_PATHS, type EventLook } from '../colour/events.ts';
 import type { TrafficEvent } from '../protocol/messages.ts';
 import type { State } from '../state.ts';
-import { drawn, element } from './dom.ts';
+import { drawn, element, say } from './dom.ts';
 import { clockTime } from './words.ts';
 
 const MOST_LINES = 200;
@@ -16,7 +16,9 @@ export function markDrawing({ shape, colour }: EventLook): SVGSVGElement {
 export class MarksPanel {
   readonly root = element('section', { class: 'panel', 'data-test': 'panel-marks', 'aria-label': 'Important marks' });
   private readonly list = element('ul', { class: 'marks' });
-  private readonly none = element('p', { class: 'soft' }, 'No collision, no emergency braking and no missed turn so far.');
+  private readonly none = element('p', { class: 'soft' });
+  /** Those of traffic that is simulated now; a run tells all of its marks. */
+  private heard: TrafficEvent[] = [];
   private shown = '';
 
   constructor(
@@ -25,7 +27,17 @@ export class MarksPanel {
   ) {
     this.root.hidden = true;
     this.root.append(element('h2', {}, 'Important marks'), this.none, this.list);
-    state.marks.watch((marks) => this.show((marks?.marks ?? []).filter(isImportant)));
+    state.hello.watch((hello) => {
+      this.heard = [];
+      this.show([]);
+      say(this.none, hello?.kind === 'recording' ? 'Recordings are searched for lane changes only.' : 'No collision, no emergency braking and no missed turn so far.');
+    });
+    state.marks.watch((marks) => marks && this.show(marks.marks.filter(isImportant)));
+    state.events.listen((events) => {
+      if (state.hello.value?.kind !== 'live') return;
+      this.heard = [...this.heard, ...events.filter(isImportant)].slice(-MOST_LINES);
+      this.show(this.heard);
+    });
   }
 
   private show(marks: TrafficEvent[]): void {

@@ -11,7 +11,7 @@ interface Gap {
   inOrder: [rear: Driver, front: Driver] | null;
 }
 
-/** Facts of two vehicles, the second one seen from the first. */
+/** Facts of two vehicles, the second one seen from the first. Of recorded vehicles nobody knows which follows which. */
 export function pairFacts(first: Driver, second: Driver): [name: string, value: string][] {
   const { metres, inOrder } = gapBetween(first, second);
   const where = inOrder === null ? 'in a straight line' : inOrder[0] === first ? 'ahead' : 'behind';
@@ -19,7 +19,7 @@ export function pairFacts(first: Driver, second: Driver): [name: string, value: 
   return [
     ['distance of centres', withUnit(distance(first, second), 1, 'm')],
     ['gap', `${fixed(metres, 1)} m ${where}`],
-    ['time to collision', timeToCollision(metres, inOrder)],
+    ['time to collision', first.lanelet === null || second.lanelet === null ? 'not known' : timeToCollision(metres, inOrder)],
     ['speed', `${fixed(second.speed_kmh, 1)} km/h, ${fixed(Math.abs(faster), 1)} km/h ${faster < 0 ? 'slower' : 'faster'}`],
     ['style', second.style ?? 'not known'],
     ['state', second.state ?? 'not known'],
@@ -40,7 +40,7 @@ function gapBetween(first: Driver, second: Driver): Gap {
 }
 
 function timeToCollision(gap_m: number, inOrder: Gap['inOrder']): string {
-  if (inOrder === null) return 'not on the same lane';
+  if (inOrder === null) return 'neither follows the other';
   const [rear, front] = inOrder;
   const closing = (rear.speed_kmh - front.speed_kmh) / KMH_PER_MPS;
   return closing > LEAST_CLOSING_MPS ? withUnit(gap_m / closing, 1, 's') : 'none: they do not close in';

@@ -62,7 +62,7 @@ export class Toolbar {
       toggleButton('night', '◐', 'Night or day (N)', state.isNight),
       button('help', '?', 'Keys (?)', acts.help),
       labelled('colour', this.colours(state)),
-      ...(state.hasServer ? [labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat)))] : []),
+      ...(state.hasServer ? [this.heats(state)] : []),
       labelled('trails', choice('trails', 'Which vehicles have trails', TRAILS, (which) => state.trails.set(which))),
       twin,
       toggleButton('changes', 'Changes', 'Lane changes and other events of the last minute, on the road', state.showsChanges),
@@ -103,10 +103,18 @@ export class Toolbar {
     return form;
   }
 
+  private heats(state: State): HTMLElement {
+    const heats = labelled('lanes', choice('heat', 'What the colours of lanes tell', HEATS, (heat) => state.heat.set(heat)));
+    state.hello.watch((hello) => (heats.hidden = hello?.kind === 'recording'));
+    return heats;
+  }
+
   private colours(state: State): HTMLSelectElement {
     state.hello.watch(() => askForColour(state));
     const colours = state.hasServer ? COLOURS : COLOURS.slice(0, COLOURS_OF_FRAMES);
     const list = choice('colour', 'What the colours of vehicles tell', colours, (value) => state.colour.set(value));
+    // Nobody knows what recorded drivers want.
+    state.hello.watch((hello) => [...list.options].slice(COLOURS_OF_FRAMES).forEach((it) => (it.hidden = hello?.kind === 'recording')));
     state.colour.watch((value) => {
       list.value = value;
       askForColour(state);
