@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { statSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { hook, page, play, shoot, until, view } from './browser.mjs';
+import { hook, page, play, shoot, state, until, view } from './browser.mjs';
 
 /** On a machine that others use, too, the first frame may need so many times as long as on one of its own. */
 const SHARED = 3;
@@ -37,7 +37,10 @@ export async function a_run_that_has_ended({ browser, program, home, folder, sho
     await until(opened, 'four minutes are reached', (it) => Math.abs(it.time_s - 240) < 8 && it.vehicles > 50);
     await shoot(opened, shots, 'jam');
     await click(opened, 0.2);
-    const early = await until(opened, 'one minute is reached', (it) => Math.abs(it.time_s - 60) < 8);
+    await until(opened, 'one minute is reached', (it) => Math.abs(it.time_s - 60) < 8);
+    await opened.click(hook('pause'));
+    await opened.waitForTimeout(1500);
+    const early = await state(opened);
     // The next mark.
     await opened.keyboard.press(';');
     const next = await until(opened, 'the next mark is reached', (it) => it.time_s > early.time_s && it.time_s < early.time_s + 60);
@@ -46,8 +49,11 @@ export async function a_run_that_has_ended({ browser, program, home, folder, sho
     // The list of important ones: a click goes there, and chooses the vehicle.
     await opened.click(hook('marks'));
     const last = opened.locator(`${hook('panel-marks')} button`).last();
-    const [, minutes, seconds, vehicle] = (await last.textContent()).match(/(\d+):(\d+)\.\d\D+(\d+)/);
-    await last.click();
+    const text = await last.evaluate((it) => {
+      it.click();
+      return it.textContent;
+    });
+    const [, minutes, seconds, vehicle] = text.match(/(\d+):(\d+)\.\d\D+(\d+)/);
     const there = 60 * Number(minutes) + Number(seconds);
     await until(opened, 'it is there', (it) => Math.abs(it.time_s - there) < 2 && it.selected[0] === vehicle);
     await shoot(opened, shots, 'marks');
@@ -57,7 +63,6 @@ export async function a_run_that_has_ended({ browser, program, home, folder, sho
     assert.equal(await opened.locator(`${hook('panel-driver')} dl.facts:visible dd`).count(), 0);
     // Who plays a run at its end sees it from its beginning.
     await click(opened, 0.999);
-    await opened.click(hook('pause'));
     await until(opened, 'it is near its end', (it) => it.time_s > 290);
     for (let step = 0; step < 40; step += 1) await opened.keyboard.press('.');
     await until(opened, 'it has ended', (it) => Math.abs(it.time_s - 300) < 0.05);

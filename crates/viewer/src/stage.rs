@@ -17,10 +17,8 @@ use crate::source::{Source, Wants};
 
 /// Time between two snapshots at least.
 const PUBLISHES: Duration = Duration::from_millis(50);
-/// Time for steps between two looks at what pages ask for.
+/// Time for steps between two looks at what pages ask for, and for what they ask before time goes on.
 const WORKS: Duration = Duration::from_millis(25);
-/// Requests that are taken before time goes on.
-const AT_ONCE: usize = 64;
 /// If the simulation is behind by more than this, it does not try to catch up.
 const LATE: Duration = Duration::from_millis(300);
 /// Time between two messages about marks that are still being looked for.
@@ -110,16 +108,19 @@ impl Stage {
 
     /// Takes what waits, so that no queue grows however fast time goes. Returns whether the program goes on.
     fn take_all(&mut self) -> bool {
-        let mut wait = self.pause();
-        for _ in 0..AT_ONCE {
-            match self.requests.recv_timeout(wait) {
+        let mut next = self.requests.recv_timeout(self.pause());
+        let begin = Instant::now();
+        loop {
+            match next {
                 Ok(Request::End) | Err(RecvTimeoutError::Disconnected) => return false,
                 Ok(request) => self.take(request),
-                Err(RecvTimeoutError::Timeout) => break,
+                Err(RecvTimeoutError::Timeout) => return true,
             }
-            wait = Duration::ZERO;
+            if begin.elapsed() >= WORKS {
+                return true;
+            }
+            next = self.requests.recv_timeout(Duration::ZERO);
         }
-        true
     }
 
     /// How long nothing has to be done, unless somebody asks for something.

@@ -226,6 +226,7 @@ fn a_car_that_is_put_and_taken_back_while_time_stands_was_never_there() {
     steps(&mut live, 1);
     assert!(!live.waits() && live.find(i64::from(vehicle)).is_none());
     assert!(live.hands().done[0].is_undone);
+    assert_eq!(live.state_hash(), untouched.state_hash());
     assert_eq!(run_again(&live), live.state_hash());
     let _ = std::fs::remove_dir_all(dir);
 }
@@ -247,5 +248,10 @@ fn a_lane_change_that_was_asked_for_goes_on_at_another_speed() {
     steps(&mut live, 150);
     let end = live.find(i64::from(vehicle)).expect("it is there");
     assert!((end[1] - begin[1]).abs() > 3.0, "{begin:?} {end:?}");
+    // Who takes back the speed does not change lanes once more.
+    live.undo().expect("the speed");
+    steps(&mut live, 150);
+    let later = live.find(i64::from(vehicle)).expect("it is there");
+    assert!((later[1] - end[1]).abs() < 0.5, "{end:?} {later:?}");
     let _ = std::fs::remove_dir_all(dir);
 }

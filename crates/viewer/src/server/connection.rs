@@ -40,7 +40,7 @@ pub(super) async fn serve(mut socket: WebSocket, shared: &Arc<Shared>) {
                 Some(Ok(message)) => {
                     let goes_on = page.take(message, id, shared, &mut socket).await;
                     if std::mem::take(&mut page.has_moved) {
-                        // It sees more of what is there, also while time stands.
+                        // While time stands, it sees what is there.
                         snapshots.mark_changed();
                     }
                     goes_on
@@ -169,8 +169,9 @@ impl Page {
         match asked {
             Asked::Ready(_) => self.is_ready = true,
             Asked::View(view) => {
-                // Before its first frame there is nothing to show again.
-                self.has_moved = self.view != View(*view) && self.clock.is_some();
+                // While time goes on, the next frame comes soon.
+                let stands = self.clock.is_some_and(|(it, _)| !it.is_playing);
+                self.has_moved = stands && self.view != View(*view);
                 self.view = View(*view);
             }
             Asked::Colour(colour) => self.colour = *colour,

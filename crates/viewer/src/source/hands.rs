@@ -164,6 +164,9 @@ pub(super) trait Present {
     /// What a user lets a vehicle do.
     fn control(&self, vehicle: VehicleId) -> Control;
 
+    /// The style of the driver of a vehicle, if that is on the road.
+    fn style_of(&self, vehicle: VehicleId) -> Option<String>;
+
     /// The weight of a style.
     fn share(&self, style: &str) -> Option<f64>;
 
@@ -250,14 +253,12 @@ impl Deed {
                 }
             }
             Hand::Put { x, y, class } => put(world, [*x, *y], *class)?,
-            Hand::Drive { .. } | Hand::SetStyle { .. } | Hand::Remove { .. } => {
-                Deed::of_vehicle(hand, world, now)?
-            }
+            Hand::Drive { .. } | Hand::SetStyle { .. } | Hand::Remove { .. } => Deed::of_vehicle(hand, now)?,
         })
     }
 
     /// The same for something done to one vehicle.
-    fn of_vehicle(hand: &Hand, world: &World, now: &impl Present) -> Result<Deed, Fault> {
+    fn of_vehicle(hand: &Hand, now: &impl Present) -> Result<Deed, Fault> {
         let named = match hand {
             Hand::Drive { vehicle, .. } | Hand::SetStyle { vehicle, .. } | Hand::Remove { vehicle } => {
                 vehicle
@@ -266,7 +267,7 @@ impl Deed {
         };
         let gone = || fault(format!("vehicle {named} is not on the road"), "choose one that is");
         let vehicle = named.parse().map_err(|_| gone())?;
-        let present = world.vehicle(vehicle).ok_or_else(gone)?;
+        let style_now = now.style_of(vehicle).ok_or_else(gone)?;
         let text = |how: String| [format!("vehicle {vehicle}: "), how];
         Ok(match hand {
             Hand::Drive { speed_kmh, side, .. } => {
@@ -294,7 +295,7 @@ impl Deed {
             }
             Hand::SetStyle { style, .. } => Deed {
                 command: Command::SetStyle(vehicle, style.clone()),
-                back: Some(Command::SetStyle(vehicle, present.style().name.clone())),
+                back: Some(Command::SetStyle(vehicle, style_now)),
                 text: text(format!("style {style}")),
             },
             _ => Deed {

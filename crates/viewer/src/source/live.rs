@@ -85,6 +85,19 @@ impl Live {
         Ok(())
     }
 
+    /// A command that takes something back, without a lane change that was made since then.
+    fn without_old_change(&self, back: Command) -> Command {
+        let changes = |it| matches!(it, Control::Drive { lateral: Lateral::Change(_), .. });
+        match back {
+            Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Change(_) })
+                if !changes(self.control(id)) =>
+            {
+                Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Keep })
+            }
+            other => other,
+        }
+    }
+
     /// Whether the vehicle that a command concerns, if it concerns one, is there and stays there.
     fn is_possible(&self, command: &Command) -> bool {
         let Some(id) = command.vehicle() else { return true };
@@ -175,6 +188,15 @@ impl Present for Live {
             _ => None,
         });
         waiting.unwrap_or_else(|| self.driven.world().control_of(vehicle))
+    }
+
+    fn style_of(&self, vehicle: VehicleId) -> Option<String> {
+        let now = self.driven.world().vehicle(vehicle)?;
+        let waiting = self.pending.iter().find_map(|it| match it {
+            Command::SetStyle(of, style) => (*of == vehicle).then_some(style),
+            _ => None,
+        });
+        Some(waiting.unwrap_or(&now.style().name).clone())
     }
 
     fn light(&self, light: i64) -> Option<LightState> {
@@ -299,7 +321,7 @@ impl Source for Live {
                 }
             });
         };
-        self.give(back)?;
+        self.give(self.without_old_change(back))?;
         self.done[index].is_undone = true;
         self.has_news = true;
         Ok(())

@@ -52,6 +52,31 @@ test('time goes on between two frames, and never past the later one', () => {
   assert.equal(playback.time_s, 10.1);
 });
 
+test('a time that is sent again while time stands does not stop what comes after it', () => {
+  const playback = new Playback();
+  let wall_s = 100;
+  const push = (number: number, time_s: number): void => playback.push(readFrame(frameBytes(number, time_s, 0, [])), wall_s);
+  const see = (seconds: number): void => {
+    for (const end = wall_s + seconds; wall_s < end; wall_s += 0.02) playback.advance(wall_s);
+  };
+  for (let number = 1; number <= 5; number += 1) {
+    push(number, 10 + number * 0.1);
+    see(0.1);
+  }
+  see(1.5);
+  for (let again = 0; again < 2; again += 1) {
+    push(5, 10.5);
+    see(0.25);
+  }
+  see(1.5);
+  push(6, 10.6);
+  see(1.5);
+  assert.equal(playback.time_s, 10.6);
+  push(7, 10.7);
+  see(1.5);
+  assert.equal(playback.time_s, 10.7);
+});
+
 test('after a jump in time vehicles are where they are, without motion', () => {
   const playback = new Playback();
   playback.push(readFrame(frameBytes(1, 10, 0, [])), 100);

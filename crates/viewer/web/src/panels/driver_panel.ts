@@ -84,7 +84,8 @@ export class DriverPanel {
       this.clear();
       say(this.act, GONE);
     }
-    if (!driver || now - this.shown_ms < EVERY_MS) return;
+    const isFast = this.state.clock.value?.is_playing && now - this.shown_ms < EVERY_MS;
+    if (!driver || isFast) return;
     this.hasFacts = true;
     this.shown_ms = now;
     say(this.title, `${name(driver)} ${driver.id}`);

@@ -19,7 +19,7 @@ export function pairFacts(first: Driver, second: Driver): [name: string, value: 
   return [
     ['distance of centres', withUnit(distance(first, second), 1, 'm')],
     ['gap', `${fixed(metres, 1)} m ${where}`],
-    ['time to collision', first.lanelet === null || second.lanelet === null ? 'not known' : timeToCollision(metres, inOrder)],
+    ['time to collision', timeToCollision(metres, inOrder, first.style !== null && second.style !== null)],
     ['speed', `${fixed(second.speed_kmh, 1)} km/h, ${fixed(Math.abs(faster), 1)} km/h ${faster < 0 ? 'slower' : 'faster'}`],
     ['style', second.style ?? 'not known'],
     ['state', second.state ?? 'not known'],
@@ -39,8 +39,8 @@ function gapBetween(first: Driver, second: Driver): Gap {
   return { metres: Math.max(Math.abs(ahead) - lengths, 0), inOrder: ahead >= 0 ? [first, second] : [second, first] };
 }
 
-function timeToCollision(gap_m: number, inOrder: Gap['inOrder']): string {
-  if (inOrder === null) return 'neither follows the other';
+function timeToCollision(gap_m: number, inOrder: Gap['inOrder'], hasDrivers: boolean): string {
+  if (inOrder === null) return hasDrivers ? 'neither follows the other' : 'not known';
   const [rear, front] = inOrder;
   const closing = (rear.speed_kmh - front.speed_kmh) / KMH_PER_MPS;
   return closing > LEAST_CLOSING_MPS ? withUnit(gap_m / closing, 1, 's') : 'none: they do not close in';

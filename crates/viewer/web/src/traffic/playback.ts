@@ -27,6 +27,8 @@ export class Playback {
   push(frame: Frame, wall_s: number): void {
     this.waiting = frame;
     const last = this.arrivals.at(-1);
+    // While time stands, the same time is sent again for another view: it tells nothing of the pace.
+    if (frame.time_s === last?.time_s) return;
     if (last && (wall_s - last.wall_s > PACE_FORGETS_S || frame.time_s < last.time_s)) this.arrivals.length = 0;
     this.arrivals.push({ wall_s, time_s: frame.time_s });
     if (this.arrivals.length > PACE_ARRIVALS) this.arrivals.shift();
