@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { statSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { hook, page, play, shoot, state, until, view } from './browser.mjs';
+import { hook, page, play, shoot, until, view } from './browser.mjs';
 
 /** On a machine that others use, too, the first frame may need so many times as long as on one of its own. */
 const SHARED = 3;
@@ -33,19 +33,20 @@ async function scrubbed(browser, server, look) {
 export async function a_run_that_has_ended({ browser, program, home, folder, shots }) {
   run(program, folder, 'run', path.join(home, 'maps/ramps.osm'), '--demand', '7000', '--duration', '300', '--out', 'jam', '--quiet');
   await scrubbed(browser, await view(program, ['jam'], folder), async (opened) => {
+    // Time stands: what is waited for does not pass by.
+    await opened.click(hook('pause'));
     await click(opened, 0.8);
     await until(opened, 'four minutes are reached', (it) => Math.abs(it.time_s - 240) < 8 && it.vehicles > 50);
     await shoot(opened, shots, 'jam');
     await click(opened, 0.2);
-    await until(opened, 'one minute is reached', (it) => Math.abs(it.time_s - 60) < 8);
-    await opened.click(hook('pause'));
-    await opened.waitForTimeout(1500);
-    const early = await state(opened);
-    // The next mark.
+    const early = await until(opened, 'one minute is reached', (it) => Math.abs(it.time_s - 60) < 8);
+    // The next important mark, and from later on the one before.
     await opened.keyboard.press(';');
-    const next = await until(opened, 'the next mark is reached', (it) => it.time_s > early.time_s && it.time_s < early.time_s + 60);
+    const next = await until(opened, 'the next mark is reached', (it) => it.time_s > early.time_s);
+    await click(opened, 0.9);
+    const late = await until(opened, 'a later time is reached', (it) => it.time_s > 260);
     await opened.keyboard.press(',');
-    await until(opened, 'the mark before is reached', (it) => it.time_s < next.time_s);
+    await until(opened, 'the mark before is reached', (it) => it.time_s >= next.time_s && it.time_s < late.time_s);
     // The list of important ones: a click goes there, and chooses the vehicle.
     await opened.click(hook('marks'));
     const last = opened.locator(`${hook('panel-marks')} button`).last();

@@ -205,7 +205,7 @@ export class Page {
       this.timeline.show(time_s);
       this.halfLabels.show(this.stage.halves);
       this.telemetry.note(now_ms - last_ms, this.stage.renderer.info.render.calls);
-      this.telemetry.publish(this.view, this.state);
+      this.telemetry.publish(this.view, this.state, now_ms);
     }
     requestAnimationFrame((next) => this.picture(next, now_ms));
   }

@@ -1,7 +1,8 @@
 import type { State } from './state.ts';
 import type { TrafficView } from './traffic_view.ts';
 
-const VEHICLES_EVERY = 10;
+/** Vehicles are counted less often than in every picture. */
+const COUNTS_EVERY_MS = 150;
 
 /** What tests and the curious read from `window.laneweave`. */
 export interface Published {
@@ -16,7 +17,7 @@ export interface Published {
   colour: string;
   time_s: number;
   selected: string[];
-  /** Where lights, lanelets and vehicles are in the window [px], as long as it shows one picture. */
+  /** Where lights, lanelets and vehicles are in the window [px]. */
   places: (of: keyof typeof PLACES) => Place[];
   camera: { mode: string; x: number; y: number; distance: number; azimuth: number; tilt: number };
 }
@@ -38,7 +39,8 @@ export class Telemetry {
   fps = 60;
   private pictures = 0;
   private drawCalls = 0;
-  private vehicles = 0;
+  private counts: Counts = { vehicles: 0, ofTwin: 0, differ: null };
+  private counted_ms = 0;
 
   note(whole_ms: number, drawCalls: number): void {
     this.pictures += 1;
@@ -46,24 +48,20 @@ export class Telemetry {
     if (whole_ms > 0) this.fps += (1000 / whole_ms - this.fps) * 0.05;
   }
 
-  publish(view: TrafficView, state: State): void {
-    if (this.pictures % VEHICLES_EVERY !== 1) {
-      if (window.laneweave) Object.assign(window.laneweave, { pictures: this.pictures, time_s: view.traffic.playback.time_s });
-      return;
+  publish(view: TrafficView, state: State, now_ms: number): void {
+    if (now_ms - this.counted_ms > COUNTS_EVERY_MS) {
+      this.counts = counts(view, state);
+      this.counted_ms = now_ms;
     }
-    this.vehicles = view.traffic.count(false);
+    const { vehicles, ofTwin, differ } = this.counts;
     const { x, y, distance, azimuth, tilt } = view.stage.rig.now;
     window.laneweave = {
       ready: view.traffic.playback.next !== null,
       drawCalls: this.drawCalls,
       pictures: this.pictures,
       fps: this.fps,
-      vehicles: this.vehicles,
-      twin: {
-        view: state.twinView.value,
-        vehicles: view.traffic.count(true),
-        differ: state.colour.value === 'difference' ? view.traffic.countDifferent() : null,
-      },
+      vehicles,
+      twin: { view: state.twinView.value, vehicles: ofTwin, differ },
       colour: state.colour.value,
       time_s: view.traffic.playback.time_s,
       selected: state.selected.value,
@@ -73,7 +71,19 @@ export class Telemetry {
   }
 }
 
-const vehicles = (view: TrafficView): Place[] => view.traffic.all().map(({ id, x, y }) => ({ id, ...view.pixel(x, y) }));
+interface Counts {
+  vehicles: number;
+  ofTwin: number;
+  differ: number | null;
+}
+
+const counts = ({ traffic }: TrafficView, { colour }: State): Counts => ({
+  vehicles: traffic.count(false),
+  ofTwin: traffic.count(true),
+  differ: colour.value === 'difference' ? traffic.countDifferent() : null,
+});
+
+const vehicles = (view: TrafficView): Place[] => view.traffic.all().map(({ id, x, y }) => ({ id, ...view.pixel(x, y, id.startsWith('-')) }));
 
 const lights = (view: TrafficView): Place[] =>
   view.signals.map(({ light, head: [x, y] }) => ({ id: view.scene.lights[light].id, ...view.pixel(x, y) }));

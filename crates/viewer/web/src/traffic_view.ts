@@ -115,12 +115,15 @@ export class TrafficView {
     return groundAt(camera, across, up, now.z);
   }
 
-  /** Where a place of the road is in a window that shows one picture [px]: the inverse of `ground`. */
-  pixel(x: number, y: number): { left: number; top: number } {
-    const box = this.stage.canvas.getBoundingClientRect();
+  /** Where a place of the road is in the window [px], in the picture of the traffic or in that of its twin: the inverse of `ground`. */
+  pixel(x: number, y: number, isInTwin = false): { left: number; top: number } {
+    const { left, top, width, height } = this.stage.canvas.getBoundingClientRect();
+    const half = this.stage.halves?.[isInTwin ? 1 : 0] ?? null;
+    this.stage.aim(half);
+    const picture = half?.picture ?? { x: 0, y: 0, width, height };
     const { camera, now } = this.stage.rig;
     const { across, up } = windowAt(camera, x, y, now.z);
-    return { left: box.left + ((across + 1) / 2) * box.width, top: box.top + ((1 - up) / 2) * box.height };
+    return { left: left + picture.x + ((across + 1) / 2) * picture.width, top: top + picture.y + ((1 - up) / 2) * picture.height };
   }
 
   /** Where a vehicle is, even if it is out of view. */
