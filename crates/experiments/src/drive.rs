@@ -61,7 +61,6 @@ pub(crate) fn each<T: Send>(
 pub(crate) fn steps(prepared: &mut Prepared, mut observe: impl FnMut(&World)) {
     let world = &mut prepared.world;
     (0..prepared.warmup_steps).for_each(|_| world.step());
-    world.reset_counts();
     for _ in 0..prepared.steps {
         world.step();
         observe(world);

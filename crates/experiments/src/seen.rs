@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use laneweave::models::follow::Ahead;
 use laneweave::network::Side;
-use laneweave::sim::{Counters, Counts, Event, Kind, LaneChange, Phase, VehicleId, World};
+use laneweave::sim::{Counters, Counts, Event, LaneChange, LaneChangeKind, Phase, VehicleId, World};
 use laneweave::study::Moments;
 
 /// Length of a section in which speeds are averaged [m], and time over which they are [s].
@@ -78,7 +78,7 @@ impl Seen {
             gaps.extend(Some(gap).filter(|it| it.is_finite() && *it < FURTHEST));
         }
         match change.kind {
-            Kind::Discretionary => {
+            LaneChangeKind::Discretionary => {
                 self.gains.add(change.speed_gain);
                 self.gaining += u32::from(change.speed_gain > 0.0);
                 let is_back = |(time, side)| side != change.side && change.time - time <= BACK_WITHIN;
@@ -87,8 +87,8 @@ impl Seen {
                 let style = &world.driver_parameters()[change.parameters as usize].name;
                 self.of_style.entry(style.clone()).or_default().0 += 1;
             }
-            Kind::Route => self.durations[1].push(change.duration),
-            Kind::Keeping => {}
+            LaneChangeKind::Route => self.durations[1].push(change.duration),
+            LaneChangeKind::Keeping => {}
         }
     }
 

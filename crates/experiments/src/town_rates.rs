@@ -4,7 +4,7 @@
 use laneweave::Fault;
 use laneweave::output::Boxes;
 use laneweave::scenario::Prepared;
-use laneweave::sim::Kind;
+use laneweave::sim::LaneChangeKind;
 use laneweave::study::{EdieRow, Estimate, Estimated, Sheet, estimates};
 use laneweave::style::Model;
 
@@ -51,7 +51,7 @@ impl Town {
         let changes = counts.discretionary_changes + counts.route_changes + counts.keeping_changes;
         Town {
             whole: (distance > 0.0).then(|| 1000.0 * changes as f64 / distance),
-            discretionary: boxes.with_changes(end, |it| it == Kind::Discretionary),
+            discretionary: boxes.with_changes(end, |it| it == LaneChangeKind::Discretionary),
             all: boxes.with_changes(end, |_| true),
         }
     }

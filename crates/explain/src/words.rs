@@ -7,7 +7,7 @@ use laneweave_models::change::{
     Appraisal, GapPair, LaneChangeModel, Mcdm, Refusal, Row, Rule, time_to_collision,
 };
 use laneweave_network::{Network, Position, Side};
-use laneweave_sim::{Account, Act, Hindrance, Kind, SideAccount};
+use laneweave_sim::{Account, Act, Hindrance, LaneChangeKind, SideAccount};
 use laneweave_study::units::KMH_PER_MPS;
 
 use crate::flip::{Flip, Knob};
@@ -19,23 +19,23 @@ pub fn act(account: &Account) -> String {
         Act::Stays => stays(account),
         Act::Wants(side, kind) => {
             let why = match kind {
-                Kind::Discretionary => leading(account, side),
-                Kind::Route if account.wants_its_last_chance() => {
+                LaneChangeKind::Discretionary => leading(account, side),
+                LaneChangeKind::Route if account.wants_its_last_chance() => {
                     "route-driven, as this is the last place for it".into()
                 }
-                Kind::Route => "route-driven".into(),
-                Kind::Keeping => "to keep to the slow side".into(),
+                LaneChangeKind::Route => "route-driven".into(),
+                LaneChangeKind::Keeping => "to keep to the slow side".into(),
             };
-            format!("wants to change to the {}: {why}", name(side))
+            format!("wants to change to the {}: {why}", side.name())
         }
         Act::Waits(side, hindrance) => {
-            format!("waits for a gap on the {}: {}", name(side), because(&hindrance))
+            format!("waits for a gap on the {}: {}", side.name(), because(&hindrance))
         }
-        Act::Goes(side) => format!("accepts the gap, and starts the change to the {}", name(side)),
-        Act::GivesUp(side) => format!("gives up waiting for a gap on the {}", name(side)),
+        Act::Goes(side) => format!("accepts the gap, and starts the change to the {}", side.name()),
+        Act::GivesUp(side) => format!("gives up waiting for a gap on the {}", side.name()),
         Act::TakesAnotherRoute => "takes another route".into(),
-        Act::Changes(side) => format!("is changing to the {}", name(side)),
-        Act::GoesBack(side) => format!("aborts its change to the {}", name(side)),
+        Act::Changes(side) => format!("is changing to the {}", side.name()),
+        Act::GoesBack(side) => format!("aborts its change to the {}", side.name()),
     }
 }
 
@@ -45,7 +45,7 @@ fn stays(account: &Account) -> String {
     let Some(best) = sides.max_by(|a, b| above(a).total_cmp(&above(b))) else {
         return "stays: there is no adjacent lane to which it may change".into();
     };
-    let side = name(best.side);
+    let side = best.side.name();
     if best.is_out_of_question {
         return format!(
             "stays: it is in the cooldown after a change, or after giving one up, for {:.1} s more",
@@ -73,7 +73,7 @@ fn stays(account: &Account) -> String {
 
 /// What the gain of a side means for the desire: a probability by the stochastic rule, a threshold by all others.
 fn gain(account: &Account, best: &SideAccount) -> String {
-    let (side, Appraisal { gain, theta, .. }) = (name(best.side), best.appraisal);
+    let (side, Appraisal { gain, theta, .. }) = (best.side.name(), best.appraisal);
     match &*account.change {
         LaneChangeModel::Mcdm(Mcdm { rule: Rule::Logit, .. }) => {
             let chance = best.chance;
@@ -263,7 +263,7 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
 
 /// The rows of one side.
 fn table(account: &Account, side: &SideAccount) -> Vec<String> {
-    let mut lines = vec![format!("  {:<8} {:>9} × {:>7} = {:>8}", name(side.side), "yield", "weight", "")];
+    let mut lines = vec![format!("  {:<8} {:>9} × {:>7} = {:>8}", side.side.name(), "yield", "weight", "")];
     for (row, title) in side.appraisal.rows.iter().zip(account.change.row_names()) {
         if !title.is_empty() && row.weight != 0.0 {
             lines.push(format!(
@@ -292,7 +292,7 @@ pub(crate) fn flip_in_words(account: &Account, flip: &Flip) -> String {
     let what = match knob {
         Knob::Weight(row) => format!("the weight of {}", account.change.row_names()[*row]),
         Knob::SpeedHere => "the anticipated speed in its lane [m/s]".into(),
-        Knob::SpeedThere(side) => format!("the anticipated speed on the {} [m/s]", name(*side)),
+        Knob::SpeedThere(side) => format!("the anticipated speed on the {} [m/s]", side.name()),
         Knob::GapAhead => "the gap to the new leader [m]".into(),
         Knob::GapBehind => "the gap to the new follower [m]".into(),
         Knob::OwnSpeed => "its own speed [m/s]".into(),
@@ -302,15 +302,8 @@ pub(crate) fn flip_in_words(account: &Account, flip: &Flip) -> String {
     let then = match (account.act, to) {
         (Act::Waits(..), _) => "it would have started the change".to_string(),
         (Act::Goes(_), _) => "it would have waited".into(),
-        (_, Some(side)) => format!("it would have wanted to change to the {}", name(*side)),
+        (_, Some(side)) => format!("it would have wanted to change to the {}", side.name()),
         (_, None) => "it would have stayed in its lane".into(),
     };
     format!("{what} {:.4} instead of {value:.4} ({by:+.4}): {then}", value + by)
-}
-
-fn name(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
 }

@@ -1,7 +1,7 @@
 //! Observe a simulation, and count what happens in it.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use laneweave::{Event, Fault, Kind, Observer, Simulation};
+use laneweave::{Event, Fault, LaneChangeKind, Observer, Simulation};
 
 /// What is counted.
 #[derive(Default)]
@@ -24,7 +24,7 @@ impl Observer for Counts {
                     self.trip_time_s += duration_s;
                 }
                 Event::LaneChange(it) if it.is_completed => {
-                    self.lane_changes[usize::from(it.kind == Kind::Route)] += 1;
+                    self.lane_changes[usize::from(it.kind == LaneChangeKind::Route)] += 1;
                 }
                 _ => {}
             }

@@ -41,8 +41,8 @@ pub use laneweave_scenario::{
     did_you_mean, open_recording, open_recordings, refused, scenario, style,
 };
 pub use laneweave_sim::{
-    BrakingCause, Class, Columns, Control, IncidentKind, Intention, Kind, Lateral, Longitudinal, NewVehicle,
-    Phase, VehicleId,
+    BrakingCause, Class, Columns, Control, IncidentKind, Intention, LaneChangeKind, Lateral, Longitudinal,
+    NewVehicle, Phase, VehicleId,
 };
 pub use parallel::in_parallel;
 pub use simulation::{

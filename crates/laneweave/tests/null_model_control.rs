@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::models::change::{ConstantHazard, LaneChangeModel, Mobil};
-use laneweave::sim::{Demand, Event, Kind, Setup, VehicleId, World};
+use laneweave::sim::{Demand, Event, LaneChangeKind, Setup, VehicleId, World};
 use laneweave::study::{Estimate, Interval, mean};
 use laneweave::style::Population;
 
@@ -80,7 +80,7 @@ fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Sign
         world.step();
         for event in world.events() {
             let Event::LaneChange(change) = event else { continue };
-            if !change.is_completed || change.kind != Kind::Discretionary {
+            if !change.is_completed || change.kind != LaneChangeKind::Discretionary {
                 continue;
             }
             signs.changes += 1.0;

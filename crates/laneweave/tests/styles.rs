@@ -8,7 +8,7 @@ use std::path::Path;
 use laneweave::maps::{ReadOptions, load};
 use laneweave::network::{ChainIndex, LaneUse, Network};
 use laneweave::sim::{
-    Class, Demand, Event, Kind, Phase, Placement, Rate, Setup, Share, Vehicle, VehicleId, World,
+    Class, Demand, Event, LaneChangeKind, Phase, Placement, Rate, Setup, Share, Vehicle, VehicleId, World,
 };
 use laneweave::study::{Interval, mean};
 use laneweave::style::{Population, StyleTemplate, find};
@@ -91,7 +91,7 @@ fn tired_drivers_change_lanes_less_than_others_in_the_same_traffic() {
             for event in world.events() {
                 if let Event::LaneChange(it) = event
                     && it.is_completed
-                    && it.kind == Kind::Discretionary
+                    && it.kind == LaneChangeKind::Discretionary
                 {
                     changes[is_other(it.parameters)] += 1.0;
                 }

@@ -34,6 +34,14 @@ impl Side {
         self as usize
     }
 
+    /// Its name in tables: left or right.
+    pub fn name(self) -> &'static str {
+        match self {
+            Side::Left => "left",
+            Side::Right => "right",
+        }
+    }
+
     /// The other side.
     pub fn opposite(self) -> Side {
         match self {

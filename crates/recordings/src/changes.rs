@@ -6,7 +6,7 @@ use laneweave_network::{Lanelet, LaneletIndex, Point, Side};
 use crate::lanes;
 use crate::matching::{Matched, Place};
 use crate::moves::{Aside, Move};
-pub use crate::purpose::Kind;
+pub use crate::purpose::RecordedChangeKind;
 use crate::purpose::Ways;
 use crate::recording::Track;
 use crate::smooth;
@@ -44,7 +44,7 @@ pub struct LaneChange {
     /// Whether the graph permits the change.
     pub along_graph: bool,
     /// Why it was made, as far as the later path shows.
-    pub kind: Kind,
+    pub kind: RecordedChangeKind,
     /// Time after which it came back to the lane that it left, if within 30 s [s].
     pub returned_after: Option<f64>,
     /// Time for which the vehicle was observed after the crossing [s].

@@ -30,7 +30,7 @@ mod smooth;
 pub mod table;
 mod turning_shares;
 
-pub use changes::{Kind, LaneChange, lane_changes};
+pub use changes::{LaneChange, RecordedChangeKind, lane_changes};
 pub use clean::{CleaningReport, Example, Finding, clean};
 pub use drivers::{Assumed, allowed};
 pub use error::RecordingError;

@@ -8,7 +8,7 @@ use crate::moves::Moves;
 
 /// Why a lane was changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum RecordedChangeKind {
     /// From the old lane the vehicle would have reached its later place with no more changes than from the new one.
     /// The same holds for all continuations from where it was last observed, as far as the map goes.
     Discretionary,
@@ -16,6 +16,17 @@ pub enum Kind {
     Route,
     /// It was last observed before routes part: some of the continuations need more changes from the old lane.
     Unknown,
+}
+
+impl RecordedChangeKind {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            RecordedChangeKind::Discretionary => "discretionary",
+            RecordedChangeKind::Route => "route",
+            RecordedChangeKind::Unknown => "unknown",
+        }
+    }
 }
 
 /// The routes of a network, by the number of lane changes that they need.
@@ -35,17 +46,22 @@ impl<'a> Ways<'a> {
     }
 
     /// Why a vehicle changed from one lanelet to another; afterwards it was last observed on `last`.
-    pub(crate) fn kind(&self, from: LaneletIndex, to: LaneletIndex, last: LaneletIndex) -> Kind {
+    pub(crate) fn kind(
+        &self,
+        from: LaneletIndex,
+        to: LaneletIndex,
+        last: LaneletIndex,
+    ) -> RecordedChangeKind {
         let (stayed, changed) = (self.changes_to_rows(from), self.changes_to_rows(to));
         let needs_more = |lanelet: LaneletIndex| {
             let row = self.rows[lanelet.at()];
             stayed[row] > changed[row]
         };
         if needs_more(last) {
-            return Kind::Route;
+            return RecordedChangeKind::Route;
         }
         let is_open = self.onward(last).into_iter().any(needs_more);
-        if is_open { Kind::Unknown } else { Kind::Discretionary }
+        if is_open { RecordedChangeKind::Unknown } else { RecordedChangeKind::Discretionary }
     }
 
     /// For each row the minimum number of changes on a route there from `start`.

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use laneweave_maps::{Map, ReadOptions, load};
 use laneweave_network::LaneletIndex;
-use laneweave_recordings::{Kind, LaneChange, Matched, Recording, clean, interaction, lane_changes};
+use laneweave_recordings::{
+    LaneChange, Matched, RecordedChangeKind, Recording, clean, interaction, lane_changes,
+};
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/mona_east/");
 
@@ -102,8 +104,9 @@ fn its_lane_changes_are_found() {
         let changes = lane_changes(&Matched::new(&network, &recording));
         // 138 by an independent count, of which 109 along the graph.
         let count = |has: fn(&LaneChange) -> bool| changes.iter().filter(|it| has(it)).count();
-        let kinds = [Kind::Discretionary, Kind::Route, Kind::Unknown]
-            .map(|kind| changes.iter().filter(|it| it.kind == kind).count());
+        let kinds =
+            [RecordedChangeKind::Discretionary, RecordedChangeKind::Route, RecordedChangeKind::Unknown]
+                .map(|kind| changes.iter().filter(|it| it.kind == kind).count());
         assert_eq!((changes.len(), kinds, count(|it| it.along_graph)), (132, [92, 34, 6], 91));
         assert_eq!(count(|it| it.returned_after.is_some()), 2);
         let id = |it: LaneletIndex| network.lanelets[it.at()].id;

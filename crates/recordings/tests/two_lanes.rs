@@ -2,7 +2,9 @@
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_network::{Network, Side};
-use laneweave_recordings::{Kind, LaneChange, Matched, Recording, RoadUser, State, Track, lane_changes};
+use laneweave_recordings::{
+    LaneChange, Matched, RecordedChangeKind, Recording, RoadUser, State, Track, lane_changes,
+};
 
 /// Time between frames [s].
 const STEP: f64 = 0.04;
@@ -112,7 +114,7 @@ fn without_noise_the_crossing_is_exact() {
     assert!((change.time - 13.01).abs() < 0.005 && (change.y - LINE).abs() < 1e-3);
     assert!((change.x - 10.0 - 25.0 * 13.01).abs() < 0.2);
     assert_eq!((change.vehicle, change.side, change.speed), (1, Side::Left, 25.0));
-    assert_eq!((change.kind, change.returned_after), (Kind::Discretionary, None));
+    assert_eq!((change.kind, change.returned_after), (RecordedChangeKind::Discretionary, None));
     assert!((change.seen_after - (29.96 - 13.01)).abs() < 0.01);
     let names = |it: laneweave_network::LaneletIndex| network.lanelets[it.at()].id;
     // The road's fourth row of lanelets, the slow one first.
@@ -169,12 +171,18 @@ fn changes_towards_an_exit_are_for_the_route_and_others_are_not() {
         }
         found(&network, vec![track]).iter().map(|it| (it.side, it.kind)).collect::<Vec<_>>()
     };
-    assert_eq!(leaving(48.0), [(Side::Right, Kind::Unknown), (Side::Right, Kind::Unknown)]);
-    assert_eq!(leaving(55.0), [(Side::Right, Kind::Route), (Side::Right, Kind::Route)]);
+    assert_eq!(
+        leaving(48.0),
+        [(Side::Right, RecordedChangeKind::Unknown), (Side::Right, RecordedChangeKind::Unknown)]
+    );
+    assert_eq!(
+        leaving(55.0),
+        [(Side::Right, RecordedChangeKind::Route), (Side::Right, RecordedChangeKind::Route)]
+    );
     // A vehicle that continues straight on has not needed to change.
     let overtaking = car(2, 30.0, 0.0, 60.0, |time| 1.75 + WIDTH * swing(time - 10.0, 4.0));
     let kinds: Vec<_> = found(&network, vec![overtaking]).iter().map(|it| it.kind).collect();
-    assert_eq!(kinds, [Kind::Discretionary]);
+    assert_eq!(kinds, [RecordedChangeKind::Discretionary]);
 }
 
 #[test]
@@ -186,5 +194,5 @@ fn merging_from_an_on_ramp_is_for_the_route() {
     let mut merging = car(1, 30.0, 0.0, 40.0, aside);
     merging.states.iter_mut().for_each(|it| it.x += 1000.0);
     let kinds: Vec<_> = found(&network, vec![merging]).iter().map(|it| (it.side, it.kind)).collect();
-    assert_eq!(kinds, [(Side::Left, Kind::Route)]);
+    assert_eq!(kinds, [(Side::Left, RecordedChangeKind::Route)]);
 }

@@ -53,7 +53,9 @@ pub use state::command::{Command, Commanded, NewVehicle, Target};
 pub use state::control::{Control, Lateral, Longitudinal};
 pub use state::externals::FIRST_INSERTED;
 pub use state::goal::{Destination, Goal};
-pub use state::lane::{Counterpart, DriverState, Kind, Kinematics, Lane, LaneChangeState, Phase, VehicleId};
+pub use state::lane::{
+    Counterpart, DriverState, Kinematics, Lane, LaneChangeKind, LaneChangeState, Phase, VehicleId,
+};
 pub use state::normal::quantile as normal_quantile;
 pub use state::previous_lanes::PreviousLanes;
 pub use state::random::{Purpose, Random};

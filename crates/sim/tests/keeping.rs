@@ -8,7 +8,7 @@ use laneweave_models::Style;
 use laneweave_models::change::{Keeping, LaneChangeModel, Mcdm};
 use laneweave_models::follow::{FollowingModel, Fvdm};
 use laneweave_network::{ChainIndex, LaneUse, Network, Side};
-use laneweave_sim::{Class, Event, Kind, Placement, Setup, World};
+use laneweave_sim::{Class, Event, LaneChangeKind, Placement, Setup, World};
 use roads::{Road, drivers};
 
 /// A driver of the shipped kind: the weights of `style`, with the thresholds and the weight of keeping of the styles.
@@ -94,7 +94,7 @@ fn undone(mut world: World) -> (usize, f64) {
         world.step();
         for event in world.events() {
             let Event::LaneChange(change) = event else { continue };
-            if !change.is_completed || change.kind == Kind::Route {
+            if !change.is_completed || change.kind == LaneChangeKind::Route {
                 continue;
             }
             let before = last.remove(&change.vehicle);

@@ -1,7 +1,7 @@
 //! The lane changes of a recording, and why some of them cannot be used in a fit.
 
 use laneweave_network::{LaneletIndex, Side};
-use laneweave_recordings::{Extent, Kind, LaneChange, Matched};
+use laneweave_recordings::{Extent, LaneChange, Matched, RecordedChangeKind};
 
 use super::spells::{End, SpellTimes};
 
@@ -15,7 +15,7 @@ pub struct ObservedChange {
     /// The side.
     pub side: Side,
     /// Why it was made, as far as the later path shows.
-    pub kind: Kind,
+    pub kind: RecordedChangeKind,
     /// The lanelets that it left and entered.
     pub lanelets: [LaneletIndex; 2],
     /// When it began [s].

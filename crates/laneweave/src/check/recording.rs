@@ -7,9 +7,9 @@ use std::io::Read;
 use std::path::Path;
 
 use laneweave_maps::Problem;
-use laneweave_network::{Network, Side};
+use laneweave_network::Network;
 use laneweave_recordings::{
-    CleaningReport, Kind, LaneChange, Matched, Recording, RecordingError, clean, commonroad, lane_changes,
+    CleaningReport, LaneChange, Matched, Recording, RecordingError, clean, commonroad, lane_changes,
 };
 use laneweave_scenario::{Fault, elsewhere, unreadable};
 use laneweave_study::units::METRES_PER_KM;
@@ -126,7 +126,7 @@ impl RecordingReport {
         let mut tracks: BTreeMap<&'static str, usize> = BTreeMap::new();
         let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
         recording.tracks.iter().for_each(|it| *tracks.entry(it.class.name()).or_default() += 1);
-        changes.iter().for_each(|it| *kinds.entry(kind(it.kind)).or_default() += 1);
+        changes.iter().for_each(|it| *kinds.entry(it.kind.name()).or_default() += 1);
         let (states, unmatched) = matched.count_states();
         let elsewhere = (2 * unmatched > states).then(|| elsewhere(&recording, network));
         let span = recording.frames().map_or(0, |(first, last)| last - first);
@@ -232,23 +232,12 @@ fn row(change: &LaneChange, network: &Network) -> ChangeRow {
         time_s: change.time,
         from_lanelet: network.lanelets[change.from.at()].id,
         to_lanelet: network.lanelets[change.to.at()].id,
-        side: match change.side {
-            Side::Left => "left",
-            Side::Right => "right",
-        },
-        kind: kind(change.kind),
+        side: change.side.name(),
+        kind: change.kind.name(),
         x_m: change.x,
         y_m: change.y,
         speed_mps: change.speed,
         along_graph: change.along_graph,
         seen_after_s: change.seen_after,
-    }
-}
-
-fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Discretionary => "discretionary",
-        Kind::Route => "route",
-        Kind::Unknown => "unknown",
     }
 }

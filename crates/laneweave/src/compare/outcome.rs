@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use laneweave_network::Side;
 use laneweave_results::output::{Boxes, ShortTrips};
 use laneweave_scenario::scenario::Prepared;
-use laneweave_sim::{Event, Kind, VehicleId};
+use laneweave_sim::{Event, LaneChangeKind, VehicleId};
 use laneweave_study::EdieRow;
 use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 
@@ -90,7 +90,6 @@ impl Outcome {
     pub(crate) fn of(prepared: &mut Prepared) -> (Outcome, Vec<EdieRow>) {
         let Prepared { world, script, warmup_steps, steps, .. } = prepared;
         (0..*warmup_steps).for_each(|_| script.step(world));
-        world.reset_counts();
         let begin = world.clock().time();
         let mut boxes = Boxes::new(world, begin, f64::from(*steps) * world.clock().dt);
         let (mut changes, mut gaining, mut going_back) = (0, 0, 0);
@@ -106,7 +105,7 @@ impl Outcome {
                     continue;
                 }
                 let before = last.insert(it.vehicle, (it.time, it.side));
-                if it.kind == Kind::Discretionary {
+                if it.kind == LaneChangeKind::Discretionary {
                     changes += 1;
                     gaining += u32::from(it.speed_gain > 0.0);
                     let goes_back = |(time, side)| side != it.side && it.time - time <= BACK_WITHIN;
@@ -136,6 +135,6 @@ impl Outcome {
             left: counts.left as f64,
             waiting: world.waiting() as f64,
         };
-        (outcome, boxes.with_changes(world.clock().time(), |it| it == Kind::Discretionary))
+        (outcome, boxes.with_changes(world.clock().time(), |it| it == LaneChangeKind::Discretionary))
     }
 }

@@ -5,7 +5,6 @@ use std::fmt::Write;
 
 use laneweave_calibration::observe::{ObservedChange, Unused};
 use laneweave_calibration::{DesireModel, expected};
-use laneweave_recordings::Kind;
 use serde::Serialize;
 
 use super::Observed;
@@ -59,15 +58,6 @@ pub struct ExpectedWeight {
     pub veh_km_for_a_quarter: Option<f64>,
 }
 
-/// The name of a kind.
-pub(super) fn kind_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Discretionary => "discretionary",
-        Kind::Route => "route",
-        Kind::Unknown => "unknown",
-    }
-}
-
 /// How often each of `names` occurs.
 fn counts<'a>(names: impl Iterator<Item = &'a str>) -> BTreeMap<&'a str, usize> {
     let mut counts = BTreeMap::new();
@@ -111,7 +101,7 @@ impl Plan {
             veh_h: thousandths(observations.veh_h),
             events: changes.len(),
             events_used: used,
-            events_by_kind: counts(changes.iter().map(|it| kind_name(it.kind))),
+            events_by_kind: counts(changes.iter().map(|it| it.kind.name())),
             unused: counts(changes.iter().filter_map(|it| it.unused.map(Unused::name))),
             censored: censored(changes),
             drivers_with_known_desired_speed: thousandths(is_known as f64 / drivers.max(1) as f64),

@@ -98,7 +98,10 @@ impl Measuring {
             }
         }
         let world = &mut simulation.prepared.world;
-        world.reset_counts();
+        if is_interrupted {
+            // Nothing was measured.
+            world.reset_counts();
+        }
         Ok(Measuring {
             measured_from_s: world.clock().time(),
             measured_steps: 0,

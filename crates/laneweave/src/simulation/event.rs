@@ -2,11 +2,9 @@
 
 use laneweave_network::{Network, Position, Side};
 use laneweave_sim::{
-    self as sim, BrakingCause, Class, DrivingEventKind, IncidentKind, Kind, VehicleId, World,
+    self as sim, BrakingCause, Class, DrivingEventKind, IncidentKind, LaneChangeKind, VehicleId, World,
 };
 use serde::{Deserialize, Serialize};
-
-use super::names;
 
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,7 +71,6 @@ pub struct LaneChange {
     /// Which vehicle.
     pub vehicle: VehicleId,
     /// Its class.
-    #[serde(with = "names")]
     pub class: Class,
     /// Time when the centre crossed the line, or the change was aborted [s].
     pub time_s: f64,
@@ -86,11 +83,9 @@ pub struct LaneChange {
     /// The id of the new lanelet.
     pub to_lanelet: i64,
     /// The side to which it changed.
-    #[serde(with = "names")]
     pub side: Side,
     /// The kind of the change.
-    #[serde(with = "names")]
-    pub kind: Kind,
+    pub kind: LaneChangeKind,
     /// Speed when the centre crossed the line [m/s].
     pub speed_mps: f64,
     /// Anticipated speed gain when the desire came [m/s].
@@ -103,7 +98,6 @@ pub struct LaneChange {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Incident {
     /// Its kind.
-    #[serde(with = "names")]
     pub kind: IncidentKind,
     /// Time when it was detected [s].
     pub time_s: f64,

@@ -3,7 +3,7 @@
 use laneweave_network::{LightIndex, LightState};
 use serde::{Deserialize, Serialize};
 
-use super::{Simulation, names};
+use super::Simulation;
 
 /// A traffic light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -11,7 +11,6 @@ pub struct Light {
     /// Its id: the smallest id of its regulatory elements.
     pub id: i64,
     /// What it shows.
-    #[serde(with = "names")]
     pub state: LightState,
 }
 

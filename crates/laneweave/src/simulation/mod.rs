@@ -5,7 +5,6 @@ mod builder;
 mod commands;
 mod event;
 mod light;
-mod names;
 mod observer;
 mod queries;
 mod results;
@@ -83,26 +82,13 @@ impl Simulation {
 
     fn new(scenario: Scenario, origin: Origin, prepared: Prepared, has_map_file: bool) -> Simulation {
         let [is_commanded, is_changed] = [false; 2];
-        let mut simulation =
-            Simulation { scenario, origin, prepared, has_map_file, is_commanded, is_changed };
-        simulation.begin_counts();
-        simulation
-    }
-
-    /// Counts begin anew at the end of the warm-up.
-    fn begin_counts(&mut self) {
-        let Prepared { world, warmup_steps, .. } = &mut self.prepared;
-        if world.clock().step == *warmup_steps {
-            world.reset_counts();
-        }
+        Simulation { scenario, origin, prepared, has_map_file, is_commanded, is_changed }
     }
 
     /// Simulates one step, and returns what happened in it. The commands of the scenario that are due are given before.
     pub fn step(&mut self) -> Vec<Event> {
         self.prepared.step();
-        let events = self.events();
-        self.begin_counts();
-        events
+        self.events()
     }
 
     /// What happened in the last step.

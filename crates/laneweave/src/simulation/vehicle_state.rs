@@ -4,15 +4,12 @@ use laneweave_network::Position;
 use laneweave_sim::{Class, Phase, Vehicle, VehicleId, World};
 use serde::{Deserialize, Serialize};
 
-use super::names;
-
 /// The state of a vehicle at one instant. Its fields have the names of the columns of the table `trajectories`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VehicleState {
     /// Its id. No other vehicle of the simulation ever has it.
     pub id: VehicleId,
     /// Its class.
-    #[serde(with = "names")]
     pub class: Class,
     /// The style of its driver.
     pub style: String,
@@ -39,7 +36,6 @@ pub struct VehicleState {
     /// Width [m].
     pub width_m: f64,
     /// The phase of its lane change.
-    #[serde(with = "names")]
     pub state: Phase,
     /// The id of its destination: the smallest id of its lanelets. `None`: it follows the road.
     pub destination: Option<i64>,

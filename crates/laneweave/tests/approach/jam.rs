@@ -7,7 +7,8 @@ use laneweave::models::Style;
 use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
 use laneweave::network::{ChainIndex, Position};
 use laneweave::sim::{
-    Class, Demand, Event, Fleet, InnerPlace, Kind, Place, Placement, Places, Setup, Share, VehicleId, World,
+    Class, Demand, Event, Fleet, InnerPlace, LaneChangeKind, Place, Placement, Places, Setup, Share,
+    VehicleId, World,
 };
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
@@ -112,7 +113,7 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
         for event in world.events() {
             let Event::LaneChange(it) = event else { continue };
             let is_before = approach.road(it.from.chain, it.from.x).is_none();
-            let counts = it.kind != Kind::Keeping && it.is_completed && is_before;
+            let counts = it.kind != LaneChangeKind::Keeping && it.is_completed && is_before;
             lane_changes += u32::from(counts && come.contains(&it.vehicle));
         }
     }

@@ -49,6 +49,17 @@ pub enum LightState {
     Red,
 }
 
+impl LightState {
+    /// Its name in tables: green, yellow or red.
+    pub fn name(self) -> &'static str {
+        match self {
+            LightState::Green => "green",
+            LightState::Yellow => "yellow",
+            LightState::Red => "red",
+        }
+    }
+}
+
 /// A program that repeats: green within `green`, yellow after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use laneweave_models::change::INCENTIVES;
-use laneweave_network::{Point, Position, Side};
+use laneweave_network::{Point, Position};
 use laneweave_scenario::Fault;
-use laneweave_sim::{Event, Kind, LaneChange, World};
+use laneweave_sim::{Event, LaneChange, World};
 use laneweave_study::{Cell, Column, TableWriter, seconds};
 
 use super::Output;
@@ -146,17 +146,8 @@ fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
         lanelet(change.to).into(),
         x.into(),
         y.into(),
-        match change.side {
-            Side::Left => "left",
-            Side::Right => "right",
-        }
-        .into(),
-        match change.kind {
-            Kind::Discretionary => "discretionary",
-            Kind::Route => "route",
-            Kind::Keeping => "keeping",
-        }
-        .into(),
+        change.side.name().into(),
+        change.kind.name().into(),
         change.speed.into(),
         change.speed_gain.into(),
     ];

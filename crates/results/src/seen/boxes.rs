@@ -1,7 +1,7 @@
 //! Traffic in boxes of about 500 m of road and a minute, by Edie's definitions, with the lane changes in them.
 
 use laneweave_network::ChainIndex;
-use laneweave_sim::{Event, Kind, World};
+use laneweave_sim::{Event, LaneChangeKind, World};
 use laneweave_study::{EdieGrid, EdieRow, RatePoint, RateSeries, Window, rate_by_density};
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub struct Boxes {
     window: Window,
     grid: Option<EdieGrid>,
     /// Section, time and kind of each change.
-    changes: Vec<(usize, f64, Kind)>,
+    changes: Vec<(usize, f64, LaneChangeKind)>,
 }
 
 impl Boxes {
@@ -82,7 +82,7 @@ impl Boxes {
     }
 
     /// The boxes that were complete at `end` [s], with the changes that are `chosen`.
-    pub fn with_changes(&self, end: f64, chosen: impl Fn(Kind) -> bool) -> Vec<EdieRow> {
+    pub fn with_changes(&self, end: f64, chosen: impl Fn(LaneChangeKind) -> bool) -> Vec<EdieRow> {
         let Some(mut grid) = self.grid.clone() else { return Vec::new() };
         for (section, time, _) in self.changes.iter().filter(|(_, _, kind)| chosen(*kind)) {
             grid.change(*section, *time);
@@ -91,7 +91,7 @@ impl Boxes {
     }
 
     /// A curve of the changes that are `chosen`, from the boxes that were complete at `end` [s].
-    pub fn series(&self, name: &str, end: f64, chosen: impl Fn(Kind) -> bool) -> RateSeries {
+    pub fn series(&self, name: &str, end: f64, chosen: impl Fn(LaneChangeKind) -> bool) -> RateSeries {
         RateSeries { name: name.into(), points: Boxes::pooled(self.with_changes(end, chosen)) }
     }
 

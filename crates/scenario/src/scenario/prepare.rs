@@ -178,16 +178,17 @@ fn prepare_with(
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
         world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
-    let world = guided(world.with_trip_log(), scenario, origin)?;
+    let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
+    let warmup_steps = steps(scenario.run.warmup_s);
+    let world = guided(world.with_trip_log().warming_up(warmup_steps), scenario, origin)?;
     let world = if scenario.run.audit { world.audited() } else { world };
     let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let player = playing.player(scenario, origin, &world)?;
     let script = Script::of(scenario, origin, player, &world)?;
-    let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     Ok(Prepared {
-        warmup_steps: steps(scenario.run.warmup_s),
+        warmup_steps,
         steps: steps(scenario.run.duration_s).max(1),
         record_steps,
         checkpoint_steps,

@@ -15,7 +15,7 @@ use crate::driver::decide::decide_one;
 use crate::driver::gap::{Hindrance, Pairing, gap};
 use crate::driver::me::{Attending, Me};
 use crate::driver::plan::{Ask, Outbox, Plan};
-use crate::state::lane::{Kind, Phase, VehicleId};
+use crate::state::lane::{LaneChangeKind, Phase, VehicleId};
 use crate::state::moment::Moment;
 use crate::state::random::Purpose;
 use crate::step::world::World;
@@ -91,7 +91,7 @@ pub enum Act {
     /// It considers lanes, and stays.
     Stays,
     /// It begins to want a change.
-    Wants(Side, Kind),
+    Wants(Side, LaneChangeKind),
     /// It waits for a gap, for this reason.
     Waits(Side, Hindrance),
     /// It has found a gap, and asks to change. It changes unless another driver takes the gap first.

@@ -14,7 +14,7 @@ use crate::record::events::BrakingCause;
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::{FirstIntoMerge, Junction};
 use crate::state::clock::Clock;
-use crate::state::lane::{DriverState, Kind, Kinematics, Phase};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeKind, Phase};
 use crate::state::standstill::{ROOM_AT_A_STOP, STANDS};
 use crate::view::scene::{Scene, Spot};
 
@@ -347,8 +347,8 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
             let falling_in = style.follow.acceleration(pace, beside);
             let manner = &style.manner;
             let hardest = match lane_change.kind {
-                Kind::Route => manner.adjust_deceleration,
-                Kind::Discretionary | Kind::Keeping => manner.free_adjust_deceleration,
+                LaneChangeKind::Route => manner.adjust_deceleration,
+                LaneChangeKind::Discretionary | LaneChangeKind::Keeping => manner.free_adjust_deceleration,
             };
             wish = wish.or(falling_in.max(-hardest), BrakingCause::CutIn);
         }

@@ -7,7 +7,7 @@ use crate::driver::perceive::{Dismissed, Perception};
 use crate::driver::plan::Want;
 use crate::record::counters::Counters;
 use crate::record::desire_situations::DesireSituation;
-use crate::state::lane::{DriverState, Kind};
+use crate::state::lane::{DriverState, LaneChangeKind};
 use crate::state::moment::Moment;
 
 /// A side, and the driver's appraisal of it.
@@ -71,9 +71,9 @@ impl Choice {
         Want {
             side: self.side,
             kind: match self.is_symmetric {
-                true if self.is_for_the_slow_side => Kind::Keeping,
-                true => Kind::Discretionary,
-                false => Kind::Route,
+                true if self.is_for_the_slow_side => LaneChangeKind::Keeping,
+                true => LaneChangeKind::Discretionary,
+                false => LaneChangeKind::Route,
             },
             appraisal: self.appraisal,
             speed_gain: (self.anticipated_speed - prospect_here) as f32,

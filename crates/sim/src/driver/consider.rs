@@ -19,7 +19,7 @@ use crate::driver::window;
 use crate::record::events::DrivingEventKind;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
-use crate::state::lane::{DriverState, Kind, Kinematics, LaneChangeState, Phase};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeKind, LaneChangeState, Phase};
 use crate::state::moment::Moment;
 use crate::state::push_tight::push_tight;
 use crate::state::random::Purpose;
@@ -311,7 +311,7 @@ fn gives_up(
 ) -> bool {
     let Some(appraisal) = wanted else { return true };
     let waited = moment.clock.since(lane_change.since);
-    let is_tired = lane_change.kind != Kind::Route && waited > style.manner.patience;
+    let is_tired = lane_change.kind != LaneChangeKind::Route && waited > style.manner.patience;
     let is_pointless = style.change.would_rather_stay(appraisal);
     let is_better_elsewhere =
         other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());

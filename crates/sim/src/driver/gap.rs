@@ -13,7 +13,7 @@ use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::may_pass::Asking;
 use crate::right_of_way::survey::is_place_ahead;
 use crate::state::clock::Clock;
-use crate::state::lane::{Kind, LaneChangeState, Phase};
+use crate::state::lane::{LaneChangeKind, LaneChangeState, Phase};
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 
@@ -154,7 +154,7 @@ impl Gap {
         const FULL: f32 = 1.0;
         let &LaneChangeState { urgency, kind, .. } = scene.lane_change(spot);
         match self.has_road(scene, spot, speed, urgency) {
-            Err(_) if kind == Kind::Route => self.has_road(scene, spot, speed, FULL).map(|()| FULL),
+            Err(_) if kind == LaneChangeKind::Route => self.has_road(scene, spot, speed, FULL).map(|()| FULL),
             found => found.map(|()| urgency),
         }
     }

@@ -14,7 +14,7 @@ use crate::record::incidents::Incident;
 use crate::state::clock::Clock;
 use crate::state::control::{Lateral, Longitudinal};
 use crate::state::goal::Destination;
-use crate::state::lane::{Entry, Kind, Kinematics, VehicleId};
+use crate::state::lane::{Entry, Kinematics, LaneChangeKind, VehicleId};
 use crate::state::milestone::Milestone;
 use crate::view::scene::{Scene, Spot};
 
@@ -288,7 +288,7 @@ pub(crate) struct Want {
     /// The side.
     pub(crate) side: Side,
     /// The kind of change.
-    pub(crate) kind: Kind,
+    pub(crate) kind: LaneChangeKind,
     /// The driver's appraisal of the change.
     pub(crate) appraisal: Appraisal,
     /// Gain of anticipated speed [m/s].

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::incidents::Incident;
 use crate::record::trip_log::TripRecord;
-use crate::state::lane::{Kind, Kinematics, VehicleId};
+use crate::state::lane::{Kinematics, LaneChangeKind, VehicleId};
 
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -156,7 +156,7 @@ pub struct LaneChange {
     /// The side to which it changed.
     pub side: Side,
     /// The kind of the change.
-    pub kind: Kind,
+    pub kind: LaneChangeKind,
     /// Speed when the centre crossed the line [m/s].
     pub speed: f64,
     /// Anticipated speed gain when the desire came [m/s].

@@ -31,6 +31,7 @@ pub struct Incident {
 
 /// Kinds of incidents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum IncidentKind {
     /// One touches the vehicle ahead of it, or they overlap while they approach each other.
     Collision,

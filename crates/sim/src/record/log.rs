@@ -13,7 +13,7 @@ use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
 use crate::state::externals::FIRST_INSERTED;
-use crate::state::lane::{Entry, Kind, Kinematics, Lane, Phase, VehicleId};
+use crate::state::lane::{Entry, Kinematics, Lane, LaneChangeKind, Phase, VehicleId};
 use crate::state::milestone::{Milestone, Reached};
 
 /// Lane changes under way, trips, counts and incidents.
@@ -278,9 +278,9 @@ impl Log {
         let LaneChange { kind, from: Position { chain: from, x }, to: Position { x: x_there, .. }, .. } =
             *record;
         match kind {
-            Kind::Discretionary => self.counts.discretionary_changes += 1,
-            Kind::Route => self.counts.route_changes += 1,
-            Kind::Keeping => self.counts.keeping_changes += 1,
+            LaneChangeKind::Discretionary => self.counts.discretionary_changes += 1,
+            LaneChangeKind::Route => self.counts.route_changes += 1,
+            LaneChangeKind::Keeping => self.counts.keeping_changes += 1,
         }
         if let Some(trip) = self.trip_mut(milestone.id) {
             trip.way_to_start += x - x_there;

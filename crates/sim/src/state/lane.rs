@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::state::clock::Clock;
 use crate::state::goal::Goal;
 pub use crate::state::lane_change::{Counterpart, LaneChangeState};
-pub use crate::state::phase::{Kind, Phase};
+pub use crate::state::phase::{LaneChangeKind, Phase};
 use crate::state::prefetch::prefetch;
 use crate::state::vehicle::Class;
 

@@ -3,7 +3,7 @@
 use laneweave_network::{ChainIndex, Position, Side};
 use serde::{Deserialize, Serialize};
 
-use crate::state::phase::Kind;
+use crate::state::phase::LaneChangeKind;
 use crate::state::previous_lanes::PreviousLanes;
 
 /// The warm part of a vehicle: its lane-change state.
@@ -12,7 +12,7 @@ pub struct LaneChangeState {
     /// Side of the desired or current change.
     pub side: Side,
     /// Kind of the desired or current change.
-    pub kind: Kind,
+    pub kind: LaneChangeKind,
     /// The driver may have to stay behind its leader in the overtaking lane.
     pub minds_offside: bool,
     /// Step in which the vehicle entered the map.

@@ -63,7 +63,7 @@ impl World {
     /// # Errors
     /// None, as long as there is memory.
     pub fn save(&self) -> Result<Vec<u8>, CheckpointError> {
-        let World { roads, traffic, junctions, arrivals, log, commands, index: _, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, commands, work, .. } = self;
         let kept: Vec<_> = work.plans.iter().map(|it| (&it.waiting, it.distance)).collect();
         let (identity, counters) = (Identity::of(roads, arrivals.demand()), work.counted());
         let closed = roads.navigator().closures().closed();
@@ -84,7 +84,7 @@ impl World {
         Identity::of(&self.roads, self.arrivals.demand()).check(&identity)?;
         let saved: Saved = postcard::from_bytes(body).map_err(unreadable)?;
         let parameters = self.check(&saved)?;
-        let World { roads, traffic, junctions, arrivals, log, commands, index, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, commands, index, work, .. } = self;
         let (_, moving, passing, backlog, remembered, kept, counters, guided, users) = saved;
         let (given, _, closed) = users;
         index.forget();

@@ -10,7 +10,7 @@ use crate::record::trips::free_time;
 use crate::route::fitting_speed::Outlook;
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
-use crate::state::lane::{DriverState, Entry, Kind, Kinematics, LaneChangeState, Phase, VehicleId};
+use crate::state::lane::{DriverState, Entry, Kinematics, LaneChangeKind, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::setup::Placement;
 use crate::state::traffic::Traffic;
@@ -111,7 +111,7 @@ pub(super) fn entry(roads: &Roads, clock: Clock, vehicle: &Placement, id: Vehicl
     };
     let lane_change = LaneChangeState {
         side: network.driving_side.overtaking(),
-        kind: Kind::Discretionary,
+        kind: LaneChangeKind::Discretionary,
         entered: clock.step,
         since: 0,
         stretch: 1.0,

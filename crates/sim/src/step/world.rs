@@ -44,6 +44,8 @@ pub struct World {
     pub(super) commands: Commands,
     pub(super) index: Index,
     pub(super) work: Work,
+    /// The step at whose end the warm-up ends; 0: there is none.
+    pub(super) warmup_steps: u32,
 }
 
 impl World {
@@ -85,6 +87,7 @@ impl World {
             log: Log::default(),
             commands: Commands::default(),
             index: Index::default(),
+            warmup_steps: 0,
             roads,
             traffic,
         })
@@ -121,10 +124,16 @@ impl World {
         self
     }
 
+    /// The same world, which warms up for so many steps: at the end of the last one all counts begin anew.
+    pub fn warming_up(mut self, steps: u32) -> World {
+        self.warmup_steps = steps;
+        self
+    }
+
     /// Simulates one step. All drivers perceive, decide and accelerate on one snapshot; then all vehicles move.
     /// Requests between lanes are resolved in order, vehicles enter, and drivers are guided.
     pub fn step(&mut self) {
-        let World { roads, traffic, junctions, arrivals, log, commands, index, work } = self;
+        let World { roads, traffic, junctions, arrivals, log, commands, index, work, .. } = self;
         log.begin_step();
         let commands = commands.begin_step();
         change_roads(roads, traffic, commands);
@@ -149,6 +158,9 @@ impl World {
         follow_externals(roads.network(), traffic, work);
         if traffic.clock().begins_a_second() {
             log.put_down(roads.network(), traffic.lanes(), traffic.clock());
+        }
+        if self.clock().step == self.warmup_steps {
+            self.reset_counts();
         }
     }
 

@@ -10,7 +10,7 @@ use crate::state::clock::Clock;
 use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::{
-    Counterpart, DriverState, Entry, Kind, Kinematics, Lane, LaneChangeState, Phase, VehicleId,
+    Counterpart, DriverState, Entry, Kinematics, Lane, LaneChangeKind, LaneChangeState, Phase, VehicleId,
 };
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::vehicle::Class;
@@ -147,7 +147,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         |change: Across| Counterpart { chain: change.other.chain, x: change.other.x, stretch: 1.0 };
     let lane_change = LaneChangeState {
         side: seen.change.map_or(network.driving_side.overtaking(), |it| it.side),
-        kind: Kind::Discretionary,
+        kind: LaneChangeKind::Discretionary,
         entered: 0,
         since: 0,
         stretch: 1.0,

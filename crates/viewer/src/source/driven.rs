@@ -125,12 +125,8 @@ impl Driven {
         self.world().demand().origins.iter().map(facts).collect()
     }
 
-    /// Simulates a step, and notes what happened in it. Counts begin anew after the warm-up, as in a run.
+    /// Simulates a step, and notes what happened in it.
     pub(super) fn step(&mut self, marks: &mut Vec<Mark>) {
-        let Prepared { warmup_steps, .. } = self.prepared;
-        if self.world().clock().step == warmup_steps {
-            self.prepared.world.reset_counts();
-        }
         self.prepared.step();
         let Driven { prepared: Prepared { world, .. }, noted: Noted { lanes, last_changes }, .. } = self;
         for event in world.events() {

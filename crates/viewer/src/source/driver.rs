@@ -3,7 +3,7 @@
 use laneweave::models::{Concentration, change::LaneChangeModel};
 use laneweave::network::Position;
 use laneweave::sim::{Account, Act, SideAccount, Spot, Vehicle, World};
-use laneweave::{Phase, Side, explain};
+use laneweave::{Phase, explain};
 use serde::Serialize;
 
 /// What is said of a vehicle.
@@ -62,14 +62,6 @@ struct RowFacts {
     product: f64,
 }
 
-/// The name of a side.
-pub(super) fn side_name(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    }
-}
-
 impl DriverFacts {
     /// What is said of a vehicle of `world`.
     pub(super) fn of(world: &World, vehicle: &Vehicle) -> DriverFacts {
@@ -84,8 +76,8 @@ impl DriverFacts {
             id: motion.id.to_string(),
             class: driver.class.body().name,
             style: Some(vehicle.style().name.clone()),
-            state: Some(state(driver.phase)),
-            side: (driver.phase != Phase::Cruises).then(|| side_name(vehicle.lane_change.side)),
+            state: Some(driver.phase.name()),
+            side: (driver.phase != Phase::Cruises).then(|| vehicle.lane_change.side.name()),
             concentration,
             speed_kmh: vehicle.speed() * 3.6,
             desired_kmh: Some(f64::from(driver.desired) * 3.6),
@@ -112,15 +104,6 @@ impl DriverFacts {
         } = self;
         let known = DriverFacts::default();
         DriverFacts { id, class, speed_kmh, acceleration_mps2, x, y, length_m, lanelet, position_m, ..known }
-    }
-}
-
-fn state(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Cruises => "cruises",
-        Phase::Wants => "wants",
-        Phase::Changes => "changes",
-        Phase::Aborts => "aborts",
     }
 }
 
@@ -168,7 +151,7 @@ fn side(account: &Account, it: &SideAccount) -> SideFacts {
         RowFacts { name, earning: row.earning, weight: row.weight, product: row.weight * row.earning }
     });
     SideFacts {
-        side: side_name(it.side),
+        side: it.side.name(),
         gain: Some(it.appraisal.gain).filter(|it| it.is_finite()),
         threshold: it.appraisal.theta,
         probability: it.chance,

@@ -228,9 +228,7 @@ impl Deed {
                 let light = id(light)?;
                 let set = |shows| Command::SetLight { light, shows };
                 let state = match shows {
-                    Some(LightState::Green) => "green",
-                    Some(LightState::Yellow) => "yellow",
-                    Some(LightState::Red) => "red",
+                    Some(state) => state.name(),
                     None => "as its program says",
                 };
                 let text = [format!("light {light}: "), state.to_owned()];
@@ -286,7 +284,7 @@ impl Deed {
                 let how = match (speed_kmh, side) {
                     (None, _) => "back to its driver".to_owned(),
                     (Some(speed), Some(side)) => {
-                        format!("{} km/h, to the {}", short(*speed), super::driver::side_name(side))
+                        format!("{} km/h, to the {}", short(*speed), side.name())
                     }
                     (Some(speed), None) => format!("{} km/h", short(*speed)),
                 };

@@ -1,10 +1,9 @@
 //! The marks of a world: what happened in its last step, with places on the map.
 
+use laneweave::VehicleId;
 use laneweave::network::{Network, Position};
 use laneweave::sim::{DrivingEventKind, Event, World};
-use laneweave::{Kind, VehicleId};
 
-use super::driver::side_name;
 use super::{Mark, MarkKind};
 
 /// Adds what happened in the last step of `world`.
@@ -14,12 +13,7 @@ pub(super) fn look(world: &World, marks: &mut Vec<Mark>) {
         marks.extend(match event {
             Event::LaneChange(it) if it.is_completed => {
                 let mark = at(network, MarkKind::LaneChange, it.time, it.vehicle, it.to);
-                let kind = match it.kind {
-                    Kind::Discretionary => "discretionary",
-                    Kind::Route => "route",
-                    Kind::Keeping => "keeping",
-                };
-                Some(Mark { side: Some(side_name(it.side)), text: Some(kind), ..mark })
+                Some(Mark { side: Some(it.side.name()), text: Some(it.kind.name()), ..mark })
             }
             Event::Incident(it) => {
                 let [vehicle, other] = it.vehicles.map(|it| it.to_string());

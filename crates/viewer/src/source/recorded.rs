@@ -5,13 +5,11 @@ use std::sync::{Arc, Mutex};
 
 use laneweave::maps::Map;
 use laneweave::network::Network;
-use laneweave::recordings::{
-    Kind as ChangeKind, LaneChange, Matched, Recording, RoadUser, State, Track, clean, lane_changes,
-};
+use laneweave::recordings::{LaneChange, Matched, Recording, RoadUser, State, Track, clean, lane_changes};
 use laneweave::scenario::{MapOptions, driven, open_map};
 use laneweave::{Fault, Side, VehicleId, open_recordings};
 
-use super::driver::{DriverFacts, side_name};
+use super::driver::DriverFacts;
 use super::hands::{Hand, Hands};
 use super::saved::Saved;
 use super::{Abilities, Hello, Kind, Mark, MarkKind, Marks, Source, TwinFacts, Wants};
@@ -182,12 +180,8 @@ fn mark(it: &LaneChange) -> Mark {
         y: it.y,
         vehicle: it.vehicle.to_string(),
         other: None,
-        side: Some(side_name(it.side)),
-        text: Some(match it.kind {
-            ChangeKind::Discretionary => "discretionary",
-            ChangeKind::Route => "route",
-            ChangeKind::Unknown => "unknown",
-        }),
+        side: Some(it.side.name()),
+        text: Some(it.kind.name()),
     }
 }
 

@@ -6,7 +6,7 @@ use laneweave_models::Style;
 use laneweave_models::change::Situation;
 use laneweave_network::{ChainIndex, LaneletIndex, Network, Position, Side};
 use laneweave_recordings::{
-    Assumed, Extent, Kind, LaneChange, Matched, Place, Recording, Replay, extents, lane_changes,
+    Assumed, Extent, LaneChange, Matched, Place, RecordedChangeKind, Recording, Replay, extents, lane_changes,
 };
 use laneweave_scenario::Fault;
 use laneweave_study::units::METRES_PER_KM;
@@ -78,9 +78,9 @@ impl Tally {
         for at in &within {
             let (change, extent) = (&all[*at], &extents[*at]);
             self.kinds[match change.kind {
-                Kind::Discretionary => 0,
-                Kind::Route => 1,
-                Kind::Unknown => 2,
+                RecordedChangeKind::Discretionary => 0,
+                RecordedChangeKind::Route => 1,
+                RecordedChangeKind::Unknown => 2,
             }] += 1;
             self.lane(&scope.site.network, change.from).1 += 1;
             if extent.ended <= seen(&matched, change)[1] - EDGE {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use laneweave_network::Side;
 use laneweave_scenario::Fault;
-use laneweave_sim::{Kind, LaneChange};
+use laneweave_sim::{LaneChange, LaneChangeKind};
 
 use super::xml::XmlFile;
 use crate::output::batch::{Batch, Writer};
@@ -60,11 +60,11 @@ fn known(file: &mut XmlFile, gap: f64) {
 }
 
 /// SUMO's name of the reason for a lane change.
-fn reason(kind: Kind) -> &'static str {
+fn reason(kind: LaneChangeKind) -> &'static str {
     match kind {
-        Kind::Discretionary => "speedGain",
-        Kind::Route => "strategic",
-        Kind::Keeping => "keepRight",
+        LaneChangeKind::Discretionary => "speedGain",
+        LaneChangeKind::Route => "strategic",
+        LaneChangeKind::Keeping => "keepRight",
     }
 }
 

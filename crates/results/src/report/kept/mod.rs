@@ -7,7 +7,7 @@ mod reasons;
 mod trip_times;
 
 use laneweave_scenario::scenario::{Prepared, Scenario};
-use laneweave_sim::{Event, Incident, Kind, World};
+use laneweave_sim::{Event, Incident, LaneChangeKind, World};
 use laneweave_study::{LaneInTime, Sheet, rate_density, time_space};
 use serde::{Deserialize, Serialize};
 
@@ -86,7 +86,8 @@ impl Record {
     /// Lane changes against density, of the boxes that were complete at `end` [s].
     pub(crate) fn rate_figure(&self, end: f64) -> String {
         let all = self.boxes.series("all", end, |_| true);
-        let discretionary = self.boxes.series("discretionary", end, |kind| kind == Kind::Discretionary);
+        let discretionary =
+            self.boxes.series("discretionary", end, |kind| kind == LaneChangeKind::Discretionary);
         rate_density(Sheet::Page, "Lane changes against density", &[all, discretionary]).svg
     }
 

@@ -1,7 +1,7 @@
 //! Where something happened on the map: lane changes, incidents, and vehicles that waited to enter.
 
 use laneweave_network::{Network, Point, Position};
-use laneweave_sim::{Event, IncidentKind, Kind, World, entry_queue_lengths};
+use laneweave_sim::{Event, IncidentKind, LaneChangeKind, World, entry_queue_lengths};
 use serde::{Deserialize, Serialize};
 
 /// Time between two looks at the queues [s].
@@ -10,7 +10,7 @@ const SAMPLING: f64 = 1.0;
 const MOST: usize = 800;
 
 /// Number of kinds of lane changes, and of incidents.
-const KINDS: usize = Kind::ALL.len();
+const KINDS: usize = LaneChangeKind::ALL.len();
 const INCIDENTS: usize = 2;
 
 /// Notes where something happened.
@@ -122,7 +122,7 @@ impl Places {
     }
 
     /// Completed lane changes of a kind.
-    pub(crate) fn changes(&self, kind: Kind) -> &Sparse {
+    pub(crate) fn changes(&self, kind: LaneChangeKind) -> &Sparse {
         &self.changes[number(kind)]
     }
 
@@ -148,8 +148,8 @@ pub(crate) fn in_plan(point: &Point) -> [f64; 2] {
 }
 
 /// The number of a kind.
-fn number(kind: Kind) -> usize {
-    Kind::ALL.iter().position(|it| *it == kind).unwrap_or_default()
+fn number(kind: LaneChangeKind) -> usize {
+    LaneChangeKind::ALL.iter().position(|it| *it == kind).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Lane changes by style, kind and leading incentive, and the accepted gaps.
 
 use laneweave_models::change::INCENTIVES;
-use laneweave_sim::{Event, Kind, LaneChange, World};
+use laneweave_sim::{Event, LaneChange, LaneChangeKind, World};
 use laneweave_study::Histogram;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ const TIMES_TO_COLLISION: (f64, usize) = (1.0, 20);
 const GAINS: (f64, f64, usize) = (-20.0, 1.0, 60);
 
 /// Number of kinds of lane changes.
-const KINDS: usize = Kind::ALL.len();
+const KINDS: usize = LaneChangeKind::ALL.len();
 
 /// The name where no incentive was in favour of the change.
 const NONE: &str = "none";
@@ -92,7 +92,7 @@ impl Reasons {
     }
 
     /// Completed changes of a kind by a style.
-    pub fn of_style(&self, style: usize, kind: Kind) -> u64 {
+    pub fn of_style(&self, style: usize, kind: LaneChangeKind) -> u64 {
         self.completed[style][place(kind)].iter().sum()
     }
 
@@ -109,7 +109,7 @@ impl Reasons {
     }
 
     /// Completed changes of a kind with that leading incentive.
-    pub fn of_incentive(&self, incentive: &str, kind: Kind) -> u64 {
+    pub fn of_incentive(&self, incentive: &str, kind: LaneChangeKind) -> u64 {
         let of_style = |(names, counts): (&[String; INCENTIVES], &[[u64; INCENTIVES + 1]; KINDS])| {
             let named = names.iter().map(String::as_str).chain([NONE]).zip(counts[place(kind)]);
             // A change that a row without a name leads has no incentive.
@@ -120,20 +120,20 @@ impl Reasons {
     }
 
     /// Completed changes of a kind.
-    pub fn of_kind(&self, kind: Kind) -> u64 {
+    pub fn of_kind(&self, kind: LaneChangeKind) -> u64 {
         (0..self.styles.len()).map(|it| self.of_style(it, kind)).sum()
     }
 
     /// All completed changes.
     pub fn total(&self) -> u64 {
-        Kind::ALL.iter().map(|it| self.of_kind(*it)).sum()
+        LaneChangeKind::ALL.iter().map(|it| self.of_kind(*it)).sum()
     }
 }
 
-fn place(kind: Kind) -> usize {
+fn place(kind: LaneChangeKind) -> usize {
     match kind {
-        Kind::Discretionary => 0,
-        Kind::Route => 1,
-        Kind::Keeping => 2,
+        LaneChangeKind::Discretionary => 0,
+        LaneChangeKind::Route => 1,
+        LaneChangeKind::Keeping => 2,
     }
 }

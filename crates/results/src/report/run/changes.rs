@@ -1,6 +1,6 @@
 //! Lane changes: when, by which styles, why, and into which gaps.
 
-use laneweave_sim::Kind;
+use laneweave_sim::LaneChangeKind;
 use laneweave_study::units::METRES_PER_KM;
 use laneweave_study::{
     BarRow, Distributed, Estimated, Interval, Sheet, Upwards, bars, distribution, poisson_interval,
@@ -12,8 +12,11 @@ use super::numbers::rate_per;
 use crate::report::kept::Reasons;
 use crate::report::{Align, Figure, Section, Table, counted, number};
 
-pub(super) const KINDS: [(Kind, &str); Kind::ALL.len()] =
-    [(Kind::Discretionary, "discretionary"), (Kind::Route, "route-driven"), (Kind::Keeping, "keeping")];
+pub(super) const KINDS: [(LaneChangeKind, &str); LaneChangeKind::ALL.len()] = [
+    (LaneChangeKind::Discretionary, "discretionary"),
+    (LaneChangeKind::Route, "route-driven"),
+    (LaneChangeKind::Keeping, "keeping"),
+];
 /// Incentives are counted per this number of vehicle-kilometres.
 const MANY_KM: f64 = 100.0;
 /// Minimum number of values in a distribution.
@@ -200,7 +203,7 @@ fn table(run: &RunReport) -> Table {
         ("lane changes per veh-km (95 % interval)", Numbers),
     ];
     let mut table = Table::new("Completed lane changes by style.", &columns);
-    let mut row = |name: &str, counts: [u64; Kind::ALL.len()], km: f64| {
+    let mut row = |name: &str, counts: [u64; LaneChangeKind::ALL.len()], km: f64| {
         let [discretionary, route, keeping] = counts.map(counted);
         let rate = rate_per(counts.iter().sum(), km);
         table.row([name.into(), discretionary, route, keeping, number(km, 4), rate]);
