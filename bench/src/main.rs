@@ -13,9 +13,9 @@ use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use laneweave::maps::generate::{Motorway, motorway};
-use laneweave::network::{ChainIndex, Network, Position};
-use laneweave::sim::{Class, Demand, Placement, Purpose, Random, Setup, World};
-use laneweave::style::Population;
+use laneweave::network::Network;
+use laneweave::sim::{Purpose, Random};
+use laneweave::{Class, NewVehicle, Simulation};
 use laneweave_bench::machine::{round_trip, spin_until};
 use laneweave_bench::{Rates, say};
 
@@ -95,7 +95,7 @@ fn measure<const N: usize>(mut all: [Measured; N], rounds: usize) -> Result<[Mea
 
 /// A motorway under measurement.
 struct Measured {
-    world: World,
+    simulation: Simulation,
     length_km: f64,
     threads: usize,
     /// Steps in a round.
@@ -110,14 +110,13 @@ struct Measured {
 impl Measured {
     /// A motorway of `length_km`, measured by rounds of `steps` steps, after the lane changes are steady.
     fn motorway(length_km: f64, threads: usize, steps: u32) -> Result<Measured, Box<dyn Error>> {
-        let mut world = empty_motorway(1000.0 * length_km, threads)?;
+        let mut simulation = empty_motorway(1000.0 * length_km, threads)?;
         let empty = in_use();
-        fill(&mut world);
-        (0..WARM_UP).for_each(|_| world.step());
-        world.reset_counts();
+        fill(&mut simulation)?;
+        (0..WARM_UP).for_each(|_| simulation.advance());
         let bytes = in_use() - empty;
         let round_trips = [f64::INFINITY, 0.0];
-        Ok(Measured { world, length_km, threads, steps, rates: Rates::default(), bytes, round_trips })
+        Ok(Measured { simulation, length_km, threads, steps, rates: Rates::default(), bytes, round_trips })
     }
 
     /// One more round.
@@ -126,14 +125,14 @@ impl Measured {
             let (now, [shortest, longest]) = (round_trip(), self.round_trips);
             self.round_trips = [shortest.min(now), longest.max(now)];
         }
-        let (before, updates, start) = (in_use(), self.world.counters().updates, Instant::now());
-        (0..self.steps).for_each(|_| self.world.step());
-        self.rates.push(self.world.counters().updates - updates, start.elapsed().as_secs_f64());
+        let (before, updates, start) = (in_use(), self.simulation.counters().updates, Instant::now());
+        (0..self.steps).for_each(|_| self.simulation.advance());
+        self.rates.push(self.simulation.counters().updates - updates, start.elapsed().as_secs_f64());
         self.bytes += in_use() - before;
     }
 
     fn print(&self) {
-        let (counters, vehicles) = (self.world.counters(), self.world.on_road());
+        let (counters, vehicles) = (self.simulation.counters(), self.simulation.on_road());
         let considered_every = counters.updates as f64 * STEP_S / counters.considerations as f64;
         let (best, median) = (self.rates.best(), self.rates.median());
         say(&format!(
@@ -145,7 +144,7 @@ impl Measured {
             1e9 / best,
             best * STEP_S / vehicles as f64,
             self.bytes / vehicles as f64,
-            self.world.state_hash(),
+            self.simulation.state_hash(),
         ));
     }
 }
@@ -170,50 +169,53 @@ fn limit_of_two_threads(rounds: usize) -> Result<f64, Box<dyn Error>> {
 /// Updates per second in a round of one motorway; after every step it waits until as many as `threads` have
 /// `arrived`.
 fn in_step(it: &mut Measured, arrived: &AtomicU32, threads: u32) -> f64 {
-    let (before, start) = (it.world.counters().updates, Instant::now());
+    let (before, start) = (it.simulation.counters().updates, Instant::now());
     for step in 1..=it.steps {
-        it.world.step();
+        it.simulation.advance();
         arrived.fetch_add(1, Ordering::AcqRel);
         spin_until(|| arrived.load(Ordering::Acquire) >= threads * step);
     }
-    (it.world.counters().updates - before) as f64 / start.elapsed().as_secs_f64()
+    (it.simulation.counters().updates - before) as f64 / start.elapsed().as_secs_f64()
 }
 
-fn empty_motorway(length_m: f64, threads: usize) -> Result<World, Box<dyn Error>> {
+/// A motorway on which nobody is yet. Its warm-up is that of the benchmark, so that counts begin when measuring does.
+fn empty_motorway(length_m: f64, threads: usize) -> Result<Simulation, Box<dyn Error>> {
     let road = Motorway { lanes: LANES, length_m, lanelet_length_m: 500.0, ..Motorway::default() };
-    let network = motorway(&road)?.build()?.network;
-    let Population { driver_parameters, shares } = Population::usual(1)?;
-    let demand = Demand::even(&network, DENSITY * SPEED * 3.6 * LANES as f64, TRUCKS, shares);
-    Ok(World::new(network, driver_parameters, demand, Setup { step: STEP_S, seed: 1, threads })?)
+    let simulation = Simulation::builder(motorway(&road)?.build()?)
+        .vehicles_per_hour(DENSITY * SPEED * 3.6 * LANES as f64)
+        .scenario(|it| (it.demand.trucks, it.guidance.interval_s) = (TRUCKS, 0.0))
+        .step_s(STEP_S)
+        .warmup_s(f64::from(WARM_UP) * STEP_S)
+        .threads(threads);
+    Ok(simulation.build()?)
 }
 
 /// Puts vehicles on the road, some closer together than others.
-fn fill(world: &mut World) {
+fn fill(simulation: &mut Simulation) -> Result<(), Box<dyn Error>> {
     let random = Random::new(1);
-    let places: Vec<Position> = free_places(world.network(), &random);
-    for (Position { chain, x }, number) in places.into_iter().zip(0..) {
+    for ((lanelet, position_m), number) in free_places(simulation.network(), &random).into_iter().zip(0..) {
         let draw = |purpose| random.uniform(number, purpose, 0);
-        let parameters = (draw(Purpose::Character) * 512.0) as u32;
         let is_aggressive = draw(Purpose::Style) < 1.0 / 8.4;
-        world
-            .place(Placement {
-                chain,
-                x,
-                speed: SPEED,
-                class: if draw(Purpose::Class) < TRUCKS { Class::Truck } else { Class::Car },
-                parameters: if is_aggressive { parameters } else { 512 + parameters },
-                destination: Some(0),
-            })
-            .expect("it fits on the road");
+        simulation.insert(NewVehicle {
+            lanelet,
+            position_m,
+            speed_mps: SPEED,
+            class: if draw(Purpose::Class) < TRUCKS { Class::Truck } else { Class::Car },
+            style: if is_aggressive { "aggressive" } else { "conservative" }.into(),
+            destination: None,
+        })?;
     }
+    Ok(())
 }
 
-fn free_places(network: &Network, random: &Random) -> Vec<Position> {
+/// Places by lanelet and position along it [m].
+fn free_places(network: &Network, random: &Random) -> Vec<(i64, f64)> {
     let mut places = Vec::new();
-    for (chain, index) in network.chains.iter().zip(0..) {
+    for chain in &network.chains {
         let mut x = 40.0;
         while x < chain.length {
-            places.push(Position::new(ChainIndex(index), x));
+            let (lanelet, along) = chain.lanelet(x);
+            places.push((network.lanelets[lanelet.at()].id, along));
             let share = 0.7 + 0.6 * random.uniform(places.len() as u32, Purpose::Arrival, 0);
             x += 1000.0 / DENSITY * share;
         }

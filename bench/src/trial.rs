@@ -3,12 +3,12 @@
 
 use std::error::Error;
 
-use laneweave::Capacity;
+use laneweave::Simulation;
+use laneweave::maps::Map;
 use laneweave::maps::generate::{Control, Grid, grid, town};
-use laneweave::maps::{Drawing, regulations};
 use laneweave::network::{DrivingSide, Network};
-use laneweave::sim::{Assignment, Demand, Navigator, Purpose, Random, Rate, Setup, Share, World};
-use laneweave::style::Population;
+use laneweave::scenario::OdRow;
+use laneweave::sim::{Purpose, Random};
 
 /// Length of a step [s].
 pub const STEP_S: f64 = 0.1;
@@ -24,8 +24,8 @@ pub struct Trial {
     pub map: String,
     /// Demand as a multiple of the estimated capacity.
     pub load: f64,
-    /// Its world, before any vehicle has arrived.
-    pub world: World,
+    /// Its simulation, before any vehicle has arrived.
+    pub simulation: Simulation,
 }
 
 impl Trial {
@@ -37,35 +37,36 @@ impl Trial {
     pub fn new(
         number: u32,
         threads: usize,
-        store: impl FnOnce(Network) -> Network,
+        store: impl Fn(Network) -> Network,
     ) -> Result<Trial, Box<dyn Error>> {
         let random = Random::new(u64::from(number));
         let draw = |of: u32| random.uniform(of, Purpose::Arrival, number);
-        let (map, network) = map(number, &draw)?;
-        let network = store(network);
-        let Population { driver_parameters, shares } = Population::usual(u64::from(number))?;
-        let of_a_style = |it: &Share| (driver_parameters[it.first as usize].clone(), it.weight);
-        let typical: Vec<_> = shares.iter().map(of_a_style).collect();
-        let mut demand = Demand::even(&network, 1000.0, TRUCKS, shares);
+        let (name, map) = map(number, &draw)?;
+        let map = Map { network: store(map.network), ..map };
+        let loaded = |od: Vec<OdRow>| {
+            let demand = |it: &mut laneweave::scenario::Scenario| {
+                (it.demand.trucks, it.guidance.interval_s) = (TRUCKS, GUIDED_EVERY_S);
+                it.demand.od = od;
+            };
+            let simulation = Simulation::builder(map.clone()).scenario(demand);
+            simulation.seed(u64::from(number)).step_s(STEP_S).duration_s(DURATION_S).threads(threads).build()
+        };
+        let even = loaded(Vec::new())?;
+        let [origins, destinations] =
+            [even.origins().into_iter().map(|(id, _)| id).collect(), even.destinations()];
+        let mut rows = skewed(&origins, &destinations, &random);
+        // A demand of one vehicle an hour in all shows the capacity for these shares.
         let load = 0.5 + 1.5 * draw(10);
-        skew(&mut demand, &random);
-        let navigator = Navigator::towards(&network, &demand.destinations);
-        let assignment = Assignment::new(&network, &navigator, &demand, [0.0, DURATION_S]);
-        let capacity = Capacity::new(&network, &assignment, &demand, &typical).veh_h;
-        let all: f64 = demand.origins.iter().map(|it| it.rate.highest()).sum();
-        for origin in &mut demand.origins {
-            origin.rate = origin.rate.times(&Rate::constant(load * capacity / all));
-        }
-        let setup = Setup { step: STEP_S, seed: u64::from(number), threads };
-        let world = World::new(network, driver_parameters, demand, setup)?.guided(GUIDED_EVERY_S)?;
-        Ok(Trial { map, load, world })
+        let all = load * loaded(rows.clone())?.capacity().veh_h;
+        rows.iter_mut().for_each(|it| it.vehicles_per_hour *= all);
+        Ok(Trial { map: name, load, simulation: loaded(rows)? })
     }
 }
 
 /// A map by its number: every fifth is the town, the others are grids.
-fn map(number: u32, draw: &impl Fn(u32) -> f64) -> Result<(String, Network), Box<dyn Error>> {
+fn map(number: u32, draw: &impl Fn(u32) -> f64) -> Result<(String, Map), Box<dyn Error>> {
     if number.is_multiple_of(5) {
-        return Ok(("town".to_owned(), regulated(&town(DrivingSide::Right))?));
+        return Ok(("town".to_owned(), town(DrivingSide::Right).build()?));
     }
     let among = |of: u32, least: usize, most: usize| least + (draw(of) * (most - least + 1) as f64) as usize;
     let controls = [
@@ -85,25 +86,30 @@ fn map(number: u32, draw: &impl Fn(u32) -> f64) -> Result<(String, Network), Box
     };
     let Grid { rows, columns, lanes, control, .. } = drawn;
     let name = format!("grid {rows} x {columns}, {lanes} lanes, {control:?}");
-    Ok((name, regulated(&grid(&drawn)?)?))
+    Ok((name, grid(&drawn)?.build()?))
 }
 
-fn regulated(drawing: &Drawing) -> Result<Network, Box<dyn Error>> {
-    let map = drawing.build()?;
-    let rules = regulations(&map);
-    Ok(map.network.regulated(&rules))
-}
-
-/// Gives some entrances and destinations much more weight than others.
-fn skew(demand: &mut Demand, random: &Random) {
+/// A demand of one vehicle an hour in all, of which some entrances and destinations have much more than others.
+fn skewed(origins: &[i64], destinations: &[i64], random: &Random) -> Vec<OdRow> {
     let weight = |subject: u32| {
         let draw = random.uniform(subject, Purpose::Destination, 0);
         0.1 + draw * draw
     };
-    for (number, origin) in demand.origins.iter_mut().enumerate() {
-        origin.rate = origin.rate.times(&Rate::constant(weight(number as u32)));
-        for (destination, it) in origin.weights.iter_mut().enumerate() {
-            *it = weight(1_000_000 + (1000 * (number % 3) + destination) as u32);
-        }
+    let all: f64 = (0..origins.len()).map(|it| weight(it as u32)).sum();
+    let mut rows = Vec::new();
+    for (number, from) in origins.iter().enumerate() {
+        let to_others = |it: &usize| destinations[*it] != *from;
+        let shares: Vec<(usize, f64)> = (0..destinations.len())
+            .filter(to_others)
+            .map(|it| (it, weight(1_000_000 + (1000 * (number % 3) + it) as u32)))
+            .collect();
+        let sum: f64 = shares.iter().map(|it| it.1).sum();
+        let rate = weight(number as u32) / all;
+        rows.extend(shares.into_iter().map(|(destination, share)| OdRow {
+            from: from.to_string(),
+            to: destinations[destination].to_string(),
+            vehicles_per_hour: rate * share / sum,
+        }));
     }
+    rows
 }

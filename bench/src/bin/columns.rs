@@ -22,21 +22,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     let numbers: Result<Vec<usize>, _> = std::env::args().skip(1).map(|it| it.parse()).collect();
     let [steps, calls] = <[usize; 2]>::try_from(numbers?).unwrap_or(USUAL);
     let mut simulation = filled()?;
-    for (name, mut columns) in [("basic", Columns::default()), ("with poses", Columns::with_poses())] {
+    for (name, mut columns) in [
+        ("basic", Columns::default()),
+        ("with poses", Columns::with_poses()),
+        ("complete", Columns::complete()),
+    ] {
         let mut times = [0.0; 2];
         for _ in 0..steps {
             let start = Instant::now();
-            simulation.step();
+            simulation.advance();
             times[0] += start.elapsed().as_secs_f64();
             let start = Instant::now();
             (0..calls).for_each(|_| simulation.columns(&mut columns));
             times[1] += start.elapsed().as_secs_f64();
         }
-        let updates = (steps * simulation.world().on_road()) as f64;
+        let updates = (steps * simulation.on_road()) as f64;
         let [step, taken] = [times[0], times[1] / calls.max(1) as f64].map(|it| 1e9 * it / updates);
         say(&format!(
             "{name:10}: {} vehicles; a step takes {step:.1} ns for each, columns {taken:.2} ns: {:.2} %",
-            simulation.world().on_road(),
+            simulation.on_road(),
             100.0 * taken / step
         ));
         if numbers_are_given() {
@@ -72,6 +76,6 @@ fn filled() -> Result<Simulation, Box<dyn Error>> {
         simulation.insert(vehicle)?;
     }
     // The first events of all vehicles, and the first lane changes.
-    simulation.run(10.0, &mut [])?;
+    simulation.run(10.0)?;
     Ok(simulation)
 }

@@ -65,24 +65,24 @@ impl Outcome {
 }
 
 fn drive(number: u32) -> Result<Outcome, Box<dyn Error>> {
-    let Trial { map, load, mut world } = Trial::new(number, 1, |it| it)?;
+    let Trial { map, load, mut simulation } = Trial::new(number, 1, |it| it)?;
     let (mut before, mut fewest) = (0, u64::MAX);
     for step in 1..=(DURATION_S / STEP_S) as u32 {
-        world.step();
+        simulation.advance();
         if step % (WATCHED_S / STEP_S) as u32 == 0 {
-            let left = world.counts().left;
+            let left = simulation.counts().left;
             fewest = fewest.min(if before > 0 { left - before } else { u64::MAX });
             before = left;
         }
     }
-    let (counts, counters) = (*world.counts(), world.counters());
+    let (counts, counters) = (*simulation.counts(), simulation.counters());
     Ok(Outcome {
         map,
         load,
         entered: counts.entered,
         left: counts.left,
-        on_road: world.on_road(),
-        waiting: world.waiting(),
+        on_road: simulation.on_road(),
+        waiting: simulation.waiting_to_enter(),
         stuck: counters.stuck,
         fewest,
         collisions: counters.collisions,

@@ -9,10 +9,9 @@ use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 
-use laneweave::maps::{Map, ReadOptions, generate, load, regulations};
+use laneweave::Simulation;
+use laneweave::maps::{Map, ReadOptions, generate, load};
 use laneweave::network::Network;
-use laneweave::sim::{Demand, Setup, World};
-use laneweave::style::Population;
 use laneweave_bench::say;
 use laneweave_bench::trial::{STEP_S, Trial};
 
@@ -51,42 +50,42 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut is_same = true;
     for path in std::env::args().skip(1) {
         let name = Path::new(&path).file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let network = regulated(load(Path::new(&path), &ReadOptions::default())?);
+        let map = load(Path::new(&path), &ReadOptions::default())?;
         for demand in DEMANDS {
-            is_same &= report(&format!("{name} {demand}"), |way| world(&network, demand, way))?;
+            is_same &= report(&format!("{name} {demand}"), |way| simulation(&map, demand, way))?;
         }
     }
     for seed in 1..=RANDOM_MAPS {
-        let network = regulated(generate::random(seed).drawing.build()?);
-        is_same &= report(&format!("random {seed}"), |way| world(&network, RANDOM_DEMAND, way))?;
+        let map = generate::random(seed).drawing.build()?;
+        is_same &= report(&format!("random {seed}"), |way| simulation(&map, RANDOM_DEMAND, way))?;
     }
     for number in 0..TRIALS {
-        let trial = |way: Way| Ok(Trial::new(number, way.threads, |it| way.store(it))?.world);
+        let trial = |way: Way| Ok(Trial::new(number, way.threads, |it| way.store(it))?.simulation);
         is_same &= report(&format!("trial {number}"), trial)?;
     }
     Ok(if is_same { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-fn regulated(map: Map) -> Network {
-    let rules = regulations(&map);
-    map.network.regulated(&rules)
-}
-
-fn world(network: &Network, demand: f64, way: Way) -> Result<World, Box<dyn Error>> {
-    let network = way.store(network.clone());
-    let Population { driver_parameters, shares } = Population::usual(1)?;
-    let demand = Demand::even(&network, demand, TRUCKS, shares);
-    let setup = Setup { step: STEP_S, seed: 1, threads: way.threads };
-    Ok(World::new(network, driver_parameters, demand, setup)?)
+fn simulation(map: &Map, demand: f64, way: Way) -> Result<Simulation, Box<dyn Error>> {
+    let map = Map { network: way.store(map.network.clone()), ..map.clone() };
+    let simulation = Simulation::builder(map)
+        .vehicles_per_hour(demand)
+        .scenario(|it| it.demand.trucks = TRUCKS)
+        .step_s(STEP_S)
+        .threads(way.threads);
+    Ok(simulation.build()?)
 }
 
 /// Carries out a run in all ways, and prints its hash. Returns whether all gave the same.
-fn report(name: &str, world: impl Fn(Way) -> Result<World, Box<dyn Error>>) -> Result<bool, Box<dyn Error>> {
+fn report(
+    name: &str,
+    simulation: impl Fn(Way) -> Result<Simulation, Box<dyn Error>>,
+) -> Result<bool, Box<dyn Error>> {
     let mut hashes = Vec::new();
     for way in Way::ALL {
-        let mut world = world(way)?;
-        (0..(DURATION_S / STEP_S) as u32).for_each(|_| world.step());
-        hashes.push(world.state_hash());
+        let mut simulation = simulation(way)?;
+        simulation.run(DURATION_S)?;
+        hashes.push(simulation.state_hash());
     }
     let is_same = hashes.iter().all(|it| *it == hashes[0]);
     say(&format!("{name:44} {:016x}{}", hashes[0], if is_same { "" } else { " DIFFERS" }));

@@ -15,9 +15,7 @@ use std::{env, fs, process};
 use laneweave::Simulation;
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::maps::lanelet2;
-use laneweave::output::{Inputs, Provenance, Summary, outputs};
-use laneweave::record::fingerprint;
-use laneweave::run::simulate;
+use laneweave::run::Run;
 use laneweave::scenario::{Origin, Scenario, SumoFile};
 use laneweave_bench::machine::{beside_a_busy_core, round_trip};
 use laneweave_bench::say;
@@ -155,26 +153,15 @@ fn run(
     let mut scenario = leaves.of(scenario, &dir);
     scenario.run.duration_s = duration_s;
     scenario.run.threads = NonZero::new(threads);
-    let mut simulation = Simulation::from_scenario(&scenario, origin)?;
-    let provenance = Provenance::of(String::new(), scenario.run.seed, fingerprint(&scenario, origin)?);
-    let mut watching = match leaves {
-        Leaves::Nothing | Leaves::NothingBesideABusyCore => Vec::new(),
-        _ => outputs(&scenario, simulation.prepared(), &provenance)?,
-    };
-    let mut to_the_end = || -> Result<f64, Box<dyn Error>> {
+    let simulation = Simulation::from_scenario(&scenario, origin)?;
+    let to_the_end = move || -> Result<f64, Box<dyn Error>> {
         let start = Instant::now();
-        let ending = simulate(&mut simulation, &mut watching, None, None, |_| Ok(true), || ())?;
-        let inputs = Inputs {
-            scenario: &scenario,
-            ending: &ending,
-            wall_s: 0.0,
-            load_s: 0.0,
-            provenance: &provenance,
-        };
-        let prepared = simulation.prepared();
-        let summary = Summary::of(prepared, inputs);
-        for output in watching.drain(..) {
-            output.finish(&prepared.world, &summary)?;
+        match leaves {
+            Leaves::Nothing | Leaves::NothingBesideABusyCore => {
+                let mut simulation = simulation;
+                simulation.run(simulation.end_s())?;
+            }
+            _ => drop(Run::of(simulation, "a benchmark")?.complete(|_| true)?),
         }
         Ok(start.elapsed().as_secs_f64())
     };

@@ -9,10 +9,8 @@
 use std::error::Error;
 use std::time::Instant;
 
+use laneweave::Simulation;
 use laneweave::maps::generate::{Grid, grid};
-use laneweave::maps::regulations;
-use laneweave::sim::{Demand, Setup, World};
-use laneweave::style::Population;
 use laneweave_bench::{Rates, say};
 
 /// The allocator of the command.
@@ -54,30 +52,31 @@ fn measure(town: Town, threads: usize, [rounds, steps]: [u32; 2]) -> Result<Rate
 
 /// A full town under measurement.
 struct Measured {
-    world: World,
+    simulation: Simulation,
     town: Town,
     threads: usize,
     /// Time at which it was full [s].
     filled_s: f64,
+    /// Updates until then.
+    filling: u64,
     rates: Rates,
 }
 
 impl Measured {
     fn of(town: Town, threads: usize) -> Result<Measured, Box<dyn Error>> {
-        let mut world = empty_town(town, threads)?;
-        while world.on_road() < town.vehicles {
-            world.step();
+        let mut simulation = empty_town(town, threads)?;
+        while simulation.on_road() < town.vehicles {
+            simulation.advance();
         }
-        let filled_s = world.clock().time();
-        world.reset_counts();
-        Ok(Measured { world, town, threads, filled_s, rates: Rates::default() })
+        let (filled_s, filling) = (simulation.time_s(), simulation.counters().updates);
+        Ok(Measured { simulation, town, threads, filled_s, filling, rates: Rates::default() })
     }
 
     /// One more round.
     fn go_on(&mut self, steps: u32) {
-        let updates = self.world.counters().updates;
-        let wall_s = measured(&mut self.world, steps);
-        self.rates.push(self.world.counters().updates - updates, wall_s);
+        let updates = self.simulation.counters().updates;
+        let wall_s = measured(&mut self.simulation, steps);
+        self.rates.push(self.simulation.counters().updates - updates, wall_s);
     }
 
     fn print(&self) {
@@ -86,30 +85,32 @@ impl Measured {
             "{0} by {0}: filled in {1:.0} s, {2:5} vehicles, {3} thread(s): {4} updates, {5:4.2} million/s at best, {6:4.2} in the median, {7:4.0} ns each, hash {8:016x}",
             self.town.streets,
             self.filled_s,
-            self.world.on_road(),
+            self.simulation.on_road(),
             self.threads,
-            self.world.counters().updates,
+            self.simulation.counters().updates - self.filling,
             best / 1e6,
             median / 1e6,
             1e9 / best,
-            self.world.state_hash(),
+            self.simulation.state_hash(),
         ));
     }
 }
 
 /// Time that `steps` steps take [s].
 #[inline(never)]
-fn measured(world: &mut World, steps: u32) -> f64 {
+fn measured(simulation: &mut Simulation, steps: u32) -> f64 {
     let start = Instant::now();
-    (0..steps).for_each(|_| world.step());
+    (0..steps).for_each(|_| simulation.advance());
     start.elapsed().as_secs_f64()
 }
 
-fn empty_town(town: Town, threads: usize) -> Result<World, Box<dyn Error>> {
+fn empty_town(town: Town, threads: usize) -> Result<Simulation, Box<dyn Error>> {
     let Town { streets, demand, .. } = town;
     let map = grid(&Grid { rows: streets, columns: streets, ..Grid::default() })?.build()?;
-    let network = map.network.clone().regulated(&regulations(&map));
-    let Population { driver_parameters, shares } = Population::usual(1)?;
-    let demand = Demand::even(&network, demand, TRUCKS, shares);
-    Ok(World::new(network, driver_parameters, demand, Setup { step: STEP_S, seed: 1, threads })?)
+    let simulation = Simulation::builder(map)
+        .vehicles_per_hour(demand)
+        .scenario(|it| (it.demand.trucks, it.guidance.interval_s) = (TRUCKS, 0.0))
+        .step_s(STEP_S)
+        .threads(threads);
+    Ok(simulation.build()?)
 }

@@ -9,7 +9,7 @@ use clap::Parser;
 
 use clap::error::Error;
 use command::{Cli, say, with_tip};
-use laneweave::{Cause, Fault};
+use laneweave::{Fault, FaultKind};
 
 /// With a million vehicles this allocator makes an update a tenth faster than that of glibc: arrays of one size lie
 /// side by side, in fewer pages.
@@ -26,10 +26,13 @@ fn main() -> ExitCode {
     let done = Cli::try_parse().map_or_else(help, |cli| cli.execute(started));
     done.unwrap_or_else(|fault| {
         // A reader that closes standard output, such as `head`, is no error.
-        if fault.cause != Cause::Closed {
+        if fault.kind != FaultKind::Closed {
             eprintln!("error: {fault}");
         }
-        ExitCode::from(if fault.cause == Cause::Input { MISTAKE } else { UNWRITTEN })
+        ExitCode::from(match fault.kind {
+            FaultKind::Output | FaultKind::Closed => UNWRITTEN,
+            _ => MISTAKE,
+        })
     })
 }
 

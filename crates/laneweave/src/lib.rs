@@ -22,12 +22,7 @@
 //! Below it, a [`scenario`] names a map, [`style`]s and a demand. It is prepared into a world of [`sim`]. A
 //! [`run`](run::Run) steps through the world while [`output`]s observe it and write its result files.
 
-pub mod branch;
-pub mod check;
-pub mod compare;
-pub mod fit;
-mod parallel;
-pub mod replay;
+pub mod explain;
 pub mod run;
 mod simulation;
 
@@ -37,26 +32,42 @@ pub use laneweave_network::{LightState, Side};
 pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};
 pub use laneweave_scenario::{
-    Bottleneck, COMMAND_COLUMNS, Capacity, Cause, Fault, Played, Player, Script, Source, Written,
-    did_you_mean, open_recording, open_recordings, refused, scenario, style,
+    Bottleneck, COMMAND_COLUMNS, Capacity, Fault, FaultKind, Played, Player, Recorded, Remark, Script,
+    Source, Written, did_you_mean, elsewhere, open_recording, open_recordings, style, unreadable,
 };
 pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, LaneChangeKind, Lateral, Longitudinal,
     NewVehicle, Phase, VehicleId,
 };
-pub use parallel::in_parallel;
 pub use simulation::{
-    Builder, Event, Incident, LaneChange, Light, MapSource, Observer, Occurrence, Simulation, VehicleState,
+    Builder, Decision, Evaluation, Event, Incident, LaneChange, Leader, Light, MapSource, Observer,
+    Occurrence, Reason, SideEvaluation, Simulation, StyleState, VehicleState, Watcher,
 };
 
-pub use laneweave_calibration as calibration;
-pub use laneweave_explain as explain;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;
 pub use laneweave_network as network;
 pub use laneweave_recordings as recordings;
-pub use laneweave_sim as sim;
 pub use laneweave_study as study;
+
+/// Scenarios as plain data, and what they are read from.
+pub mod scenario {
+    pub use laneweave_scenario::scenario::{
+        Basis, Demand, DrivingSide, External, Guidance, Headways, Law, MadeSignals, MapOptions, OdRow,
+        Origin, Output, Replay, Run, Scenario, Signal, SignalPhase, SumoFile, TableFormat, Turns,
+        VehiclesPerHour, driven, mixture, open_map, read_map,
+    };
+}
+
+/// The parts of the simulator that a program may look at: plain data, and views that borrow from a
+/// [`Simulation`].
+pub mod sim {
+    pub use laneweave_sim::{
+        Account, Across, Act, Clock, Command, Commanded, Counters, Counts, Destination, DriverState, Goal,
+        InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator, Place, Places, Purpose, Random, Rate,
+        Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle, Viewpoint, perceive,
+    };
+}
 
 /// The Rust of the README compiles.
 #[cfg(doctest)]

@@ -82,6 +82,11 @@ macro_rules! parameters {
                 }
             }
 
+            /// Its value in `style`; `None` if a style of these models has no such number.
+            pub fn value(self, style: &Style) -> Option<f64> {
+                self.place(&mut style.clone()).map(|it| *it)
+            }
+
             /// Its place in `style`; `None` if a style of these models has no such number.
             pub fn place(self, style: &mut Style) -> Option<&mut f64> {
                 Some(match self {

@@ -8,7 +8,7 @@ use crate::folder::CHECKPOINT;
 
 /// The state as bytes.
 pub(crate) fn pack(kept: &impl Serialize) -> Result<Vec<u8>, Fault> {
-    postcard::to_allocvec(kept).map_err(|error| Fault::new(CHECKPOINT, error, "report this as a bug"))
+    postcard::to_allocvec(kept).map_err(|error| Fault::bug(CHECKPOINT, error))
 }
 
 /// The state from bytes.

@@ -110,7 +110,7 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> 
     for file in replayed_mut(&mut kept) {
         *file = relative(file, dir)?;
     }
-    let toml = toml::to_string(&kept).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    let toml = toml::to_string(&kept).map_err(|error| Fault::bug(SCENARIO, error))?;
     let text = format!("# {command}\n{MARK}\n\n{toml}");
     write_whole(&dir.join(SCENARIO), &text)?;
     Ok(text)
@@ -215,7 +215,7 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
     bare.output = Output::default();
     bare.run.threads = None;
     bare.map_options.max_size_mb = None;
-    let toml = toml::to_string(&bare).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    let toml = toml::to_string(&bare).map_err(|error| Fault::bug(SCENARIO, error))?;
     hash.update(toml.as_bytes());
     for (text, weight) in style_texts(scenario, origin)? {
         hash.update(text.as_bytes());
@@ -256,8 +256,7 @@ pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, 
 /// None, as long as every output setting can be serialized.
 pub fn output_settings(scenario: &Scenario) -> Result<String, Fault> {
     let output = Output { dir: PathBuf::new(), ..scenario.output.clone() };
-    let toml =
-        toml::to_string(&output).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))?;
+    let toml = toml::to_string(&output).map_err(|error| Fault::bug(SCENARIO, error))?;
     Ok(format!("{:016x}", xxh3_64(toml.as_bytes())))
 }
 

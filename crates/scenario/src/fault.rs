@@ -6,22 +6,40 @@ use std::path::Path;
 
 use laneweave_study::TableError;
 
-/// Why a command fails.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// A mistake in the input, or a file that the system refuses.
-    Input,
+/// What kind of mistake a fault is. A program may treat kinds differently; a binding makes them exceptions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FaultKind {
+    /// A file, or something with this name, does not exist.
+    NotFound,
+    /// A text is not in its format.
+    Syntax,
+    /// A value is not allowed, or does not fit the others.
+    Value,
+    /// A map cannot be used.
+    Map,
+    /// A recording cannot be used.
+    Recording,
+    /// A style cannot be used.
+    Style,
+    /// A command to the traffic is not possible.
+    Command,
+    /// Not possible in the present state, such as going back in time.
+    State,
+    /// The system refuses to read or write a file.
+    File,
     /// Standard output cannot be written.
     Output,
     /// Nothing reads standard output any more.
     Closed,
+    /// A mistake of this program.
+    Internal,
 }
 
 /// A mistake in the input, with its place and its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Why the command fails.
-    pub cause: Cause,
+    /// Its kind.
+    pub kind: FaultKind,
     /// Where: `FILE:LINE:COLUMN`, a file, or an option of the command.
     pub place: String,
     /// The problem.
@@ -31,27 +49,36 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// The fault `what` at `place`, with its `remedy`.
+    /// The fault `what` at `place`, with its `remedy`: a value that is not allowed, unless it is said to be of another
+    /// kind.
     pub fn new(place: impl fmt::Display, what: impl fmt::Display, remedy: impl fmt::Display) -> Fault {
         Fault {
-            cause: Cause::Input,
+            kind: FaultKind::Value,
             place: place.to_string(),
             what: what.to_string(),
             remedy: remedy.to_string(),
         }
     }
 
+    /// The same fault, of another kind.
+    #[must_use]
+    pub fn of_kind(self, kind: FaultKind) -> Fault {
+        Fault { kind, ..self }
+    }
+
+    /// A mistake of this program at `place`.
+    pub fn bug(place: impl fmt::Display, what: impl fmt::Display) -> Fault {
+        Fault::new(place, what, "report this as a bug").of_kind(FaultKind::Internal)
+    }
+
     /// Standard output cannot be written.
     pub fn output(error: &io::Error) -> Fault {
-        let cause = match error.kind() {
-            io::ErrorKind::BrokenPipe => Cause::Closed,
-            _ => Cause::Output,
+        let kind = match error.kind() {
+            io::ErrorKind::BrokenPipe => FaultKind::Closed,
+            _ => FaultKind::Output,
         };
         let what = format!("cannot be written: {}", plain(error));
-        Fault {
-            cause,
-            ..Fault::new("standard output", what, "free some space there, or redirect the output")
-        }
+        Fault::new("standard output", what, "free some space there, or redirect the output").of_kind(kind)
     }
 
     /// The system refuses to `deed` the file at `path`.
@@ -64,7 +91,11 @@ impl Fault {
             io::ErrorKind::InvalidData => "give a text file in UTF-8",
             _ => "choose another place",
         };
-        Fault::new(path.display(), format!("cannot be {deed}: {}", plain(error)), remedy)
+        let kind = match error.kind() {
+            io::ErrorKind::NotFound => FaultKind::NotFound,
+            _ => FaultKind::File,
+        };
+        Fault::new(path.display(), format!("cannot be {deed}: {}", plain(error)), remedy).of_kind(kind)
     }
 }
 
@@ -88,7 +119,7 @@ impl From<TableError> for Fault {
             TableError::Create { path, source } => Fault::refused(path, "created", source),
             TableError::Write { path, source } => Fault::refused(path, "written", source),
             TableError::Width { path, .. } | TableError::Cell { path, .. } => {
-                Fault::new(path.display(), &error, "report this as a bug")
+                Fault::bug(path.display(), &error)
             }
         }
     }

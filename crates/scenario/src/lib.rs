@@ -12,7 +12,7 @@ mod source;
 pub mod style;
 
 pub use capacity::{Bottleneck, Capacity};
-pub use fault::{Cause, Fault, did_you_mean};
+pub use fault::{Fault, FaultKind, did_you_mean};
 pub use recording::{elsewhere, open_recording, open_recordings, unreadable};
 pub use remarks::{Remark, remarks};
 pub use replay::{Played, Player, Recorded};

@@ -8,7 +8,7 @@ use laneweave_network::Network;
 use laneweave_recordings::table::Layout;
 use laneweave_recordings::{Recording, RecordingError, join, open};
 
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 
 /// Reads a recording: CommonRoad (XML), a table of a dataset that is known, or one whose columns the TOML file
 /// `columns` names.
@@ -47,6 +47,7 @@ pub fn open_recordings(
             what,
             remedy,
         )
+        .of_kind(FaultKind::Recording)
     })?;
     Ok((joined.recording, problems))
 }
@@ -60,7 +61,7 @@ fn layout(path: &Path) -> Result<Layout, Fault> {
 pub fn unreadable(path: &Path, error: &RecordingError) -> Fault {
     let message = error.to_string();
     let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "correct the file"));
-    Fault::new(path.display(), what, remedy)
+    Fault::new(path.display(), what, remedy).of_kind(FaultKind::Recording)
 }
 
 /// A recording of another place, or in another frame, has no vehicles on lanelets.

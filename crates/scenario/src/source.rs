@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 use toml::de::{DeArray, DeTable, DeValue, Error};
 
-use crate::fault::{Fault, did_you_mean};
+use crate::fault::{Fault, FaultKind, did_you_mean};
 
 /// The text of a TOML file and its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,7 +96,7 @@ impl Source {
             let remedy = "correct this line; the format is TOML, https://toml.io";
             (message.replace('\n', ", "), remedy.into())
         });
-        Fault::new(place, what, remedy)
+        Fault::new(place, what, remedy).of_kind(FaultKind::Syntax)
     }
 }
 

@@ -79,11 +79,10 @@ pub fn export(
         }
     }
     marks.until_s = source.time_s();
-    let packed = packed.finish().map_err(|error| Fault::new("export", error, "report this as a bug"))?;
+    let packed = packed.finish().map_err(|error| Fault::bug("export", error))?;
     let frames = Frames { encoding: "deflate-base64", data: STANDARD.encode(packed) };
     let replay = Replay { scene, hello, frames, lights, marks, events: Vec::new() };
-    let json = serde_json::to_string(&replay)
-        .map_err(|error| Fault::new("export", error, "report this as a bug"))?;
+    let json = serde_json::to_string(&replay).map_err(|error| Fault::bug("export", error))?;
     Ok(inlined(page, &json))
 }
 

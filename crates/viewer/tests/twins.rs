@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use laneweave::Simulation;
-use laneweave::branch::{Setting, Twins};
 use laneweave::record::Record;
+use laneweave_studies::branch::{Setting, Twins};
 use laneweave_viewer::{Live, Rerun, Snapshot, Source};
 
 /// The time at which the twins part, and the end of the run [s].

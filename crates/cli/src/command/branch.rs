@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use laneweave::Fault;
-use laneweave::branch::{Differences, Setting, Twins, page};
 use laneweave::folder::{BRANCH, Claim, REPORT};
 use laneweave::output::write_whole;
 use laneweave::record::{Record, SCENARIO};
 use laneweave::study::{Column, Format, TableWriter, seconds};
+use laneweave_studies::branch::{Differences, Setting, Twins, page};
 
 use super::say;
 
@@ -50,7 +50,7 @@ impl Arguments {
                 "the run ended with state hash {}, but its repetition with {end}",
                 record.end.state_hash
             );
-            return Err(Fault::new(out.display(), what, "report this as a bug"));
+            return Err(Fault::bug(out.display(), what));
         }
         let texts: Vec<&str> = settings.iter().map(Setting::text).collect();
         let settings = if texts.is_empty() { "nothing changed".into() } else { texts.join(", ") };

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use laneweave::check::{
-    GraphJson, Named, RecordingReport, Report, SetReport, explorer, extension, picture, tracks,
-};
 use laneweave::maps::Size;
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
 use laneweave::{Fault, open_recordings};
+use laneweave_studies::check::{
+    GraphJson, Named, RecordingReport, Report, SetReport, explorer, extension, picture, tracks,
+};
 use serde::Serialize;
 
 use super::say;
@@ -192,5 +192,5 @@ struct Both {
 
 pub(super) fn json(value: &impl Serialize) -> Result<String, Fault> {
     let text = serde_json::to_string_pretty(value);
-    text.map(|it| it + "\n").map_err(|error| Fault::new("JSON", error, "report this as a bug"))
+    text.map(|it| it + "\n").map_err(|error| Fault::bug("JSON", error))
 }

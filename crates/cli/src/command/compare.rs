@@ -4,14 +4,14 @@ use std::path::PathBuf;
 use std::thread::available_parallelism;
 
 use clap::{Args, ValueHint};
-use laneweave::Fault;
-use laneweave::compare::{Comparison, MEASURES, compare, page};
 use laneweave::folder::{Claim, REPORT};
 use laneweave::output::write_whole;
 use laneweave::record::SCENARIO;
-use laneweave::scenario::{Origin, prepare};
+use laneweave::scenario::Origin;
 use laneweave::study::{Cell, Column, Format, TableWriter};
 use laneweave::style::Model;
+use laneweave::{Fault, Simulation};
+use laneweave_studies::compare::{Comparison, MEASURES, compare, page};
 
 use super::check::Limit;
 use super::run::model;
@@ -74,8 +74,8 @@ impl Arguments {
                 origin.replaced("map_options.max_size_mb", "--max-map-size");
             }
             // Nothing runs before everything has been checked.
-            let prepared = prepare(&scenario, &origin)?;
-            prepared.demand_note().iter().for_each(|it| eprintln!("{}: {it}", input.display()));
+            let simulation = Simulation::from_scenario(&scenario, &origin)?;
+            simulation.demand_note().iter().for_each(|it| eprintln!("{}: {it}", input.display()));
             let seeds = seeds_from(scenario.run.seed, seeds)?;
             asked.push((input.display().to_string(), scenario, origin, seeds));
         }

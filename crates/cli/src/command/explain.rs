@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use laneweave::Fault;
 use laneweave::explain::{Commonest, Moment, moment, trip};
 use laneweave::record::{End, Record};
-use laneweave::scenario::{Prepared, prepare};
-use laneweave::sim::World;
+use laneweave::{Fault, Simulation};
 
 use super::say;
 
@@ -50,12 +48,11 @@ impl Arguments {
                 format!("the run lasted from 0 to {last} s: choose a time in this range"),
             ));
         }
-        let Prepared { mut world, mut script, .. } = prepare(&scenario, &origin)?;
-        let mut step = |world: &mut World| script.step(world);
+        let mut simulation = Simulation::from_scenario(&scenario, &origin)?;
         let Some(vehicle) = vehicle else {
-            (0..warmup).for_each(|_| step(&mut world));
-            let mut commonest = Commonest::since_now(&world);
-            (warmup..steps).for_each(|_| commonest.step(&mut world, &mut step));
+            (0..warmup).for_each(|_| simulation.advance());
+            let mut commonest = Commonest::since_now(&simulation);
+            (warmup..steps).for_each(|_| commonest.step(&mut simulation));
             return say(&commonest.to_text());
         };
         let never = || {
@@ -63,10 +60,10 @@ impl Arguments {
             Fault::new("--vehicle", what, "choose an id of the tables lane_changes, trips or trajectories")
         };
         let Some(time) = time else {
-            let told = trip(&mut world, step, vehicle, steps, flip).ok_or_else(never)?;
+            let told = trip(&mut simulation, vehicle, steps, flip).ok_or_else(never)?;
             return say(&told);
         };
-        match moment(&mut world, step, vehicle, time, steps, flip) {
+        match moment(&mut simulation, vehicle, time, steps, flip) {
             Moment::Told(told) => say(&told),
             Moment::At(from, until) => {
                 let what = format!("vehicle {vehicle} was not on the road at {time} s");

@@ -7,11 +7,11 @@ use std::thread::available_parallelism;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::calibration::Classes;
-use laneweave::fit::{FIGURES, FITTED, FitReport, Request, Rollouts, figures, page};
 use laneweave::folder::{FIT, FIT_REPORT};
 use laneweave::models::Reading as Formulas;
 use laneweave::output::write_whole;
+use laneweave_calibration::Classes;
+use laneweave_studies::fit::{FIGURES, FITTED, FitReport, Request, Rollouts, figures, page};
 
 use super::check::{Reading, json};
 use super::numbers::{number, seed};

@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-use laneweave::Fault;
 use laneweave::record::{End, Record};
-use laneweave::recordings::{Drone, Interruptions, Recording, Watch};
-use laneweave::scenario::{Prepared, prepare};
+use laneweave::recordings::{Drone, Interruptions, Recording};
+use laneweave::{Fault, Simulation};
 
 use super::numbers::{number, seed};
 use super::recording::{told, write};
@@ -92,8 +91,8 @@ fn watched(out: &Path, [from, until]: [f64; 2]) -> Result<Recording, Fault> {
     let Record { scenario, origin, end } = Record::open(out)?;
     let End { duration_s, warmup_s, .. } = end;
     let [measured, warmup] = [duration_s, warmup_s].map(|it| (it / scenario.run.step_s).round() as u32);
-    let Prepared { mut world, mut script, .. } = prepare(&scenario, &origin)?;
-    (0..warmup).for_each(|_| script.step(&mut world));
+    let mut simulation = Simulation::from_scenario(&scenario, &origin)?;
+    (0..warmup).for_each(|_| simulation.advance());
     if !(0.0..until.min(duration_s)).contains(&from) {
         let what = format!("from {from} to {} s", until.min(duration_s));
         return Err(Fault::new(
@@ -102,13 +101,13 @@ fn watched(out: &Path, [from, until]: [f64; 2]) -> Result<Recording, Fault> {
             format!("choose times between 0 and {duration_s} s"),
         ));
     }
-    let mut watch = Watch::from_now(&world);
+    let mut watch = simulation.drone_watch();
     for step in 0..=measured {
         let time = f64::from(step) * scenario.run.step_s;
         if (from..=until).contains(&time) {
-            watch.see(&world);
+            simulation.show(&mut watch);
         }
-        script.step(&mut world);
+        simulation.advance();
     }
     Ok(watch.into_recording())
 }

@@ -3,8 +3,7 @@
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
-use laneweave::scenario::Prepared;
-use laneweave::sim::World;
+use laneweave::Simulation;
 
 /// Where the progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,14 +41,13 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new(prepared: &Prepared, step: f64, quiet: bool) -> Progress {
+    pub(super) fn new(simulation: &Simulation, quiet: bool) -> Progress {
         let screen = match (quiet, stderr().is_terminal()) {
             (true, _) => Screen::Nothing,
             (false, true) => Screen::Terminal,
             (false, false) => Screen::Log,
         };
-        let end = f64::from(prepared.warmup_steps + prepared.steps) * step;
-        Progress::on(screen, Instant::now(), end)
+        Progress::on(screen, Instant::now(), simulation.end_s())
     }
 
     fn on(screen: Screen, began: Instant, end: f64) -> Progress {
@@ -57,12 +55,11 @@ impl Progress {
     }
 
     /// Shows how far the run is, now and then.
-    pub(super) fn show(&mut self, world: &World) {
+    pub(super) fn show(&mut self, simulation: &Simulation) {
         if self.screen == Screen::Nothing {
             return;
         }
-        let time = world.clock().time();
-        let Some(line) = self.line(Instant::now(), time, world.on_road()) else { return };
+        let Some(line) = self.line(Instant::now(), simulation.time_s(), simulation.on_road()) else { return };
         // An error is ignored: a closed terminal needs no progress.
         let _ = stderr().write_all(line.as_bytes());
     }

@@ -8,10 +8,10 @@ use std::thread::available_parallelism;
 use clap::{Args, ValueHint};
 use laneweave::folder::{REPLAY, REPLAY_REPORT};
 use laneweave::output::write_whole;
-use laneweave::replay::{Asked, page, replay, scenario};
 use laneweave::scenario::{MapOptions, Origin, Replay, Scenario};
 use laneweave::style::Model;
 use laneweave::{Fault, Simulation};
+use laneweave_studies::replay::{Asked, page, replay, scenario};
 
 use super::check::{Reading, json};
 use super::numbers::{number, seed};
@@ -95,8 +95,8 @@ impl Arguments {
         };
         let command = super::given();
         let show = |simulation: &Simulation| {
-            let begun = || Progress::new(simulation.prepared(), scenario.run.step_s, self.quiet);
-            progress.get_or_insert_with(begun).show(simulation.world());
+            let begun = || Progress::new(simulation, self.quiet);
+            progress.get_or_insert_with(begun).show(simulation);
         };
         let done = replay(&scenario, &origin, &asked, &command, show, || stop.is_raised());
         progress.iter_mut().for_each(Progress::clear);
@@ -128,7 +128,7 @@ impl Arguments {
             reactive_ids: self.reactive_ids.clone(),
             reactive_from_s: self.from,
         };
-        let is_map = |it: &&PathBuf| laneweave::check::extension(it) == "xml";
+        let is_map = |it: &&PathBuf| laneweave_studies::check::extension(it) == "xml";
         let map = self.map.clone().or_else(|| self.recording.first().filter(is_map).cloned());
         let map = map.ok_or_else(|| {
             let place = self.recording.first().map_or(String::new(), |it| it.display().to_string());

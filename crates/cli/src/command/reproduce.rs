@@ -9,7 +9,7 @@ use laneweave::Fault;
 use laneweave::folder::Claim;
 use laneweave::output::write_whole;
 use laneweave::record::SCENARIO;
-use laneweave_experiments::{EXPERIMENTS, Effort, Experiment};
+use laneweave_studies::experiments::{EXPERIMENTS, Effort, Experiment};
 
 use super::say;
 

@@ -43,7 +43,7 @@ pub(super) fn same_run(run: Sourced, asked: Sourced) -> Result<(), Fault> {
 }
 
 fn table(scenario: &Scenario) -> Result<Table, Fault> {
-    Table::try_from(scenario).map_err(|error| Fault::new(SCENARIO, error, "report this as a bug"))
+    Table::try_from(scenario).map_err(|error| Fault::bug(SCENARIO, error))
 }
 
 /// The value of a key such as `run.seed`.

@@ -8,12 +8,12 @@ use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use laneweave::Fault;
 use laneweave::folder::DRAWS;
 use laneweave::output::write_whole;
 use laneweave::run::{self, Resumed, Run};
-use laneweave::scenario::{Origin, Prepared, Scenario, SumoFile, TableFormat, mixture};
+use laneweave::scenario::{Origin, Scenario, SumoFile, TableFormat, mixture};
 use laneweave::style::Model;
+use laneweave::{Fault, Simulation};
 
 use super::check::{Limit, json};
 use super::numbers::{number, seed, threads};
@@ -261,7 +261,7 @@ fn check_draws(scenario: &Scenario, origin: &Origin, count: u32) -> Result<(), F
 /// Runs a scenario with draws of parameters.
 fn draw(scenario: &Scenario, origin: &Origin, screen: Screen, count: u32) -> Result<(), Fault> {
     let threads = available_parallelism().map_or(1, NonZero::get);
-    let draws = run::draws(scenario, origin, count, threads)?;
+    let draws = laneweave_studies::draws(scenario, origin, count, threads)?;
     write_whole(&scenario.output.dir.join(DRAWS), &json(&draws)?)?;
     match screen {
         Screen { json: false, quiet: false } => say(&draws.to_text()),
@@ -272,12 +272,12 @@ fn draw(scenario: &Scenario, origin: &Origin, screen: Screen, count: u32) -> Res
 /// Drives a run to its end, and shows its progress and its results.
 fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> {
     if !screen.quiet {
-        warn(run.prepared());
+        warn(run.simulation());
     }
     let stop = Stop::listen()?;
-    let mut progress = Progress::new(run.prepared(), run.scenario().run.step_s, screen.quiet);
-    let results = run.started(started).complete(|world| {
-        progress.show(world);
+    let mut progress = Progress::new(run.simulation(), screen.quiet);
+    let results = run.started(started).complete(|simulation| {
+        progress.show(simulation);
         !stop.is_raised()
     });
     progress.clear();
@@ -294,17 +294,17 @@ fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> 
 }
 
 /// Lists the problems of the map, its remarks, and the demand.
-fn warn(prepared: &Prepared) {
-    let problems = &prepared.problems;
+fn warn(simulation: &Simulation) {
+    let problems = simulation.problems();
     for problem in problems.iter().take(LISTED_PROBLEMS) {
         eprintln!("warning: map: {problem}");
     }
     if problems.len() > LISTED_PROBLEMS {
         eprintln!("warning: map: {} more problems like these", problems.len() - LISTED_PROBLEMS);
     }
-    for remark in &prepared.remarks {
+    for remark in simulation.remarks() {
         eprintln!("warning: map: {remark}");
     }
-    prepared.demand_note().iter().for_each(|it| eprintln!("{it}"));
-    prepared.demand_warning().iter().for_each(|it| eprintln!("warning: {it}"));
+    simulation.demand_note().iter().for_each(|it| eprintln!("{it}"));
+    simulation.demand_warning().iter().for_each(|it| eprintln!("warning: {it}"));
 }

@@ -4,9 +4,9 @@ use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueHint};
-use laneweave::Fault;
 use laneweave::output::write_whole;
-use laneweave::scenario::{Origin, Scenario, prepare, write};
+use laneweave::scenario::{Origin, Scenario};
+use laneweave::{Fault, Simulation};
 
 use super::check::Reading;
 use super::{examples, say};
@@ -53,9 +53,9 @@ impl New {
             Scenario { map_options: self.reading.options(), ..Scenario::of_map(self.map.clone()) };
         let mut origin = Origin::default();
         origin.replaced("map_options.origin", "--origin");
-        let prepared = prepare(&scenario, &origin)?;
+        let simulation = Simulation::from_scenario(&scenario, &origin)?;
         scenario.map = from_folder_of(&file, &self.map);
-        write_whole(&file, &write(&scenario, &prepared)?)?;
+        write_whole(&file, &simulation.to_toml(&scenario)?)?;
         say(&format!("{0} is written; edit it, then run: laneweave run {0}\n", file.display()))
     }
 

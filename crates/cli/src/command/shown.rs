@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::branch::Setting;
-use laneweave::check::{extension, tracks};
 use laneweave::record::SCENARIO;
 use laneweave::scenario::{Origin, open_map};
+use laneweave_studies::branch::Setting;
+use laneweave_studies::check::{extension, tracks};
 use laneweave_viewer::{Live, Recorded, Rerun, Source};
 
 use super::check::Reading;
@@ -42,7 +42,7 @@ impl Shown {
         let path = match &self.input[..] {
             [] => {
                 let (scenario, origin) = Origin::demo()?;
-                return Ok(Box::new(Live::new(scenario, origin, saved.to_owned())?));
+                return Ok(Box::new(Live::new(&scenario, &origin, saved.to_owned())?));
             }
             [path] => path,
             [_, second, ..] => {
@@ -86,7 +86,7 @@ impl Shown {
         if extension(path) != "toml" {
             scenario.map_options = self.options.options();
         }
-        Ok(Box::new(Live::new(scenario, origin, saved.to_owned())?))
+        Ok(Box::new(Live::new(&scenario, &origin, saved.to_owned())?))
     }
 
     /// A CommonRoad file may contain a recording beside its map.

@@ -26,7 +26,7 @@ impl Stop {
     pub(super) fn listen() -> Result<Stop, Fault> {
         let stop = Stop { is_raised: Arc::default(), code: Arc::default() };
         for signal in [SIGINT, SIGTERM] {
-            stop.listen_to(signal).map_err(|error| Fault::new("signals", error, "report this as a bug"))?;
+            stop.listen_to(signal).map_err(|error| Fault::bug("signals", error))?;
         }
         Ok(stop)
     }

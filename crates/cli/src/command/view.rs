@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::branch::Setting;
 use laneweave::output::write_whole;
+use laneweave_studies::branch::Setting;
 use laneweave_viewer::{Page, Server, Source, Token, export};
 
 use super::numbers::number;

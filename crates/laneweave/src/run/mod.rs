@@ -1,11 +1,9 @@
 //! Runs with all their result files: begun or resumed, and driven to their end.
 
-mod draws;
 mod results;
 mod resume;
 mod simulate;
 
-pub use draws::{DrawnMeasure, Draws, PER_DRAW, draws};
 pub use laneweave_results::Ending;
 pub use results::{Results, Run};
 pub(crate) use resume::BY_COMMANDS;

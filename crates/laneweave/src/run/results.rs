@@ -8,8 +8,7 @@ use laneweave_results::folder::Claim;
 use laneweave_results::output::{Inputs, Provenance, Summary, outputs, write_whole};
 use laneweave_results::record::{self, SCENARIO, SUMMARY};
 use laneweave_scenario::Fault;
-use laneweave_scenario::scenario::{Origin, Prepared, Scenario};
-use laneweave_sim::World;
+use laneweave_scenario::scenario::{Origin, Scenario};
 
 use super::simulate::simulate;
 use crate::Simulation;
@@ -79,14 +78,9 @@ impl Run {
         Run { started, ..self }
     }
 
-    /// What runs.
-    pub fn prepared(&self) -> &Prepared {
-        self.simulation.prepared()
-    }
-
-    /// Its scenario.
-    pub fn scenario(&self) -> &Scenario {
-        self.simulation.scenario()
+    /// What runs, at its start.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
     }
 
     /// Runs to the end, and completes the result files. `goes_on` is asked before every step; if it says no, the run
@@ -94,8 +88,8 @@ impl Run {
     ///
     /// # Errors
     /// If a file cannot be written, or if the checkpoint belongs to another run.
-    pub fn complete(self, mut goes_on: impl FnMut(&World) -> bool) -> Result<Results, Fault> {
-        self.drive(|simulation| Ok(goes_on(simulation.world())))
+    pub fn complete(self, mut goes_on: impl FnMut(&Simulation) -> bool) -> Result<Results, Fault> {
+        self.drive(|simulation| Ok(goes_on(simulation)))
     }
 
     /// The same with a program that gives commands: `act` is called before every step, and says whether the run goes
@@ -104,13 +98,16 @@ impl Run {
     /// # Errors
     /// If a file cannot be written, if the checkpoint belongs to another run, or if `act` fails or simulates steps
     /// itself.
-    pub fn drive(self, act: impl FnMut(&mut Simulation) -> Result<bool, Fault>) -> Result<Results, Fault> {
+    pub fn drive<E: From<Fault>>(
+        self,
+        act: impl FnMut(&mut Simulation) -> Result<bool, E>,
+    ) -> Result<Results, E> {
         let Run { mut simulation, provenance, from, claim, started } = self;
         let scenario = simulation.scenario().clone();
         let dir = &scenario.output.dir;
-        let mut outputs = outputs(&scenario, simulation.prepared(), &provenance)?;
+        let mut outputs = outputs(&scenario, &simulation.prepared, &provenance)?;
         let output_settings = record::output_settings(&scenario)?;
-        let keeper = simulation.prepared().checkpoint_steps.map(|every| Keeper {
+        let keeper = simulation.prepared.checkpoint_steps.map(|every| Keeper {
             path: dir.join(checkpoint::FILE),
             every,
             fingerprint: provenance.fingerprint.clone(),
@@ -122,7 +119,7 @@ impl Run {
         })?;
         let wall_s = started.elapsed().as_secs_f64();
         let inputs = Inputs { scenario: &scenario, ending: &ending, wall_s, load_s, provenance: &provenance };
-        let prepared = simulation.prepared();
+        let prepared = &simulation.prepared;
         let summary = Summary::of(prepared, inputs);
         let mut files = vec![dir.join(SCENARIO)];
         for output in outputs {

@@ -16,14 +16,14 @@ use crate::Simulation;
 /// # Errors
 /// If an output cannot write its data, if the checkpoint belongs to another run, or if `act` fails or simulates steps
 /// itself.
-pub fn simulate(
+pub fn simulate<E: From<Fault>>(
     simulation: &mut Simulation,
     outputs: &mut [Box<dyn Output>],
     from: Option<Checkpoint>,
     keeper: Option<&Keeper>,
-    mut act: impl FnMut(&mut Simulation) -> Result<bool, Fault>,
+    mut act: impl FnMut(&mut Simulation) -> Result<bool, E>,
     when_warm: impl FnOnce(),
-) -> Result<Ending, Fault> {
+) -> Result<Ending, E> {
     let steps = simulation.prepared.steps;
     let mut run = match from {
         Some(checkpoint) => Measuring::resumed(&mut simulation.prepared, outputs, checkpoint)?,
@@ -56,15 +56,15 @@ pub fn simulate(
 }
 
 /// Lets `act` give its commands before the next step, and returns whether the run goes on.
-fn goes_on(
+fn goes_on<E: From<Fault>>(
     simulation: &mut Simulation,
-    act: &mut impl FnMut(&mut Simulation) -> Result<bool, Fault>,
-) -> Result<bool, Fault> {
+    act: &mut impl FnMut(&mut Simulation) -> Result<bool, E>,
+) -> Result<bool, E> {
     let step = simulation.world().clock().step;
     let goes_on = act(simulation)?;
     if simulation.world().clock().step != step {
         let what = "the program has changed the time of the simulation, so the results would miss steps";
-        return Err(Fault::new("run", what, "give commands only: the run simulates the steps"));
+        return Err(Fault::new("run", what, "give commands only: the run simulates the steps").into());
     }
     Ok(goes_on)
 }
@@ -81,11 +81,11 @@ struct Measuring {
 
 impl Measuring {
     /// The state after the warm-up.
-    fn warmed_up(
+    fn warmed_up<E: From<Fault>>(
         simulation: &mut Simulation,
         outputs: &mut [Box<dyn Output>],
-        act: &mut impl FnMut(&mut Simulation) -> Result<bool, Fault>,
-    ) -> Result<Measuring, Fault> {
+        act: &mut impl FnMut(&mut Simulation) -> Result<bool, E>,
+    ) -> Result<Measuring, E> {
         let mut is_interrupted = false;
         for _ in 0..simulation.prepared.warmup_steps {
             if !goes_on(simulation, act)? {
@@ -139,7 +139,7 @@ impl Measuring {
     ) -> Result<(), Fault> {
         let kept: Result<Vec<Vec<u8>>, Fault> =
             outputs.iter_mut().map(|it| it.save(&prepared.world)).collect();
-        let bug = |error: CheckpointError| Fault::new(FILE, error, "report this as a bug");
+        let bug = |error: CheckpointError| Fault::bug(FILE, error);
         let checkpoint = Checkpoint {
             fingerprint: keeper.fingerprint.clone(),
             output_settings: keeper.output_settings.clone(),

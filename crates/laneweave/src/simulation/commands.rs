@@ -19,7 +19,7 @@ impl Simulation {
     pub fn insert(&mut self, vehicle: NewVehicle) -> Result<VehicleId, Fault> {
         let place = format!("insert on lanelet {}", vehicle.lanelet);
         let inserted = self.command(&place, Command::Insert(vehicle))?;
-        inserted.ok_or_else(|| Fault::new(place, "the new vehicle has no id", "report this as a bug"))
+        inserted.ok_or_else(|| Fault::bug(place, "the new vehicle has no id"))
     }
 
     /// Takes a vehicle off the road. Its trip does not count as completed.
@@ -127,6 +127,37 @@ impl Simulation {
         self.command(&place, Command::SetParameter { style, parameter, value }).map(|_| ())
     }
 
+    /// Gives a command. A new vehicle is on the road at once, and its id is returned; everything else is carried out
+    /// before the decisions of the next step.
+    ///
+    /// # Errors
+    /// If it is not possible. Nothing changes then.
+    pub fn give(&mut self, command: Command) -> Result<Option<VehicleId>, Fault> {
+        let place = place_of(&command);
+        self.command(&place, command)
+    }
+
+    /// The same, in place of the commands that wait for the next step and contradict it: one of its kind for the same thing,
+    /// and all others for a vehicle that is to be removed. For sliders that move while time stands.
+    ///
+    /// # Errors
+    /// If it is not possible. Nothing changes then.
+    pub fn replace(&mut self, command: Command) -> Result<Option<VehicleId>, Fault> {
+        let place = place_of(&command);
+        let given = self.prepared.world.replace_command(command);
+        self.is_commanded = true;
+        given.map_err(|error| refused(place, &error))
+    }
+
+    /// Checks the numbers of a command, and whether the things that it names exist, not whether the vehicle that it
+    /// concerns is on the road.
+    ///
+    /// # Errors
+    /// If one of them is not so.
+    pub fn check_command(&self, command: &Command) -> Result<(), Fault> {
+        self.world().check_content(command).map_err(|error| refused(place_of(command), &error))
+    }
+
     fn for_vehicle(&mut self, act: &str, id: VehicleId, command: Command) -> Result<(), Fault> {
         self.command(&format!("{act} of vehicle {id}"), command).map(|_| ())
     }
@@ -136,4 +167,9 @@ impl Simulation {
         self.is_commanded = true;
         Ok(given)
     }
+}
+
+/// What a command concerns, as the place of its faults.
+fn place_of(command: &Command) -> String {
+    command.target().map_or_else(|| "a new vehicle".to_owned(), |it| it.to_string())
 }

@@ -6,6 +6,8 @@ use laneweave_sim::{
 };
 use serde::{Deserialize, Serialize};
 
+use super::evaluation::Reason;
+
 /// Something that happened in a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
@@ -66,7 +68,7 @@ pub struct Occurrence {
 }
 
 /// A lane change that was completed or aborted. Its fields have the names of the columns of the table `lane_changes`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LaneChange {
     /// Which vehicle.
     pub vehicle: VehicleId,
@@ -82,6 +84,8 @@ pub struct LaneChange {
     pub from_lanelet: i64,
     /// The id of the new lanelet.
     pub to_lanelet: i64,
+    /// The style of its driver.
+    pub style: String,
     /// The side to which it changed.
     pub side: Side,
     /// The kind of the change.
@@ -90,6 +94,24 @@ pub struct LaneChange {
     pub speed_mps: f64,
     /// Anticipated speed gain when the desire came [m/s].
     pub speed_gain_mps: f64,
+    /// Its reasons: the incentives, when the desire came.
+    pub reasons: Vec<Reason>,
+    /// G: the utility of the change when the desire came. `None` if it was not made for its utility.
+    pub utility: Option<f64>,
+    /// θ: the threshold of the utility.
+    pub threshold: f64,
+    /// Gap to the new leader when the change began [m]; none if nobody was in sight.
+    pub gap_ahead_m: Option<f64>,
+    /// Gap to the new follower when the change began [m]; none if nobody was in sight.
+    pub gap_behind_m: Option<f64>,
+    /// Time to collision with the new leader when the change began [s]; none if they did not approach each other.
+    pub ttc_ahead_s: Option<f64>,
+    /// Time to collision of the new follower when the change began [s]; none if they did not approach each other.
+    pub ttc_behind_s: Option<f64>,
+    /// Position of its front bumper in the new lane on the map, to the east [m].
+    pub x_m: f64,
+    /// The same, to the north [m].
+    pub y_m: f64,
     /// Whether it was completed; otherwise it was aborted.
     pub is_completed: bool,
 }
@@ -132,7 +154,7 @@ impl Event {
             sim::Event::Removed { vehicle, at } => {
                 Event::Removed(Occurrence::at(network, *vehicle, now, *at))
             }
-            sim::Event::LaneChange(it) => Event::LaneChange(LaneChange::of(network, it)),
+            sim::Event::LaneChange(it) => Event::LaneChange(LaneChange::of(world, it)),
             sim::Event::Incident(it) => Event::Incident(Incident::of(network, it)),
             sim::Event::Driving(it) => {
                 let occurrence = Occurrence::at(network, it.vehicle, it.time, it.at);
@@ -169,7 +191,11 @@ impl Occurrence {
 }
 
 impl LaneChange {
-    fn of(network: &Network, it: &sim::LaneChange) -> LaneChange {
+    fn of(world: &World, it: &sim::LaneChange) -> LaneChange {
+        let network = world.network();
+        let style = &world.driver_parameters()[it.parameters as usize];
+        let place = network.chain(it.to.chain).centre.at(it.to.x);
+        let finite = |it: f64| Some(it).filter(|it| it.is_finite());
         let [from_lanelet, to_lanelet] = [it.from, it.to].map(|at| network.lanelet_at(at).0.id);
         LaneChange {
             vehicle: it.vehicle,
@@ -183,6 +209,16 @@ impl LaneChange {
             kind: it.kind,
             speed_mps: it.speed,
             speed_gain_mps: it.speed_gain,
+            style: style.name.clone(),
+            reasons: Reason::of(&style.change, &it.appraisal),
+            utility: finite(it.appraisal.gain),
+            threshold: it.appraisal.theta,
+            gap_ahead_m: finite(it.gap_ahead),
+            gap_behind_m: finite(it.gap_behind),
+            ttc_ahead_s: finite(it.ttc_ahead),
+            ttc_behind_s: finite(it.ttc_behind),
+            x_m: place.x,
+            y_m: place.y,
             is_completed: it.is_completed,
         }
     }

@@ -3,24 +3,36 @@
 
 mod builder;
 mod commands;
+mod evaluation;
 mod event;
+mod facts;
 mod light;
 mod observer;
 mod queries;
+mod restart;
 mod results;
+mod settings;
+mod twins;
 mod vehicle_state;
+mod watch;
 
+use laneweave_maps::Map;
 use laneweave_network::Network;
-use laneweave_scenario::Fault;
-use laneweave_scenario::scenario::{Demand, Origin, Prepared, Scenario, prepare};
-use laneweave_sim::World;
+use laneweave_scenario::scenario::{
+    Demand, Origin, Prepared, Scenario, prepare, prepare_on, prepare_playing, prepare_recorded,
+};
+use laneweave_scenario::{Fault, FaultKind, Player, Recorded};
+use laneweave_sim::{Clock, World};
 use laneweave_study::seconds;
 
 pub use builder::{Builder, MapSource};
+pub use evaluation::{Decision, Evaluation, Leader, Reason, SideEvaluation};
 pub use event::{Event, Incident, LaneChange, Occurrence};
 pub use light::Light;
 pub use observer::Observer;
+pub use settings::StyleState;
 pub use vehicle_state::VehicleState;
+pub use watch::Watcher;
 
 /// A simulation: traffic on a map, which a program steps through, asks, and changes.
 ///
@@ -47,7 +59,7 @@ impl Simulation {
     /// ```no_run
     /// # fn main() -> Result<(), laneweave::Fault> {
     /// let mut simulation = laneweave::Simulation::from_file("scenarios/demo.toml")?;
-    /// simulation.run(60.0, &mut [])?;
+    /// simulation.run(60.0)?;
     /// for vehicle in simulation.vehicles() {
     ///     println!("{} on lanelet {} at {} m/s", vehicle.id, vehicle.lanelet, vehicle.speed_mps);
     /// }
@@ -67,12 +79,49 @@ impl Simulation {
         Simulation::builder(map).demand(demand).build()
     }
 
+    /// The scenario in a text, whose relative paths start in `folder`.
+    ///
+    /// # Errors
+    /// If the text is no scenario, or if its map or a style is missing, not readable, or invalid.
+    pub fn from_text(text: &str, folder: impl AsRef<std::path::Path>) -> Result<Simulation, Fault> {
+        let (scenario, origin) = Origin::from_text(text, folder.as_ref())?;
+        Simulation::from_scenario(&scenario, &origin)
+    }
+
     /// A scenario, with the source of its values.
     ///
     /// # Errors
     /// If its map or a style is missing, not readable, or invalid.
     pub fn from_scenario(scenario: &Scenario, origin: &Origin) -> Result<Simulation, Fault> {
         Ok(Simulation::new(scenario.clone(), origin.clone(), prepare(scenario, origin)?, true))
+    }
+
+    /// The same on a map that was read or generated before. The path and the options of the map in the scenario have no
+    /// effect.
+    ///
+    /// # Errors
+    /// If a style is missing, not readable, or invalid, or if the demand does not fit the map.
+    pub fn from_scenario_on(map: Map, scenario: &Scenario, origin: &Origin) -> Result<Simulation, Fault> {
+        Ok(Simulation::new(scenario.clone(), origin.clone(), prepare_on(map, scenario, origin)?, true))
+    }
+
+    /// The same as [`from_scenario`](Self::from_scenario), with the recording that `player` plays in place of the one
+    /// that the scenario names. The recording is not read again.
+    ///
+    /// # Errors
+    /// If its map or a style is missing, not readable, or invalid.
+    pub fn playing(scenario: &Scenario, origin: &Origin, player: Player) -> Result<Simulation, Fault> {
+        let prepared = prepare_playing(scenario, origin, player)?;
+        Ok(Simulation::new(scenario.clone(), origin.clone(), prepared, true))
+    }
+
+    /// The same with a recording in memory.
+    ///
+    /// # Errors
+    /// If its map or a style is missing, not readable, or invalid.
+    pub fn replaying(scenario: &Scenario, origin: &Origin, recorded: Recorded) -> Result<Simulation, Fault> {
+        let prepared = prepare_recorded(scenario, origin, recorded)?;
+        Ok(Simulation::new(scenario.clone(), origin.clone(), prepared, true))
     }
 
     /// A simulation on a map, set up value by value.
@@ -87,8 +136,18 @@ impl Simulation {
 
     /// Simulates one step, and returns what happened in it. The commands of the scenario that are due are given before.
     pub fn step(&mut self) -> Vec<Event> {
-        self.prepared.step();
+        self.advance();
         self.events()
+    }
+
+    /// Simulates `count` steps, and returns what happened in them.
+    pub fn steps(&mut self, count: u32) -> Vec<Event> {
+        (0..count).flat_map(|_| self.step()).collect()
+    }
+
+    /// Simulates one step. What happened in it is told by [`events`](Self::events) to those who ask.
+    pub fn advance(&mut self) {
+        self.prepared.step();
     }
 
     /// What happened in the last step.
@@ -97,12 +156,24 @@ impl Simulation {
         world.events().iter().map(|it| Event::of(world, it)).collect()
     }
 
-    /// Simulates steps until the time `until_s` [s]. After every step the `observers` see the simulation, and what
-    /// happened in the step.
+    /// Simulates steps until the time `until_s` [s].
+    ///
+    /// # Errors
+    /// If `until_s` is no time from now on.
+    pub fn run(&mut self, until_s: f64) -> Result<(), Fault> {
+        self.observe::<Fault>(until_s, &mut [])
+    }
+
+    /// The same, while `observers` see the simulation after every step, and what happened in the step. The error of an
+    /// observer may be of any type that can also hold one of laneweave.
     ///
     /// # Errors
     /// If `until_s` is no time from now on, or if an observer fails.
-    pub fn run(&mut self, until_s: f64, observers: &mut [&mut dyn Observer]) -> Result<(), Fault> {
+    pub fn observe<E: From<Fault>>(
+        &mut self,
+        until_s: f64,
+        observers: &mut [&mut dyn Observer<E>],
+    ) -> Result<(), E> {
         /// Maximum simulated time [s].
         const LONGEST: f64 = 1e7;
         let now = self.world().clock().step;
@@ -111,7 +182,8 @@ impl Simulation {
         if !(0.0..=LONGEST).contains(&until_s) || last < now {
             let what = format!("until the time {until_s} s");
             let from = seconds(self.time_s());
-            return Err(Fault::new("run", what, format!("choose a time from {from} to {LONGEST} s")));
+            let remedy = format!("choose a time from {from} to {LONGEST} s");
+            return Err(Fault::new("run", what, remedy).of_kind(FaultKind::State).into());
         }
         while self.world().clock().step < last {
             let events = self.step();
@@ -120,6 +192,21 @@ impl Simulation {
             }
         }
         Ok(())
+    }
+
+    /// The clock: the steps that were simulated, and the length of a step.
+    pub fn clock(&self) -> Clock {
+        self.world().clock()
+    }
+
+    /// The length of a step [s].
+    pub fn step_s(&self) -> f64 {
+        self.scenario.run.step_s
+    }
+
+    /// The steps of the warm-up, and the steps that are measured after it.
+    pub fn run_steps(&self) -> [u32; 2] {
+        [self.prepared.warmup_steps, self.prepared.steps]
     }
 
     /// The present time [s].
@@ -138,7 +225,7 @@ impl Simulation {
     /// # Errors
     /// None, as long as there is memory.
     pub fn save(&self) -> Result<Vec<u8>, Fault> {
-        self.prepared.save().map_err(|error| Fault::new("save", error, "report this as a bug"))
+        self.prepared.save().map_err(|error| Fault::bug("save", error))
     }
 
     /// Goes on from a saved state of a simulation with the same map, drivers, demand and seed, bit for bit.
@@ -162,13 +249,8 @@ impl Simulation {
         &self.scenario
     }
 
-    /// What was prepared of the scenario, with the world at the present time.
-    pub fn prepared(&self) -> &Prepared {
-        &self.prepared
-    }
-
     /// The source of the values of the scenario.
-    pub(crate) fn origin(&self) -> &Origin {
+    pub fn origin(&self) -> &Origin {
         &self.origin
     }
 
@@ -177,14 +259,8 @@ impl Simulation {
         self.world().network()
     }
 
-    /// The world behind the simulation, for questions that the simulation does not answer.
-    pub fn world(&self) -> &World {
+    /// The world behind the simulation.
+    pub(crate) fn world(&self) -> &World {
         &self.prepared.world
-    }
-
-    /// The world behind the simulation, mutable. Steps of the world itself return no events, and begin no counts.
-    pub fn world_mut(&mut self) -> &mut World {
-        self.is_changed = true;
-        &mut self.prepared.world
     }
 }

@@ -2,7 +2,7 @@
 
 use laneweave_network::Position;
 use laneweave_scenario::Fault;
-use laneweave_sim::{Columns, Control, Intention, VehicleId};
+use laneweave_sim::{Columns, Intention, Scene, Vehicle, VehicleId};
 
 use super::{Simulation, VehicleState};
 
@@ -19,6 +19,22 @@ impl Simulation {
             world.vehicles().map(|it| VehicleState::of(world, &it)).collect();
         vehicles.sort_by_key(|it| it.id);
         vehicles
+    }
+
+    /// The vehicles on the road without copies, lane by lane and in driving order: for programs that look at all of them
+    /// after every step.
+    pub fn views(&self) -> impl Iterator<Item = Vehicle<'_>> {
+        self.world().vehicles()
+    }
+
+    /// The vehicle with this id, without a copy. `None` if it is not on the road.
+    pub fn view(&self, id: VehicleId) -> Option<Vehicle<'_>> {
+        self.world().vehicle(id)
+    }
+
+    /// This instant as drivers perceive it.
+    pub fn scene(&self) -> Scene<'_> {
+        self.world().scene()
     }
 
     /// The vehicle with this id. `None` if it is not on the road.
@@ -61,14 +77,9 @@ impl Simulation {
         self.world().intention(id)
     }
 
-    /// How a user drives a vehicle; [`Control::DRIVER`] if its driver does.
-    pub fn control_of(&self, id: VehicleId) -> Control {
-        self.world().control_of(id)
-    }
-
     /// What the driver of a vehicle makes of its lanes and is about to do, in words. `None` if the vehicle is not on
     /// the road.
     pub fn explain(&self, id: VehicleId) -> Option<String> {
-        laneweave_explain::now(self.world(), id)
+        crate::explain::now(self.world(), id)
     }
 }

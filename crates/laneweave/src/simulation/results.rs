@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use laneweave_results::output::Summary;
-use laneweave_scenario::Fault;
+use laneweave_scenario::{Fault, FaultKind};
 
 use super::Simulation;
 use crate::run::{BY_COMMANDS, Run};
@@ -20,7 +20,7 @@ impl Simulation {
     /// cannot be read or written.
     pub fn run_to_results(self, dir: impl Into<PathBuf>) -> Result<Summary, Fault> {
         let command = if self.is_commanded { BY_COMMANDS } else { BY_A_PROGRAM };
-        self.run_with(dir.into(), command, |_| Ok(()))
+        self.run_with(dir.into(), command, |_| Ok::<(), Fault>(()))
     }
 
     /// The same, while a program gives commands: `act` is called before every step. What it does stands in the table
@@ -32,7 +32,7 @@ impl Simulation {
     /// ```no_run
     /// # fn main() -> Result<(), laneweave::Fault> {
     /// let simulation = laneweave::Simulation::from_file("scenarios/demo.toml")?;
-    /// let summary = simulation.run_to_results_with("out", |it| {
+    /// let summary = simulation.run_to_results_with("out", |it| -> Result<(), laneweave::Fault> {
     ///     // A vehicle that has come to a halt is taken off the road.
     ///     for event in it.events() {
     ///         if let laneweave::Event::Halt(halt) = event
@@ -47,21 +47,23 @@ impl Simulation {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn run_to_results_with(
+    pub fn run_to_results_with<E: From<Fault>>(
         self,
         dir: impl Into<PathBuf>,
-        act: impl FnMut(&mut Simulation) -> Result<(), Fault>,
-    ) -> Result<Summary, Fault> {
+        act: impl FnMut(&mut Simulation) -> Result<(), E>,
+    ) -> Result<Summary, E> {
         self.run_with(dir.into(), BY_COMMANDS, act)
     }
 
-    fn run_with(
+    fn run_with<E: From<Fault>>(
         mut self,
         dir: PathBuf,
         command: &str,
-        mut act: impl FnMut(&mut Simulation) -> Result<(), Fault>,
-    ) -> Result<Summary, Fault> {
-        let refused = |what: &str, remedy: &str| Err(Fault::new("run_to_results", what, remedy));
+        mut act: impl FnMut(&mut Simulation) -> Result<(), E>,
+    ) -> Result<Summary, E> {
+        let refused = |what: &str, remedy: &str| {
+            Err(Fault::new("run_to_results", what, remedy).of_kind(FaultKind::State).into())
+        };
         if !self.has_map_file {
             let what = "the map is no file, so the results could not name it";
             return refused(what, "write the map into a file, and build the simulation from that");

@@ -48,15 +48,13 @@ impl VehicleState {
         let (motion, driver) = (vehicle.motion, vehicle.driver);
         let (lanelet, position_m) = world.network().lanelet_at(Position::new(vehicle.spot.chain, motion.x));
         let (pose, [length_m, width_m]) = (vehicle.pose(), vehicle.size());
-        let is_in_one_lane = !(driver.phase.is_between_lanes() || vehicle.is_on_its_own_path());
-        let number = world.scene().navigator.number(driver.goal.destination());
         VehicleState {
             id: motion.id,
             class: driver.class,
             style: vehicle.style().name.clone(),
             lanelet: lanelet.id,
             position_m,
-            offset_m: if is_in_one_lane { 0.0 } else { vehicle.lateral_offset() },
+            offset_m: vehicle.offset(),
             x_m: pose.at.x,
             y_m: pose.at.y,
             z_m: pose.at.z,
@@ -66,7 +64,7 @@ impl VehicleState {
             length_m,
             width_m,
             state: driver.phase,
-            destination: number.and_then(|it| world.demand().destinations.get(it)).map(|it| it.id()),
+            destination: vehicle.destination(),
             is_external: driver.is_external,
         }
     }

@@ -226,8 +226,7 @@ impl Summary {
     /// # Errors
     /// None, as long as every field can be serialized.
     pub fn to_json(&self) -> Result<String, Fault> {
-        let json = serde_json::to_string_pretty(self)
-            .map_err(|error| Fault::new(SUMMARY, error, "report this as a bug"))?;
+        let json = serde_json::to_string_pretty(self).map_err(|error| Fault::bug(SUMMARY, error))?;
         Ok(json + "\n")
     }
 

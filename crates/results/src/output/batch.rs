@@ -78,5 +78,5 @@ impl BatchSender {
 
 /// The fault of a writer thread that ended without a reason.
 pub(super) fn broke_off() -> Fault {
-    Fault::new("a writer thread", "stopped early", "report this as a bug")
+    Fault::bug("a writer thread", "stopped early")
 }

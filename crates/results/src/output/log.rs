@@ -41,8 +41,7 @@ impl PageLog {
 
     /// Appends a batch.
     pub(super) fn write(&mut self, batch: &Batch) -> Result<(), Fault> {
-        let bytes = postcard::to_allocvec(batch)
-            .map_err(|error| Fault::new(self.path.display(), error, "report this as a bug"))?;
+        let bytes = postcard::to_allocvec(batch).map_err(|error| Fault::bug(self.path.display(), error))?;
         self.buffer.extend((bytes.len() as u32).to_le_bytes());
         self.buffer.extend(xxh3_64(&bytes).to_le_bytes());
         self.buffer.extend(bytes);

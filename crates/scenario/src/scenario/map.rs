@@ -6,7 +6,7 @@ use laneweave_maps::{Map, MapError, ReadOptions, Size, lanelet2, load};
 use laneweave_network::DrivingSide;
 
 use super::{MapOptions, Origin, Scenario};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 
 /// Reads the map of a scenario.
 ///
@@ -69,7 +69,11 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
     let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "correct the map"));
     let file = path.display();
     let named_at = origin.in_file(&["map"]);
-    match (error, line, named_at) {
+    let kind = match error {
+        MapError::Missing => FaultKind::NotFound,
+        _ => FaultKind::Map,
+    };
+    let fault = match (error, line, named_at) {
         (_, Some(line), _) => Fault::new(format!("{file}:{line}"), what, remedy),
         (MapError::TooLarge { .. }, ..) => {
             let remedy = "split the map into smaller ones, or increase --max-map-size, at most 2GiB";
@@ -80,7 +84,8 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
             Fault::new(place, format!("map {file}: {what}"), remedy)
         }
         _ => Fault::new(file, what, remedy),
-    }
+    };
+    fault.of_kind(kind)
 }
 
 impl From<super::DrivingSide> for DrivingSide {

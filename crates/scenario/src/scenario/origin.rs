@@ -32,7 +32,19 @@ impl Origin {
         if path.extension().is_none_or(|it| it != "toml") {
             return Ok((Scenario::of_map(path.to_owned()), Origin::default()));
         }
-        let source = Source::read(path)?;
+        Origin::from_source(Source::read(path)?)
+    }
+
+    /// The scenario in a text. Its relative paths start in `folder`.
+    ///
+    /// # Errors
+    /// If the text is no scenario.
+    pub fn from_text(text: &str, folder: &Path) -> Result<(Scenario, Origin), Fault> {
+        Origin::from_source(Source { path: folder.join("scenario.toml"), text: text.into() })
+    }
+
+    fn from_source(source: Source) -> Result<(Scenario, Origin), Fault> {
+        let path = &source.path;
         if source.has_key("follow") && !source.has_key("map") {
             let what = "this is a driver style, but a scenario or a map is expected";
             let remedy = format!("run a map with it: laneweave run MAP --style {}=1", path.display());

@@ -21,7 +21,7 @@ use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
 use crate::replay::{Player, Recorded};
 use crate::script::Script;
-use crate::style::Population;
+use crate::style::{Population, StyleTemplate};
 
 /// Maximum of threads.
 const MOST_THREADS: usize = 256;
@@ -64,6 +64,8 @@ pub struct Prepared {
     pub capacity: Capacity,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
+    /// The styles from which the drivers are drawn, with their weights.
+    pub(super) mixture: Vec<(StyleTemplate, f64)>,
     /// Number of threads.
     pub threads: usize,
     /// Elements of the map that could not be used unchanged.
@@ -180,8 +182,7 @@ fn prepare_with(
         world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);
-    let world = guided(world.with_trip_log().warming_up(warmup_steps), scenario, origin)?;
-    let world = if scenario.run.audit { world.audited() } else { world };
+    let world = equipped(world, warmup_steps, scenario, origin)?;
     let capacity = capacity(&world);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
@@ -198,6 +199,7 @@ fn prepare_with(
         origins,
         capacity,
         styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
+        mixture,
         threads,
         problems: map.problems,
         remarks,
@@ -245,8 +247,15 @@ fn check_places(scenario: &Scenario, places: &Places) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The world with the guidance of `scenario`.
-fn guided(world: World, scenario: &Scenario, origin: &Origin) -> Result<World, Fault> {
+/// The world with its trip log, its warm-up, its audit and the guidance of `scenario`.
+pub(super) fn equipped(
+    world: World,
+    warmup_steps: u32,
+    scenario: &Scenario,
+    origin: &Origin,
+) -> Result<World, Fault> {
+    let world = world.with_trip_log().warming_up(warmup_steps);
+    let world = if scenario.run.audit { world.audited() } else { world };
     match scenario.guidance.interval_s {
         0.0 => Ok(world),
         interval => world.guided(interval).map_err(|error| {

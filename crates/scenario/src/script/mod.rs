@@ -79,6 +79,13 @@ impl Script {
         Script::default().with_commands(path, empty)
     }
 
+    /// The same script at its start, with another seed for the drivers of its recording.
+    pub(crate) fn restarted(&self, seed: u64) -> Script {
+        let player = self.player.as_ref().map(|it| Arc::new(it.with_seed(seed)));
+        let state = State::of(self.externals.len(), player.as_ref().map_or(0, |it| it.len()));
+        Script { player, state, ..self.clone() }
+    }
+
     /// The same script, which goes on with the recording of the script `before`, and knows the vehicles that it has
     /// inserted.
     #[must_use]

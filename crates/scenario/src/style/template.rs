@@ -93,8 +93,7 @@ impl StyleTemplate {
     /// None, as long as every model can be serialized.
     pub fn with_change(self, change: &LaneChangeModel) -> Result<StyleTemplate, Fault> {
         let StyleTemplate { mut table, mut parameters, typical, mut draws } = self;
-        let model = Table::try_from(change)
-            .map_err(|error| Fault::new(&typical.name, error, "report this as a bug"))?;
+        let model = Table::try_from(change).map_err(|error| Fault::bug(&typical.name, error))?;
         table.insert("change".into(), Value::Table(model));
         let is_other = |path: &[String]| path.first().is_none_or(|it| it != "change");
         parameters.retain(|it| is_other(&it.path));
@@ -152,8 +151,7 @@ impl StyleTemplate {
     fn with_values(&self, values: &[(&[String], Value)], place: &str) -> Result<StyleTemplate, Fault> {
         let mut table = self.table.clone();
         values.iter().try_for_each(|(path, value)| insert(&mut table, path, value.clone(), place))?;
-        let text =
-            toml::to_string(&table).map_err(|error| Fault::new(place, error, "report this as a bug"))?;
+        let text = toml::to_string(&table).map_err(|error| Fault::bug(place, error))?;
         let source = Source { path: self.typical.name.clone().into(), text };
         let changed =
             StyleTemplate::parse(&source).map_err(|fault| Fault { place: place.into(), ..fault })?;

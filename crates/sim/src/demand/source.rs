@@ -45,6 +45,8 @@ pub(crate) struct Source {
     headways: Headways,
     /// Arrival rate of each stream.
     rate: Rate,
+    /// The rate that a user has set, if one has [veh/h].
+    user_rate: Option<f64>,
     /// Streams of arrivals. Memoryless arrivals form one stream; others form one for each lane.
     streams: Vec<Stream>,
     /// The queues of its lanes, from the slow side to the fast side.
@@ -131,6 +133,7 @@ impl Source {
             let mut source = Source {
                 headways: demand.headways,
                 rate: origin.rate.times(&Rate::constant(1.0 / count as f64)),
+                user_rate: None,
                 streams: numbers.map(|number| Stream { number, arrived: 0, next: 0.0 }).collect(),
                 lanes,
                 destinations: destinations(network, navigator, origin),
@@ -150,7 +153,7 @@ impl Source {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Source { headways, rate: _, streams, lanes, destinations } = self;
+        let Source { headways, rate: _, user_rate: _, streams, lanes, destinations } = self;
         let arrival_fits =
             |it: &Arrival| (it.parameters as usize) < driver_parameters && is_known(it.destination);
         let queue_fits = |(one, other): (&Queue, &Queue)| {
@@ -169,9 +172,15 @@ impl Source {
             && lanes.iter().zip(&other.lanes).all(queue_fits)
     }
 
+    /// The rate that a user has set, if one has [veh/h].
+    pub(crate) fn user_rate(&self) -> Option<f64> {
+        self.user_rate
+    }
+
     /// Sets the rate at which vehicles arrive after `time` [s] to `rate` [veh/h]. The time of the next arrival is drawn
     /// anew.
     pub(crate) fn set_rate(&mut self, rate: f64, random: &Random, time: f64) {
+        self.user_rate = Some(rate);
         self.rate = Rate::constant(rate / self.streams.len() as f64);
         for stream in 0..self.streams.len() {
             self.streams[stream].next = time;

@@ -24,6 +24,8 @@ struct Shift {
     now: f64,
     /// By how much it shall be later [s].
     goal: f64,
+    /// The offset that was asked for [s].
+    offset: f64,
 }
 
 impl Shift {
@@ -46,7 +48,13 @@ impl Offsets {
         let before = self.plans.iter().position(|it| it.first == plan.first);
         let now = before.map_or(0.0, |it| self.plans.swap_remove(it).now).rem_euclid(cycle);
         let goal = now + (offset - plan.offset - now).rem_euclid(cycle);
-        self.plans.push(Shift { first: plan.first, now, goal });
+        self.plans.push(Shift { first: plan.first, now, goal, offset });
+    }
+
+    /// The offset that a plan has, or shall have [s].
+    pub(crate) fn of(&self, plan: InPlan) -> f64 {
+        let changed = self.plans.iter().find(|it| it.first == plan.first);
+        changed.map_or(plan.offset, |it| it.offset)
     }
 
     /// A step passes, which takes `dt` [s].

@@ -132,6 +132,16 @@ impl Signals {
         self.show(network, clock);
     }
 
+    /// What a user makes a light show, if a user does.
+    pub(crate) fn user_set(&self, light: LightIndex) -> Option<LightState> {
+        self.set.iter().find(|(it, _)| *it == light).map(|(_, state)| *state)
+    }
+
+    /// The offset of a plan; of one that comes to a new offset, the new one [s].
+    pub(crate) fn offset(&self, plan: InPlan) -> f64 {
+        self.offsets.of(plan)
+    }
+
     /// Gives the plan of a light, with cycles of this length [s], another offset [s]. Its phases take longer until it
     /// is there.
     pub(crate) fn set_offset(&mut self, plan: InPlan, cycle: f64, offset: f64) {

@@ -1,5 +1,7 @@
 //! The commands of users: those that wait for the next step, and those that were carried out in the last one.
 
+use std::mem::discriminant;
+
 use serde::{Deserialize, Serialize};
 
 use crate::state::command::{Command, Commanded};
@@ -19,6 +21,17 @@ impl Commands {
     /// Adds a command that waits for `step`, or that put the new vehicle `id` on the road before it.
     pub(crate) fn wait(&mut self, step: u32, vehicle: Option<VehicleId>, command: Command) {
         self.waiting.push(Commanded { step, vehicle, command });
+    }
+
+    /// Takes back the commands that wait and that `command` replaces: those of its kind for the same thing, and all for a
+    /// vehicle that is to be removed.
+    pub(crate) fn withdraw(&mut self, command: &Command) {
+        let Some(target) = command.target() else { return };
+        let is_all = matches!(command, Command::Remove(_));
+        self.waiting.retain(|it| {
+            let is_same_kind = discriminant(&it.command) == discriminant(command);
+            it.command.target().as_ref() != Some(&target) || !(is_all || is_same_kind)
+        });
     }
 
     /// The commands that wait for the next step.

@@ -15,12 +15,20 @@ pub(crate) struct DriverParameters {
     changes: ParameterChanges,
     /// With the changes.
     sets: Vec<Style>,
+    /// The number of the style of each set: styles are numbered as they first occur.
+    styles: Vec<u32>,
 }
 
 impl DriverParameters {
     /// Sets that no user has changed.
     pub(crate) fn new(given: Vec<Style>) -> DriverParameters {
-        DriverParameters { sets: given.clone(), changes: ParameterChanges::new(), given }
+        let styles = style_numbers(&given);
+        DriverParameters { sets: given.clone(), changes: ParameterChanges::new(), styles, given }
+    }
+
+    /// The number of the style of each set: styles are numbered as they first occur.
+    pub(crate) fn styles(&self) -> &[u32] {
+        &self.styles
     }
 
     /// The sets.
@@ -56,7 +64,7 @@ impl DriverParameters {
         let is_changed = |set: &&Style| changes.keys().any(|(name, _)| set.name == *name);
         match sets.iter().filter(is_changed).find_map(|it| it.change.flaw()) {
             Some(Flaw { what, remedy, .. }) => Err(format!("{what}; {remedy}")),
-            None => Ok(DriverParameters { given, changes, sets }),
+            None => Ok(DriverParameters { given, changes, sets, styles: self.styles.clone() }),
         }
     }
 
@@ -76,6 +84,22 @@ impl DriverParameters {
         }
         self.changes.insert((style.into(), parameter), value);
     }
+}
+
+/// The number of the style of each set.
+fn style_numbers(sets: &[Style]) -> Vec<u32> {
+    let mut names: Vec<&str> = Vec::new();
+    let mut numbers = Vec::with_capacity(sets.len());
+    for set in sets {
+        // The sets of a style mostly follow each other, so its name is among the last.
+        let known = names.iter().rposition(|it| *it == set.name);
+        let number = known.unwrap_or(names.len());
+        if number == names.len() {
+            names.push(&set.name);
+        }
+        numbers.push(number as u32);
+    }
+    numbers
 }
 
 /// What to do where `style` has no such number: those that it has in the same section.

@@ -5,7 +5,8 @@ use std::slice::Iter;
 
 use laneweave_network::{Chain, LaneletIndex};
 
-use crate::state::lane::{Kinematics, VehicleId};
+use crate::state::lane::{Kinematics, Phase, VehicleId};
+use crate::state::vehicle::Class;
 use crate::step::world::World;
 
 /// All vehicles of one instant as columns, with a row for each vehicle. The buffers are reused from call to call.
@@ -27,13 +28,37 @@ pub struct Columns {
     pub y_m: Vec<f64>,
     /// Headings, counter-clockwise from east [rad]. Only with poses, otherwise empty.
     pub heading_rad: Vec<f64>,
+    /// Heights of the centres on the map [m]. Only with poses, otherwise empty.
+    pub z_m: Vec<f64>,
+    /// Classes. Only with drivers, otherwise empty; as are all that follow.
+    pub class: Vec<Class>,
+    /// Styles of the drivers, as indices of the styles of the scenario.
+    pub style: Vec<u32>,
+    /// Destinations, by their smallest lanelet ids; `None` where the driver follows the road.
+    pub destination: Vec<Option<i64>>,
+    /// Lengths [m].
+    pub length_m: Vec<f64>,
+    /// Widths [m].
+    pub width_m: Vec<f64>,
+    /// Distances of the centres to the left of the centres of their lanes [m].
+    pub offset_m: Vec<f64>,
+    /// Phases of lane changes.
+    pub state: Vec<Phase>,
+    /// Whether users drive the vehicles.
+    pub is_external: Vec<bool>,
     has_poses: bool,
+    has_drivers: bool,
 }
 
 impl Columns {
     /// Empty columns, with those of the poses. A pose is a computation, the other columns are copies.
     pub fn with_poses() -> Columns {
         Columns { has_poses: true, ..Columns::default() }
+    }
+
+    /// Empty columns with all that a vehicle has: with poses, and with drivers.
+    pub fn complete() -> Columns {
+        Columns { has_poses: true, has_drivers: true, ..Columns::default() }
     }
 
     /// Number of vehicles.
@@ -145,6 +170,7 @@ impl World {
         }
         self.add_off_road(columns);
         self.poses(columns);
+        self.drivers(columns);
     }
 
     /// Adds the vehicles that users drive off the road.
@@ -162,15 +188,43 @@ impl World {
 
     /// Fills the columns of the poses, if they are wanted.
     fn poses(&self, columns: &mut Columns) {
-        let Columns { x_m, y_m, heading_rad, has_poses, .. } = columns;
+        let Columns { x_m, y_m, z_m, heading_rad, has_poses, .. } = columns;
         if !*has_poses {
             return;
         }
-        [&mut *x_m, &mut *y_m, &mut *heading_rad].into_iter().for_each(Vec::clear);
+        [&mut *x_m, &mut *y_m, &mut *z_m, &mut *heading_rad].into_iter().for_each(Vec::clear);
         for pose in self.vehicles().map(|it| it.pose()) {
             x_m.push(pose.at.x);
             y_m.push(pose.at.y);
+            z_m.push(pose.at.z);
             heading_rad.push(pose.heading);
+        }
+    }
+
+    /// Fills the columns of the drivers, if they are wanted.
+    fn drivers(&self, columns: &mut Columns) {
+        if !columns.has_drivers {
+            return;
+        }
+        let Columns { class, style, destination, length_m, width_m, offset_m, state, is_external, .. } =
+            columns;
+        class.clear();
+        style.clear();
+        destination.clear();
+        state.clear();
+        is_external.clear();
+        [&mut *length_m, &mut *width_m, &mut *offset_m].into_iter().for_each(Vec::clear);
+        let styles = self.roads.changed_parameters().styles();
+        for vehicle in self.vehicles() {
+            let [length, width] = vehicle.size();
+            class.push(vehicle.driver.class);
+            style.push(styles[vehicle.driver.parameters as usize]);
+            destination.push(vehicle.destination());
+            length_m.push(length);
+            width_m.push(width);
+            offset_m.push(vehicle.offset());
+            state.push(vehicle.driver.phase);
+            is_external.push(vehicle.driver.is_external);
         }
     }
 }

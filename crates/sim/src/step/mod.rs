@@ -28,6 +28,7 @@ pub(crate) mod relocate;
 pub(crate) mod reserve_on_entering;
 pub(crate) mod resolve;
 pub(crate) mod seal;
+pub(crate) mod settings;
 pub(crate) mod show_rears;
 pub(crate) mod switch_lights;
 pub(crate) mod take_off;

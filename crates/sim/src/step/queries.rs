@@ -19,7 +19,6 @@ use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
-use crate::state::control::Control;
 use crate::state::externals::External;
 use crate::state::lane::{Entry, VehicleId};
 use crate::state::moment::Moment;
@@ -203,11 +202,6 @@ impl World {
         let (clock, random) = (self.traffic.clock(), self.roads.random());
         let overtaking = self.roads.network().driving_side.overtaking();
         Some(intention(&self.scene(), Moment { clock, random, overtaking }, spot))
-    }
-
-    /// How a user drives a vehicle; [`Control::DRIVER`] if its driver does.
-    pub fn control_of(&self, id: VehicleId) -> Control {
-        self.traffic.externals().of(id).map_or(Control::DRIVER, |it| it.control)
     }
 
     /// The ids of the external vehicles, which users drive, in order.

@@ -95,4 +95,21 @@ impl Vehicle<'_> {
     pub fn style(&self) -> &Style {
         self.world.roads.style(self.driver.parameters)
     }
+
+    /// The number of its driver's style: styles are numbered as they first occur in the driver parameters.
+    pub fn style_number(&self) -> u32 {
+        self.world.roads.changed_parameters().styles()[self.driver.parameters as usize]
+    }
+
+    /// The smallest lanelet id of its destination. `None`: it follows the road.
+    pub fn destination(&self) -> Option<i64> {
+        let number = self.world.roads.navigator().number(self.driver.goal.destination())?;
+        Some(self.world.demand().destinations.get(number)?.id())
+    }
+
+    /// Distance of its centre to the left of the centre of its lane [m]; exactly 0 where it keeps its lane.
+    pub fn offset(&self) -> f64 {
+        let is_in_one_lane = !(self.driver.phase.is_between_lanes() || self.is_on_its_own_path());
+        if is_in_one_lane { 0.0 } else { self.lateral_offset() }
+    }
 }

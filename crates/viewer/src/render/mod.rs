@@ -85,5 +85,5 @@ fn picture(scene: &Scene, snapshot: &Snapshot, asked: Pictures) -> Result<Vec<u8
     draw::lights(&mut canvas, &sight, scene, snapshot);
     let vehicles: Vec<&Seen> = snapshot.vehicles.iter().filter(|it| sight.shows(it)).collect();
     vehicles.into_iter().for_each(|it| draw::vehicle(&mut canvas, &sight, it));
-    canvas.encode_png().map_err(|error| Fault::new("render", error, "report this as a bug"))
+    canvas.encode_png().map_err(|error| Fault::bug("render", error))
 }

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use laneweave::branch::Parting;
-use laneweave::network::LightIndex;
-use laneweave::scenario::{Origin, Prepared, Scenario, prepare_on, read_map};
-use laneweave::sim::{DriverState, Event, LaneChangeState, Vehicle, World};
-use laneweave::{Class, Fault, Phase, Side, VehicleId};
+use laneweave::scenario::{Origin, Scenario, read_map};
+use laneweave::sim::{DriverState, LaneChangeState, Vehicle};
+use laneweave::{Class, Event, Fault, Phase, Side, Simulation, VehicleId};
+
+use laneweave_studies::branch::Parting;
 
 use super::driver::{DriverFacts, desire};
 use super::lanes::Lanes;
@@ -23,18 +23,14 @@ const HOLDS: f64 = 0.1;
 
 /// A scenario in simulation, and what was noted of it for the page.
 pub(super) struct Driven {
-    pub(super) scenario: Scenario,
-    pub(super) origin: Origin,
-    pub(super) prepared: Prepared,
+    pub(super) simulation: Simulation,
     title: String,
     around: Surroundings,
     turns: Turns,
     noted: Noted,
-    /// The index of the style of each set of driver parameters.
-    style_of: Vec<u8>,
 }
 
-/// What was noted of the past of a world.
+/// What was noted of the past of a simulation.
 #[derive(Clone, Debug)]
 pub(super) struct Noted {
     lanes: Lanes,
@@ -44,26 +40,19 @@ pub(super) struct Noted {
 
 impl Driven {
     /// The scenario at its start.
-    pub(super) fn new(scenario: Scenario, origin: Origin) -> Result<Driven, Fault> {
-        let map = read_map(&scenario, &origin)?;
+    pub(super) fn new(scenario: &Scenario, origin: &Origin) -> Result<Driven, Fault> {
+        let map = read_map(scenario, origin)?;
         let around = Surroundings::of(&map);
-        let prepared = prepare_on(map, &scenario, &origin)?;
-        let noted = Noted { lanes: Lanes::of(prepared.world.network()), last_changes: HashMap::new() };
-        let turns = Turns::of(prepared.world.network());
+        let simulation = Simulation::from_scenario_on(map, scenario, origin)?;
+        let noted = Noted { lanes: Lanes::of(simulation.network()), last_changes: HashMap::new() };
+        let turns = Turns::of(simulation.network());
         let name = scenario.map.file_name().unwrap_or(scenario.map.as_os_str());
         let title = name.to_string_lossy().into_owned();
-        let style_of = Vec::new();
-        let mut driven = Driven { scenario, origin, prepared, title, around, turns, noted, style_of };
-        driven.know_styles();
-        Ok(driven)
-    }
-
-    pub(super) fn world(&self) -> &World {
-        &self.prepared.world
+        Ok(Driven { simulation, title, around, turns, noted })
     }
 
     pub(super) fn time_s(&self) -> f64 {
-        self.world().clock().time()
+        self.simulation.time_s()
     }
 
     pub(super) fn title(&self) -> String {
@@ -71,85 +60,54 @@ impl Driven {
     }
 
     pub(super) fn scene(&self) -> Scene {
-        Scene::new(&self.title, self.world().network(), &self.around)
+        Scene::new(&self.title, self.simulation.network(), &self.around)
     }
 
-    /// The same world in the same state, to be driven on without it.
+    /// The same traffic in the same state, to be driven on without it.
     pub(super) fn twin(&self) -> Result<Driven, Fault> {
-        let bug = |error: &dyn std::fmt::Display| Fault::new("twin", error, "report this as a bug");
-        let mut twin = Driven::new(self.scenario.clone(), self.origin.clone())?;
-        let saved = self.prepared.save().map_err(|error| bug(&error))?;
-        twin.prepared.restore(&saved).map_err(|error| bug(&error))?;
-        twin.follow(self);
+        let mut twin = Driven::new(self.simulation.scenario(), self.simulation.origin())?;
+        twin.simulation.restore(&self.simulation.save()?)?;
+        twin.noted.clone_from(&self.noted);
         Ok(twin)
     }
 
     /// Becomes what `base` is now, and the twin of it.
     pub(super) fn part(&mut self, base: &Driven, parting: &Parting) -> Result<(), Fault> {
-        parting.part(&base.prepared, &mut self.prepared)?;
-        self.follow(base);
+        parting.part(&base.simulation, &mut self.simulation)?;
+        self.noted.clone_from(&base.noted);
         Ok(())
     }
 
-    /// Knows what was noted of `other`, which has the same state.
-    fn follow(&mut self, other: &Driven) {
-        self.noted.clone_from(&other.noted);
-        self.know_styles();
-    }
-
-    /// Finds the style of each set of driver parameters.
-    fn know_styles(&mut self) {
-        let names = &self.prepared.styles;
-        let index = |name: &str| names.iter().position(|(it, _)| it == name).unwrap_or(0) as u8;
-        self.style_of = self.prepared.world.driver_parameters().iter().map(|it| index(&it.name)).collect();
-    }
-
     pub(super) fn styles(&self) -> Vec<StyleFacts> {
-        let world = self.world();
-        let drivers = world.driver_parameters();
-        let population = world.demand().population.iter().zip(world.style_weights());
-        let weight = |name: &str| {
-            let of_name = population.clone().filter(|(it, _)| drivers[it.first as usize].name == name);
-            of_name.map(|(_, weight)| weight).sum()
-        };
-        let styles = self.prepared.styles.iter();
-        styles.map(|(name, _)| StyleFacts::of(name, weight(name), drivers)).collect()
+        self.simulation.styles().into_iter().map(StyleFacts::from).collect()
     }
 
     pub(super) fn demand(&self) -> Vec<DemandFacts> {
-        let now = self.time_s();
-        let facts = |it: &laneweave::sim::Origin| DemandFacts {
-            origin: it.place.id().to_string(),
-            vehicles_per_hour: it.rate.at(now),
-        };
-        self.world().demand().origins.iter().map(facts).collect()
+        let origins = self.simulation.origins().into_iter();
+        origins
+            .map(|(id, vehicles_per_hour)| DemandFacts { origin: id.to_string(), vehicles_per_hour })
+            .collect()
     }
 
     /// Simulates a step, and notes what happened in it.
     pub(super) fn step(&mut self, marks: &mut Vec<Mark>) {
-        self.prepared.step();
-        let Driven { prepared: Prepared { world, .. }, noted: Noted { lanes, last_changes }, .. } = self;
-        for event in world.events() {
+        let events = self.simulation.step();
+        let Driven { simulation, noted: Noted { lanes, last_changes }, .. } = self;
+        for event in &events {
             match event {
-                Event::LaneChange(it) if it.is_completed => {
-                    last_changes.insert(it.vehicle, it.time);
-                    if let Some(lanelet) =
-                        world.network().lanelet_with(world.network().lanelet_at(it.from).0.id)
-                    {
-                        lanes.changed(lanelet.at());
-                    }
+                Event::LaneChange(change) if change.is_completed => {
+                    last_changes.insert(change.vehicle, change.time_s);
+                    let lanelet = simulation.network().lanelet_with(change.from_lanelet);
+                    lanelet.into_iter().for_each(|it| lanes.changed(it.at()));
                 }
-                Event::Left { vehicle, .. } | Event::Removed { vehicle, .. } => {
-                    last_changes.remove(vehicle);
+                Event::Completed { occurrence, .. } | Event::Removed(occurrence) => {
+                    last_changes.remove(&occurrence.vehicle);
                 }
                 _ => {}
             }
         }
-        marks::look(world, marks);
-        lanes.look(world);
-        if self.style_of.len() != self.world().driver_parameters().len() {
-            self.know_styles();
-        }
+        marks.extend(events.iter().filter_map(|it| marks::mark(it, simulation.network())));
+        lanes.look(simulation);
     }
 
     /// What was noted until now.
@@ -164,15 +122,13 @@ impl Driven {
 
     /// Adds what can be seen now.
     pub(super) fn see(&self, wants: &Wants, snapshot: &mut Snapshot) {
-        let world = self.world();
+        let simulation = &self.simulation;
         snapshot.time_s = self.time_s();
-        snapshot.waiting = world.waiting();
-        let scene = world.scene();
-        let lights = 0..world.network().junctions.lights.len() as u32;
-        snapshot.lights = lights.map(|it| scene.light(LightIndex(it))).collect();
-        snapshot.vehicles = world.vehicles().map(|it| self.seen(&it, wants)).collect();
+        snapshot.waiting = simulation.waiting_to_enter();
+        snapshot.lights = simulation.lights().into_iter().map(|it| it.state).collect();
+        snapshot.vehicles = simulation.views().map(|it| self.seen(&it, wants)).collect();
         for id in &wants.selected {
-            let vehicle = VehicleId::try_from(*id).ok().and_then(|it| world.vehicle(it));
+            let vehicle = VehicleId::try_from(*id).ok().and_then(|it| simulation.view(it));
             let facts = vehicle.and_then(|it| serde_json::to_string(&self.facts(&it)).ok());
             snapshot.drivers.extend(facts.map(|it| (*id, Arc::from(it))));
         }
@@ -183,11 +139,11 @@ impl Driven {
 
     /// Whether a vehicle of a replay moves as it was recorded.
     fn is_recorded(&self, vehicle: &Vehicle) -> bool {
-        self.scenario.replay.is_asked() && vehicle.is_on_its_own_path()
+        self.simulation.scenario().replay.is_asked() && vehicle.is_on_its_own_path()
     }
 
     fn facts(&self, vehicle: &Vehicle) -> DriverFacts {
-        let facts = DriverFacts::of(self.world(), vehicle);
+        let facts = DriverFacts::of(&self.simulation, vehicle);
         if self.is_recorded(vehicle) { facts.of_recorded() } else { facts }
     }
 
@@ -203,14 +159,15 @@ impl Driven {
             length,
             width,
             body: body(driver.class),
-            style: self.style_of.get(driver.parameters as usize).copied().unwrap_or_default(),
+            style: vehicle.style_number() as u8,
             phase: driver.phase as u8,
             is_braking: vehicle.motion.acceleration < BRAKES || vehicle.speed() < HOLDS,
-            signals: signals(driver, vehicle.lane_change).or_else(|| self.turns.side(self.world(), vehicle)),
+            signals: signals(driver, vehicle.lane_change)
+                .or_else(|| self.turns.side(&self.simulation, vehicle)),
             is_external: driver.is_external && !is_recorded,
             is_recorded,
             values: [
-                if is_desire_wanted { desire(self.world(), vehicle.spot) } else { 0 },
+                if is_desire_wanted { desire(&self.simulation, vehicle.id()) } else { 0 },
                 self.delay(vehicle),
                 self.since_change(vehicle.id()),
                 0,
@@ -220,7 +177,7 @@ impl Driven {
 
     /// The delay of a vehicle as the byte of a frame.
     fn delay(&self, vehicle: &Vehicle) -> u8 {
-        let Some(trip) = self.world().trip(vehicle.id()) else { return 0 };
+        let Some(trip) = self.simulation.trip(vehicle.id()) else { return 0 };
         let desired = f64::from(vehicle.driver.desired).max(1.0);
         let free = (trip.way_to_start + vehicle.x()) / desired;
         let lost = self.time_s() - trip.entered - free;
@@ -235,7 +192,7 @@ impl Driven {
 
     /// Where a vehicle is [m].
     pub(super) fn find(&self, id: i64) -> Option<[f64; 2]> {
-        let pose = self.world().vehicle(VehicleId::try_from(id).ok()?)?.pose();
+        let pose = self.simulation.view(VehicleId::try_from(id).ok()?)?.pose();
         Some([pose.at.x, pose.at.y])
     }
 }

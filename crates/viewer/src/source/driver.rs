@@ -1,9 +1,7 @@
 //! A driver in the words of `explain`, with the bars of its incentives.
 
-use laneweave::models::{Concentration, change::LaneChangeModel};
-use laneweave::network::Position;
-use laneweave::sim::{Account, Act, SideAccount, Spot, Vehicle, World};
-use laneweave::{Phase, explain};
+use laneweave::sim::Vehicle;
+use laneweave::{Decision, Phase, SideEvaluation, Simulation, VehicleId};
 use serde::Serialize;
 
 /// What is said of a vehicle.
@@ -55,7 +53,7 @@ pub(super) struct SideFacts {
 /// An incentive.
 #[derive(Clone, Debug, Serialize)]
 struct RowFacts {
-    name: &'static str,
+    name: String,
     #[serde(rename = "yield")]
     earning: f64,
     weight: f64,
@@ -63,37 +61,52 @@ struct RowFacts {
 }
 
 impl DriverFacts {
-    /// What is said of a vehicle of `world`.
-    pub(super) fn of(world: &World, vehicle: &Vehicle) -> DriverFacts {
-        let (network, driver, motion) = (world.network(), vehicle.driver, vehicle.motion);
-        let (lanelet, position_m) = network.lanelet_at(Position::new(vehicle.spot.chain, motion.x));
-        let (pose, [length_m, _]) = (vehicle.pose(), vehicle.size());
-        let number = world.scene().navigator.number(driver.goal.destination());
-        let destination = number.and_then(|it| world.demand().destinations.get(it)).map(|it| it.id());
-        let told = vehicle.is_in_lane().then(|| Told::of(world, vehicle.spot));
-        let Told { sides, gap_test, act, story, concentration, leader } = told.unwrap_or_default();
-        DriverFacts {
-            id: motion.id.to_string(),
+    /// What is said of a vehicle of `simulation`.
+    pub(super) fn of(simulation: &Simulation, vehicle: &Vehicle) -> DriverFacts {
+        let (id, driver) = (vehicle.id(), vehicle.driver);
+        let Some(state) = simulation.vehicle(id) else { return DriverFacts::default() };
+        let facts = DriverFacts {
+            id: id.to_string(),
             class: driver.class.body().name,
-            style: Some(vehicle.style().name.clone()),
+            style: Some(state.style),
             state: Some(driver.phase.name()),
             side: (driver.phase != Phase::Cruises).then(|| vehicle.lane_change.side.name()),
-            concentration,
-            speed_kmh: vehicle.speed() * 3.6,
+            speed_kmh: state.speed_mps * 3.6,
             desired_kmh: Some(f64::from(driver.desired) * 3.6),
-            acceleration_mps2: Some(f64::from(motion.acceleration)),
-            x: pose.at.x,
-            y: pose.at.y,
-            length_m,
-            lanelet: Some(lanelet.id.to_string()),
-            position_m: Some(position_m),
-            destination: destination.map(|it| it.to_string()),
-            is_external: driver.is_external,
+            acceleration_mps2: Some(state.acceleration_mps2),
+            x: state.x_m,
+            y: state.y_m,
+            length_m: state.length_m,
+            lanelet: Some(state.lanelet.to_string()),
+            position_m: Some(state.position_m),
+            destination: state.destination.map(|it| it.to_string()),
+            is_external: state.is_external,
+            ..DriverFacts::default()
+        };
+        facts.with_evaluation(simulation, id)
+    }
+
+    /// The same, with what the driver makes of its lanes, if it is in one.
+    fn with_evaluation(self, simulation: &Simulation, id: VehicleId) -> DriverFacts {
+        let Some(evaluation) = simulation.evaluate(id) else { return self };
+        let act = simulation.decision_in_words(id);
+        let is_about_a_gap = matches!(
+            evaluation.decision,
+            Decision::Waits { .. } | Decision::Goes { .. } | Decision::GivesUp { .. }
+        );
+        let leader = evaluation.leader.map(|it| LeaderFacts {
+            id: it.vehicle.to_string(),
+            gap_m: it.gap_m,
+            speed_kmh: it.speed_mps * 3.6,
+        });
+        DriverFacts {
+            concentration: Some(if evaluation.is_concentrated { "concentrated" } else { "inattentive" }),
             leader,
-            sides,
-            gap_test,
+            sides: evaluation.sides.iter().map(SideFacts::of).collect(),
+            gap_test: act.clone().filter(|_| is_about_a_gap),
             act,
-            story,
+            story: simulation.explain(id),
+            ..self
         }
     }
 
@@ -107,69 +120,34 @@ impl DriverFacts {
     }
 }
 
-/// What the driver at a spot makes of its lanes.
-#[derive(Default)]
-struct Told {
-    sides: Vec<SideFacts>,
-    gap_test: Option<String>,
-    act: Option<String>,
-    story: Option<String>,
-    concentration: Option<&'static str>,
-    leader: Option<LeaderFacts>,
-}
-
-impl Told {
-    fn of(world: &World, spot: Spot) -> Told {
-        let account = laneweave::sim::explain(world, spot);
-        let act = explain::act(&account);
-        let waits = matches!(account.act, Act::Waits(..) | Act::Goes(_) | Act::GivesUp(_));
-        Told {
-            sides: account.sides.iter().flatten().map(|it| side(&account, it)).collect(),
-            gap_test: waits.then(|| act.clone()),
-            act: Some(act),
-            story: explain::now(world, account.vehicle),
-            concentration: Some(match account.state {
-                Concentration::Concentrated => "concentrated",
-                Concentration::Inattentive => "inattentive",
-            }),
-            leader: leader(world, spot),
+impl SideFacts {
+    fn of(side: &SideEvaluation) -> SideFacts {
+        let rows = side.reasons.iter().filter(|it| it.weight != 0.0).map(|it| RowFacts {
+            name: it.incentive.to_string(),
+            earning: it.earning,
+            weight: it.weight,
+            product: it.contribution(),
+        });
+        SideFacts {
+            side: side.side.name(),
+            gain: side.utility,
+            threshold: side.threshold,
+            probability: side.probability,
+            is_out_of_question: !side.is_considered,
+            rows: rows.collect(),
         }
     }
 }
 
-fn leader(world: &World, spot: Spot) -> Option<LeaderFacts> {
-    let scene = world.scene();
-    let from = scene.viewpoint(spot);
-    let ahead = scene.ahead(from)?;
-    let leader = scene.motion(scene.leader_spot(from)?);
-    Some(LeaderFacts { id: leader.id.to_string(), gap_m: ahead.gap, speed_kmh: ahead.speed * 3.6 })
-}
-
-fn side(account: &Account, it: &SideAccount) -> SideFacts {
-    let named = it.appraisal.rows.iter().zip(account.change.row_names());
-    let rows = named.filter(|(row, name)| !name.is_empty() && row.weight != 0.0).map(|(row, name)| {
-        RowFacts { name, earning: row.earning, weight: row.weight, product: row.weight * row.earning }
-    });
-    SideFacts {
-        side: it.side.name(),
-        gain: Some(it.appraisal.gain).filter(|it| it.is_finite()),
-        threshold: it.appraisal.theta,
-        probability: it.chance,
-        is_out_of_question: it.is_out_of_question,
-        rows: rows.collect(),
-    }
-}
-
-/// The desire of the driver at a spot, as the byte of a frame: 128 + 127 tanh(G/θ) of the better side; 0 where no
-/// change is allowed.
-pub(super) fn desire(world: &World, spot: Spot) -> u8 {
+/// The desire of the driver of a vehicle, as the byte of a frame: 128 + 127 tanh(G/θ) of the better side; 0 where no
+/// change is allowed, or the driver has no reasons.
+pub(super) fn desire(simulation: &Simulation, id: VehicleId) -> u8 {
     /// A threshold that is smaller counts as this: G would have no scale.
     const LEAST_THRESHOLD: f64 = 1e-6;
-    let account = laneweave::sim::explain(world, spot);
-    if matches!(&*account.change, LaneChangeModel::ConstantHazard(_)) {
-        return 0;
-    }
-    let sides = account.sides.iter().flatten().map(|it| &it.appraisal);
-    let relative = sides.map(|it| it.gain / it.theta.abs().max(LEAST_THRESHOLD)).reduce(f64::max);
-    relative.map_or(0, |it| (128.0 + 127.0 * it.tanh()).round() as u8)
+    let Some(evaluation) = simulation.evaluate(id) else { return 0 };
+    let relative = |side: &SideEvaluation| {
+        side.utility.unwrap_or(f64::NEG_INFINITY) / side.threshold.abs().max(LEAST_THRESHOLD)
+    };
+    let sides = evaluation.sides.iter().filter(|it| !it.reasons.is_empty());
+    sides.map(relative).reduce(f64::max).map_or(0, |it| (128.0 + 127.0 * it.tanh()).round() as u8)
 }

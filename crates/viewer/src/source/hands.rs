@@ -3,9 +3,9 @@
 use std::time::Instant;
 
 use laneweave::network::{LaneletIndex, Network, Point};
-use laneweave::sim::{Command, World};
+use laneweave::sim::{Command, Target};
 use laneweave::{
-    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, VehicleId,
+    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, Simulation,
 };
 use serde::{Deserialize, Serialize};
 
@@ -133,51 +133,32 @@ pub struct Hands {
 }
 
 impl Hand {
-    /// What a command sets, if it is something that stays until it is set again.
-    pub(super) fn setting(command: &Command) -> Option<Hand> {
-        Some(match command {
-            Command::SetParameter { style, parameter, value } => {
-                Hand::SetParameter { style: style.clone(), parameter: *parameter, value: *value }
+    /// What is set of `target` now, if it is something that stays until it is set again.
+    pub(super) fn setting(target: &Target, simulation: &Simulation) -> Option<Hand> {
+        Some(match target {
+            Target::Parameter(style, parameter) => Hand::SetParameter {
+                style: style.clone(),
+                parameter: *parameter,
+                value: simulation.parameter(style, *parameter)?,
+            },
+            Target::Style(style) => Hand::SetShare { style: style.clone(), weight: simulation.share(style)? },
+            Target::Origin(origin) => Hand::SetDemand {
+                origin: origin.to_string(),
+                vehicles_per_hour: simulation.demand_at(*origin)?,
+            },
+            Target::Light(light) => {
+                Hand::SetLight { light: light.to_string(), shows: simulation.light_override(*light)? }
             }
-            Command::SetShare { style, weight } => Hand::SetShare { style: style.clone(), weight: *weight },
-            Command::SetDemand { origin, vehicles_per_hour } => {
-                let origin = origin.to_string();
-                Hand::SetDemand { origin, vehicles_per_hour: *vehicles_per_hour }
+            Target::Plan(light) => {
+                Hand::SetOffset { light: light.to_string(), offset_s: simulation.offset(*light)? }
             }
-            Command::SetLight { light, shows } => Hand::SetLight { light: light.to_string(), shows: *shows },
-            Command::SetOffset { light, offset_s } => {
-                Hand::SetOffset { light: light.to_string(), offset_s: *offset_s }
-            }
-            Command::CloseLanelet { lanelet, is_closed } => {
-                Hand::CloseLanelet { lanelet: lanelet.to_string(), is_closed: *is_closed }
-            }
-            _ => return None,
+            Target::Lanelet(lanelet) => Hand::CloseLanelet {
+                lanelet: lanelet.to_string(),
+                is_closed: simulation.is_closed(*lanelet)?,
+            },
+            Target::Vehicle(_) => return None,
         })
     }
-}
-
-/// What can be changed, as it is after all that was done by hand.
-pub(super) trait Present {
-    /// The value of a number of a style.
-    fn parameter(&self, style: &str, parameter: Parameter) -> Option<f64>;
-
-    /// What a user lets a vehicle do.
-    fn control(&self, vehicle: VehicleId) -> Control;
-
-    /// The style of the driver of a vehicle, if that is on the road.
-    fn style_of(&self, vehicle: VehicleId) -> Option<String>;
-
-    /// The weight of a style.
-    fn share(&self, style: &str) -> Option<f64>;
-
-    /// The demand at an entrance [veh/h].
-    fn demand(&self, origin: i64) -> Option<f64>;
-
-    /// What a user makes a light show.
-    fn light(&self, light: i64) -> Option<LightState>;
-
-    /// The offset of the plan of a light [s].
-    fn offset(&self, light: i64) -> Option<f64>;
 }
 
 /// The commands of something done by hand: what is done, what takes it back, and what it is called.
@@ -198,8 +179,8 @@ fn id(text: &str) -> Result<i64, Fault> {
 }
 
 impl Deed {
-    /// What `hand` means in `world`; `now` knows what can be changed as it is now.
-    pub(super) fn of(hand: &Hand, world: &World, now: &impl Present) -> Result<Deed, Fault> {
+    /// What `hand` means for the traffic as it is `now`.
+    pub(super) fn of(hand: &Hand, now: &Simulation) -> Result<Deed, Fault> {
         Ok(match hand {
             Hand::SetParameter { style, parameter, value: new } => {
                 let set =
@@ -212,7 +193,7 @@ impl Deed {
             Hand::SetDemand { origin, vehicles_per_hour } => {
                 let origin = id(origin)?;
                 let set = |vehicles_per_hour| Command::SetDemand { origin, vehicles_per_hour };
-                let old = now.demand(origin);
+                let old = now.demand_at(origin);
                 let demand = format!("{} veh/h", short(*vehicles_per_hour));
                 let text = [format!("demand at entrance {origin} to "), demand];
                 Deed { command: set(*vehicles_per_hour), back: old.map(set), text }
@@ -232,7 +213,7 @@ impl Deed {
                     None => "as its program says",
                 };
                 let text = [format!("light {light}: "), state.to_owned()];
-                Deed { command: set(*shows), back: Some(set(now.light(light))), text }
+                Deed { command: set(*shows), back: Some(set(now.light_override(light).flatten())), text }
             }
             Hand::SetOffset { light, offset_s } => {
                 let light = id(light)?;
@@ -250,22 +231,22 @@ impl Deed {
                     text: [format!("lanelet {lanelet}: "), what.to_owned()],
                 }
             }
-            Hand::Put { x, y, class } => put(world, [*x, *y], *class)?,
+            Hand::Put { x, y, class } => put(now, [*x, *y], *class)?,
             Hand::Drive { .. } | Hand::SetStyle { .. } | Hand::Remove { .. } => Deed::of_vehicle(hand, now)?,
         })
     }
 
     /// The same for something done to one vehicle.
-    fn of_vehicle(hand: &Hand, now: &impl Present) -> Result<Deed, Fault> {
+    fn of_vehicle(hand: &Hand, now: &Simulation) -> Result<Deed, Fault> {
         let named = match hand {
             Hand::Drive { vehicle, .. } | Hand::SetStyle { vehicle, .. } | Hand::Remove { vehicle } => {
                 vehicle
             }
-            _ => return Err(fault("this concerns no vehicle", "report this as a bug")),
+            _ => return Err(Fault::bug("by hand", "this concerns no vehicle")),
         };
         let gone = || fault(format!("vehicle {named} is not on the road"), "choose one that is");
         let vehicle = named.parse().map_err(|_| gone())?;
-        let style_now = now.style_of(vehicle).ok_or_else(gone)?;
+        let style_now = now.style_of(vehicle).ok_or_else(gone)?.to_owned();
         let text = |how: String| [format!("vehicle {vehicle}: "), how];
         Ok(match hand {
             Hand::Drive { speed_kmh, side, .. } => {
@@ -273,7 +254,7 @@ impl Deed {
                     DriveSide::Left => Side::Left,
                     DriveSide::Right => Side::Right,
                 });
-                let lateral = match (side, now.control(vehicle)) {
+                let lateral = match (side, now.control_of(vehicle)) {
                     (Some(side), _) => Lateral::Change(side),
                     // A change that was asked for goes on at another speed.
                     (None, Control::Drive { lateral: asked @ Lateral::Change(_), .. }) => asked,
@@ -288,7 +269,7 @@ impl Deed {
                     }
                     (Some(speed), None) => format!("{} km/h", short(*speed)),
                 };
-                let back = Command::Control(vehicle, now.control(vehicle));
+                let back = Command::Control(vehicle, now.control_of(vehicle));
                 Deed { command: Command::Control(vehicle, control), back: Some(back), text: text(how) }
             }
             Hand::SetStyle { style, .. } => Deed {
@@ -307,19 +288,19 @@ impl Deed {
 
 /// A new vehicle on the lane nearest to a point. It drives as fast as the limit allows, but no faster than the
 /// vehicle ahead.
-fn put(world: &World, [x, y]: [f64; 2], class: Class) -> Result<Deed, Fault> {
-    let network = world.network();
+fn put(simulation: &Simulation, [x, y]: [f64; 2], class: Class) -> Result<Deed, Fault> {
+    let network = simulation.network();
     let (index, position_m) = nearest(network, &Point { x, y, z: 0.0 })
         .ok_or_else(|| fault("there is no lane", "put the vehicle on a lane"))?;
     let lanelet = &network.lanelets[index.at()];
     let at = network.start_of(index);
-    let ahead = world
+    let ahead = simulation
         .scene()
         .motions(at.chain)
         .iter()
         .find(|it| it.x > at.x + position_m)
         .map_or(f64::INFINITY, |it| it.speed);
-    let style = world.driver_parameters().first().map_or_else(String::new, |it| it.name.clone());
+    let style = simulation.driver_parameters().first().map_or_else(String::new, |it| it.name.clone());
     let speed_mps = lanelet.speed_limit.min(ahead).min(class.body().top_speed);
     let vehicle = NewVehicle { lanelet: lanelet.id, position_m, speed_mps, class, style, destination: None };
     let text = [format!("a {} ", class.body().name), format!("on lanelet {}", lanelet.id)];

@@ -1,8 +1,7 @@
 //! What the lanelets carry: density, speed, flow and lane changes of about the last minute.
 
-use laneweave::Columns;
 use laneweave::network::Network;
-use laneweave::sim::World;
+use laneweave::{Columns, Simulation};
 
 /// What was seen a time ago counts e times less after this time [s].
 const MEMORY: f64 = 60.0;
@@ -39,9 +38,9 @@ impl Lanes {
         Lanes { lengths, sums, time: 0.0, columns: Columns::default() }
     }
 
-    /// Looks at the world once a second.
-    pub(super) fn look(&mut self, world: &World) {
-        if !world.clock().begins_a_second() {
+    /// Looks at the traffic once a second.
+    pub(super) fn look(&mut self, simulation: &Simulation) {
+        if !simulation.clock().begins_a_second() {
             return;
         }
         let less = (-INTERVAL / MEMORY).exp();
@@ -51,7 +50,7 @@ impl Lanes {
             *distance *= less;
             *changes *= less;
         }
-        world.columns(&mut self.columns);
+        simulation.columns(&mut self.columns);
         for (lanelet, speed) in self.columns.lanelet.iter().zip(&self.columns.speed_mps) {
             let sums = &mut self.sums[*lanelet as usize];
             sums.time += INTERVAL;

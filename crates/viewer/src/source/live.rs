@@ -1,20 +1,20 @@
 //! A simulation that runs now, and that a user changes by hand.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::mem::discriminant;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use laneweave::scenario::{Origin, Scenario};
-use laneweave::sim::{Command, Commanded};
-use laneweave::{Control, Fault, Lateral, LightState, Longitudinal, Parameter, VehicleId, refused};
+use laneweave::sim::{Command, Commanded, Target};
+use laneweave::{Control, Fault, Lateral, Longitudinal, NewVehicle, VehicleId};
 
 use super::driven::Driven;
 use super::ghosts;
-use super::hands::{Deed, Done, Hand, Hands, Present};
+use super::hands::{Deed, Done, Hand, Hands};
 use super::saved::{Saved, save};
-use super::{Abilities, DemandFacts, Hello, Kind, Mark, Marks, Source, StyleFacts, TwinFacts, Wants};
+use super::{Abilities, Hello, Kind, Mark, Marks, Source, TwinFacts, Wants};
 use crate::scene::Scene;
 use crate::snapshot::Snapshot;
 
@@ -24,10 +24,10 @@ const ONE_ACT: Duration = Duration::from_secs(1);
 /// A simulation that runs now. It never ends.
 pub struct Live {
     driven: Driven,
-    /// Commands for the next step, at most one of a kind for a thing.
-    pending: Vec<Command>,
     /// Something was done by hand since the last step.
     waits: bool,
+    /// What was set, by hand or by the scenario.
+    touched: BTreeSet<Target>,
     /// All commands that were carried out.
     given: Vec<Commanded>,
     done: Vec<Done>,
@@ -44,43 +44,23 @@ impl Live {
     ///
     /// # Errors
     /// If something is missing, not readable, or invalid.
-    pub fn new(scenario: Scenario, origin: Origin, dir: PathBuf) -> Result<Live, Fault> {
+    pub fn new(scenario: &Scenario, origin: &Origin, dir: PathBuf) -> Result<Live, Fault> {
         let driven = Driven::new(scenario, origin)?;
-        let (pending, given, done) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Live { driven, pending, waits: false, given, done, has_news: false, twin: None, dir })
+        let (touched, given, done) = (BTreeSet::new(), Vec::new(), Vec::new());
+        Ok(Live { driven, waits: false, touched, given, done, has_news: false, twin: None, dir })
     }
 
-    /// The last command that `found` knows, of those for the next step and those before it.
-    fn last<T>(&self, found: impl Fn(&Command) -> Option<T>) -> Option<T> {
-        let given = self.given.iter().map(|it| &it.command);
-        given.chain(&self.pending).rev().find_map(found)
-    }
-
-    fn style(&self, name: &str) -> Option<StyleFacts> {
-        self.driven.styles().into_iter().find(|it| it.name == name)
-    }
-
-    /// The demand of each entrance.
-    fn demand_now(&self) -> Vec<DemandFacts> {
-        let mut facts = self.driven.demand();
-        for it in &mut facts {
-            let now = it.origin.parse().ok().and_then(|origin| self.demand(origin));
-            it.vehicles_per_hour = now.unwrap_or(it.vehicles_per_hour);
-        }
-        facts
-    }
-
-    /// Gives a command before the next step, in place of one of the same kind for the same thing. A vehicle that is
-    /// taken off the road does nothing else.
-    fn give(&mut self, command: Command) -> Result<(), Fault> {
-        let checked = self.driven.world().check_content(&command);
-        checked.map_err(|error| refused("by hand", &error))?;
-        if !self.is_possible(&command) {
+    /// Gives a command before the next step, in place of those that wait and contradict it.
+    fn give(&mut self, command: &Command) -> Result<(), Fault> {
+        let leaving = command.vehicle().is_some_and(|it| self.driven.simulation.is_leaving(it));
+        if leaving && !matches!(command, Command::Remove(_)) {
             return Err(Fault::new("by hand", "it is being taken off the road", "choose another vehicle"));
         }
-        let leaves = matches!(command, Command::Remove(_));
-        self.pending.retain(|it| !(is_same(it, &command) || leaves && it.target() == command.target()));
-        self.pending.push(command);
+        self.driven
+            .simulation
+            .replace(command.clone())
+            .map_err(|fault| Fault { place: "by hand".into(), ..fault })?;
+        self.touched.extend(command.target());
         self.waits = true;
         Ok(())
     }
@@ -90,7 +70,7 @@ impl Live {
         let changes = |it| matches!(it, Control::Drive { lateral: Lateral::Change(_), .. });
         match back {
             Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Change(_) })
-                if !changes(self.control(id)) =>
+                if !changes(self.driven.simulation.control_of(id)) =>
             {
                 Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Keep })
             }
@@ -101,27 +81,16 @@ impl Live {
     /// Whether the vehicle that a command concerns, if it concerns one, is there and stays there.
     fn is_possible(&self, command: &Command) -> bool {
         let Some(id) = command.vehicle() else { return true };
-        self.driven.world().vehicle(id).is_some() && !self.pending.contains(&Command::Remove(id))
-    }
-
-    /// A command was refused when it should have been carried out: it was not done, or what it should take back stays.
-    fn was_refused(&mut self, command: &Command) {
-        let concerns = |it: &&mut Done| {
-            if it.is_undone { it.back.as_ref() == Some(command) } else { it.command == *command }
-        };
-        self.done.iter_mut().rev().find(concerns).into_iter().for_each(|it| it.is_undone = !it.is_undone);
+        let simulation = &self.driven.simulation;
+        simulation.view(id).is_some() && !simulation.is_leaving(id)
     }
 
     /// Puts a vehicle on the road, and keeps its speed.
-    fn insert(&mut self, command: &Command) -> Result<VehicleId, Fault> {
-        let inserted = self.driven.prepared.world.command(command.clone());
-        let id = inserted.map_err(|error| refused("by hand", &error))?;
-        let id =
-            id.ok_or_else(|| Fault::new("by hand", "the new vehicle has no id", "report this as a bug"))?;
-        if let Command::Insert(vehicle) = command {
-            let longitudinal = Longitudinal::Speed(vehicle.speed_mps);
-            self.give(Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Keep }))?;
-        }
+    fn insert(&mut self, vehicle: &NewVehicle) -> Result<VehicleId, Fault> {
+        let inserted = self.driven.simulation.insert(vehicle.clone());
+        let id = inserted.map_err(|fault| Fault { place: "by hand".into(), ..fault })?;
+        let longitudinal = Longitudinal::Speed(vehicle.speed_mps);
+        self.give(&Command::Control(id, Control::Drive { longitudinal, lateral: Lateral::Keep }))?;
         Ok(id)
     }
 
@@ -139,88 +108,13 @@ impl Live {
         self.done.push(Done { number, time_s, text, is_undone: false, to_what, command, back, at });
     }
 
-    /// What is set by commands, as it is now.
+    /// What was set, as it is now.
     fn set(&self) -> Vec<Hand> {
-        let mut set = BTreeMap::new();
-        for command in self.given.iter().map(|it| &it.command).chain(&self.pending) {
-            if let (Some(hand), Some(target)) = (Hand::setting(command), command.target()) {
-                set.insert(target, hand);
-            }
-        }
-        set.into_values().collect()
+        self.touched.iter().filter_map(|it| Hand::setting(it, &self.driven.simulation)).collect()
     }
 }
 
-impl Present for Live {
-    fn parameter(&self, style: &str, parameter: Parameter) -> Option<f64> {
-        let set = self.last(|it| match it {
-            Command::SetParameter { style: of, parameter: number, value } => {
-                (of == style && *number == parameter).then_some(*value)
-            }
-            _ => None,
-        });
-        set.or_else(|| self.style(style)?.value(parameter))
-    }
-
-    fn share(&self, style: &str) -> Option<f64> {
-        let set = self.last(|it| match it {
-            Command::SetShare { style: of, weight } => (of == style).then_some(*weight),
-            _ => None,
-        });
-        set.or_else(|| Some(self.style(style)?.weight))
-    }
-
-    fn demand(&self, origin: i64) -> Option<f64> {
-        let set = self.last(|it| match it {
-            Command::SetDemand { origin: of, vehicles_per_hour } => {
-                (*of == origin).then_some(*vehicles_per_hour)
-            }
-            _ => None,
-        });
-        let name = origin.to_string();
-        let planned = || self.driven.demand().into_iter().find(|it| it.origin == name);
-        set.or_else(|| Some(planned()?.vehicles_per_hour))
-    }
-
-    fn control(&self, vehicle: VehicleId) -> Control {
-        let waiting = self.pending.iter().find_map(|it| match it {
-            Command::Control(of, control) => (*of == vehicle).then_some(*control),
-            _ => None,
-        });
-        waiting.unwrap_or_else(|| self.driven.world().control_of(vehicle))
-    }
-
-    fn style_of(&self, vehicle: VehicleId) -> Option<String> {
-        let now = self.driven.world().vehicle(vehicle)?;
-        let waiting = self.pending.iter().find_map(|it| match it {
-            Command::SetStyle(of, style) => (*of == vehicle).then_some(style),
-            _ => None,
-        });
-        Some(waiting.unwrap_or(&now.style().name).clone())
-    }
-
-    fn light(&self, light: i64) -> Option<LightState> {
-        self.last(|it| match it {
-            Command::SetLight { light: of, shows } => (*of == light).then_some(*shows),
-            _ => None,
-        })?
-    }
-
-    fn offset(&self, light: i64) -> Option<f64> {
-        let lights = &self.driven.world().network().junctions.lights;
-        let plan = |id: i64| lights.iter().find(|it| it.id == id)?.plan;
-        let of_light = plan(light)?;
-        let set = self.last(|it| match it {
-            Command::SetOffset { light: of, offset_s } => {
-                plan(*of).is_some_and(|it| it.first == of_light.first).then_some(*offset_s)
-            }
-            _ => None,
-        });
-        Some(set.unwrap_or(of_light.offset))
-    }
-}
-
-/// Whether a world takes only one of the two in a step.
+/// Whether the two are of one kind and concern the same thing.
 fn is_same(a: &Command, b: &Command) -> bool {
     a.target().is_some() && a.target() == b.target() && discriminant(a) == discriminant(b)
 }
@@ -241,12 +135,12 @@ impl Source for Live {
             end_s: None,
             can: Abilities { hands: true, seek: false, explain: true, twin: true },
             styles: self.driven.styles(),
-            demand: self.demand_now(),
+            demand: self.driven.demand(),
         }
     }
 
     fn step_s(&self) -> f64 {
-        self.driven.scenario.run.step_s
+        self.driven.simulation.step_s()
     }
 
     fn time_s(&self) -> f64 {
@@ -255,20 +149,16 @@ impl Source for Live {
 
     fn step(&mut self, marks: &mut Vec<Mark>) -> Result<(), Fault> {
         self.waits = false;
-        let mut failed = None;
-        for command in std::mem::take(&mut self.pending) {
-            if let Err(error) = self.driven.prepared.world.command(command.clone()) {
-                self.was_refused(&command);
-                failed = Some(refused("by hand", &error));
-            }
-        }
         self.driven.step(marks);
         self.twin.iter_mut().for_each(|(_, it)| it.step(&mut Vec::new()));
-        let given = self.driven.world().commands();
         // The scenario may have commands of its own.
-        self.has_news |= failed.is_some() || given.iter().any(|it| Hand::setting(&it.command).is_some());
+        let given = self.driven.simulation.commands();
+        let targets = given.iter().filter_map(|it| it.command.target());
+        let settings: Vec<Target> = targets.filter(|it| !matches!(it, Target::Vehicle(_))).collect();
+        self.has_news |= !settings.is_empty();
+        self.touched.extend(settings);
         self.given.extend_from_slice(given);
-        failed.map_or(Ok(()), Err)
+        Ok(())
     }
 
     fn has_ended(&self) -> bool {
@@ -294,13 +184,13 @@ impl Source for Live {
     }
 
     fn hand(&mut self, hand: &Hand) -> Result<Option<VehicleId>, Fault> {
-        let Deed { command, back, text } = Deed::of(hand, self.driven.world(), self)?;
-        if let Command::Insert(_) = command {
-            let id = self.insert(&command)?;
+        let Deed { command, back, text } = Deed::of(hand, &self.driven.simulation)?;
+        if let Command::Insert(vehicle) = &command {
+            let id = self.insert(vehicle)?;
             self.note(command, Some(Command::Remove(id)), text);
             return Ok(Some(id));
         }
-        self.give(command.clone())?;
+        self.give(&command)?;
         self.note(command, back, text);
         Ok(None)
     }
@@ -321,7 +211,7 @@ impl Source for Live {
                 }
             });
         };
-        self.give(self.without_old_change(back))?;
+        self.give(&self.without_old_change(back))?;
         self.done[index].is_undone = true;
         self.has_news = true;
         Ok(())
@@ -346,11 +236,11 @@ impl Source for Live {
     }
 
     fn save(&self) -> Result<Saved, Fault> {
-        let Driven { scenario, origin, .. } = &self.driven;
-        save(&self.dir, (scenario, origin), &self.given, self.driven.time_s())
+        let simulation = &self.driven.simulation;
+        save(&self.dir, (simulation.scenario(), simulation.origin()), &self.given, simulation.time_s())
     }
 
     fn state_hash(&self) -> u64 {
-        self.driven.world().state_hash()
+        self.driven.simulation.state_hash()
     }
 }

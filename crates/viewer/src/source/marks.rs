@@ -1,41 +1,37 @@
-//! The marks of a world: what happened in its last step, with places on the map.
+//! Marks: what happened, with its place on the map.
 
-use laneweave::VehicleId;
-use laneweave::network::{Network, Position};
-use laneweave::sim::{DrivingEventKind, Event, World};
+use laneweave::network::Network;
+use laneweave::{Event, Occurrence, VehicleId};
 
 use super::{Mark, MarkKind};
 
-/// Adds what happened in the last step of `world`.
-pub(super) fn look(world: &World, marks: &mut Vec<Mark>) {
-    let network = world.network();
-    for event in world.events() {
-        marks.extend(match event {
-            Event::LaneChange(it) if it.is_completed => {
-                let mark = at(network, MarkKind::LaneChange, it.time, it.vehicle, it.to);
-                Some(Mark { side: Some(it.side.name()), text: Some(it.kind.name()), ..mark })
-            }
-            Event::Incident(it) => {
-                let [vehicle, other] = it.vehicles.map(|it| it.to_string());
-                let (kind, time_s) = (MarkKind::Collision, it.time);
-                let [x, y] = [it.at.x, it.at.y].map(round);
-                Some(Mark { kind, time_s, x, y, vehicle, other: Some(other), side: None, text: None })
-            }
-            Event::Driving(it) => match it.kind {
-                DrivingEventKind::EmergencyBraking => Some(MarkKind::EmergencyBraking),
-                DrivingEventKind::MissedTurn => Some(MarkKind::MissedTurn),
-                _ => None,
-            }
-            .map(|kind| at(network, kind, it.time, it.vehicle, it.at)),
-            _ => None,
-        });
+/// The mark of an event, if pages show one.
+pub(super) fn mark(event: &Event, network: &Network) -> Option<Mark> {
+    match event {
+        Event::LaneChange(change) if change.is_completed => {
+            let mark = at(MarkKind::LaneChange, change.time_s, change.vehicle, [change.x_m, change.y_m]);
+            Some(Mark { side: Some(change.side.name()), text: Some(change.kind.name()), ..mark })
+        }
+        Event::Incident(incident) => {
+            let [vehicle, other] = incident.vehicles;
+            let mark = at(MarkKind::Collision, incident.time_s, vehicle, [incident.x_m, incident.y_m]);
+            Some(Mark { other: Some(other.to_string()), ..mark })
+        }
+        Event::EmergencyBraking(it) => happened(MarkKind::EmergencyBraking, it, network),
+        Event::MissedTurn(it) => happened(MarkKind::MissedTurn, it, network),
+        _ => None,
     }
 }
 
-fn at(network: &Network, kind: MarkKind, time: f64, vehicle: VehicleId, position: Position) -> Mark {
-    let place = network.chain(position.chain).centre.at(position.x);
-    let (x, y) = (round(place.x), round(place.y));
-    Mark { kind, time_s: time, x, y, vehicle: vehicle.to_string(), other: None, side: None, text: None }
+fn happened(kind: MarkKind, it: &Occurrence, network: &Network) -> Option<Mark> {
+    let lanelet = &network.lanelets[network.lanelet_with(it.lanelet)?.at()];
+    let place = lanelet.centre.at(it.position_m);
+    Some(at(kind, it.time_s, it.vehicle, [place.x, place.y]))
+}
+
+fn at(kind: MarkKind, time_s: f64, vehicle: VehicleId, place: [f64; 2]) -> Mark {
+    let [x, y] = place.map(round);
+    Mark { kind, time_s, x, y, vehicle: vehicle.to_string(), other: None, side: None, text: None }
 }
 
 /// Coordinates of marks are told to a centimetre.

@@ -1,8 +1,8 @@
 //! A run that is driven again, and its twin with other settings, if it has one. Both are one up to where they part.
 
 use laneweave::Fault;
-use laneweave::branch::{Parting, Setting};
 use laneweave::record::Record;
+use laneweave_studies::branch::{Parting, Setting};
 
 use super::driven::{Driven, Noted};
 use super::{Mark, TwinFacts, Wants, ghosts};
@@ -34,12 +34,11 @@ struct Kept {
 
 impl Kept {
     fn of(driven: &Driven) -> Option<Kept> {
-        Some(Kept { world: driven.prepared.save().ok()?, noted: driven.noted() })
+        Some(Kept { world: driven.simulation.save().ok()?, noted: driven.noted() })
     }
 
     fn restore(&self, driven: &mut Driven) -> Result<(), Fault> {
-        let restored = driven.prepared.restore(&self.world);
-        restored.map_err(|error| Fault::new("seek", error, "report this as a bug"))?;
+        driven.simulation.restore(&self.world)?;
         driven.know(&self.noted);
         Ok(())
     }
@@ -61,8 +60,8 @@ struct Twin {
 impl Twin {
     /// The twin of `base`, which is at its start.
     fn new(record: &Record, Change { at, settings }: &Change, base: &Driven) -> Result<Twin, Fault> {
-        let parting = Parting::of(record, *at, settings, base.world())?;
-        let mut driven = Driven::new(record.scenario.clone(), record.origin.clone())?;
+        let parting = Parting::of(record, *at, settings, &base.simulation)?;
+        let mut driven = Driven::new(&record.scenario, &record.origin)?;
         // It has its drivers and commands from now on, so that it can go to any state after the parting.
         driven.part(base, &parting)?;
         let settings = settings.iter().map(|it| it.text().to_owned()).collect();
@@ -74,14 +73,14 @@ impl Twin {
 impl Pair {
     /// The run of `record` at its start, with a twin if there is a `change`.
     pub(super) fn new(record: &Record, change: Option<&Change>) -> Result<Pair, Fault> {
-        let base = Driven::new(record.scenario.clone(), record.origin.clone())?;
+        let base = Driven::new(&record.scenario, &record.origin)?;
         let twin = change.map(|it| Twin::new(record, it, &base)).transpose()?;
         Ok(Pair { base, twin })
     }
 
     /// Steps that were made.
     pub(super) fn steps(&self) -> u32 {
-        self.base.world().clock().step
+        self.base.simulation.clock().step
     }
 
     /// Simulates a step of both, and adds what happened in the run.
@@ -134,7 +133,7 @@ impl Pair {
 
     /// The hash of all vehicles of the twin, if there is one.
     pub(super) fn twin_hash(&self) -> Option<u64> {
-        self.twin.as_ref().map(|it| self.shown(it).world().state_hash())
+        self.twin.as_ref().map(|it| self.shown(it).simulation.state_hash())
     }
 
     /// The twin as it is now: the run itself, before they part.

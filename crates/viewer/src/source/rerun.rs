@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-use laneweave::branch::Setting;
 use laneweave::record::{End, Record};
 use laneweave::{Fault, VehicleId};
+use laneweave_studies::branch::Setting;
 
 use super::hands::{Hand, Hands};
 use super::pair::{Change, Pair, State};
@@ -220,6 +220,6 @@ impl Source for Rerun {
     }
 
     fn state_hash(&self) -> u64 {
-        self.pair.base.world().state_hash()
+        self.pair.base.simulation.state_hash()
     }
 }

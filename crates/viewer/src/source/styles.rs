@@ -1,7 +1,6 @@
 //! The styles of drivers with the numbers that can be changed.
 
-use laneweave::Parameter;
-use laneweave::models::Style;
+use laneweave::{Parameter, StyleState};
 use serde::Serialize;
 
 /// A style of drivers.
@@ -32,36 +31,24 @@ pub struct ParameterFacts {
     pub maximum: Option<f64>,
 }
 
-impl StyleFacts {
-    /// The style `name` of these drivers, with its weight.
-    pub fn of(name: &str, weight: f64, drivers: &[Style]) -> StyleFacts {
-        let own: Vec<&Style> = drivers.iter().filter(|it| it.name == name).collect();
-        let parameters = Parameter::ALL.iter().filter_map(|it| ParameterFacts::of(*it, &own)).collect();
-        let description = own.first().map_or_else(String::new, |it| it.description.clone());
-        StyleFacts { name: name.to_owned(), description, weight, parameters }
-    }
-
-    /// The value of a number.
-    pub fn value(&self, parameter: Parameter) -> Option<f64> {
-        self.parameters.iter().find(|it| it.key == parameter.key()).map(|it| it.value)
+impl From<StyleState> for StyleFacts {
+    fn from(style: StyleState) -> StyleFacts {
+        let StyleState { name, description, weight, parameters } = style;
+        let parameters = parameters.into_iter().map(|(it, value)| ParameterFacts::of(it, value)).collect();
+        StyleFacts { name, description, weight, parameters }
     }
 }
 
 impl ParameterFacts {
-    fn of(parameter: Parameter, drivers: &[&Style]) -> Option<ParameterFacts> {
-        let value = |style: &Style| parameter.place(&mut style.clone()).map(|it| *it);
-        let values: Vec<f64> = drivers.iter().filter_map(|it| value(it)).collect();
-        // Equal values have exactly their mean.
-        let first = *values.first()?;
-        let above = values.iter().map(|it| it - first).sum::<f64>() / values.len() as f64;
+    fn of(parameter: Parameter, value: f64) -> ParameterFacts {
         let range = parameter.range();
         let limit = |it: f64| it.is_finite().then_some(it);
-        Some(ParameterFacts {
+        ParameterFacts {
             key: parameter.key(),
             unit: range.unit,
-            value: first + above,
+            value,
             minimum: limit(range.from),
             maximum: limit(range.to),
-        })
+        }
     }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use laneweave::Side;
 use laneweave::network::{ChainIndex, Network};
-use laneweave::sim::{Vehicle, World};
+use laneweave::sim::Vehicle;
+use laneweave::{Side, Simulation};
 
 /// A driver signals from so far before the fork on [m]; ours.
 const BEFORE: f64 = 40.0;
@@ -34,12 +34,12 @@ impl Turns {
     }
 
     /// The side to which the driver of a vehicle turns here.
-    pub(super) fn side(&self, world: &World, vehicle: &Vehicle) -> Option<Side> {
+    pub(super) fn side(&self, simulation: &Simulation, vehicle: &Vehicle) -> Option<Side> {
         let (chain, x) = (vehicle.spot.chain, vehicle.x());
         let here = self.after(chain).filter(|_| x < BEYOND);
         here.or_else(|| {
-            let is_near = world.network().chain(chain).length - x < BEFORE;
-            let next = is_near.then(|| world.scene().next(vehicle.driver.goal.destination(), chain))?;
+            let is_near = simulation.network().chain(chain).length - x < BEFORE;
+            let next = is_near.then(|| simulation.scene().next(vehicle.driver.goal.destination(), chain))?;
             self.after(next?)
         })
     }
@@ -61,8 +61,6 @@ fn side(turned: f64) -> Option<Side> {
 
 #[cfg(test)]
 mod tests {
-    use laneweave::scenario::{Origin, prepare};
-
     use super::*;
 
     #[test]
@@ -76,9 +74,8 @@ mod tests {
     #[test]
     fn on_a_grid_of_streets_drivers_turn_to_both_sides_and_drive_straight_on() {
         let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/grid.osm");
-        let (scenario, origin) = Origin::open(map.as_ref()).expect("a map");
-        let prepared = prepare(&scenario, &origin).expect("a world");
-        let network = prepared.world.network();
+        let simulation = Simulation::from_file(map).expect("a map");
+        let network = simulation.network();
         let turns = Turns::of(network);
         let after_forks = network.chains.iter().filter(|it| it.following.len() > 1);
         let sides: Vec<_> = after_forks.flat_map(|it| &it.following).map(|it| turns.after(*it)).collect();

@@ -63,9 +63,7 @@ const ORDER: [&str; 39] = [
 /// # Errors
 /// None, as long as scenarios can be written as JSON.
 pub fn write(scenario: &Scenario, prepared: &Prepared) -> Result<String, Fault> {
-    let json = |it: &Scenario| {
-        serde_json::to_value(it).map_err(|it| Fault::new("scenario", it, "report this as a bug"))
-    };
+    let json = |it: &Scenario| serde_json::to_value(it).map_err(|it| Fault::bug("scenario", it));
     let draft = Draft {
         schema: Scenario::schema().to_value(),
         values: json(scenario)?,

@@ -1,0 +1,39 @@
+//! Are these drivers plausible? What they do, beside published values.
+
+mod bends;
+mod capacity;
+mod changes;
+mod courtesy;
+mod following;
+mod lanes;
+mod lights;
+mod safety;
+
+use laneweave::Fault;
+
+use crate::experiments::effort::Effort;
+use crate::experiments::finding::{Finding, csv_of, table_of};
+
+/// Measures everything.
+pub(crate) fn plausibility(effort: &Effort) -> Result<Finding, Fault> {
+    let rows = [
+        changes::rows(effort)?,
+        lanes::rows(effort)?,
+        following::rows(effort)?,
+        capacity::rows(effort)?,
+        lights::rows(effort)?,
+        bends::rows(effort)?,
+        courtesy::rows(effort)?,
+        safety::rows(effort)?,
+    ]
+    .concat();
+    let text = format!(
+        "# Are these drivers plausible?\n\n\
+         What the drivers that come with laneweave do, beside published values. Every value is a mean over {} seeds with its 95 % \
+         interval. It is inside if the mean is in the range. Sources marked *m* are cited from memory. Ranges without a source are \
+         ours.\n\n{}",
+        effort.seeds,
+        table_of(&rows)
+    );
+    Ok(Finding { text, tables: vec![("plausibility".into(), csv_of(&rows))], figures: Vec::new(), rows })
+}

@@ -1,0 +1,59 @@
+//! Recovery in small.
+
+use laneweave_calibration::observe::Known;
+use laneweave_calibration::{Candidate, DesireModel, Folds};
+
+use super::drone::{Driven, NOISE};
+use super::exact;
+use super::settings::Setting;
+use super::variants::{EXACT, OURS, PLAIN, fits_of};
+use super::weights::{NO_SPREAD, Seen, WEIGHTS};
+use crate::experiments::effort::Effort;
+
+#[test]
+fn weights_observed_exactly_come_back() {
+    let fits = exact::fits(&Effort { seeds: 1, length: 0.4, threads: 2 }, 4).expect("built-in styles");
+    for (at, name) in exact::TERMS.iter().enumerate() {
+        let off = |it: &exact::Exact| (it.fit.estimates[at] - it.truth[at]) / it.fit.standard_errors()[at];
+        let off: Vec<f64> = fits.iter().map(off).collect();
+        let mean = off.iter().sum::<f64>() / off.len() as f64;
+        // The mean of four has a standard deviation of one half.
+        assert!(mean.abs() < 2.0 && off.iter().all(|it| it.abs() < 4.0), "{name}: {off:?}");
+    }
+    assert!(fits.iter().all(|it| it.desires > 100));
+}
+
+#[test]
+fn what_is_known_of_drivers_whom_a_drone_sees_brings_their_weights_nearer() {
+    let driven = Driven::of(&Setting::motorway(), 1, 0.6).expect("built-in styles");
+    let [plain, exact, ours] = fits_of(&[PLAIN, EXACT, OURS], &driven).expect("three fits")[..] else {
+        panic!("three fits")
+    };
+    let off = |it: &Seen, weight: usize| (it.shares[weight] - 1.0).abs();
+    for weight in 0..WEIGHTS.len() {
+        assert!(off(&exact, weight) < 0.3 * off(&plain, weight), "{plain:?} {exact:?}");
+        assert!(off(&ours, weight) < 0.5 * off(&plain, weight), "{plain:?} {ours:?}");
+    }
+    let [all, used] = ours.changes;
+    assert!(used * 10 > all * 7, "{used} of {all}");
+}
+
+#[test]
+fn a_site_that_was_not_seen_is_predicted_about_as_well_as_drivers_who_were_not() {
+    let driven = Driven::of(&Setting::motorway(), 1, 0.4).expect("built-in styles");
+    let recording = driven.recorded(NOISE);
+    let mut observations =
+        driven.observations(&driven.matched(&recording), Known::default(), 1).expect("what was recorded");
+    // Every second driver was seen elsewhere.
+    observations.sites = 2;
+    (0..).zip(&mut observations.drivers).for_each(|(number, driver)| driver.site = number % 2);
+    let folds = Folds { repetitions: 1, parts: 2, draws: 100, seed: 1 };
+    let candidate = |model: DesireModel| {
+        Candidate::of(&observations, &model, (&vec![0.0; model.terms().len()], &NO_SPREAD), &folds)
+    };
+    let [mcdm, constant] = [DesireModel::Mcdm { beta: 2.3 }, DesireModel::Constant].map(candidate);
+    let by_driver = mcdm.better_than(&constant, &observations, &folds);
+    let by_site = mcdm.better_elsewhere_than(&constant, &observations, &folds).expect("two sites");
+    assert!(by_site.interval[0] > 0.5, "{by_site:?}");
+    assert!((by_site.estimate - by_driver.estimate).abs() < 0.3, "{by_driver:?} {by_site:?}");
+}

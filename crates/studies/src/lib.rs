@@ -1,0 +1,14 @@
+//! Studies: questions that take many simulations, or a simulation and recorded traffic. Each stands on
+//! [`Simulation`](laneweave::Simulation) alone, and knows nothing of what is behind it.
+
+pub mod branch;
+pub mod check;
+pub mod compare;
+mod draws;
+pub mod experiments;
+pub mod fit;
+mod parallel;
+pub mod replay;
+
+pub use draws::{DrawnMeasure, Draws, PER_DRAW, draws};
+pub use parallel::in_parallel;
