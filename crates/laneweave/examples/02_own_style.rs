@@ -31,7 +31,7 @@ pub fn main() -> Result<(), Fault> {
         .style(file.display().to_string(), 1.0)
         .style("conservative", 1.0)
         .build()?;
-    simulation.run(600.0, &mut [])?;
+    simulation.run(600.0)?;
 
     let vehicles = simulation.vehicles();
     let mean_speed = |style: &str| {

@@ -38,10 +38,10 @@ pub fn main() -> Result<(), Fault> {
     let mut simulation = Simulation::from_file("scenarios/demo.toml")?;
     let (mut counts, mut most) = (Counts::default(), 0);
     let mut watch = |it: &Simulation, _: &[Event]| {
-        most = most.max(it.world().on_road());
-        Ok(())
+        most = most.max(it.on_road());
+        Ok::<(), Fault>(())
     };
-    simulation.run(600.0, &mut [&mut counts, &mut watch])?;
+    simulation.observe(600.0, &mut [&mut counts, &mut watch])?;
 
     let Counts { entered, completed, lane_changes: [discretionary, route_driven], trip_time_s } = counts;
     println!("{entered} vehicles entered, {completed} completed their trip, at most {most} were on the road");

@@ -46,7 +46,7 @@ pub fn main() -> Result<(), Fault> {
 
     // Its own driver drives it again, as fast as it likes.
     simulation.control(ego, Control::DRIVER)?;
-    simulation.run(210.0, &mut [])?;
+    simulation.run(210.0)?;
     assert!(simulation.vehicle(ego).is_none_or(|it| !it.is_external && it.speed_mps > 20.0));
     Ok(())
 }

@@ -8,7 +8,7 @@ use laneweave::{Fault, LightState, Simulation};
 pub fn main() -> Result<(), Fault> {
     let town = || Simulation::builder("maps/grid.osm").vehicles_per_hour(4000.0).seed(7).build();
     let mut simulation = town()?;
-    simulation.run(300.0, &mut [])?;
+    simulation.run(300.0)?;
     let saved = simulation.save()?;
 
     let mut twin = town()?;
@@ -19,7 +19,7 @@ pub fn main() -> Result<(), Fault> {
     }
 
     for it in [&mut simulation, &mut twin] {
-        it.run(360.0, &mut [])?;
+        it.run(360.0)?;
     }
     let standing = |it: &Simulation| it.vehicles().iter().filter(|it| it.speed_mps < 0.1).count();
     let [usual, red] = [&simulation, &twin].map(standing);
@@ -29,7 +29,7 @@ pub fn main() -> Result<(), Fault> {
     // An unchanged twin stays the same to the last bit.
     let mut unchanged = town()?;
     unchanged.restore(&saved)?;
-    unchanged.run(360.0, &mut [])?;
+    unchanged.run(360.0)?;
     assert_eq!(unchanged.state_hash(), simulation.state_hash());
     assert_ne!(twin.state_hash(), simulation.state_hash());
     Ok(())

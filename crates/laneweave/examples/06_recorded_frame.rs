@@ -2,9 +2,9 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use laneweave::maps::{ReadOptions, load};
-use laneweave::sim::{Class, Navigator, Seen, Snapshot, perceive};
+use laneweave::sim::{Navigator, Seen, Snapshot, perceive};
 use laneweave::style::Population;
-use laneweave::{Fault, Side};
+use laneweave::{Class, Fault, Side};
 
 /// A frame of a recording: vehicle, lanelet, metres along it, speed [m/s].
 const FRAME: [(u32, i64, f64, f64); 4] =

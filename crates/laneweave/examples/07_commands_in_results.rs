@@ -12,7 +12,7 @@ fn builder() -> laneweave::Builder {
 pub fn main() -> Result<(), Fault> {
     let out = std::env::temp_dir().join(format!("laneweave-commands-example-{}", std::process::id()));
     let mut broken_down = None;
-    let summary = builder().build()?.run_to_results_with(out.join("first"), |it| {
+    let summary = builder().build()?.run_to_results_with(out.join("first"), |it| -> Result<(), Fault> {
         if it.time_s() >= 30.0 && broken_down.is_none() {
             let (class, style) = (Class::Truck, "conservative".into());
             let truck =

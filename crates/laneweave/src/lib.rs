@@ -63,9 +63,9 @@ pub mod scenario {
 /// [`Simulation`].
 pub mod sim {
     pub use laneweave_sim::{
-        Account, Across, Act, Clock, Command, Commanded, Counters, Counts, Destination, DriverState, Goal,
-        InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator, Place, Places, Purpose, Random, Rate,
-        Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle, Viewpoint, perceive,
+        Account, Across, Act, Clock, Command, Commanded, Counters, Counts, Destination, DriverState,
+        FIRST_INSERTED, Goal, InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator, Place, Places,
+        Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle, Viewpoint, perceive,
     };
 }
 

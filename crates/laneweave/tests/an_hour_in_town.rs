@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use laneweave::scenario::{Origin, Scenario, prepare};
-use laneweave::sim::World;
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
+use laneweave_sim::World;
 
 /// The vehicles after an hour at 1,500 veh/h on a map of the shared data, if it is available; no vehicle was stuck.
 fn an_hour(map: &str, seed: u64) -> Option<World> {

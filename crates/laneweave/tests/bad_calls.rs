@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use laneweave::scenario::Demand;
 use laneweave::{
     Class, Columns, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
     Simulation, VehicleId,
 };
+use laneweave_scenario::scenario::Demand;
 
 fn map(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
@@ -219,10 +219,10 @@ fn a_wrong_set_up_is_refused_with_a_remedy() {
 #[test]
 fn a_simulation_does_not_run_backwards_or_for_ever() {
     let mut simulation = simulation("on_ramp.osm", 1000.0);
-    simulation.run(30.0, &mut []).expect("it can");
-    simulation.run(30.0, &mut []).expect("nothing is left to do");
+    simulation.run(30.0).expect("it can");
+    simulation.run(30.0).expect("nothing is left to do");
     for until_s in [29.0, -1.0, f64::NAN, f64::INFINITY, 1e300] {
-        let fault = simulation.run(until_s, &mut []).expect_err("that is no time to come");
+        let fault = simulation.run(until_s).expect_err("that is no time to come");
         assert_eq!(fault.remedy, "choose a time from 30 to 10000000 s");
     }
     assert!((simulation.time_s() - 30.0).abs() < 1e-9);
@@ -234,8 +234,8 @@ fn only_a_simulation_as_it_began_leaves_results() {
     let mut stepped = simulation("on_ramp.osm", 1000.0);
     stepped.step();
     let mut changed = simulation("on_ramp.osm", 1000.0);
-    let demand = laneweave::sim::Command::SetDemand { origin: 1, vehicles_per_hour: 500.0 };
-    changed.world_mut().command(demand).expect("the entrance is there");
+    let state = changed.save().expect("it can be saved");
+    changed.restore(&state).expect("it is its own");
     for simulation in [stepped, changed] {
         let fault = simulation.run_to_results(&out).expect_err("it is refused");
         assert_eq!(fault.remedy, "make a new one, and run that");
@@ -246,9 +246,9 @@ fn only_a_simulation_as_it_began_leaves_results() {
 #[test]
 fn a_state_of_something_else_is_refused_and_changes_nothing() {
     let mut town = simulation("grid.osm", 1000.0);
-    town.run(60.0, &mut []).expect("it can");
+    town.run(60.0).expect("it can");
     let mut ramp = simulation("on_ramp.osm", 1000.0);
-    ramp.run(60.0, &mut []).expect("it can");
+    ramp.run(60.0).expect("it can");
     let before = ramp.state_hash();
     let saved = town.save().expect("it can be saved");
     for bytes in [&saved[..], &saved[..100], &[]] {

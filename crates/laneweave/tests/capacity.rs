@@ -4,9 +4,9 @@ use laneweave::maps::generate::{Control, Grid, Motorway, grid, motorway};
 use laneweave::maps::{Drawing, regulations};
 use laneweave::models::Style;
 use laneweave::network::Network;
-use laneweave::sim::{Assignment, Demand, Navigator, Origin, Rate, Setup, Share, World};
 use laneweave::style::Population;
 use laneweave::{Bottleneck, Capacity};
+use laneweave_sim::{Assignment, Demand, Navigator, Origin, Rate, Setup, Share, World};
 
 const TRUCKS: f64 = 0.1;
 

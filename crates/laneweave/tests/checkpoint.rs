@@ -3,8 +3,8 @@
 use std::num::NonZero;
 use std::path::Path;
 
-use laneweave::scenario::{MadeSignals, Origin, Scenario, prepare};
-use laneweave::sim::{CheckpointError, World};
+use laneweave_scenario::scenario::{MadeSignals, Origin, Scenario, prepare};
+use laneweave_sim::{CheckpointError, World};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// A world on a built-in map, with guidance every 30 s and actuated lights.

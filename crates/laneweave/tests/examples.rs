@@ -25,9 +25,6 @@ pub mod recorded_frame;
 #[path = "../examples/07_commands_in_results.rs"]
 pub mod commands_in_results;
 
-#[path = "../examples/08_fit_a_style.rs"]
-pub mod fit_a_style;
-
 /// Runs an example where its reader runs it: in the folder of the project.
 fn runs(example: fn() -> Result<(), Fault>) {
     let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -78,11 +75,6 @@ fn commands_are_given_during_a_run_and_repeated() {
 }
 
 #[test]
-fn a_style_is_fitted_to_a_recording_and_drives() {
-    runs(fit_a_style::main);
-}
-
-#[test]
 fn every_example_is_run_here_and_short() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let own = include_str!("examples.rs");
@@ -95,5 +87,5 @@ fn every_example_is_run_here_and_short() {
         assert!(text.lines().count() <= 64, "{name} is long");
         count += 1;
     }
-    assert_eq!(count, 8);
+    assert_eq!(count, 7);
 }

@@ -4,12 +4,11 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use laneweave::Simulation;
-use laneweave::output::{Inputs, Provenance, Summary, outputs};
-use laneweave::run::simulate;
-use laneweave::scenario::{Origin, Scenario, TableFormat};
+use laneweave::run::Run;
+use laneweave_scenario::scenario::{Origin, Scenario, TableFormat};
 
 /// Time of all vehicles on the lanelets [s], and their distance there [m], from the rows of the table; the same from
-/// the world's counters; and the number of completed trips.
+/// the summary; and the number of completed trips.
 fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
     let mut scenario = Scenario::of_map(path);
@@ -19,22 +18,13 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     scenario.output.dir = dir.clone();
     scenario.output.format = TableFormat::Csv;
     (scenario.output.record_s, scenario.output.flows_s) = (0.0, f64::from(every) * 0.1);
-    let provenance = Provenance::of(String::new(), scenario.run.seed, String::new());
-    let mut simulation = Simulation::from_scenario(&scenario, &Origin::default()).expect("it can be done");
-    let mut outputs = outputs(&scenario, simulation.prepared(), &provenance).expect("it can be done");
-    let ending =
-        simulate(&mut simulation, &mut outputs, None, None, |_| Ok(true), || ()).expect("it can be done");
-    let inputs =
-        Inputs { scenario: &scenario, ending: &ending, wall_s: 0.0, load_s: 0.0, provenance: &provenance };
-    let summary = Summary::of(simulation.prepared(), inputs);
-    let world = simulation.world();
-    for output in outputs {
-        output.finish(world, &summary).expect("it can be done");
-    }
+    let simulation = Simulation::from_scenario(&scenario, &Origin::default()).expect("it can be done");
+    let lengths: HashMap<String, f64> =
+        simulation.network().lanelets.iter().map(|it| (it.id.to_string(), it.length())).collect();
+    let run = Run::of(simulation, "a test").expect("it can be done");
+    let summary = run.complete(|_| true).expect("it can be done").summary;
     let table = std::fs::read_to_string(dir.join("flows.csv")).expect("it can be done");
     std::fs::remove_dir_all(&dir).expect("it can be done");
-    let lengths: HashMap<String, f64> =
-        world.network().lanelets.iter().map(|it| (it.id.to_string(), it.length())).collect();
     let mut lines = table.lines();
     assert_eq!(lines.next(), Some("from_s,to_s,lanelet,flow_veh_h,density_veh_km,speed_mps"));
     let (mut sums, mut rows, mut until) = ([0.0; 2], 0, 60.0);
@@ -53,8 +43,7 @@ fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
     }
     assert_eq!(until, 260.0);
     assert_eq!(rows, lengths.len() * 2000_usize.div_ceil(every as usize));
-    let counters = world.counters();
-    (sums, [counters.updates as f64 * 0.1, counters.distance], world.counts().left as f64)
+    (sums, [summary.updates as f64 * 0.1, 1000.0 * summary.veh_km], summary.completed as f64)
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use laneweave::maps::{generate, lanelet2};
-use laneweave::scenario::{Origin, Prepared, Scenario, prepare};
-use laneweave::sim::World;
+use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare};
+use laneweave_sim::World;
 
 /// The world of a map file with this seed and this demand [veh/h], or with `share` of its estimated capacity if that
 /// is less, with audit.

@@ -6,16 +6,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use laneweave::Simulation;
-use laneweave::checkpoint::{self, Checkpoint, Keeper};
-use laneweave::output::{Inputs, Provenance, Summary, outputs};
-use laneweave::run::simulate;
-use laneweave::scenario::{Origin, Scenario, TableFormat};
-use laneweave::sim::{Class, Placement};
+use laneweave::checkpoint;
+use laneweave::output::Summary;
+use laneweave::run::{self, Resumed};
+use laneweave_scenario::scenario::{Origin, Scenario, TableFormat};
+use laneweave_sim::{Class, Placement};
 
 /// A run of half a minute on two lanes, with only the vehicles that the test places there; in a temporary folder.
 struct Run {
     scenario: Scenario,
-    keeper: Keeper,
 }
 
 impl Run {
@@ -32,11 +31,7 @@ impl Run {
         scenario.output.format = TableFormat::Csv;
         scenario.output.record_s = 0.0;
         scenario.output.checkpoint_s = 10.0;
-        let path = dir.join(checkpoint::FILE);
-        Run {
-            scenario,
-            keeper: Keeper { path, every: 100, fingerprint: "f".into(), output_settings: "o".into() },
-        }
+        Run { scenario }
     }
 
     /// Two cars, the second with its front 2 m within the first; and a third far ahead.
@@ -46,7 +41,6 @@ impl Run {
         let chain = simulation.network().entrances[0].chains[0];
         for x in [102.5, 100.0, 500.0] {
             simulation
-                .world_mut()
                 .place(Placement {
                     chain,
                     x,
@@ -63,25 +57,17 @@ impl Run {
     /// Continues from the last checkpoint, if there is one, up to `end` [s]; if that is before its end, the run is
     /// interrupted.
     fn until(&self, end: f64) -> Option<(Summary, Vec<PathBuf>)> {
-        let Run { scenario, keeper } = self;
-        let mut simulation = self.simulation();
-        let provenance = Provenance::of(String::new(), 1, "f".into());
-        let mut watching =
-            outputs(scenario, simulation.prepared(), &provenance).expect("the folder is there");
-        let from = Checkpoint::read(&keeper.path).expect("it is whole");
-        let goes_on = |it: &mut Simulation| Ok(it.time_s() < end);
-        let ending = simulate(&mut simulation, &mut watching, from, Some(keeper), goes_on, || ())
-            .expect("it can be written");
-        if ending.is_interrupted {
-            return None;
-        }
-        let inputs = Inputs { scenario, ending: &ending, wall_s: 1.0, load_s: 0.0, provenance: &provenance };
-        let summary = Summary::of(simulation.prepared(), inputs);
-        let files = watching
-            .into_iter()
-            .flat_map(|it| it.finish(simulation.world(), &summary).expect("it can be written"));
-        let files = files.collect();
-        Some((summary, files))
+        let (scenario, origin) = (&self.scenario, Origin::default());
+        let run = if scenario.output.dir.join(checkpoint::FILE).exists() {
+            match run::resume(scenario, &origin).expect("it is whole") {
+                Resumed::Run(run) => *run,
+                Resumed::Complete(summary) => panic!("it has ended: {summary}"),
+            }
+        } else {
+            run::Run::of(self.simulation(), "a test").expect("the folder is there")
+        };
+        let done = run.complete(|it| it.time_s() < end).expect("it can be written");
+        (!done.summary.interrupted).then_some((done.summary, done.files))
     }
 
     fn report(&self) -> String {

@@ -5,9 +5,9 @@ use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::models::Style;
 use laneweave::models::follow::Pace;
 use laneweave::network::{Network, Side};
-use laneweave::sim::{Class, Demand, Rate, Setup, Share, World};
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
+use laneweave_sim::{Class, Demand, Rate, Setup, Share, World};
 
 const STEP_S: f64 = 0.1;
 const SECONDS_PER_HOUR: f64 = 3600.0;

@@ -6,9 +6,9 @@ use std::collections::HashMap;
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::models::change::{ConstantHazard, LaneChangeModel, Mobil};
-use laneweave::sim::{Demand, Event, LaneChangeKind, Setup, VehicleId, World};
 use laneweave::study::{Estimate, Interval, mean};
 use laneweave::style::Population;
+use laneweave_sim::{Demand, Event, LaneChangeKind, Setup, VehicleId, World};
 
 const SEEDS: u64 = 20;
 const LANES: usize = 2;

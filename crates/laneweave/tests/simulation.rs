@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use laneweave::maps::generate::{Motorway, motorway};
-use laneweave::scenario::{Demand, Origin, Scenario, prepare};
 use laneweave::{
-    Class, Columns, Control, Event, Light, LightState, NewVehicle, Phase, Side, Simulation, VehicleState,
+    Class, Columns, Control, Event, Fault, Light, LightState, NewVehicle, Phase, Side, Simulation,
+    VehicleState,
 };
+use laneweave_scenario::scenario::{Demand, Origin, Scenario, prepare};
 
 fn builder(map: &str, vehicles_per_hour: f64) -> laneweave::Builder {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
@@ -17,7 +18,7 @@ fn builder(map: &str, vehicles_per_hour: f64) -> laneweave::Builder {
 /// Traffic with lane changes under way.
 fn traffic(map: &str, vehicles_per_hour: f64) -> Simulation {
     let mut simulation = builder(map, vehicles_per_hour).build().expect("the map is sound");
-    simulation.run(120.0, &mut []).expect("it can");
+    simulation.run(120.0).expect("it can");
     simulation
 }
 
@@ -28,11 +29,11 @@ fn a_simulation_drives_like_the_world_of_its_scenario_and_counts_from_the_end_of
     scenario.run.threads = None;
     let mut world = prepare(&scenario, &Origin::default()).expect("it is sound").world;
     (0..600).for_each(|_| world.step());
-    world.reset_counts();
+    assert_eq!(world.counts().entered, world.on_road() as u64, "counts begin anew");
     (0..600).for_each(|_| world.step());
-    simulation.run(120.0, &mut []).expect("it can");
+    simulation.run(120.0).expect("it can");
     assert_eq!(simulation.state_hash(), world.state_hash());
-    assert_eq!(simulation.world().counts(), world.counts());
+    assert_eq!(simulation.counts(), world.counts());
     assert_eq!(simulation.end_s(), 660.0);
 }
 
@@ -141,6 +142,19 @@ fn lane_changes_lead_from_lanelet_to_the_lanelet_beside() {
     assert!(changes > 50, "{changes}");
 }
 
+/// The error of an observer.
+#[derive(Debug, PartialEq)]
+enum Enough {
+    Here,
+    Of(String),
+}
+
+impl From<Fault> for Enough {
+    fn from(fault: Fault) -> Enough {
+        Enough::Of(fault.what)
+    }
+}
+
 #[test]
 fn an_observer_sees_every_step_and_ends_the_run_when_it_fails() {
     let mut simulation = traffic("on_ramp.osm", 1500.0);
@@ -151,10 +165,10 @@ fn an_observer_sees_every_step_and_ends_the_run_when_it_fails() {
         Ok(())
     };
     let mut stop = |it: &Simulation, _: &[Event]| {
-        if it.time_s() < 130.0 { Ok(()) } else { Err(laneweave::Fault::new("here", "enough", "go home")) }
+        if it.time_s() < 130.0 { Ok(()) } else { Err(Enough::Here) }
     };
-    let ended = simulation.run(200.0, &mut [&mut count, &mut stop]);
-    assert_eq!(ended.map_err(|it| it.what), Err("enough".into()));
+    let ended = simulation.observe(200.0, &mut [&mut count, &mut stop]);
+    assert!(ended == Err(Enough::Here), "an observer may have an error of its own");
     assert!(steps == 100 && seen > 0, "{steps} {seen}");
 }
 
@@ -163,7 +177,7 @@ fn a_generated_map_is_driven_without_a_file() {
     let map = motorway(&Motorway::default()).expect("it fits").build().expect("it has lanes");
     let demand = Demand { vehicles_per_hour: Some(2000.0), ..Demand::default() };
     let mut simulation = Simulation::from_map(map, demand).expect("it is sound");
-    simulation.run(60.0, &mut []).expect("it can");
+    simulation.run(60.0).expect("it can");
     assert!(simulation.vehicles().len() > 10);
     let id = simulation.vehicles()[0].id;
     assert!(simulation.explain(id).expect("it is on the road").contains(&format!("vehicle {id} (")));

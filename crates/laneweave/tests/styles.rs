@@ -7,11 +7,11 @@ use std::path::Path;
 
 use laneweave::maps::{ReadOptions, load};
 use laneweave::network::{ChainIndex, LaneUse, Network};
-use laneweave::sim::{
-    Class, Demand, Event, LaneChangeKind, Phase, Placement, Rate, Setup, Share, Vehicle, VehicleId, World,
-};
 use laneweave::study::{Interval, mean};
 use laneweave::style::{Population, StyleTemplate, find};
+use laneweave_sim::{
+    Class, Demand, Event, LaneChangeKind, Phase, Placement, Rate, Setup, Share, Vehicle, VehicleId, World,
+};
 
 const STEP_S: f64 = 0.1;
 const STEPS_PER_SECOND: u32 = 10;

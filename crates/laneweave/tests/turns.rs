@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_6;
 use std::path::Path;
 
 use laneweave::network::{Gate, Network, Sections};
-use laneweave::scenario::{Origin, Prepared, Scenario, Turns, VehiclesPerHour, prepare};
-use laneweave::sim::Event;
+use laneweave_scenario::scenario::{Origin, Prepared, Scenario, Turns, VehiclesPerHour, prepare};
+use laneweave_sim::Event;
 
 fn scenario(map: &str, turns: &[Turns]) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);

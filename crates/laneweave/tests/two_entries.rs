@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use laneweave::scenario::{Origin, Scenario, prepare};
 use laneweave::style::BUILT_IN;
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 
 #[test]
 fn both_entries_of_a_vehicle_in_a_lane_change_move_alike() {

@@ -4,10 +4,10 @@
 use std::fs::File;
 use std::path::Path;
 
-use laneweave::fit::Request;
 use laneweave::output::write_whole;
-use laneweave::recordings::{Drone, Watch, interaction};
+use laneweave::recordings::{Drone, interaction};
 use laneweave::{Fault, Simulation};
+use laneweave_studies::fit::Request;
 
 const MAP: &str = "maps/motorway_2_lanes.osm";
 
@@ -15,11 +15,11 @@ const MAP: &str = "maps/motorway_2_lanes.osm";
 fn record(path: &Path) -> Result<(), Fault> {
     let builder = Simulation::builder(MAP).vehicles_per_hour(2500.0).style("conservative", 1.0);
     let mut driven = builder.duration_s(240.0).build()?;
-    driven.run(120.0, &mut [])?;
-    let mut watch = Watch::from_now(driven.world());
+    driven.run(120.0)?;
+    let mut watch = driven.drone_watch();
     while driven.time_s() < driven.end_s() {
-        driven.step();
-        watch.see(driven.world());
+        driven.advance();
+        driven.show(&mut watch);
     }
     let drone = Drone { above: [1000.0, 0.0], view: 1000.0, noise: 0.1, ..Drone::exact(10.0) };
     let recording = drone.observe(&watch.into_recording());
@@ -52,10 +52,10 @@ pub fn main() -> Result<(), Fault> {
     write_whole(&style, &report.styles[0].text)?;
     let builder = Simulation::builder(MAP).vehicles_per_hour(2500.0);
     let mut again = builder.style(style.display().to_string(), 1.0).duration_s(60.0).build()?;
-    again.run(60.0, &mut [])?;
-    println!("{} drivers of the fitted style are on the road", again.world().on_road());
+    again.run(60.0)?;
+    println!("{} drivers of the fitted style are on the road", again.on_road());
 
-    assert!(report.data.events_used > 10 && again.world().on_road() > 20);
+    assert!(report.data.events_used > 10 && again.on_road() > 20);
     assert!(report.data.not_identified.contains(&"route"));
     [tracks, style]
         .iter()

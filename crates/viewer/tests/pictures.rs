@@ -27,7 +27,7 @@ fn pictures(source: &mut dyn Source, asked: Pictures) -> Vec<(f64, Pixmap)> {
 
 fn live() -> Live {
     let (scenario, origin) = Origin::open(&map("ramps.osm")).expect("a map");
-    Live::new(scenario, origin, std::env::temp_dir()).expect("a simulation")
+    Live::new(&scenario, &origin, std::env::temp_dir()).expect("a simulation")
 }
 
 /// Red, green and blue of the pixel in the middle.

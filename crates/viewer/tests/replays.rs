@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use laneweave::replay;
 use laneweave::scenario::{Origin, Replay};
+use laneweave_studies::replay;
 use laneweave_viewer::source::Wants;
 use laneweave_viewer::{Live, Snapshot, Source};
 
@@ -25,7 +25,7 @@ fn recorded_vehicles_are_no_drivers_and_nobody_drives_them() {
     let replay = Replay { recording: vec![recording], reactive_ids: vec![2], ..Replay::default() };
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/motorway_2_lanes.osm");
     let scenario = replay::scenario(map, replay).expect("a scenario");
-    let mut live = Live::new(scenario, Origin::default(), dir.clone()).expect("a simulation");
+    let mut live = Live::new(&scenario, &Origin::default(), dir.clone()).expect("a simulation");
     (0..50).for_each(|_| live.step(&mut Vec::new()).expect("a step"));
     let mut snapshot = Snapshot::default();
     // Vehicles of recordings have ids of their own, in the order in which they come.

@@ -18,7 +18,7 @@ fn every_time_of_a_run_is_as_it_was_in_whatever_order_they_are_looked_at() {
     let mut fresh = simulation().expect("a simulation");
     let hashes: Vec<u64> = (0..=12)
         .map(|tens| {
-            fresh.run(f64::from(tens) * 10.0, &mut []).expect("ten seconds");
+            fresh.run(f64::from(tens) * 10.0).expect("ten seconds");
             fresh.state_hash()
         })
         .collect();

@@ -109,7 +109,7 @@ fn what_is_no_time_or_no_setting_of_a_run_is_refused_and_a_run_alone_has_no_twin
 fn a_live_twin_says_since_when_it_is_shown_and_starts_without_a_difference() {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/ramps.osm");
     let (scenario, origin) = laneweave::scenario::Origin::open(&map).expect("a map");
-    let mut live = Live::new(scenario, origin, std::env::temp_dir()).expect("a simulation");
+    let mut live = Live::new(&scenario, &origin, std::env::temp_dir()).expect("a simulation");
     (0..300).for_each(|_| live.step(&mut Vec::new()).expect("a step"));
     live.twin(true).expect("a twin");
     (0..100).for_each(|_| live.step(&mut Vec::new()).expect("a step"));

@@ -6,7 +6,7 @@
 use laneweave_models::Parameter;
 use laneweave_network::LightState;
 use laneweave_scenario::{Fault, refused};
-use laneweave_sim::{Command, Control, NewVehicle, VehicleId};
+use laneweave_sim::{Command, Control, NewVehicle, Placement, VehicleId};
 
 use super::Simulation;
 
@@ -156,6 +156,15 @@ impl Simulation {
     /// If one of them is not so.
     pub fn check_command(&self, command: &Command) -> Result<(), Fault> {
         self.world().check_content(command).map_err(|error| refused(place_of(command), &error))
+    }
+
+    /// Puts a vehicle on the road, even where it touches another one: for tests.
+    ///
+    /// # Errors
+    /// If there is no such place.
+    #[doc(hidden)]
+    pub fn place(&mut self, vehicle: Placement) -> Result<VehicleId, Fault> {
+        self.prepared.world.place(vehicle).map_err(|error| Fault::new("place", error, "choose another place"))
     }
 
     fn for_vehicle(&mut self, act: &str, id: VehicleId, command: Command) -> Result<(), Fault> {

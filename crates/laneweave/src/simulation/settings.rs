@@ -54,6 +54,12 @@ impl Simulation {
         places.filter_map(|id| Some((id, self.demand_at(id)?))).collect()
     }
 
+    /// Where trips can start, and where they can end.
+    pub fn places(&self) -> [Vec<&Place>; 2] {
+        let demand = self.world().demand();
+        [demand.origins.iter().map(|it| &it.place).collect(), demand.destinations.iter().collect()]
+    }
+
     /// Where trips can end, by the smallest lanelet id.
     pub fn destinations(&self) -> Vec<i64> {
         self.world().demand().destinations.iter().map(Place::id).collect()

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use laneweave::network::ChainIndex;
-use laneweave::sim::{Class, Demand, Event, Placement, Setup, World};
 use laneweave::study::poisson_interval;
 use laneweave::style::Population;
+use laneweave_sim::{Class, Demand, Event, Placement, Setup, World};
 
 use crate::roads::Approach;
 

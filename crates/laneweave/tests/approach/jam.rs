@@ -6,12 +6,12 @@ use std::collections::{HashMap, HashSet};
 use laneweave::models::Style;
 use laneweave::models::change::{LaneChangeModel, Mcdm, Route, Rule};
 use laneweave::network::{ChainIndex, Position};
-use laneweave::sim::{
+use laneweave::study::{Estimate, mean};
+use laneweave::style::Population;
+use laneweave_sim::{
     Class, Demand, Event, Fleet, InnerPlace, LaneChangeKind, Place, Placement, Places, Setup, Share,
     VehicleId, World,
 };
-use laneweave::study::{Estimate, mean};
-use laneweave::style::Population;
 
 use crate::roads::{Approach, Road};
 

@@ -13,7 +13,7 @@ fn a_driver_who_may_not_pass_on_the_slow_side_says_so() {
     for _ in 0..3000 {
         world.step();
         for vehicle in world.vehicles().filter(|it| it.lane_change.minds_offside) {
-            let account = laneweave::sim::explain(&world, vehicle.spot);
+            let account = laneweave_sim::explain(&world, vehicle.spot);
             let text = story(&account, world.network(), (vehicle.x(), vehicle.speed()), &[]);
             let says_so = text.contains("by law nobody passes it on this side");
             let Some(ahead) = account.stays_behind else {

@@ -10,8 +10,8 @@ use laneweave::explain::{Flip, Knob, flips};
 use laneweave::models::Style;
 use laneweave::models::change::LaneChangeModel;
 use laneweave::network::Side;
-use laneweave::scenario::{Origin, Scenario, prepare};
-use laneweave::sim::{Account, Act, Event, Hindrance, Phase, Purpose, Random, Spot, World};
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
+use laneweave_sim::{Account, Act, Event, Hindrance, Phase, Purpose, Random, Spot, World};
 use twin::{Otherwise, Twin};
 
 /// Length of a step [s].
@@ -103,7 +103,7 @@ fn every_change_and_a_thousand_refusals_are_explained_as_by_hand() {
         let mut said = Vec::new();
         let mut twin = None;
         for spot in deciding(&world) {
-            let account = laneweave::sim::explain(&world, spot);
+            let account = laneweave_sim::explain(&world, spot);
             said.push(Said { id: account.vehicle, act: account.act });
             let is_chosen = random.uniform(account.vehicle, Purpose::Parameter, step) < 0.02;
             let is_change = matches!(account.act, Act::Wants(..));
@@ -235,7 +235,7 @@ fn every_flip_flips_when_applied_and_half_of_it_does_not() {
     for step in 0..4000_u32 {
         let mut saved = None;
         for spot in deciding(&world) {
-            let account = laneweave::sim::explain(&world, spot);
+            let account = laneweave_sim::explain(&world, spot);
             let share = match account.act {
                 Act::Wants(..) => 0.3,
                 Act::Waits(..) | Act::Goes(_) => 0.1,

@@ -4,7 +4,7 @@
 use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal};
 use laneweave::models::follow::FollowingModel;
 use laneweave::network::Side;
-use laneweave::sim::{Phase, World};
+use laneweave_sim::{Phase, World};
 
 /// A vehicle in a lane. A vehicle between two lanes stands in both.
 #[derive(Clone, Copy)]

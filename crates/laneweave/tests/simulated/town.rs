@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use laneweave::scenario::{Origin, Scenario, prepare};
 use laneweave_recordings::clean;
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 
 use crate::drive::{STEP, Spans, drive_in};
 use crate::outcomes;

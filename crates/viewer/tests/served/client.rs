@@ -20,7 +20,7 @@ pub(crate) fn map(name: &str) -> PathBuf {
 /// A simulation of a map.
 pub(crate) fn live(name: &str) -> Live {
     let (scenario, origin) = Origin::open(&map(name)).expect("a map");
-    Live::new(scenario, origin, std::env::temp_dir()).expect("a simulation")
+    Live::new(&scenario, &origin, std::env::temp_dir()).expect("a simulation")
 }
 
 /// A server of a simulation on this machine, with its token.

@@ -80,7 +80,7 @@ fn while_time_stands_a_page_that_looks_elsewhere_sees_what_is_there() {
 fn what_is_done_while_time_stands_is_saved() {
     let dir = std::env::temp_dir().join(format!("laneweave-served-{}", std::process::id()));
     let (scenario, origin) = Origin::open(&map("ramps.osm")).expect("a map");
-    let (server, token) = server(Live::new(scenario, origin, dir.clone()).expect("a simulation"));
+    let (server, token) = server(Live::new(&scenario, &origin, dir.clone()).expect("a simulation"));
     let mut page = Page::of(&server, &token);
     page.hear_of("twin");
     page.say("{\"step\":100}");
@@ -91,7 +91,7 @@ fn what_is_done_while_time_stands_is_saved() {
     let folder: serde_json::Value = serde_json::from_str(&saved).expect("JSON");
     let file = folder["saved"]["scenario"].as_str().expect("a file").to_owned();
     let mut again = Simulation::from_file(&file).expect("the saved scenario");
-    again.run(again.end_s(), &mut []).expect("a run");
+    again.run(again.end_s()).expect("a run");
     let (time_s, hash) = server.state().expect("a stage");
     assert!((again.end_s() - time_s).abs() < 1e-6 && (time_s - 10.1).abs() < 1e-6);
     assert_eq!(again.state_hash(), hash);

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::thread;
 
-use laneweave::check::{GraphJson, Report, picture};
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::maps::{ReadOptions, lanelet2};
 use laneweave::sim::{Purpose, Random};
+use laneweave_studies::check::{GraphJson, Report, picture};
 
 /// Total number of mutated maps.
 const MAPS: u32 = 10_000;

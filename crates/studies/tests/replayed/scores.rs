@@ -1,8 +1,8 @@
 //! Drivers of the true style match a recording better than others, and part from it less.
 
-use laneweave::replay::{Asked, Matched, replay};
 use laneweave::scenario::Origin;
 use laneweave::style::Model;
+use laneweave_studies::replay::{Asked, Matched, replay};
 
 use crate::set_up::{map, observed, of_style, replayed, written};
 

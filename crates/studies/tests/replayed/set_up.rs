@@ -5,9 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use laneweave::replay;
-use laneweave::scenario::{Origin, Prepared, Replay, Scenario, prepare};
-use laneweave_recordings::{Drone, Recording, Watch, interaction};
+use laneweave::Simulation;
+use laneweave::scenario::{Origin, Replay, Scenario};
+use laneweave_recordings::{Drone, Recording, interaction};
+use laneweave_studies::replay;
 
 /// A file of our own maps.
 pub(crate) fn map(name: &str) -> PathBuf {
@@ -16,12 +17,13 @@ pub(crate) fn map(name: &str) -> PathBuf {
 
 /// A run on one of our own maps as a drone sees it, with errors of so much [m].
 pub(crate) fn observed(scenario: &Scenario, noise: f64) -> Recording {
-    let mut prepared = prepare(scenario, &Origin::default()).expect("the scenario is sound");
-    (0..prepared.warmup_steps).for_each(|_| prepared.step());
-    let mut watch = Watch::from_now(&prepared.world);
-    for _ in 0..prepared.steps {
-        prepared.step();
-        watch.see(&prepared.world);
+    let mut simulation =
+        Simulation::from_scenario(scenario, &Origin::default()).expect("the scenario is sound");
+    (0..simulation.run_steps()[0]).for_each(|_| simulation.advance());
+    let mut watch = simulation.drone_watch();
+    for _ in 0..simulation.run_steps()[1] {
+        simulation.advance();
+        simulation.show(&mut watch);
     }
     Drone { noise, ..Drone::exact(10.0) }.observe(&watch.into_recording())
 }
@@ -54,8 +56,8 @@ pub(crate) fn replayed(recording: PathBuf, map: PathBuf, reactive_share: f64) ->
     replay::scenario(map, replay).expect("it can be read")
 }
 
-pub(crate) fn ready(scenario: &Scenario) -> Prepared {
-    prepare(scenario, &Origin::default()).expect("it can be replayed")
+pub(crate) fn ready(scenario: &Scenario) -> Simulation {
+    Simulation::from_scenario(scenario, &Origin::default()).expect("it can be replayed")
 }
 
 /// The recording and the map of a place, if they are there.

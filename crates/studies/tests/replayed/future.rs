@@ -2,23 +2,23 @@
 
 use std::path::PathBuf;
 
+use laneweave::sim::{Purpose, Random};
 use laneweave_recordings::{Recording, State, open};
-use laneweave_sim::{Purpose, Random};
 
 use crate::set_up::{map, mona, observed, of_style, ready, replayed, written};
 
 /// All drivers at every step up to a time [s]: ids in the recording, places and speeds, bit for bit.
 fn driven(recording: PathBuf, map: PathBuf, until_s: f64) -> Vec<(u32, i64, [u64; 3])> {
-    let mut prepared = ready(&replayed(recording, map, 0.4));
+    let mut simulation = ready(&replayed(recording, map, 0.4));
     let mut seen = Vec::new();
-    while prepared.world.clock().time() + prepared.world.clock().dt <= until_s + 1e-9 {
-        prepared.step();
-        for played in prepared.script.played().filter(|it| it.is_reactive) {
-            let vehicle = prepared.world.vehicle(played.vehicle).filter(|it| !it.driver.is_external);
+    while simulation.time_s() + simulation.step_s() <= until_s + 1e-9 {
+        simulation.advance();
+        for played in simulation.played().filter(|it| it.is_reactive) {
+            let vehicle = simulation.view(played.vehicle).filter(|it| !it.driver.is_external);
             if let Some(vehicle) = vehicle {
                 let at = vehicle.pose().at;
                 let state = [at.x, at.y, vehicle.speed()].map(f64::to_bits);
-                seen.push((prepared.world.clock().step, played.recorded, state));
+                seen.push((simulation.clock().step, played.recorded, state));
             }
         }
     }

@@ -3,10 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use laneweave::branch::{Setting, Twins};
+use laneweave::Simulation;
 use laneweave::record::{End, Record, fingerprint};
-use laneweave::scenario::{Origin, Scenario, prepare};
-use laneweave::sim::World;
+use laneweave::scenario::{Origin, Scenario};
+use laneweave_studies::branch::{Setting, Twins};
 
 /// The end of the runs [s].
 const END: f64 = 240.0;
@@ -26,10 +26,15 @@ fn record(map: &str, demand: f64) -> Record {
 }
 
 /// The run without a twin up to `until` [s].
-fn alone(scenario: &Scenario, origin: &Origin, until: f64) -> World {
-    let mut world = prepare(scenario, origin).expect("the map is sound").world;
-    (0..(until / 0.1).round() as u32).for_each(|_| world.step());
-    world
+fn alone(scenario: &Scenario, origin: &Origin, until: f64) -> Simulation {
+    let mut simulation = Simulation::from_scenario(scenario, origin).expect("the map is sound");
+    simulation.run(until).expect("it is a time to come");
+    simulation
+}
+
+/// The vehicles that have arrived, whether they have entered or wait.
+fn arrived(it: &Simulation) -> u64 {
+    it.counts().entered + it.waiting_to_enter() as u64
 }
 
 fn setting(text: &str) -> Setting {
@@ -62,9 +67,9 @@ fn with_one_weight_changed_nothing_differs_before_and_something_after() {
     let record = record("ramps.osm", 4000.0);
     let mut twins = Twins::part(&record, AT, &[setting("style.speed.weight=2")]).expect("it can be repeated");
     let before = alone(&record.scenario, &record.origin, AT);
-    for world in [&twins.base, &twins.branch] {
-        assert_eq!(world.state_hash(), before.state_hash());
-        assert_eq!(world.counts(), before.counts());
+    for twin in [&twins.base, &twins.branch] {
+        assert_eq!(twin.state_hash(), before.state_hash());
+        assert_eq!(twin.counts(), before.counts());
     }
     let differences = twins.drive();
     assert_eq!(
@@ -78,7 +83,7 @@ fn with_one_weight_changed_nothing_differs_before_and_something_after() {
     let last = differences.instants.last().expect("there is one");
     // With a larger weight of speed, drivers change lanes more often.
     assert!(last.lane_changes[1] > last.lane_changes[0] + 10, "{last:?}");
-    assert_eq!(twins.base.arrived(), twins.branch.arrived(), "the same come at the same times");
+    assert_eq!(arrived(&twins.base), arrived(&twins.branch), "the same come at the same times");
 }
 
 #[test]

@@ -51,9 +51,8 @@ impl User {
         vehicles: &[VehicleId],
     ) -> Result<(), Fault> {
         let nobody = || Fault::new("here", "there is nobody", "wait");
-        let demand = simulation.world().demand();
-        let origins: Vec<i64> = demand.origins.iter().map(|it| it.place.id()).collect();
-        let destinations: Vec<Option<i64>> = demand.destinations.iter().map(|it| Some(it.id())).collect();
+        let origins: Vec<i64> = simulation.origins().into_iter().map(|(id, _)| id).collect();
+        let destinations: Vec<Option<i64>> = simulation.destinations().into_iter().map(Some).collect();
         let destination = if self.below(4) > 0 { self.one(&destinations).flatten() } else { None };
         let style = self.one(&["aggressive", "conservative"]).unwrap_or_default();
         let id = self.one(vehicles);

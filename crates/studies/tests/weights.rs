@@ -4,8 +4,8 @@
 
 use laneweave::maps::generate::large_town;
 use laneweave::network::DrivingSide;
-use laneweave::sim::{Event, LaneChange, LaneChangeKind};
-use laneweave::{Parameter, Simulation, in_parallel};
+use laneweave::{Event, LaneChange, LaneChangeKind, Parameter, Simulation};
+use laneweave_studies::in_parallel;
 
 const SEEDS: u64 = 5;
 const DURATION_S: f64 = 600.0;
@@ -48,18 +48,15 @@ fn rate(
     counts: impl Fn(&LaneChange) -> bool,
 ) -> f64 {
     let mut simulation = road.simulation(seed);
-    let drivers = simulation.world().driver_parameters().to_vec();
     for style in STYLES {
-        let mut typical = drivers.iter().find(|it| it.name == style).expect("a driver").clone();
-        let weight = *parameter.place(&mut typical).expect("a weight");
+        let weight = simulation.parameter(style, parameter).expect("a weight");
         simulation.set_parameter(style, parameter, factor * weight).expect("a weight");
     }
     let (mut changes, mut vehicles) = (0, 0);
     while simulation.time_s() < DURATION_S {
-        simulation.step();
-        for event in simulation.world().events() {
+        for event in simulation.step() {
             match event {
-                Event::LaneChange(it) if it.is_completed && counts(it) => changes += 1,
+                Event::LaneChange(it) if it.is_completed && counts(&it) => changes += 1,
                 Event::Entered(_) => vehicles += 1,
                 _ => {}
             }

@@ -4,13 +4,13 @@ use std::fs;
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use laneweave::branch::{Setting, Twins};
 use laneweave::record::Record;
 use laneweave::run::{Resumed, Run, kept, resume};
 #[cfg(feature = "parquet")]
 use laneweave::scenario::TableFormat;
-use laneweave::scenario::{Origin, Scenario, prepare};
+use laneweave::scenario::{Origin, Scenario};
 use laneweave::{Class, Control, Lateral, Longitudinal, NewVehicle, Simulation};
+use laneweave_studies::branch::{Setting, Twins};
 
 use super::runs::{assert_same_tables, folder, run, scenario, simulation, tables};
 use super::user::User;
@@ -72,7 +72,7 @@ fn with_another_seed_commands_find_the_inserted_vehicles_and_some_are_refused() 
     let stopped = folder("stopped");
     scenario.output.dir = stopped.clone();
     let begun = Run::begin(&scenario, &Origin::default(), "a test").expect("it begins");
-    let ended = begun.complete(|world| world.clock().time() < 77.0).expect("it is stopped");
+    let ended = begun.complete(|simulation| simulation.time_s() < 77.0).expect("it is stopped");
     assert!(ended.summary.interrupted);
     let (kept, origin) = kept(&stopped).expect("it is kept");
     let Resumed::Run(resumed) = resume(&kept, &origin).expect("it is resumed") else {
@@ -92,12 +92,12 @@ fn a_saved_simulation_goes_on_with_its_commands() {
     scenario.commands = Some(recorded.join("commands.csv"));
     scenario.run.seed = 3;
     let mut whole = simulation(&scenario);
-    whole.run(40.0, &mut []).expect("it runs");
+    whole.run(40.0).expect("it runs");
     let saved = whole.save().expect("it can be saved");
     let mut restored = simulation(&scenario);
     restored.restore(&saved).expect("it is of the same scenario");
-    whole.run(80.0, &mut []).expect("it runs");
-    restored.run(80.0, &mut []).expect("it runs");
+    whole.run(80.0).expect("it runs");
+    restored.run(80.0).expect("it runs");
     assert_eq!(whole.state_hash(), restored.state_hash());
     let damaged: Vec<u8> = saved.iter().map(|it| it ^ 1).collect();
     assert!(restored.restore(&damaged).is_err());
@@ -107,8 +107,8 @@ fn a_saved_simulation_goes_on_with_its_commands() {
 fn blocked(dir: &str) -> PathBuf {
     let dir = folder(dir);
     let mut truck = None;
-    let act = |it: &mut Simulation| {
-        if it.world().clock().step == 200 {
+    let act = |it: &mut Simulation| -> Result<(), laneweave::Fault> {
+        if it.clock().step == 200 {
             let (class, style) = (Class::Truck, "conservative".to_owned());
             let vehicle =
                 NewVehicle { lanelet: 5, position_m: 60.0, speed_mps: 20.0, class, style, destination: None };
@@ -142,9 +142,10 @@ fn a_run_of_a_program_is_repeated_from_its_table_and_has_twins() {
     // Nobody else differs before, and the same drivers come.
     assert!(differences.vehicles.values().all(|it| it.since_s >= 20.1));
     let [base, branch] = [&without.base, &without.branch];
-    assert_eq!(base.arrived(), branch.arrived());
+    let arrived = |it: &Simulation| it.counts().entered + it.waiting_to_enter() as u64;
+    assert_eq!(arrived(base), arrived(branch));
     let driver = |it: laneweave::sim::Vehicle| (it.id(), it.driver.class, it.driver.parameters);
-    let both: Vec<_> = base.vehicles().filter_map(|it| Some((it, branch.vehicle(it.id())?))).collect();
+    let both: Vec<_> = base.views().filter_map(|it| Some((it, branch.view(it.id())?))).collect();
     assert!(both.len() > 3 && both.into_iter().all(|(one, other)| driver(one) == driver(other)));
 
     // A file of other commands may name the vehicles of the run: here the truck drives on at 50 s.
@@ -180,7 +181,7 @@ fn commands_may_be_given_before_a_run_begins_and_its_time_stays_its_own() {
     begun.run_to_results(&dir).expect("it runs");
     assert!(tables(&dir).iter().any(|(_, text)| text.contains("\n0.0,origin,1,set_demand,")));
 
-    let stepped = |it: &mut Simulation| {
+    let stepped = |it: &mut Simulation| -> Result<(), laneweave::Fault> {
         it.step();
         Ok(())
     };
@@ -199,5 +200,5 @@ fn a_run_without_commands_has_an_empty_table_and_does_not_replace_its_own_comman
     scenario.commands = Some(table.clone());
     let told = simulation(&scenario).run_to_results(&dir).expect_err("it is refused").to_string();
     assert!(told.contains("would replace these commands; choose another results folder"), "{told}");
-    assert!(table.exists() && prepare(&scenario, &Origin::default()).is_ok());
+    assert!(table.exists() && Simulation::from_scenario(&scenario, &Origin::default()).is_ok());
 }

@@ -1,6 +1,6 @@
 //! Experiments in small: they run, and what they find is the same for any number of threads.
 
-use laneweave_experiments::{EXPERIMENTS, Effort, Experiment, Finding};
+use laneweave_studies::experiments::{EXPERIMENTS, Effort, Experiment, Finding};
 
 fn found(experiment: &Experiment, threads: usize) -> Finding {
     let least = Effort { seeds: 1, length: 0.005, threads };

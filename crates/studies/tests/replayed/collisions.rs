@@ -1,8 +1,8 @@
 //! Collisions are told apart by who is at fault.
 
-use laneweave::replay::{Asked, Collisions, replay};
 use laneweave::scenario::Origin;
 use laneweave_recordings::{Recording, RoadUser, State, Track};
+use laneweave_studies::replay::{Asked, Collisions, replay};
 
 use crate::set_up::{map, replayed, written};
 
@@ -72,15 +72,15 @@ fn a_driver_comes_onto_the_road_as_soon_as_there_is_room_for_it() {
     let file = written(&recording);
     let mut scenario = replayed(file, map("motorway_3_lanes.osm"), 1.0);
     scenario.styles = [("conservative".to_owned(), 1.0)].into();
-    let mut prepared = crate::set_up::ready(&scenario);
+    let mut simulation = crate::set_up::ready(&scenario);
     let mut came = None;
     for step in 1..=150 {
-        prepared.step();
-        if came.is_none() && prepared.script.played().any(|it| it.recorded == 1) {
+        simulation.advance();
+        if came.is_none() && simulation.played().any(|it| it.recorded == 1) {
             came = Some(step);
         }
     }
     // Its own place is free when it is recorded there, but the one who stopped drives on as a driver and is behind it.
     assert!(came.is_some_and(|it| (30..=150).contains(&it)), "{came:?}");
-    assert_eq!(prepared.world.counters().collisions, 0);
+    assert_eq!(simulation.counters().collisions, 0);
 }

@@ -2,11 +2,11 @@
 
 use std::fs;
 
-use laneweave::branch::Twins;
 use laneweave::record::{End, Record, fingerprint};
 use laneweave::run::{Resumed, Run, kept, resume};
 use laneweave::scenario::{External, Origin, Scenario};
 use laneweave::{Class, Control, Lateral, Longitudinal, Simulation};
+use laneweave_studies::branch::Twins;
 
 use super::runs::{assert_same_tables, folder, map, refused, run, scenario, simulation};
 
@@ -44,9 +44,9 @@ fn it_is_on_the_road_as_soon_as_its_place_is_free() {
     fs::write(&path, text).expect("it is written");
     let mut own = Simulation::from_file(&path).expect("it is sound");
     assert_eq!(own.scenario().external, [lead()]);
-    own.run(20.0, &mut []).expect("it runs");
+    own.run(20.0).expect("it runs");
     assert_eq!((own.external("lead"), own.external("other")), (None, None));
-    own.run(40.0, &mut []).expect("it runs");
+    own.run(40.0).expect("it runs");
     let id = own.external("lead").expect("it is on the road");
     let state = own.vehicle(id).expect("it is on the road");
     assert_eq!((state.speed_mps, state.is_external, state.class), (15.0, true, Class::Car));
@@ -74,7 +74,7 @@ fn its_run_is_repeated_from_its_table_and_resumed_before_and_after_it_came() {
     for (number, until_s) in [17.0, 44.0].into_iter().enumerate() {
         own.output.dir = folder(&format!("external-{number}"));
         let begun = Run::begin(&own, &Origin::default(), "a test").expect("it begins");
-        begun.complete(|world| world.clock().time() < until_s).expect("it is stopped");
+        begun.complete(|simulation| simulation.time_s() < until_s).expect("it is stopped");
         let (kept, origin) = kept(&own.output.dir).expect("it is kept");
         let Resumed::Run(resumed) = resume(&kept, &origin).expect("it is resumed") else {
             panic!("it is not complete");
@@ -91,7 +91,7 @@ fn it_does_not_come_twice_into_a_twin_and_is_part_of_a_saved_state() {
     let saved = alone.save().expect("it can be saved");
     let told = simulation(&with(Vec::new())).restore(&saved).expect_err("it has no external vehicle");
     assert!(told.what.ends_with("with other external vehicles"), "{told}");
-    alone.run(60.0, &mut []).expect("it runs");
+    alone.run(60.0).expect("it runs");
     let fingerprint = fingerprint(&own, &origin).expect("the map is there");
     let end = End { state_hash: String::new(), fingerprint, duration_s: 60.0, warmup_s: 0.0 };
     let mut twins = Twins::part(&Record { scenario: own, origin, end }, 40.0, &[]).expect("it is repeated");

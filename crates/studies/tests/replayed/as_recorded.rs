@@ -3,33 +3,32 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
+use laneweave::VehicleId;
 use laneweave_recordings::{Recording, State, open};
-use laneweave_sim::VehicleId;
 
 use crate::set_up::{map, mona, observed, of_style, ready, replayed, written};
 
 /// Replays a recording, and compares all vehicles with it in every frame.
 fn assert_as_recorded(file: PathBuf, map: PathBuf) {
     let (recording, _) = open(&file, None).expect("it can be read");
-    let mut prepared = ready(&replayed(file, map, 0.0));
+    let mut simulation = ready(&replayed(file, map, 0.0));
     let (first, last) = recording.frames().expect("it has frames");
-    let steps_a_frame = (recording.step / prepared.world.clock().dt).round().max(1.0) as u32;
-    let frames_a_step = (prepared.world.clock().dt / recording.step).round().max(1.0) as i64;
+    let steps_a_frame = (recording.step / simulation.step_s()).round().max(1.0) as u32;
+    let frames_a_step = (simulation.step_s() / recording.step).round().max(1.0) as i64;
     let states = by_frame(&recording);
     let mut compared = 0;
-    for _ in 0..prepared.steps {
-        prepared.step();
-        let step = prepared.world.clock().step;
-        let ids: HashMap<VehicleId, i64> =
-            prepared.script.played().map(|it| (it.vehicle, it.recorded)).collect();
-        assert!(prepared.world.vehicles().all(|it| it.driver.is_external), "no driver is simulated");
+    for _ in 0..simulation.run_steps()[1] {
+        simulation.advance();
+        let step = simulation.clock().step;
+        let ids: HashMap<VehicleId, i64> = simulation.played().map(|it| (it.vehicle, it.recorded)).collect();
+        assert!(simulation.views().all(|it| it.driver.is_external), "no driver is simulated");
         if !step.is_multiple_of(steps_a_frame) {
             continue;
         }
         let frame = first + i64::from(step / steps_a_frame) * frames_a_step;
         let there = states.get(&frame).cloned().unwrap_or_default();
-        assert_eq!(prepared.world.vehicles().count(), there.len(), "in frame {frame} of {first} to {last}");
-        for vehicle in prepared.world.vehicles() {
+        assert_eq!(simulation.views().count(), there.len(), "in frame {frame} of {first} to {last}");
+        for vehicle in simulation.views() {
             let state = there[&ids[&vehicle.id()]];
             let at = vehicle.pose().at;
             assert!((at.x - state.x).hypot(at.y - state.y) < 0.01, "{state:?}");
