@@ -9,8 +9,8 @@ use flate2::write::ZlibEncoder;
 use laneweave::Fault;
 use serde::Serialize;
 
+use crate::PAGE;
 use crate::frame::{Slots, View};
-use crate::page::Page;
 use crate::scene::Scene;
 use crate::snapshot::{Colour, Snapshot};
 use crate::source::{Hello, Mark, Marks, Source, Wants};
@@ -42,12 +42,7 @@ struct Frames {
 ///
 /// # Errors
 /// If the source has no end, or nothing is left of it.
-pub fn export(
-    page: Page,
-    source: &mut dyn Source,
-    every_s: f64,
-    mut look: impl FnMut(f64),
-) -> Result<String, Fault> {
+pub fn export(source: &mut dyn Source, every_s: f64, mut look: impl FnMut(f64)) -> Result<String, Fault> {
     let scene = source.scene();
     let hello = source.hello();
     if hello.end_s.is_none() {
@@ -83,33 +78,17 @@ pub fn export(
     let frames = Frames { encoding: "deflate-base64", data: STANDARD.encode(packed) };
     let replay = Replay { scene, hello, frames, lights, marks, events: Vec::new() };
     let json = serde_json::to_string(&replay).map_err(|error| Fault::bug("export", error))?;
-    Ok(inlined(page, &json))
+    Ok(with_replay(PAGE, &json))
 }
 
-/// The page with its parts and the replay in one file.
-fn inlined(page: Page, replay: &str) -> String {
-    let Page { html, script, style } = page;
-    // This would end the element early. In texts of scripts, "<\/" is the same, and in JSON "\u003c" is "<".
-    let escaped = |text: &str| text.replace("</script", "<\\/script");
+/// The page with the replay in it.
+fn with_replay(page: &str, replay: &str) -> String {
+    // In JSON "\u003c" is "<", which could end the element early.
     let replay = replay.replace('<', "\\u003c");
-    let mut file = String::with_capacity(html.len() + script.len() + style.len() + replay.len());
-    for line in html.lines() {
-        if line.contains("page.css") {
-            file += &format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
-            file += &format!("<style>{style}</style>\n");
-        } else if !line.contains("page.js") {
-            if line.contains("</body>") {
-                let before = line.replace("</body>", "");
-                let data = format!("<script id=\"replay\" type=\"application/json\">{replay}</script>");
-                file += &format!("{before}{data}\n<script type=\"module\">{}</script>\n", escaped(script));
-                file += "</body>\n";
-            } else {
-                file += line;
-                file.push('\n');
-            }
-        }
-    }
-    file
+    let head = format!("<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
+    let (page, end) = page.split_at(page.rfind("</body>").unwrap_or(page.len()));
+    let page = page.replacen("<head>", &head, 1);
+    format!("{page}<script id=\"replay\" type=\"application/json\">{replay}</script>\n{end}")
 }
 
 #[cfg(test)]
@@ -117,19 +96,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_parts_of_the_page_go_into_one_file_that_asks_for_no_other() {
-        let page = Page {
-            html: "<!doctype html>\n<link rel=\"stylesheet\" href=\"/page.css\">\n<script src=\"/page.js\"></script>\n<body>\n<p>traffic</p>\n</body>\n",
-            script: "say('</script>')",
-            style: "p { color: red }",
-        };
-        let file = inlined(page, "{\"title\":\"</SCRIPT><!--<script>\"}");
-        let file = file.replace(POLICY, "…");
+    fn a_replay_goes_into_the_page_and_can_neither_end_its_element_nor_ask_for_other_files() {
+        let page =
+            "<html>\n<head>\n<script>say('<head></body>')</script>\n</head>\n<body>\n</body>\n</html>\n";
+        let file = with_replay(page, "{\"title\":\"</SCRIPT><!--<script>\"}");
         assert_eq!(
-            file,
-            "<!doctype html>\n<meta http-equiv=\"Content-Security-Policy\" content=\"…\">\n<style>p { color: red }</style>\n<body>\n<p>traffic</p>\n\
-             <script id=\"replay\" type=\"application/json\">{\"title\":\"\\u003c/SCRIPT>\\u003c!--\\u003cscript>\"}</script>\n\
-             <script type=\"module\">say('<\\/script>')</script>\n</body>\n"
+            file.replace(POLICY, "…"),
+            "<html>\n<head>\n<meta http-equiv=\"Content-Security-Policy\" content=\"…\">\n\
+             <script>say('<head></body>')</script>\n</head>\n<body>\n\
+             <script id=\"replay\" type=\"application/json\">\
+             {\"title\":\"\\u003c/SCRIPT>\\u003c!--\\u003cscript>\"}</script>\n</body>\n</html>\n"
         );
     }
 }

@@ -8,7 +8,6 @@
 mod asked;
 mod export;
 mod frame;
-mod page;
 mod recent;
 mod render;
 mod scene;
@@ -20,10 +19,12 @@ pub mod stage;
 pub use asked::{Asked, LONGEST};
 pub use export::export;
 pub use frame::{Slots, View};
-pub use page::Page;
 pub use recent::Recent;
 pub use render::{Camera, Pictures, render};
 pub use scene::{Scene, Surroundings};
 pub use server::{Address, Server, Token};
 pub use snapshot::{Body, Colour, Seen, Snapshot};
 pub use source::{Hand, Live, Recorded, Rerun, Source};
+
+/// The page, in one file. It is generated from `web/`.
+const PAGE: &str = include_str!("../page/index.html");

@@ -1,17 +1,13 @@
-import { defineConfig, type Plugin } from 'vite';
-
-// The exporter of single files finds the two references by their exact text.
-const plainReferences: Plugin = {
-  name: 'plain-references',
-  enforce: 'post',
-  transformIndexHtml: (html) => html.replaceAll(' crossorigin', ''),
-};
+import { defineConfig } from 'vite';
+import { oneFile } from './one_file.ts';
 
 export default defineConfig({
   base: '/',
   publicDir: false,
-  plugins: [plainReferences],
+  plugins: [oneFile],
   build: {
+    outDir: '../page',
+    emptyOutDir: true,
     target: 'es2022',
     sourcemap: false,
     modulePreload: false,

@@ -9,7 +9,7 @@ use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::output::write_whole;
 use laneweave_studies::branch::Setting;
-use laneweave_viewer::{Page, Server, Source, Token, export};
+use laneweave_viewer::{Server, Source, Token, export};
 
 use super::numbers::number;
 use super::say;
@@ -57,13 +57,8 @@ impl Arguments {
             Some(at) => self.shown.twins(at, &self.settings)?,
             None => self.shown.source(&self.save)?,
         };
-        let page = Page::embedded().ok_or_else(|| {
-            let what = "this program was built without the page of the viewer";
-            let remedy = format!("build the page with Node: {}; then build the program again", Page::COMMAND);
-            Fault::new("view", what, remedy)
-        })?;
         if let Some(path) = &self.export {
-            return self.write(path, page, &mut *source);
+            return self.write(path, &mut *source);
         }
         let stop = Stop::listen()?;
         let address = SocketAddr::new(self.address, self.port);
@@ -81,7 +76,7 @@ impl Arguments {
     }
 
     /// Writes the page with all of the traffic.
-    fn write(&self, path: &Path, page: Page, source: &mut dyn Source) -> Result<(), Fault> {
+    fn write(&self, path: &Path, source: &mut dyn Source) -> Result<(), Fault> {
         /// Frames of a longer time than this would show vehicles beside the road [s].
         const RANGE: [f64; 2] = [0.01, 10.0];
         let [least, most] = RANGE;
@@ -89,7 +84,7 @@ impl Arguments {
             let what = format!("{} s between two frames", self.every);
             return Err(Fault::new("--every", what, format!("choose {least} to {most} s")));
         }
-        let text = export(page, source, self.every, |_| {})?;
+        let text = export(source, self.every, |_| {})?;
         write_whole(path, &text)?;
         let size = text.len() as f64 / 1e6;
         say(&format!("{}: {size:.1} MB, plays in any browser\n", path.display()))

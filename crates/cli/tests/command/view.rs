@@ -39,13 +39,11 @@ fn what_cannot_be_shown_is_refused_with_a_remedy() {
     assert!(!folder.holds("frames"));
 }
 
-/// Without its page the program says how to add it; with it, a simulation that runs now cannot be exported.
 #[test]
-fn a_simulation_cannot_be_exported() {
+fn a_simulation_that_runs_now_cannot_be_exported() {
     let folder = at_home();
     let run = folder.laneweave("view maps/ramps.osm --export replay.html");
     let errors = run.errors();
-    let is_told = errors.contains("npm run page --prefix crates/viewer/web") || errors.contains("has no end");
-    assert!(run.code() == 2 && is_told, "{errors}");
+    assert!(run.code() == 2 && errors.contains("has no end"), "{errors}");
     assert!(!folder.holds("replay.html"));
 }

@@ -24,8 +24,8 @@ use serde::Deserialize;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{Semaphore, watch};
 
+use crate::PAGE;
 use crate::asked::{Asked, LONGEST};
-use crate::page::Page;
 use crate::snapshot::Snapshot;
 use crate::source::Source;
 use crate::stage::{PageId, Request, Stage};
@@ -59,7 +59,6 @@ pub struct Server {
 struct Shared {
     address: Address,
     token: Token,
-    page: Option<Page>,
     scene: Vec<u8>,
     origin: [f64; 3],
     requests: mpsc::SyncSender<Request>,
@@ -83,7 +82,6 @@ impl Server {
         let shared = Arc::new(Shared {
             address: address.clone(),
             token: token.clone(),
-            page: Page::embedded(),
             scene: serde_json::to_vec(&scene)?,
             origin: scene.origin,
             requests: requests.clone(),
@@ -182,9 +180,7 @@ async fn serve(stream: TcpStream, app: Router) {
 
 fn router(shared: &Arc<Shared>) -> Router {
     Router::new()
-        .route("/", get(html))
-        .route("/page.js", get(script))
-        .route("/page.css", get(style))
+        .route("/", get(page))
         .route("/scene.json", get(scene))
         .route("/live", get(live))
         .layer(middleware::from_fn_with_state(Arc::clone(shared), guard::check))
@@ -198,29 +194,8 @@ struct Asks {
     token: String,
 }
 
-async fn html(State(shared): State<Arc<Shared>>) -> Response {
-    match shared.page {
-        Some(page) => file("text/html; charset=utf-8", page.html),
-        None => {
-            let text = format!(
-                "This program was built without the page. Build it with Node, then build the program again:\n\n  {}\n",
-                Page::COMMAND
-            );
-            (StatusCode::NOT_FOUND, text).into_response()
-        }
-    }
-}
-
-async fn script(State(shared): State<Arc<Shared>>) -> Response {
-    file("text/javascript; charset=utf-8", shared.page.map_or("", |it| it.script))
-}
-
-async fn style(State(shared): State<Arc<Shared>>) -> Response {
-    file("text/css; charset=utf-8", shared.page.map_or("", |it| it.style))
-}
-
-fn file(kind: &'static str, content: &'static str) -> Response {
-    ([(header::CONTENT_TYPE, kind)], content).into_response()
+async fn page() -> Response {
+    ([(header::CONTENT_TYPE, "text/html; charset=utf-8")], PAGE).into_response()
 }
 
 async fn scene(State(shared): State<Arc<Shared>>, Query(asks): Query<Asks>) -> Response {

@@ -38,7 +38,7 @@ fn strangers_get_nothing() {
         "GET /../Cargo.toml",
         "GET /%2e%2e/Cargo.toml",
         "GET //etc/passwd",
-        "GET /page.js/../../x",
+        "GET /scene.json/../../x",
         "GET /scene",
     ] {
         assert_eq!(status(&ask(line, &own, "")), "404", "{line}");
@@ -50,11 +50,18 @@ fn strangers_get_nothing() {
 }
 
 #[test]
-fn a_page_that_was_not_built_says_how_to_build_it() {
+fn the_page_is_served_whole_with_its_script_and_asks_for_no_other_file() {
+    let page = include_str!("../../page/index.html");
     let (server, _) = server(live("ramps.osm"));
     let request = format!("GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", server.address());
     let answer = raw(&server, request.as_bytes(), 10);
-    let is_built = laneweave_viewer::Page::embedded().is_some();
-    let expected = if is_built { "<!doctype html>" } else { "npm run page --prefix crates/viewer/web" };
-    assert!(answer.to_lowercase().contains(&expected.to_lowercase()), "{answer}");
+    let (head, body) = answer.split_once("\r\n\r\n").expect("a body");
+    assert_eq!(status(head), "200", "{head}");
+    assert!(head.contains("content-type: text/html; charset=utf-8"), "{head}");
+    assert!(body == page, "{} bytes instead of {}", body.len(), page.len());
+    let (before, script) = page.split_once("<script type=\"module\">").expect("a script");
+    assert!(before.contains("content=\"script-src 'sha256-") && script.contains("/scene.json?token="));
+    assert_eq!(page.matches("<script").count(), 1);
+    let references = ["src=\"", "href=\"/", "href=\"http", "@import", "url("];
+    assert_eq!(references.into_iter().find(|it| page.contains(it)), None);
 }

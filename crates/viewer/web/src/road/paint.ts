@@ -1,4 +1,5 @@
-import { GLSL3, Mesh, ShaderMaterial, ShapeUtils, Vector2, type DataTexture } from 'three';
+import earcut from 'earcut';
+import { GLSL3, Mesh, ShaderMaterial, type DataTexture } from 'three';
 import { rgb, type Rgb } from '../colour/palette.ts';
 import type { Line, Marking, Scene } from '../protocol/scene.ts';
 import { atmosphere, LIGHT_CHUNK } from '../stage/atmosphere.ts';
@@ -189,6 +190,9 @@ function addZebra(builder: Builder, outline: Line): void {
       style: [along, ZEBRA, NO_LIGHT],
     });
   }
-  const flat = corners.map(({ x, y }) => new Vector2(x, y));
-  for (const [a, b, c] of ShapeUtils.triangulateShape(flat, [])) builder.triangle(first + a, first + b, first + c);
+  const triangles = earcut(corners.flatMap(({ x, y }) => [x, y]));
+  for (let at = 0; at < triangles.length; at += 3) {
+    const [a, b, c] = triangles.slice(at, at + 3);
+    builder.triangle(first + a, first + b, first + c);
+  }
 }
